@@ -1,0 +1,48 @@
+# How every library and program of Arcslip is compiled, and how a library shows its headers.
+
+function(arcslip_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+  if(ARCSLIP_SANITIZE)
+    target_compile_options(${target} PUBLIC
+      $<BUILD_INTERFACE:-fsanitize=address,undefined;-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
+    target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+  endif()
+endfunction()
+
+# arcslip_library(NAME ROOMS room... FILES file...)
+# makes arcslip_NAME (arcslip::NAME). ROOMS are pairs "link=folder": the folder is seen as <arcslip/link/...>.
+# Each library has a root of links of its own, so that an include of a library that is not linked does not compile.
+function(arcslip_library name)
+  cmake_parse_arguments(arg "" "" "ROOMS;FILES" ${ARGN})
+  set(target arcslip_${name})
+  set(root ${PROJECT_BINARY_DIR}/include/${name})
+  file(MAKE_DIRECTORY ${root}/arcslip)
+  set(headers "")
+  set(sources "")
+  foreach(room IN LISTS arg_ROOMS)
+    string(REPLACE "=" ";" pair ${room})
+    list(GET pair 0 link)
+    list(GET pair 1 folder)
+    file(CREATE_LINK ${folder} ${root}/arcslip/${link} SYMBOLIC)
+    foreach(file IN LISTS arg_FILES)
+      if(file MATCHES "^${link}/(.*)$")
+        if(file MATCHES "\\.hpp$")
+          list(APPEND headers ${root}/arcslip/${file})
+        else()
+          list(APPEND sources ${folder}/${CMAKE_MATCH_1})
+        endif()
+      endif()
+    endforeach()
+  endforeach()
+  add_library(${target} ${sources})
+  add_library(arcslip::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
+  arcslip_compile_options(${target})
+  install(TARGETS ${target} EXPORT arcslip
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()

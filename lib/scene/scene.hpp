@@ -1,0 +1,142 @@
+#pragma once
+// A scene: what a user wrote, checked and resolved, as plain data in the user's own units.
+
+#include <iosfwd>
+#include <limits>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace arcslip::scene {
+
+enum class FrequencyUnit { hertz, radian_per_second };
+enum class Friction { exact, sampled };
+enum class StudyKind { frf };
+
+/// One scalar of a part. It is a parameter of the scene under the name "part.field".
+struct Field {
+  std::string_view name;
+  std::string_view unit;                  // SI, "-" for a pure number
+  double lower, upper;                    // closed bounds
+  bool lower_open = false;                // true: the lower bound itself is not allowed
+  std::optional<double> default_value{};  // none: the field is required
+  std::string_view help{};
+};
+
+/// What a section of the scene may hold: a type's name and its scalar fields, in the order of Part::values.
+struct PartType {
+  std::string_view name;
+  std::span<const Field> fields;
+};
+
+/// The direction in which a part acts on the degrees of freedom: sum of weight * x_dof. Ground has no term.
+struct Term {
+  int dof;
+  double weight;
+};
+using Direction = std::vector<Term>;
+
+/// A mass, spring, damper, element or force: a type, a direction, and one value for each field of the type.
+struct Part {
+  std::string name;
+  const PartType* type = nullptr;
+  Direction direction;
+  std::vector<double> values;
+  int harmonic = 1;  // excitation only: order of the harmonic of the force
+};
+
+/// One parameter, `name`, that sets several fields "part.field" at once; its default is their common value.
+struct Tie {
+  std::string name;
+  std::vector<std::string> members;
+};
+
+struct Harmonics {
+  int order = 7;                         // highest harmonic N, 1 to 2000
+  Friction friction = Friction::exact;
+  int samples = 512;                     // samples per period where friction is sampled
+};
+
+/// What is to be computed, as data. A for_each list holds a parameter's name and the values it takes;
+/// several lists make their product.
+struct Study {
+  std::string name;
+  StudyKind kind = StudyKind::frf;
+  double from = 0, to = 0;  // in the scene's frequency unit
+  std::vector<std::pair<std::string, std::vector<double>>> for_each;
+};
+
+struct Scene {
+  std::string title;
+  FrequencyUnit frequency_unit = FrequencyUnit::hertz;
+  std::vector<std::string> dofs;
+  std::vector<Part> masses, springs, dampers, elements, excitation;
+  std::vector<Tie> ties;
+  Harmonics harmonics;
+  Direction response;
+  std::vector<Study> studies;
+};
+
+extern const PartType mass_type, spring_type, damper_type, force_type;  // fields: value; value; value; cosine, sine
+extern const PartType jenkins_type;       // stiffness, friction_coefficient, normal_load
+extern const PartType cubic_spring_type;  // stiffness (N/m^3)
+
+/// One fault of a scene file.
+struct Fault {
+  std::string pointer;  // JSON pointer (RFC 6901) to the place, "" for the file as a whole
+  std::string message;  // what was found, what is allowed, and the nearest known key where there is one
+};
+
+/// All faults of a scene, found in one reading. what() lists them, one a line.
+class SceneError : public std::runtime_error {
+ public:
+  explicit SceneError(std::vector<Fault> faults);
+  const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+/// A file that cannot be opened or read.
+class FileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A parameter that is not there, or a value that it may not take.
+class ParameterError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+inline constexpr int largest_depth = 64;                  // of nested JSON
+inline constexpr std::size_t largest_size = 64u << 20;    // bytes
+
+/// Reads format "arcslip-scene-1". Throws SceneError with every fault found.
+Scene read(std::istream& in);
+/// The same from a file. Throws FileError where the file cannot be read.
+Scene read_file(const std::string& path);
+
+/// The resolved scene with every default, in the same format: read(write(s)) gives s again.
+std::string write(const Scene& scene);
+/// Hash of the resolved scene (FNV-1a, 64 bits, 16 hexadecimal digits), kept in results.
+std::string hash(const Scene& scene);
+
+/// Names of all parameters: ties, then every "part.field" (a tied field still answers to its own name).
+std::vector<std::string> parameter_names(const Scene& scene);
+/// Value of a parameter. Throws ParameterError, with the nearest known name, where there is none.
+double value(const Scene& scene, std::string_view parameter);
+/// Gives a parameter a value and drops it from every for_each list. Throws ParameterError.
+void set(Scene& scene, std::string_view parameter, double value);
+
+/// Factor from the scene's frequency unit to rad/s.
+double to_rad_per_s(FrequencyUnit unit);
+/// "Hz" or "rad/s".
+std::string_view unit_name(FrequencyUnit unit);
+
+/// The known word nearest to `word` (edit distance at most a third of its length, at least 2), or "".
+std::string nearest(std::string_view word, std::span<const std::string> known);
+
+}  // namespace arcslip::scene
