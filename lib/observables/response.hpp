@@ -28,7 +28,7 @@ struct ResponsePoint {
   double energy_viscous = 0;          // J per period
   bool unbounded = false;             // the amplitude grows without bound here; `amplitude` has no meaning
   std::vector<ElementResponse> elements;
-  std::vector<double> coefficients;   // of the response: a_n, b_n for each n of ResponseBranch::harmonics
+  std::vector<double> coefficients;   // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
 };
 
 struct ResponseEvent {

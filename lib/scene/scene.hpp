@@ -1,6 +1,7 @@
 #pragma once
 // A scene: what a user wrote, checked and resolved, as plain data in the user's own units.
 
+#include <cstddef>
 #include <iosfwd>
 #include <limits>
 #include <optional>
@@ -37,6 +38,7 @@ struct PartType {
 struct Term {
   int dof;
   double weight;
+  friend bool operator==(const Term&, const Term&) = default;
 };
 using Direction = std::vector<Term>;
 
@@ -47,18 +49,21 @@ struct Part {
   Direction direction;
   std::vector<double> values;
   int harmonic = 1;  // excitation only: order of the harmonic of the force
+  friend bool operator==(const Part&, const Part&) = default;
 };
 
 /// One parameter, `name`, that sets several fields "part.field" at once; its default is their common value.
 struct Tie {
   std::string name;
   std::vector<std::string> members;
+  friend bool operator==(const Tie&, const Tie&) = default;
 };
 
 struct Harmonics {
-  int order = 7;                         // highest harmonic N, 1 to 2000
+  int order = 7;  // highest harmonic N, 1 to 2000
   Friction friction = Friction::exact;
-  int samples = 512;                     // samples per period where friction is sampled
+  int samples = 512;  // samples per period where friction is sampled
+  friend bool operator==(const Harmonics&, const Harmonics&) = default;
 };
 
 /// What is to be computed, as data. A for_each list holds a parameter's name and the values it takes;
@@ -68,6 +73,7 @@ struct Study {
   StudyKind kind = StudyKind::frf;
   double from = 0, to = 0;  // in the scene's frequency unit
   std::vector<std::pair<std::string, std::vector<double>>> for_each;
+  friend bool operator==(const Study&, const Study&) = default;
 };
 
 struct Scene {
@@ -79,11 +85,16 @@ struct Scene {
   Harmonics harmonics;
   Direction response;
   std::vector<Study> studies;
+  friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-extern const PartType mass_type, spring_type, damper_type, force_type;  // fields: value; value; value; cosine, sine
+extern const PartType mass_type, spring_type, damper_type,
+    force_type;                           // fields: value; value; value; cosine, sine
 extern const PartType jenkins_type;       // stiffness, friction_coefficient, normal_load
 extern const PartType cubic_spring_type;  // stiffness (N/m^3)
+
+/// Every type that the section "elements" knows.
+std::span<const PartType* const> element_types();
 
 /// One fault of a scene file.
 struct Fault {
@@ -111,8 +122,12 @@ class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-inline constexpr int largest_depth = 64;                  // of nested JSON
-inline constexpr std::size_t largest_size = 64u << 20;    // bytes
+inline constexpr int largest_depth = 64;                // of nested JSON
+inline constexpr std::size_t largest_size = 64u << 20;  // bytes
+inline constexpr int largest_order = 2000;              // of the harmonics
+inline constexpr int largest_samples = 1'000'000;       // per period
+inline constexpr std::size_t largest_count =
+    5'000'000;  // JSON values in one file, so that memory stays bounded
 
 /// Reads format "arcslip-scene-1". Throws SceneError with every fault found.
 Scene read(std::istream& in);
@@ -121,14 +136,22 @@ Scene read_file(const std::string& path);
 
 /// The resolved scene with every default, in the same format: read(write(s)) gives s again.
 std::string write(const Scene& scene);
+/// Checks a scene that was built or changed in code. Throws SceneError with the faults that reading
+/// write(scene) finds.
+void check(const Scene& scene);
 /// Hash of the resolved scene (FNV-1a, 64 bits, 16 hexadecimal digits), kept in results.
 std::string hash(const Scene& scene);
 
 /// Names of all parameters: ties, then every "part.field" (a tied field still answers to its own name).
 std::vector<std::string> parameter_names(const Scene& scene);
+/// The fields behind a parameter, one for a "part.field" and one for each member of a tie. Throws
+/// ParameterError.
+std::vector<const Field*> parameter_fields(const Scene& scene, std::string_view parameter);
 /// Value of a parameter. Throws ParameterError, with the nearest known name, where there is none.
 double value(const Scene& scene, std::string_view parameter);
-/// Gives a parameter a value and drops it from every for_each list. Throws ParameterError.
+/// Gives a parameter a value and drops it from every for_each list. Throws ParameterError where there is no
+/// such parameter, where the value is out of its bounds, and where the field is tied: its tie is to be set
+/// then.
 void set(Scene& scene, std::string_view parameter, double value);
 
 /// Factor from the scene's frequency unit to rad/s.

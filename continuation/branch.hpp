@@ -1,0 +1,62 @@
+#pragma once
+// A solution branch of F(u, p) = 0 in one free parameter, and how it ended.
+
+#include <arcslip/continuation/problem.hpp>
+
+#include <string>
+#include <vector>
+
+namespace arcslip::continuation {
+
+/// A solution. Arclength and tangent are measured in the problem's scales: |t|^2 = sum (t_i / scale_i)^2 = 1.
+struct Point {
+  Vector u;               // n
+  double parameter = 0;   // value of the free parameter
+  Vector tangent;         // n + 1: du/ds, dp/ds
+  double arclength = 0;   // from the start
+  int iterations = 0;     // of the corrector
+  double correction = 0;  // relative size of the last correction
+};
+
+/// A zero of a monitor.
+struct Event {
+  std::string monitor;
+  Point point;
+  double value = 0;        // of the monitor, at the point
+  bool nonsmooth = false;  // the monitor jumps here across zero
+  std::size_t after = 0;   // index of the branch point before it
+};
+
+/// Why a branch ended.
+///   boundary         the free parameter reached a bound of the window: p = lower or p = upper. The usual end.
+///   start_failed     Newton's method at the start did not converge: |correction| > tolerance after all attempts.
+///                    Causes: a start far from a solution, a wrong Jacobian, no solution there.
+///   step_too_small   |ds| < smallest step, after rejections. Causes: a wrong Jacobian, an end of the branch, a
+///                    tolerance below rounding.
+///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, as an undamped resonance does.
+///   point_limit      as many points as asked for.
+///   user             the callback said stop.
+///   not_evaluated    the problem answered `failed` at every attempt, or gave numbers that are not finite.
+enum class StopReason { boundary, start_failed, step_too_small, state_too_large, point_limit, user, not_evaluated };
+
+const char* name(StopReason reason);
+
+struct Stop {
+  StopReason reason = StopReason::boundary;
+  double value = 0, limit = 0;  // the numbers that decided it
+  std::string message;          // one sentence for people
+};
+
+/// Work done.
+struct Counts {
+  long points = 0, rejected_steps = 0, residuals = 0, jacobians = 0, factorizations = 0, solves = 0;
+};
+
+struct Branch {
+  std::vector<Point> points;
+  std::vector<Event> events;  // in the order of arclength
+  Stop stop;
+  Counts counts;
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,68 @@
+#pragma once
+// From a prediction to the branch: Newton's method for F(u, p) = 0 in the plane r . (v - v_predicted) = 0, v = (u, p).
+//
+// Error-oriented (Deuflhard, Newton Methods for Nonlinear Problems, 2004, chapter 3): the size of the simplified
+// correction -B^-1 F(v + lambda dv) decides whether factors are kept (a chord step), renewed, or the step damped. It
+// is invariant under scaling of the equations and, since it never looks at the Jacobian across a kink, serves
+// piecewise smooth F as a semismooth Newton method with a safeguard.
+
+#include <arcslip/continuation/bordered_lu.hpp>
+#include <arcslip/continuation/branch.hpp>
+#include <arcslip/continuation/options.hpp>
+#include <arcslip/continuation/problem.hpp>
+
+#include <memory>
+
+namespace arcslip::continuation {
+
+/// What became of a correction. Corrections are relative to |u| in scales (and to |p|).
+struct Correction {
+  bool converged = false;
+  bool evaluated = true;       // false: the problem could not be evaluated
+  int iterations = 0;
+  double first = 0, last = 0;  // size of the first and of the last correction
+  double contraction = 0;      // second over first
+};
+
+/// One place to work in: an evaluator, factors and buffers. Nothing in correct() or linearize() allocates.
+class Corrector {
+ public:
+  /// counts: where the work is added up; outlives the corrector.
+  Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts);
+
+  /// v: n + 1, the prediction, becomes the solution. row: n + 1. keep_factors: the factors that are there are those
+  /// of a nearby place with a similar row, and are tried first.
+  Correction correct(Vector& v, const Vector& row, bool keep_factors);
+
+  /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
+  bool linearize(const Vector& v, const Vector& row);
+
+  /// The unit tangent at the last linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in scales. False where
+  /// the row is (nearly) orthogonal to it.
+  bool tangent(Vector& t) const;
+
+  double size(const Vector& dv, const Vector& v) const;  // of a correction, relative
+  double norm_u(const Vector& v) const;                  // |u| in scales
+  double dot(const Vector& a, const Vector& b) const { return (a.array() * b.array() * weights_.array()).sum(); }
+  const Vector& weights() const { return weights_; }     // 1 / scale^2, n + 1
+  const Vector& parameters() const { return p_; }
+  Evaluator& evaluator() { return *evaluator_; }
+  const BorderedLU& factors() const { return lu_; }
+
+ private:
+  bool evaluate(const Vector& v, Needs needs);
+  bool factorize(const Vector& row);
+  void solve(Vector& dv) const;  // dv = -B^-1 (F, 0)
+  bool renew(const Vector& v, const Vector& row, Vector& dv);
+
+  NewtonOptions options_;
+  Counts& counts_;
+  std::unique_ptr<Evaluator> evaluator_;
+  BorderedLU lu_;
+  Vector p_, weights_, F_p_, dv_, next_, trial_;
+  int free_;
+  double parameter_floor_;
+  double longest_chord_;
+};
+
+}  // namespace arcslip::continuation

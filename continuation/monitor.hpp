@@ -1,0 +1,35 @@
+#pragma once
+// Monitors: scalar functions on a branch whose zeros are its events.
+
+#include <arcslip/continuation/bordered_lu.hpp>
+#include <arcslip/continuation/problem.hpp>
+
+#include <functional>
+#include <string>
+
+namespace arcslip::continuation {
+
+/// An accepted solution with all that was computed for it: the evaluator stands at (u, p) with its Jacobian, and
+/// `bordered` holds the factors of [J F_p; r^T] there.
+struct Accepted {
+  In u;                       // n
+  In p;                       // all parameters
+  In tangent;                 // n + 1: du/ds, dp/ds of the free parameter
+  double arclength;
+  Evaluator& at;
+  const BorderedLU& bordered;
+};
+
+/// Which changes of sign count, along the branch in the direction of travel.
+enum class Crossing { any, falling, rising };
+
+struct Monitor {
+  std::string name;
+  std::function<double(const Accepted&)> value;
+  Crossing crossing = Crossing::any;
+};
+
+/// dp/ds = 0: a fold in the free parameter; at a nonsmooth fold dp/ds jumps.
+Monitor fold_monitor();
+
+}  // namespace arcslip::continuation

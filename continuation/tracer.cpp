@@ -1,0 +1,348 @@
+#include <arcslip/continuation/tracer.hpp>
+
+#include <arcslip/continuation/root.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double first_share_of_window = 0.01;    // |dp| of a step where the user names none
+constexpr double growth = 2.0, shrinkage = 0.3;   // of the step, at most
+constexpr double rejection = 0.25;                // of the step after a rejection
+constexpr double kept_angle = 0.5;                // share of the turn that is left at a kink when the step shrinks
+constexpr int rejections_of_a_kink = 3;
+constexpr double largest_extrapolation = 2.5;     // in last steps, for the cubic predictor
+constexpr double nonsmooth_share = 1e-4;          // of a monitor's change over a step, left at its zero
+constexpr double event_state_tolerance = 1e-10;   // relative, of u at an event
+
+double angle_between(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
+
+std::string text(double x) {
+  std::ostringstream s;
+  s.precision(10);
+  s << x;
+  return s.str();
+}
+
+// The point at share s in [0, 1] (or beyond) of the cubic through two points with their tangents.
+void hermite(const Vector& v0, const Vector& t0, const Vector& v1, const Vector& t1, double length, double s,
+             Vector& v) {
+  const double s2 = s * s, s3 = s2 * s;
+  v = (2 * s3 - 3 * s2 + 1) * v0 + (3 * s2 - 2 * s3) * v1 +
+      length * ((s3 - 2 * s2 + s) * t0 + (s3 - s2) * t1);
+}
+
+}  // namespace
+
+Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
+               std::vector<Monitor> monitors, Observer observer)
+    : problem_(std::move(problem)), options_(options), monitors_(std::move(monitors)), observer_(std::move(observer)),
+      n_(problem_->size()), free_(start.free), direction_(start.direction < 0 ? -1 : 1),
+      main_(*problem_, start.p, start.free, options.newton, branch_.counts) {
+  check(options);
+  const auto parameters = problem_->parameters();
+  if (start.u.size() != n_)
+    throw std::invalid_argument("the start has " + std::to_string(start.u.size()) + " unknowns, the problem " +
+                                std::to_string(n_));
+  if (start.p.size() != static_cast<Eigen::Index>(parameters.size()))
+    throw std::invalid_argument("the start has " + std::to_string(start.p.size()) + " parameters, the problem " +
+                                std::to_string(parameters.size()));
+  here_.v.resize(n_ + 1);
+  here_.v << start.u, start.p[free_];
+  if (!here_.v.allFinite()) throw std::invalid_argument("the start has numbers that are not finite");
+  if (here_.v[n_] < options.lower || here_.v[n_] > options.upper)
+    throw std::invalid_argument("the start is at " + text(here_.v[n_]) + ", outside the window [" +
+                                text(options.lower) + ", " + text(options.upper) + "]");
+  if (options_.step.largest_parameter == 0)
+    options_.step.largest_parameter = first_share_of_window * (options.upper - options.lower);
+  here_.tangent = Vector::Zero(n_ + 1);
+  next_ = before_ = here_;
+  row_.resize(n_ + 1);
+  v_.resize(n_ + 1);
+}
+
+bool Tracer::end(StopReason reason, double value, double limit, std::string message) {
+  branch_.stop = {reason, value, limit, std::move(message)};
+  ended_ = true;
+  return false;
+}
+
+Point Tracer::point(const Place& place, const Correction& correction) const {
+  return {place.v.head(n_), place.v[n_], place.tangent, place.arclength, correction.iterations, correction.last};
+}
+
+Accepted Tracer::accepted(Corrector& at, const Place& place) {
+  return {place.v.head(n_), at.parameters(), place.tangent, place.arclength, at.evaluator(), at.factors()};
+}
+
+// At the converged place.v: factors, tangent with its orientation, monitors. `from` tells the direction of travel;
+// at a kink the sign of the determinant does, since the angle to the last tangent says nothing there.
+bool Tracer::settle(Corrector& at, Place& place, const Vector& row, const Place& from, bool kink) {
+  if (!at.linearize(place.v, row) || !at.tangent(place.tangent)) return false;
+  place.orientation = at.factors().determinant_sign();  // row . t > 0
+  if (kink && place.orientation != from.orientation) {
+    place.tangent = -place.tangent;
+    place.orientation = from.orientation;
+  }
+  return true;
+}
+
+bool Tracer::begin() {
+  begun_ = true;
+  row_.setZero();
+  row_[n_] = 1;
+  const Correction correction = main_.correct(here_.v, row_, false);
+  if (!correction.converged)
+    return end(correction.evaluated ? StopReason::start_failed : StopReason::not_evaluated, correction.last,
+               options_.newton.tolerance,
+               correction.evaluated ? "the corrector did not converge at the start (" +
+                                          std::to_string(correction.iterations) + " iterations)"
+                                    : "the problem could not be evaluated at the start");
+  if (!main_.linearize(here_.v, row_) || !main_.tangent(here_.tangent))
+    return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
+  here_.orientation = main_.factors().determinant_sign();
+  if (direction_ < 0) {
+    here_.tangent = -here_.tangent;
+    here_.orientation = -here_.orientation;
+  }
+  const double along = std::abs(here_.tangent[n_]);
+  ds_ = options_.step.initial > 0 ? options_.step.initial
+                                  : 0.1 * options_.step.largest_parameter / std::max(along, 1e-3);
+  ds_ = limited(ds_);
+  const Accepted now = accepted(main_, here_);
+  for (const Monitor& m : monitors_) here_.monitors.push_back(m.value(now));
+  branch_.points.push_back(point(here_, correction));
+  ++branch_.counts.points;
+  factors_fit_ = false;  // their border row is that of the start
+  if (observer_ && !observer_(now, nullptr)) return end(StopReason::user, 1, 1, "stopped by the caller");
+  return true;
+}
+
+double Tracer::limited(double ds) const {
+  const double along = std::abs(here_.tangent[n_]);
+  double limit = options_.step.largest_parameter;
+  if (options_.step.relative_parameter > 0)
+    limit = std::min(limit, options_.step.relative_parameter * std::abs(here_.v[n_]));
+  return along * ds > limit && limit > 0 ? limit / along : ds;
+}
+
+// The cubic through the last two points, or, after a kink, at the start or far out, the tangent.
+void Tracer::predict(Vector& v) const {
+  if (has_before_ && ds_ <= largest_extrapolation * last_ds_) {
+    hermite(before_.v, before_.tangent, here_.v, here_.tangent, last_ds_, 1 + ds_ / last_ds_, v);
+    return;
+  }
+  v = here_.v + ds_ * here_.tangent;
+}
+
+bool Tracer::step() {
+  if (ended_) return false;
+  if (!begun_) return begin();
+  for (;;) {
+    const double smallest = options_.step.smallest * (1 + main_.norm_u(here_.v));
+    if (ds_ < smallest)
+      return end(evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, ds_, smallest,
+                 evaluated_ ? "the step fell below its smallest size after rejections"
+                            : "the problem could not be evaluated ahead, however short the step");
+    switch (attempt()) {
+      case Attempt::accepted: return !ended_;
+      case Attempt::ended: return false;
+      case Attempt::rejected:
+        ++branch_.counts.rejected_steps;
+        ds_ *= rejection;
+        factors_fit_ = false;
+        break;
+    }
+  }
+}
+
+// Whether a turn of the tangent that is too large is a kink: it does not shrink with the step.
+bool Tracer::is_kink(double angle) {
+  if (angle_rejections_ == 0) {
+    first_rejected_angle_ = angle;
+    first_rejected_ds_ = ds_;
+  }
+  return angle_rejections_++ >= rejections_of_a_kink && angle > kept_angle * first_rejected_angle_;
+}
+
+Tracer::Attempt Tracer::attempt() {
+  predict(next_.v);
+  row_ = here_.tangent.cwiseProduct(main_.weights());
+  const Correction correction = main_.correct(next_.v, row_, factors_fit_);
+  evaluated_ = correction.evaluated;
+  if (!correction.converged) return Attempt::rejected;
+
+  v_ = next_.v - here_.v;
+  const double length = std::sqrt(main_.dot(v_, v_));
+  const double ahead = main_.dot(v_, here_.tangent);
+  if (!(length > 0)) return Attempt::rejected;
+  if (!settle(main_, next_, row_, here_, false)) return Attempt::rejected;
+
+  const double turn = std::max(angle_between(main_.dot(next_.tangent, here_.tangent)), angle_between(ahead / length));
+  bool kink = false;
+  if (turn > options_.step.largest_angle) {
+    kink = is_kink(turn);
+    if (!kink) return Attempt::rejected;
+    if (next_.orientation != here_.orientation) {
+      next_.tangent = -next_.tangent;
+      next_.orientation = here_.orientation;
+    }
+  }
+  next_.arclength = here_.arclength + length;
+
+  const double p = next_.v[n_];
+  const double bound = std::clamp(p, options_.lower, options_.upper);
+  if (p != bound) {
+    if (!to_boundary(next_, bound)) return Attempt::rejected;
+    accept(std::move(next_), correction);
+    if (!ended_)
+      end(StopReason::boundary, bound, bound,
+          "reached the end of the window at " + text(bound));
+    return Attempt::ended;
+  }
+
+  const double taken = ds_;
+  const double next_ds = kink ? first_rejected_ds_ * rejection : choose_step(turn, correction);
+  last_ds_ = length;
+  has_before_ = !kink;
+  factors_fit_ = !kink && turn < options_.step.largest_angle;
+  angle_rejections_ = 0;
+  const bool go_on = accept(std::move(next_), correction);
+  ds_ = limited(next_ds);
+  if (!go_on) return Attempt::ended;
+
+  const double state = main_.norm_u(here_.v);
+  if (state > options_.largest_state) {
+    end(StopReason::state_too_large, state, options_.largest_state,
+        "the solution grows without bound near " + text(here_.v[n_]));
+    return Attempt::ended;
+  }
+  if (branch_.counts.points >= options_.points) {
+    end(StopReason::point_limit, static_cast<double>(branch_.counts.points), static_cast<double>(options_.points),
+        "reached the largest number of points, " + std::to_string(options_.points));
+    return Attempt::ended;
+  }
+  (void)taken;
+  return Attempt::accepted;
+}
+
+double Tracer::choose_step(double angle, const Correction& correction) const {
+  double factor = angle > 0 ? options_.step.angle / angle : growth;
+  const bool contraction_counts = correction.first > std::sqrt(options_.newton.tolerance);
+  if (contraction_counts && correction.contraction > 0)
+    factor = std::min(factor, std::sqrt(options_.step.contraction / correction.contraction));
+  return ds_ * std::clamp(factor, shrinkage, growth);
+}
+
+// From `place`, beyond the window, back to p = bound.
+bool Tracer::to_boundary(Place& place, double bound) {
+  const double share = (bound - here_.v[n_]) / (place.v[n_] - here_.v[n_]);
+  place.v = here_.v + share * (place.v - here_.v);
+  place.v[n_] = bound;
+  v_.setZero();
+  v_[n_] = 1;
+  if (!main_.correct(place.v, v_, false).converged) return false;
+  place.v[n_] = bound;
+  if (!settle(main_, place, row_, here_, false)) return false;
+  v_ = place.v - here_.v;
+  place.arclength = here_.arclength + std::sqrt(main_.dot(v_, v_));
+  return true;
+}
+
+bool Tracer::accept(Place&& place, const Correction& correction) {
+  const Accepted now = accepted(main_, place);
+  place.monitors.resize(monitors_.size());
+  for (std::size_t m = 0; m < monitors_.size(); ++m) place.monitors[m] = monitors_[m].value(now);
+  const bool events_go_on = locate_events(here_, place);
+  branch_.points.push_back(point(place, correction));
+  ++branch_.counts.points;
+  std::swap(before_, here_);
+  std::swap(here_, place);
+  if (!events_go_on || (observer_ && !observer_(accepted(main_, here_), nullptr)))
+    return end(StopReason::user, 1, 1, "stopped by the caller");
+  return true;
+}
+
+bool Tracer::locate_events(const Place& from, const Place& to) {
+  struct Found {
+    Event event;
+    Place place;
+  };
+  std::vector<Found> found;
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    const double a = from.monitors[m], b = to.monitors[m];
+    const bool falling = a > 0 && b <= 0, rising = a < 0 && b >= 0;
+    const Crossing wanted = monitors_[m].crossing;
+    if (!(falling && wanted != Crossing::rising) && !(rising && wanted != Crossing::falling)) continue;
+    Place place;
+    if (auto event = locate(m, from, to, place)) found.push_back({std::move(*event), std::move(place)});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Found& x, const Found& y) { return x.event.point.arclength < y.event.point.arclength; });
+  bool go_on = true;
+  for (Found& f : found) {
+    f.event.after = branch_.points.size() - 1;
+    branch_.events.push_back(std::move(f.event));
+    if (observer_ && go_on && probe_->linearize(f.place.v, row_))
+      go_on = observer_(accepted(*probe_, f.place), &branch_.events.back());
+  }
+  return go_on;
+}
+
+// The zero of a monitor between two points, on the cubic between them and then on the branch.
+std::optional<Event> Tracer::locate(std::size_t monitor, const Place& from, const Place& to, Place& found) {
+  if (!probe_)
+    probe_ = std::make_unique<Corrector>(*problem_, main_.parameters(), free_, options_.newton, branch_.counts);
+  const double length = to.arclength - from.arclength;
+  Vector chord = to.v - from.v;
+  const Vector row = (chord / length).cwiseProduct(main_.weights());
+  Place place = to;
+  Correction correction;
+  bool factors = false, failed = false;
+  const auto value = [&](double s) {
+    hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
+    correction = probe_->correct(place.v, row, factors);
+    if (!correction.converged) correction = probe_->correct(place.v, row, false);
+    if (!correction.converged || !settle(*probe_, place, row, from, false)) {
+      failed = true;
+      return 0.0;
+    }
+    factors = true;
+    v_ = place.v - from.v;
+    place.arclength = from.arclength + std::sqrt(main_.dot(v_, v_));
+    return monitors_[monitor].value(accepted(*probe_, place));
+  };
+  const double p_size = std::max(std::abs(to.v[n_]), 1e-300);
+  const double u_size = std::max(main_.norm_u(to.v), 1e-300);
+  const double in_p = options_.event_tolerance * p_size / std::max(std::abs(chord[n_]), 1e-300);
+  const double in_u = event_state_tolerance * u_size / std::max(main_.norm_u(chord), 1e-300);
+  const double tolerance = std::clamp(std::min(in_p, in_u), 1e-13, 1e-3);
+  const double a = from.monitors[monitor], b = to.monitors[monitor];
+  const Root root = find_root(value, 0, a, 1, b, tolerance);
+  if (failed) return std::nullopt;
+  const double left = value(root.x);
+  if (failed) return std::nullopt;
+
+  Event event;
+  event.monitor = monitors_[monitor].name;
+  event.value = left;
+  event.nonsmooth = std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
+  event.point = point(place, correction);
+  found = place;
+  return event;
+}
+
+Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
+             std::vector<Monitor> monitors, Observer observer) {
+  Tracer tracer(std::move(problem), start, options, std::move(monitors), std::move(observer));
+  while (tracer.step()) {
+  }
+  return tracer.take();
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,89 @@
+#pragma once
+// Traces a solution branch of F(u, p) = 0 by pseudo-arclength continuation (Keller 1977), with events.
+//
+//   Branch branch = trace(problem, {.u = u0, .p = p0, .free = 0}, {.lower = -1, .upper = 1}, {fold_monitor()});
+//
+// Each accepted point is linearized once. Those factors give its tangent, serve its monitors, and correct the next
+// point by chord steps while these contract.
+
+#include <arcslip/continuation/branch.hpp>
+#include <arcslip/continuation/corrector.hpp>
+#include <arcslip/continuation/monitor.hpp>
+#include <arcslip/continuation/options.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace arcslip::continuation {
+
+/// Where a branch begins: u need only be near a solution at the parameters p.
+struct Start {
+  Vector u;           // n
+  Vector p;           // all parameters
+  int free = 0;       // index of the free one
+  int direction = 1;  // +1: towards larger values of the free parameter, -1: smaller
+};
+
+/// Called at each accepted point and, with the event, at each event. Returns false to stop.
+using Observer = std::function<bool(const Accepted&, const Event*)>;
+
+class Tracer {
+ public:
+  /// Throws std::invalid_argument where options, sizes or the start do not fit.
+  Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
+         std::vector<Monitor> monitors = {}, Observer observer = {});
+
+  /// One more point (the first call corrects the start). False once the branch has ended: see branch().stop.
+  bool step();
+
+  const Branch& branch() const { return branch_; }
+  Branch take() { return std::move(branch_); }
+
+ private:
+  struct Place {      // a solution, with its orientation
+    Vector v, tangent;
+    double arclength = 0;
+    int orientation = 1;  // sign of det [J F_p; t^T]
+    std::vector<double> monitors;
+  };
+  enum class Attempt { accepted, rejected, ended };
+
+  bool begin();
+  Attempt attempt();
+  void predict(Vector& v) const;
+  bool settle(Corrector& at, Place& place, const Vector& row, const Place& from, bool kink);
+  bool is_kink(double angle);
+  bool accept(Place&& place, const Correction& correction);
+  bool locate_events(const Place& from, const Place& to);
+  std::optional<Event> locate(std::size_t monitor, const Place& from, const Place& to, Place& found);
+  double choose_step(double angle, const Correction& correction) const;
+  double limited(double ds) const;
+  bool to_boundary(Place& place, double bound);
+  Point point(const Place& place, const Correction& correction) const;
+  Accepted accepted(Corrector& at, const Place& place);
+  bool end(StopReason reason, double value, double limit, std::string message);
+
+  std::shared_ptr<const Problem> problem_;
+  Options options_;
+  std::vector<Monitor> monitors_;
+  Observer observer_;
+  Branch branch_;
+  int n_, free_, direction_;
+  Corrector main_;
+  std::unique_ptr<Corrector> probe_;  // for events; made when the first one is met
+  Place here_, next_, before_;
+  bool has_before_ = false, factors_fit_ = false, ended_ = false, begun_ = false;
+  bool evaluated_ = true;             // the last rejection came from the corrector, not from the problem
+  double ds_ = 0, last_ds_ = 0;
+  double first_rejected_angle_ = 0, first_rejected_ds_ = 0;
+  int angle_rejections_ = 0;
+  Vector row_, v_;
+};
+
+/// Steps until the branch ends.
+Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
+             std::vector<Monitor> monitors = {}, Observer observer = {});
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,178 @@
+#include <arcslip/elements/jenkins.hpp>
+#include <arcslip/elements/samples.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::elements {
+namespace {
+
+// One march over the span from the sample of largest x, where f = +p, is periodic by construction. The samples that
+// stick follow their anchor, the last sample that slipped.
+class SampledJenkins final : public Element {
+ public:
+  SampledJenkins(const Harmonics& h, int samples)
+      : h_(h), samples_(h, h.odd ? (samples + 1) / 2 : samples), moments_(h), x_(samples_.count()),
+        stick_(samples_.count()), A_(h.size()), B_(h.size()), F_(h.size()), J_(h.size(), h.size()),
+        integral_(h.size()), weights_A_(samples_.count()), weights_B_(samples_.count()) {
+    onsets_.reserve(static_cast<std::size_t>(samples_.count()));
+    ends_.reserve(onsets_.capacity());
+  }
+
+  void move_to(In u, std::span<const double> fields, bool jacobian) override {
+    fields_ = {fields[0], fields[1], fields[2]};
+    const double kd = fields[0], p = fields[1] * fields[2], x_s = p / kd;
+    samples_.values(u, x_);
+    onsets_.clear();
+    ends_.clear();
+    const int M = samples_.count();
+    Eigen::Index top = 0, bottom = 0;
+    double high = x_.maxCoeff(&top), low = x_.minCoeff(&bottom);
+    double turned = 1;  // the motion is looked at with this sign: its largest value is at the start
+    if (h_.odd) {
+      if (-low > high) {
+        top = bottom;
+        turned = -1;
+      }
+      high = std::max(high, -low);
+      low = -high;
+    }
+    stick_share_ = 1;
+    frictionless_ = p == 0;
+    if (high - low <= 2 * x_s) {
+      A_ = u;
+      B_.setZero();
+      if (frictionless_) A_.setZero();
+      if (jacobian) J_ = frictionless_ ? Eigen::MatrixXd::Zero(h_.size(), h_.size()).eval() : Eigen::MatrixXd();
+      if (frictionless_) stick_share_ = 0;
+      if (!frictionless_ && jacobian) {
+        J_.setZero(h_.size(), h_.size());
+        J_.diagonal().setConstant(kd);
+      }
+      if (!h_.odd && !frictionless_) {
+        A_[0] -= 0.5 * (high + low);
+        if (jacobian) J_.row(0) -= 0.5 * kd * (samples_.basis(static_cast<int>(top)) +
+                                               samples_.basis(static_cast<int>(bottom)));
+      }
+      F_ = kd * A_;
+      return;
+    }
+    march(u, static_cast<int>(top), turned, kd, p, x_s, jacobian, M);
+  }
+
+  const Eigen::VectorXd& force() const override { return F_; }
+  const Eigen::MatrixXd& jacobian() const override { return J_; }
+
+  void field_derivative(int field, Out dF) const override {
+    if (field == 0)
+      dF = A_;
+    else
+      dF = (field == 1 ? fields_[2] : fields_[1]) * B_;
+  }
+
+  bool friction(FrictionState& state) const override {
+    state.stick_share = stick_share_;
+    state.slip_onsets = onsets_;
+    state.slip_ends = ends_;
+    std::sort(state.slip_onsets.begin(), state.slip_onsets.end());
+    std::sort(state.slip_ends.begin(), state.slip_ends.end());
+    return true;
+  }
+
+ private:
+  void note(std::vector<double>& angles, double at) const {
+    for (double shift = 0; shift < 2 * std::numbers::pi - 1e-9; shift += h_.span())
+      angles.push_back(std::fmod(at + shift, 2 * std::numbers::pi));
+  }
+
+  // The sample that lies `offset` after the top, and the sign with which it appears there.
+  struct Seen {
+    int sample;
+    double sign;
+  };
+  Seen seen(int top, int offset, double turned) const {
+    const int at = top + offset;
+    const bool wrapped = at >= samples_.count();
+    return {wrapped ? at - samples_.count() : at, wrapped && h_.odd ? -turned : turned};
+  }
+
+  void march(In u, int top, double turned, double kd, double p, double x_s, bool jacobian, int M) {
+    const double kappa = (h_.odd ? 2 : 1) / std::numbers::pi * samples_.weight();
+    A_.setZero();
+    B_.setZero();
+    if (jacobian) J_.setZero();
+    stick_.setZero();
+    weights_A_.setZero();
+    weights_B_.setZero();
+    int anchor = 0;
+    double anchor_x = turned * x_[top], anchored = 1, last = 1;
+    bool slipping = true;
+    int stuck = 0;
+    integral_.setZero();
+    const auto close_anchor = [&] {
+      if (!jacobian) return;
+      const Seen a = seen(top, anchor, turned);
+      J_.noalias() -= kappa * kd * a.sign * (integral_ * samples_.basis(a.sample));
+      integral_.setZero();
+    };
+    for (int k = 0; k < M; ++k) {
+      const Seen s = seen(top, k, turned);
+      const double x = s.sign * x_[s.sample];
+      const double f_over_kd = anchored * x_s + x - anchor_x;  // if it sticks
+      const bool up = f_over_kd >= x_s, down = f_over_kd <= -x_s;
+      if (up || down) {
+        const double sign = up ? 1 : -1;
+        if (!slipping) note(onsets_, samples_.angle(top + k));
+        close_anchor();
+        anchor = k;
+        anchor_x = x;
+        anchored = sign;
+        last = sign;
+        slipping = true;
+        weights_B_[s.sample] = s.sign * kappa * sign;
+      } else {
+        if (slipping && k > 0) note(ends_, samples_.angle(top + k - 1));
+        slipping = false;
+        ++stuck;
+        stick_[s.sample] = kappa;
+        weights_A_[s.sample] = -s.sign * kappa * anchor_x;
+        weights_B_[s.sample] = s.sign * kappa * anchored;
+        if (jacobian) integral_ += s.sign * samples_.basis(s.sample).transpose();
+      }
+    }
+    close_anchor();
+    (void)last;
+    (void)p;
+    stick_share_ = static_cast<double>(stuck) / M;
+    samples_.moments(stick_, moments_);
+    samples_.project(weights_A_, A_);
+    samples_.project(weights_B_, B_);
+    moments_.times(u, 1, A_);
+    if (jacobian) moments_.add_to(J_, kd);
+    if (!h_.odd) {
+      A_[0] *= 0.5;
+      B_[0] *= 0.5;
+      if (jacobian) J_.row(0) *= 0.5;
+    }
+    F_ = kd * A_ + p * B_;
+  }
+
+  Harmonics h_;
+  Samples samples_;
+  Moments moments_;
+  Eigen::VectorXd x_, stick_, A_, B_, F_;
+  Eigen::MatrixXd J_;
+  Eigen::VectorXd integral_, weights_A_, weights_B_;
+  std::vector<double> onsets_, ends_;
+  std::array<double, 3> fields_{};
+  double stick_share_ = 1;
+  bool frictionless_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Element> make_sampled_jenkins(const Harmonics& harmonics, int samples) {
+  return std::make_unique<SampledJenkins>(harmonics, samples);
+}
+
+}  // namespace arcslip::elements

@@ -1,0 +1,107 @@
+#include <arcslip/elements/reversals.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::elements {
+namespace {
+
+constexpr int deepest = 14;
+constexpr int newton_steps = 60;
+constexpr double angle_rounding = 4e-16;
+
+// Newton's method on an increasing or decreasing function in a bracket, halving where it leaves it.
+// values(t) -> {f, f'}.
+template <class Function>
+double bracketed_newton(Function&& values, double lower, double upper, double guess, bool rising) {
+  double t = guess > lower && guess < upper ? guess : 0.5 * (lower + upper);
+  for (int k = 0; k < newton_steps; ++k) {
+    const auto [f, slope] = values(t);
+    if (f == 0) return t;
+    ((f > 0) == rising ? upper : lower) = t;
+    double next = t - f / slope;
+    if (!(next >= lower && next <= upper)) next = 0.5 * (lower + upper);
+    const double change = std::abs(next - t);
+    t = next;
+    if (change <= angle_rounding * (1 + std::abs(t)) || upper - lower <= angle_rounding * (1 + std::abs(t))) break;
+  }
+  return t;
+}
+
+}  // namespace
+
+Reversals::Reversals(const Harmonics& harmonics)
+    : harmonics_(harmonics), intervals_((harmonics.odd ? 1 : 2) * (harmonics.order + 7)), start_(0.0871),
+      step_(harmonics.span() / intervals_), derivative_(intervals_, harmonics.size()), samples_(intervals_) {
+  for (int k = 0; k < intervals_; ++k) {
+    const double theta = start_ + k * step_;
+    for (int i = 0; i < harmonics.cosines(); ++i) {
+      const int n = harmonics.cosine_order(i);
+      derivative_(k, i) = -n * std::sin(n * theta);
+    }
+    for (int j = 0; j < harmonics.sines(); ++j) {
+      const int n = harmonics.sine_order(j);
+      derivative_(k, harmonics.cosines() + j) = n * std::cos(n * theta);
+    }
+  }
+  found_.reserve(static_cast<std::size_t>(4 * harmonics.order + 16));
+}
+
+Reversal Reversals::polish(In u, double t0, double g0, double t1, double g1, bool rising) const {
+  const double secant = g1 != g0 ? t0 - g0 * (t1 - t0) / (g1 - g0) : t0;
+  const auto derivatives = [&](double t) {
+    const Values v = series_values(harmonics_, u, t);
+    return std::pair{v.d1, v.d2};
+  };
+  const double theta = bracketed_newton(derivatives, t0, t1, secant, rising);
+  return {theta, series_values(harmonics_, u, theta).x};
+}
+
+void Reversals::search(In u, double t0, double g0, bool positive0, double t1, double g1, bool positive1, double M,
+                       int depth) {
+  const double h = t1 - t0, bend = M * h * h;
+  const bool changes = positive0 != positive1;
+  if (changes ? (std::abs(g1 - g0) > bend / 2 || depth == 0)
+              : (std::min(std::abs(g0), std::abs(g1)) > bend / 8 || depth == 0)) {
+    if (changes) found_.push_back(polish(u, t0, g0, t1, g1, positive1));
+    return;
+  }
+  const double middle = 0.5 * (t0 + t1);
+  const double g = series_values(harmonics_, u, middle).d1;
+  search(u, t0, g0, positive0, middle, g, g > 0, M, depth - 1);
+  search(u, middle, g, g > 0, t1, g1, positive1, M, depth - 1);
+}
+
+const std::vector<Reversal>& Reversals::find(In u) {
+  found_.clear();
+  const double M = series_bound(harmonics_, u, 3);
+  if (!(M > 0) || !std::isfinite(M)) return found_;
+  samples_.noalias() = derivative_ * u;
+  const bool first_positive = samples_[0] > 0;
+  bool positive = first_positive;
+  for (int k = 0; k < intervals_; ++k) {
+    const bool last = k + 1 == intervals_;
+    const double g0 = samples_[k], g1 = last ? (harmonics_.odd ? -samples_[0] : samples_[0]) : samples_[k + 1];
+    // The span closes on itself: what is positive at its start is, where the motion is odd, not so at its end.
+    const bool positive1 = last ? first_positive != harmonics_.odd : g1 > 0;
+    search(u, start_ + k * step_, g0, positive, start_ + (k + 1) * step_, g1, positive1, M, deepest);
+    positive = positive1;
+  }
+  return found_;
+}
+
+double Reversals::crossing(In u, const Reversal& from, const Reversal& to, double target) const {
+  const double range = from.x - to.x;
+  const double share = (2 * target - from.x - to.x) / range;
+  if (share >= 1) return from.theta;
+  if (share <= -1) return to.theta;
+  // Exact for one harmonic: between two reversals x runs like a cosine.
+  const double guess = from.theta + (to.theta - from.theta) * std::acos(share) / std::numbers::pi;
+  const auto values = [&](double t) {
+    const Values v = series_values(harmonics_, u, t);
+    return std::pair{v.x - target, v.d1};
+  };
+  return bracketed_newton(values, from.theta, to.theta, guess, range < 0);
+}
+
+}  // namespace arcslip::elements

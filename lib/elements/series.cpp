@@ -1,0 +1,60 @@
+#include <arcslip/elements/series.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::elements {
+
+Values series_values(const Harmonics& h, In u, double theta) {
+  const double step_c = std::cos(h.stride() * theta), step_s = std::sin(h.stride() * theta);
+  double c = h.odd ? std::cos(theta) : step_c, s = h.odd ? std::sin(theta) : step_s;
+  Values v{h.odd ? 0.0 : u[0], 0, 0};
+  const int sines = h.sines();
+  const double* a = u.data() + (h.odd ? 0 : 1);
+  const double* b = u.data() + h.cosines();
+  for (int j = 0; j < sines; ++j) {
+    const double n = h.sine_order(j);
+    const double even = a[j] * c + b[j] * s, odd = b[j] * c - a[j] * s;
+    v.x += even;
+    v.d1 += n * odd;
+    v.d2 -= n * n * even;
+    const double next = c * step_c - s * step_s;
+    s = s * step_c + c * step_s;
+    c = next;
+  }
+  return v;
+}
+
+void series_basis(const Harmonics& h, double theta, Out phi) {
+  for (int i = 0; i < h.cosines(); ++i) phi[i] = std::cos(h.cosine_order(i) * theta);
+  for (int j = 0; j < h.sines(); ++j) phi[h.cosines() + j] = std::sin(h.sine_order(j) * theta);
+}
+
+void powers(double theta, int count, std::complex<double>* z) {
+  if (count < 1) return;
+  z[0] = 1;
+  if (count < 2) return;
+  z[1] = {std::cos(theta), std::sin(theta)};
+  for (int known = 1; known + 1 < count; known *= 2) {  // z[1 .. known] are there
+    const double c = z[known].real(), s = z[known].imag();
+    const int more = std::min(known, count - 1 - known);
+    for (int k = 1; k <= more; ++k) {
+      const double re = z[k].real(), im = z[k].imag();
+      z[known + k] = {re * c - im * s, re * s + im * c};
+    }
+  }
+}
+
+double series_bound(const Harmonics& h, In u, int power) {
+  const double* a = u.data() + (h.odd ? 0 : 1);
+  const double* b = u.data() + h.cosines();
+  double bound = 0;
+  for (int j = 0; j < h.sines(); ++j) {
+    double weight = 1;
+    for (int k = 0; k < power; ++k) weight *= h.sine_order(j);
+    bound += weight * std::sqrt(a[j] * a[j] + b[j] * b[j]);
+  }
+  return bound;
+}
+
+}  // namespace arcslip::elements

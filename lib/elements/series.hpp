@@ -1,0 +1,30 @@
+#pragma once
+// Values of one coordinate's Fourier series.
+
+#include <arcslip/elements/harmonics.hpp>
+
+#include <complex>
+#include <vector>
+
+namespace arcslip::elements {
+
+using In = Eigen::Ref<const Eigen::VectorXd>;
+using Out = Eigen::Ref<Eigen::VectorXd>;
+
+/// x, dx/dtheta and d2x/dtheta2 at one angle.
+struct Values {
+  double x, d1, d2;
+};
+
+Values series_values(const Harmonics& harmonics, In u, double theta);
+
+/// Basis at one angle: phi . u = x(theta). phi: harmonics.size().
+void series_basis(const Harmonics& harmonics, double theta, Out phi);
+
+/// exp(i k theta) for k = 0 .. count - 1, by products of earlier ones (error grows with log k).
+void powers(double theta, int count, std::complex<double>* z);
+
+/// sum over n of n^power |X_n|, without the mean: a bound of |d^power x / dtheta^power|.
+double series_bound(const Harmonics& harmonics, In u, int power);
+
+}  // namespace arcslip::elements

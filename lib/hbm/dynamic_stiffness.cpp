@@ -1,0 +1,300 @@
+#include <arcslip/hbm/dynamic_stiffness.hpp>
+
+#include <cmath>
+
+namespace arcslip::hbm {
+namespace {
+
+constexpr double pole = 1e-14;  // pivot of the linear coordinates, relative to the largest entry
+
+}  // namespace
+
+DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates& coordinates,
+                                   const Harmonics& harmonics)
+    : model_(model), harmonics_(harmonics), r_(coordinates.unknowns), l_(coordinates.linear()), P_(coordinates.P),
+      response_(P_.transpose() * model.response), lu_(l_), Zll_(l_, l_), rhs_(l_, r_ + 2), q_(r_), y_(r_ + l_),
+      v_(r_ + l_), full_f_(r_ + l_) {
+  for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
+    for (const auto& part : *parts) structural_parameters_.push_back(part.parameter);
+  structural_.assign(structural_parameters_.size(), std::nan(""));
+  const auto H = static_cast<std::size_t>(harmonics.cosines());
+  Z_.assign(H, Matrixc(r_, r_));
+  f_.assign(H, Vectorc(r_));
+  W_.assign(H, Matrixc(l_, r_ + 2));
+  last_p_ = Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""));
+}
+
+void DynamicStiffness::assemble(In p) {
+  bool same = true;
+  for (std::size_t k = 0; k < structural_.size(); ++k) {
+    same = same && structural_[k] == p[structural_parameters_[k]];
+    structural_[k] = p[structural_parameters_[k]];
+  }
+  if (same) return;
+  const auto in_y = [&](const std::vector<model::LinearPart>& parts) -> Eigen::MatrixXd {
+    return P_.transpose() * model::assemble(parts, p, model_.dofs) * P_;
+  };
+  M_ = in_y(model_.masses);
+  C_ = in_y(model_.dampers);
+  K_ = in_y(model_.springs);
+}
+
+bool DynamicStiffness::move_to(In p) {
+  if (p.head(last_p_.size()) == last_p_) return true;
+  assemble(p);
+  last_p_.setConstant(std::nan(""));
+  omega_ = p[model::frequency];
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    const auto index = static_cast<std::size_t>(h);
+    const double n = harmonics_.cosine_order(h), s = n * omega_;
+    full_f_.setZero();
+    for (const model::Force& force : model_.forces) {
+      if (force.harmonic != harmonics_.cosine_order(h)) continue;
+      const Complex amplitude(p[force.cosine], n == 0 ? 0.0 : -p[force.sine]);
+      for (Eigen::Index i = 0; i < r_ + l_; ++i) full_f_[i] += amplitude * P_.col(i).dot(force.direction);
+    }
+    const auto entry = [&](Eigen::Index i, Eigen::Index j) {
+      return Complex(K_(i, j) - s * s * M_(i, j), s * C_(i, j));
+    };
+    Matrixc& Z = Z_[index];
+    for (Eigen::Index j = 0; j < r_; ++j)
+      for (Eigen::Index i = 0; i < r_; ++i) Z(i, j) = entry(i, j);
+    f_[index] = full_f_.head(r_);
+    if (l_ == 0) continue;
+
+    for (Eigen::Index j = 0; j < l_; ++j) {
+      for (Eigen::Index i = 0; i < l_; ++i) Zll_(i, j) = entry(r_ + i, r_ + j);
+      for (Eigen::Index i = 0; i < r_; ++i) rhs_(j, i) = entry(r_ + j, i);
+      rhs_(j, r_) = full_f_[r_ + j];
+      rhs_(j, r_ + 1) = response_[r_ + j];
+    }
+    lu_.compute(Zll_);
+    const double largest = Zll_.cwiseAbs().maxCoeff();
+    if (!(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > pole * largest)) return false;
+    Matrixc& W = W_[index];
+    W.noalias() = lu_.permutationP() * rhs_;
+    lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(W);
+    lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(W);
+    for (Eigen::Index j = 0; j < r_; ++j)
+      for (Eigen::Index i = 0; i < r_; ++i)
+        for (Eigen::Index k = 0; k < l_; ++k) Z(i, j) -= rhs_(k, i) * W(k, j);  // Z is symmetric
+    for (Eigen::Index i = 0; i < r_; ++i)
+      for (Eigen::Index k = 0; k < l_; ++k) f_[index][i] -= rhs_(k, i) * W(k, r_);
+  }
+  last_p_ = p.head(last_p_.size());
+  return true;
+}
+
+// X_n of coordinate i in u; X_0 is real.
+DynamicStiffness::Complex DynamicStiffness::coefficient(In x, int h) const {
+  const int n = harmonics_.cosine_order(h);
+  return n == 0 ? Complex(x[h], 0) : Complex(x[h], -x[harmonics_.sine_index(n)]);
+}
+
+void DynamicStiffness::gather(In u, int h, Vectorc& q) const {
+  const int c = harmonics_.size(), n = harmonics_.cosine_order(h);
+  for (int i = 0; i < r_; ++i)
+    q[i] = n == 0 ? Complex(u[i * c + h], 0) : Complex(u[i * c + h], -u[i * c + harmonics_.sine_index(n)]);
+}
+
+void DynamicStiffness::scatter_add(const Vectorc& v, int h, Out R) const {
+  const int c = harmonics_.size(), n = harmonics_.cosine_order(h);
+  for (int i = 0; i < r_; ++i) {
+    R[i * c + h] += v[i].real();
+    if (n > 0) R[i * c + harmonics_.sine_index(n)] -= v[i].imag();
+  }
+}
+
+// y = (q, Z_ll^-1 (f_l - Z_lq q))
+void DynamicStiffness::expand(const Vectorc& q, int h, double force_factor, Vectorc& y) const {
+  y.head(r_) = q;
+  if (l_ == 0) return;
+  const Matrixc& W = W_[static_cast<std::size_t>(h)];
+  y.tail(l_) = force_factor * W.col(r_);
+  y.tail(l_).noalias() -= W.leftCols(r_) * q;
+}
+
+// v_q - Z_ql Z_ll^-1 v_l
+void DynamicStiffness::project(const Vectorc& v, int h, Vectorc& q) const {
+  q = v.head(r_);
+  if (l_ == 0) return;
+  q.noalias() -= W_[static_cast<std::size_t>(h)].leftCols(r_).transpose() * v.tail(l_);
+}
+
+void DynamicStiffness::residual(In u, double force_factor, Out R) const {
+  const int c = harmonics_.size();
+  if (r_ == 1) {
+    for (int h = 0; h < harmonics_.cosines(); ++h) {
+      const auto index = static_cast<std::size_t>(h);
+      const Complex v = Z_[index](0, 0) * coefficient(u, h) - force_factor * f_[index][0];
+      R[h] = v.real();
+      const int n = harmonics_.cosine_order(h);
+      if (n > 0) R[harmonics_.sine_index(n)] = -v.imag();
+    }
+    return;
+  }
+  R.head(r_ * c).setZero();
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    const auto index = static_cast<std::size_t>(h);
+    gather(u, h, q_);
+    auto v = v_.head(r_);
+    v.noalias() = Z_[index] * q_;
+    v -= force_factor * f_[index];
+    const int n = harmonics_.cosine_order(h);
+    for (int i = 0; i < r_; ++i) {
+      R[i * c + h] += v[i].real();
+      if (n > 0) R[i * c + harmonics_.sine_index(n)] -= v[i].imag();
+    }
+  }
+}
+
+void DynamicStiffness::add_to(Eigen::MatrixXd& J) const {
+  const int c = harmonics_.size();
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    const Matrixc& Z = Z_[static_cast<std::size_t>(h)];
+    const int n = harmonics_.cosine_order(h);
+    for (int j = 0; j < r_; ++j)
+      for (int i = 0; i < r_; ++i) {
+        J(i * c + h, j * c + h) += Z(i, j).real();
+        if (n == 0) continue;
+        const int s = harmonics_.sine_index(n);
+        J(i * c + s, j * c + s) += Z(i, j).real();
+        J(i * c + h, j * c + s) += Z(i, j).imag();
+        J(i * c + s, j * c + h) -= Z(i, j).imag();
+      }
+  }
+}
+
+void DynamicStiffness::force(Out f) const {
+  f.setZero();
+  for (int h = 0; h < harmonics_.cosines(); ++h) scatter_add(f_[static_cast<std::size_t>(h)], h, f);
+}
+
+void DynamicStiffness::solve(Out x) const {
+  const int c = harmonics_.size();
+  Matrixc Z(r_, r_);
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    gather(x, h, q_);
+    Z = Z_[static_cast<std::size_t>(h)];
+    const Vectorc solution = Z.partialPivLu().solve(q_);
+    const int n = harmonics_.cosine_order(h);
+    for (int i = 0; i < r_; ++i) {
+      x[i * c + h] = solution[i].real();
+      if (n > 0) x[i * c + harmonics_.sine_index(n)] = -solution[i].imag();
+    }
+  }
+}
+
+void DynamicStiffness::parameter_derivative(int k, In u, double force_factor, Out dR) const {
+  dR.setZero();
+  const bool by_frequency = k == model::frequency;
+  const auto is = [k](int parameter) { return parameter == k; };
+  bool any = by_frequency;
+  for (int parameter : structural_parameters_) any = any || is(parameter);
+  for (const auto& force : model_.forces) any = any || is(force.cosine) || is(force.sine);
+  if (!any) return;
+
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    const double n = harmonics_.cosine_order(h), s = n * omega_;
+    gather(u, h, q_);
+    expand(q_, h, force_factor, y_);
+    if (by_frequency) {
+      for (Eigen::Index i = 0; i < v_.size(); ++i) {
+        Complex sum = 0;
+        for (Eigen::Index j = 0; j < v_.size(); ++j) sum += Complex(-2 * n * s * M_(i, j), n * C_(i, j)) * y_[j];
+        v_[i] = sum;
+      }
+    } else {
+      v_.setZero();
+      const auto add = [&](const std::vector<model::LinearPart>& parts, Complex factor) {
+        for (const auto& part : parts) {
+          if (!is(part.parameter)) continue;
+          Complex along = 0;
+          for (Eigen::Index i = 0; i < v_.size(); ++i) along += P_.col(i).dot(part.direction) * y_[i];
+          for (Eigen::Index i = 0; i < v_.size(); ++i) v_[i] += factor * along * P_.col(i).dot(part.direction);
+        }
+      };
+      add(model_.masses, -s * s);
+      add(model_.dampers, Complex(0, s));
+      add(model_.springs, 1);
+      for (const auto& force : model_.forces) {
+        if (force.harmonic != harmonics_.cosine_order(h)) continue;
+        Complex amplitude = 0;
+        if (is(force.cosine)) amplitude += 1;
+        if (is(force.sine) && n > 0) amplitude += Complex(0, -1);
+        for (Eigen::Index i = 0; i < v_.size(); ++i)
+          v_[i] -= force_factor * amplitude * P_.col(i).dot(force.direction);
+      }
+    }
+    project(v_, h, q_);
+    scatter_add(q_, h, dR);
+  }
+}
+
+void DynamicStiffness::response(In u, double force_factor, Out x) const {
+  x.setZero();
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    gather(u, h, q_);
+    expand(q_, h, force_factor, y_);
+    Complex sum = 0;
+    for (Eigen::Index i = 0; i < y_.size(); ++i) sum += response_[i] * y_[i];
+    x[h] = sum.real();
+    const int n = harmonics_.cosine_order(h);
+    if (n > 0) x[harmonics_.sine_index(n)] = -sum.imag();
+  }
+}
+
+void DynamicStiffness::response_transposed(In a, Out g) const {
+  g.setZero();
+  const int c = harmonics_.size();
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    const int n = harmonics_.cosine_order(h);
+    for (int i = 0; i < r_; ++i) {
+      Complex L = response_[i];  // X = L q: with a real inner product the transpose is the conjugate
+      if (l_ > 0) {
+        const Matrixc& W = W_[static_cast<std::size_t>(h)];
+        for (Eigen::Index k = 0; k < l_; ++k) L -= response_[r_ + k] * W(k, i);
+      }
+      const Complex v = std::conj(L) * coefficient(a, h);
+      g[i * c + h] += v.real();
+      if (n > 0) g[i * c + harmonics_.sine_index(n)] -= v.imag();
+    }
+  }
+}
+
+void DynamicStiffness::response_by_frequency(In u, double force_factor, Out dx) const {
+  dx.setZero();
+  if (l_ == 0) return;
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    const double n = harmonics_.cosine_order(h), s = n * omega_;
+    gather(u, h, q_);
+    expand(q_, h, force_factor, y_);
+    const Matrixc& W = W_[static_cast<std::size_t>(h)];
+    Complex sum = 0;
+    for (Eigen::Index k = 0; k < l_; ++k) {
+      Complex v = 0;
+      for (Eigen::Index j = 0; j < y_.size(); ++j)
+        v += Complex(-2 * n * s * M_(r_ + k, j), n * C_(r_ + k, j)) * y_[j];
+      sum -= W(k, r_ + 1) * v;
+    }
+    dx[h] = sum.real();
+    const int order = harmonics_.cosine_order(h);
+    if (order > 0) dx[harmonics_.sine_index(order)] = -sum.imag();
+  }
+}
+
+double DynamicStiffness::viscous_energy(In u, double force_factor) const {
+  double energy = 0;
+  for (int h = 0; h < harmonics_.cosines(); ++h) {
+    const double n = harmonics_.cosine_order(h);
+    gather(u, h, q_);
+    expand(q_, h, force_factor, y_);
+    double power = 0;
+    for (Eigen::Index i = 0; i < y_.size(); ++i)
+      for (Eigen::Index j = 0; j < y_.size(); ++j) power += C_(i, j) * (std::conj(y_[i]) * y_[j]).real();
+    energy += std::numbers::pi * omega_ * n * n * power;
+  }
+  return energy;
+}
+
+}  // namespace arcslip::hbm

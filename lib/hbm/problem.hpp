@@ -1,0 +1,86 @@
+#pragma once
+// Harmonic balance as a continuation problem:
+//
+//   R(u, p) = Z(omega) u + sum_e D_e^T F_e(D_e u) - factor f = 0
+//
+// u: the coefficients of the nonlinear coordinates (coordinates.hpp), each in the layout of elements/harmonics.hpp.
+// p: the model's parameters ("frequency" first, rad/s), and last "excitation_factor", which scales all forces and
+// leads from rest (u = 0 at 0) to the scene (1).
+
+#include <arcslip/hbm/dynamic_stiffness.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace arcslip::hbm {
+
+class HbmEvaluator final : public continuation::Evaluator {
+ public:
+  HbmEvaluator(std::shared_ptr<const model::Model> model, const Coordinates& coordinates, const Harmonics& harmonics);
+
+  continuation::Evaluated move_to(continuation::In u, continuation::In p, continuation::Needs needs) override;
+  const Vector& residual() const override { return R_; }
+  const continuation::Jacobian& jacobian() const override { return J_; }
+  void parameter_derivative(int k, continuation::Out dR) const override;
+  std::uint64_t piece() const override;
+
+  // What observables need, at the last place.
+  const DynamicStiffness& stiffness() const { return stiffness_; }
+  double force_factor() const { return force_factor_; }
+  std::size_t element_count() const { return parts_.size(); }
+  const elements::Element& element(std::size_t e) const { return *parts_[e].element; }
+  const Vector& element_motion(std::size_t e) const { return parts_[e].motion; }
+  In unknowns() const { return u_; }
+
+ private:
+  struct Part {
+    std::unique_ptr<elements::Element> element;
+    std::vector<int> parameters;
+    std::vector<std::pair<int, double>> direction;  // unknown coordinate, weight
+    std::vector<double> fields;
+    Vector motion;
+  };
+
+  std::shared_ptr<const model::Model> model_;
+  Harmonics harmonics_;
+  int r_;
+  DynamicStiffness stiffness_;
+  std::vector<Part> parts_;
+  Vector u_, R_;
+  mutable Vector derivative_;
+  continuation::Jacobian J_;
+  double force_factor_ = 1;
+};
+
+class HbmProblem final : public continuation::Problem {
+ public:
+  /// displacement: typical amplitude (m), the scale of the unknowns; frequency: of the excitation frequency (rad/s).
+  HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
+             double frequency);
+
+  int size() const override { return coordinates_.unknowns * harmonics_.size(); }
+  std::span<const continuation::Parameter> parameters() const override { return parameters_; }
+  Vector scales() const override { return Vector::Constant(size(), displacement_); }
+  std::unique_ptr<continuation::Evaluator> evaluator() const override { return hbm_evaluator(); }
+  std::unique_ptr<HbmEvaluator> hbm_evaluator() const {
+    return std::make_unique<HbmEvaluator>(model_, coordinates_, harmonics_);
+  }
+
+  const model::Model& model() const { return *model_; }
+  std::shared_ptr<const model::Model> shared_model() const { return model_; }
+  const Harmonics& harmonics() const { return harmonics_; }
+  const Coordinates& coordinates() const { return coordinates_; }
+  int excitation_factor() const { return static_cast<int>(parameters_.size()) - 1; }
+
+ private:
+  std::shared_ptr<const model::Model> model_;
+  Harmonics harmonics_;
+  Coordinates coordinates_;
+  std::vector<continuation::Parameter> parameters_;
+  double displacement_;
+};
+
+/// Default values of the parameters, at one excitation frequency (rad/s).
+Vector parameters_at(const HbmProblem& problem, double omega);
+
+}  // namespace arcslip::hbm

@@ -1,0 +1,32 @@
+#pragma once
+// The amplitude of a motion: A = max over the period of |x|, found as the largest reversal, not the largest sample.
+//
+// With the extreme at theta_hat, x'(theta_hat) = 0, so that dA/dx_coefficients = sign phi(theta_hat) (envelope
+// theorem), wherever the largest reversal is unique.
+
+#include <arcslip/elements/reversals.hpp>
+
+namespace arcslip::observables {
+
+struct Extreme {
+  double amplitude = 0;  // |x(theta)|, m
+  double theta = 0;      // rad
+  double sign = 1;       // of x there
+};
+
+class Amplitude {
+ public:
+  explicit Amplitude(const elements::Harmonics& harmonics) : harmonics_(harmonics), reversals_(harmonics) {}
+
+  /// x: coefficients of the motion, harmonics.size().
+  Extreme of(elements::In x);
+
+ private:
+  elements::Harmonics harmonics_;
+  elements::Reversals reversals_;
+};
+
+/// sign phi(theta) . dx, the change of A for a change dx of the coefficients.
+double amplitude_change(const elements::Harmonics& harmonics, const Extreme& extreme, elements::In dx);
+
+}  // namespace arcslip::observables

@@ -1,0 +1,211 @@
+#include <arcslip/observables/frequency_response.hpp>
+
+#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/observables/observe.hpp>
+#include <arcslip/observables/unbounded.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::StopReason;
+using continuation::Vector;
+
+constexpr double points_in_window = 150;     // at least, on a branch from end to end
+constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
+constexpr double beyond_display = 1e6;       // |u| in scales: points above, next to an unbounded peak, are left out
+constexpr double next_to_pole = 100;         // |u| in scales: where the far side of an unbounded peak is taken up
+
+Status status_of(StopReason reason) {
+  switch (reason) {
+    case StopReason::boundary: return Status::complete;
+    case StopReason::user:
+    case StopReason::point_limit: return Status::stopped;
+    default: return Status::failed;
+  }
+}
+
+// All combinations of the for_each lists, the last one fastest.
+std::vector<std::vector<std::pair<std::string, double>>> combinations(const scene::Study& study) {
+  std::vector<std::vector<std::pair<std::string, double>>> all{{}};
+  for (const auto& [name, values] : study.for_each) {
+    decltype(all) longer;
+    for (const auto& begun : all)
+      for (double value : values) {
+        longer.push_back(begun);
+        longer.back().emplace_back(name, value);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+// One branch over the window [from, to], and what has to be known to go on beyond an unbounded peak.
+class Sweep {
+ public:
+  Sweep(const scene::Scene& scene, const scene::Study& study, const ProgressCallback& progress, int index, int count)
+      : unit_(scene::to_rad_per_s(scene.frequency_unit)), unit_name_(scene::unit_name(scene.frequency_unit)),
+        lower_(study.from * unit_), upper_(study.to * unit_), progress_(progress), index_(index), count_(count),
+        model_(std::make_shared<const model::Model>(model::build(scene))) {}
+
+  std::vector<ResponseBranch> run(const std::vector<std::pair<std::string, double>>& set, bool& stopped) {
+    std::vector<ResponseBranch> branches;
+    double from = lower_;
+    for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
+      branches.push_back(trace_from(from, set));
+      stopped = branches.back().stop.reason == name(StopReason::user);
+      if (branches.back().stop.reason != "unbounded" || !(far_side_ < upper_)) break;
+      from = far_side_;
+    }
+    return branches;
+  }
+
+ private:
+  ResponseBranch trace_from(double from, const std::vector<std::pair<std::string, double>>& set) {
+    const auto began = std::chrono::steady_clock::now();
+    ResponseBranch result;
+    describe(result, set);
+
+    const auto rough = std::make_shared<const hbm::HbmProblem>(model_, model_->harmonics, scale_of(from), window());
+    const Vector p = hbm::parameters_at(*rough, from);
+    const auto start = hbm::steady_state(rough, p);
+    if (!start) {
+      result.status = Status::failed;
+      result.stop = {name(StopReason::start_failed), from / unit_, 0,
+                     "no periodic response was found at " + text(from / unit_) + " " + unit_name_ +
+                         ": Newton's method failed from rest, from the response without elements, and along a "
+                         "growing excitation"};
+      return result;
+    }
+    const double size = start->norm() > 0 ? start->norm() : 1;
+    const auto problem = std::make_shared<const hbm::HbmProblem>(model_, model_->harmonics, size, window());
+    result.solver.unknowns = problem->size();
+    const auto observer = std::make_shared<Observer>(problem, p);
+
+    continuation::Options options;
+    options.lower = lower_;
+    options.upper = upper_;
+    options.step.largest_parameter = window() / points_in_window;
+    options.step.relative_parameter = largest_relative_step;
+
+    std::vector<std::pair<double, double>> course;  // frequency, |u| in scales
+    double last = from;
+    const auto record = [&](const continuation::Accepted& now, const continuation::Event* event) {
+      const double state = now.u.norm() / size, omega = now.p[model::frequency];
+      if (event) {
+        result.events.push_back({event->monitor, event->nonsmooth, observer->observe(now)});
+        return true;
+      }
+      course.emplace_back(omega, state);
+      if (state < beyond_display) result.points.push_back(observer->observe(now));
+      if (!progress_) return true;
+      const Progress progress{index_, count_, static_cast<long>(course.size()), omega / unit_,
+                              (omega - last) / unit_, std::clamp((omega - lower_) / window(), 0.0, 1.0)};
+      last = omega;
+      return progress_(progress);
+    };
+    const auto branch = continuation::trace(problem, {*start, p, model::frequency, 1}, options,
+                                            {peak_monitor(observer), continuation::fold_monitor()}, record);
+    finish(result, branch, *problem, p, course);
+    result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return result;
+  }
+
+  void describe(ResponseBranch& result, const std::vector<std::pair<std::string, double>>& set) const {
+    result.set = set;
+    for (const auto& parameter : model_->parameters) {
+      const bool is_set = std::any_of(set.begin(), set.end(), [&](const auto& s) { return s.first == parameter.name; });
+      if (parameter.name != "frequency" && !is_set) result.parameters.emplace_back(parameter.name, parameter.value);
+    }
+    const auto& h = model_->harmonics;
+    for (int i = 0; i < h.cosines(); ++i) result.harmonics.push_back(h.cosine_order(i));
+    result.solver.linear_solver = "dense LU";
+  }
+
+  void finish(ResponseBranch& result, const continuation::Branch& branch, const hbm::HbmProblem& problem,
+              const Vector& p, const std::vector<std::pair<double, double>>& course) {
+    result.status = status_of(branch.stop.reason);
+    result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
+    if (branch.stop.reason == StopReason::boundary) {
+      result.stop.value = result.stop.limit = branch.stop.value / unit_;
+      result.stop.message = "reached the end of the window at " + text(result.stop.value) + " " + unit_name_;
+    }
+    const auto& counts = branch.counts;
+    result.solver.points = counts.points;
+    result.solver.rejected_steps = counts.rejected_steps;
+    result.solver.residuals = counts.residuals;
+    result.solver.jacobians = counts.jacobians;
+    result.solver.factorizations = counts.factorizations;
+    result.solver.solves = counts.solves;
+    if (branch.stop.reason != StopReason::state_too_large) return;
+
+    Vector at = p;
+    at[model::frequency] = branch.points.back().parameter;
+    const Unboundedness reason = unboundedness(problem, at, branch.points.back().u);
+    result.stop.message = reason.message + " (near " + text(at[model::frequency] / unit_) + " " + unit_name_ + ")";
+    if (!reason.unbounded) return;
+    result.status = Status::complete;
+    result.stop.reason = "unbounded";
+    result.stop.value = reason.dissipation;
+    result.stop.limit = reason.input;
+    ResponseEvent peak;
+    peak.kind = "peak";
+    peak.point.omega = at[model::frequency];
+    peak.point.unbounded = true;
+    result.events.push_back(std::move(peak));
+
+    // The branch comes back from infinity on the other side of the pole: take it up as far beyond as it was before.
+    far_side_ = upper_;
+    for (auto it = course.rbegin(); it != course.rend(); ++it) {
+      if (it->second > next_to_pole) continue;
+      far_side_ = 2 * at[model::frequency] - it->first;
+      break;
+    }
+  }
+
+  // A first guess of the response's magnitude.
+  double scale_of(double omega) const {
+    const hbm::HbmProblem problem(model_, model_->harmonics, 1, window());
+    const double size = hbm::linear_response(problem, hbm::parameters_at(problem, omega)).norm();
+    return std::isfinite(size) && size > 0 ? size : 1;
+  }
+
+  double window() const { return upper_ - lower_; }
+  static std::string text(double x) {
+    std::ostringstream s;
+    s.precision(8);
+    s << x;
+    return s.str();
+  }
+
+  double unit_;
+  std::string unit_name_;
+  double lower_, upper_;
+  const ProgressCallback& progress_;
+  int index_, count_;
+  std::shared_ptr<const model::Model> model_;
+  double far_side_ = 0;
+};
+
+}  // namespace
+
+std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const scene::Study& study,
+                                               const ProgressCallback& progress) {
+  const auto all = combinations(study);
+  std::vector<ResponseBranch> branches;
+  bool stopped = false;
+  for (std::size_t k = 0; k < all.size() && !stopped; ++k) {
+    scene::Scene with = scene;
+    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
+    Sweep sweep(with, study, progress, static_cast<int>(k), static_cast<int>(all.size()));
+    for (auto& branch : sweep.run(all[k], stopped)) branches.push_back(std::move(branch));
+  }
+  return branches;
+}
+
+}  // namespace arcslip::observables

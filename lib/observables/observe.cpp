@@ -1,0 +1,101 @@
+#include <arcslip/observables/observe.hpp>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+
+namespace arcslip::observables {
+namespace {
+
+const hbm::HbmEvaluator& evaluator_of(const continuation::Accepted& now) {
+  return static_cast<const hbm::HbmEvaluator&>(now.at);
+}
+
+// Work done against the element over a period: pi sum n (F_c b - F_s a).
+double element_energy(const elements::Harmonics& h, const continuation::Vector& w, const Eigen::VectorXd& F) {
+  double sum = 0;
+  for (int j = 0; j < h.sines(); ++j) {
+    const int n = h.sine_order(j), c = h.cosine_index(n), s = h.sine_index(n);
+    sum += n * (F[c] * w[s] - F[s] * w[c]);
+  }
+  return std::numbers::pi * sum;
+}
+
+}  // namespace
+
+Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem, const continuation::Vector& p)
+    : problem_(std::move(problem)), amplitude_(problem_->harmonics()), truncation_(*problem_, p),
+      x_(problem_->harmonics().size()), dx_(x_.size()), by_frequency_(x_.size()) {}
+
+Extreme Observer::extreme(const continuation::Accepted& now) {
+  const auto& at = evaluator_of(now);
+  at.stiffness().response(now.u, at.force_factor(), x_);
+  return amplitude_.of(x_);
+}
+
+double Observer::amplitude_slope(const continuation::Accepted& now) {
+  const Extreme at_most = extreme(now);
+  const auto& at = evaluator_of(now);
+  const Eigen::Index n = now.u.size();
+  at.stiffness().response(now.tangent.head(n), 0, dx_);
+  at.stiffness().response_by_frequency(now.u, at.force_factor(), by_frequency_);
+  dx_ += now.tangent[n] * by_frequency_;
+  return amplitude_change(problem_->harmonics(), at_most, dx_);
+}
+
+// Lag of the response's fundamental behind the first force of that harmonic, in (-pi, pi].
+double Observer::phase(const continuation::Accepted& now) const {
+  const auto& h = problem_->harmonics();
+  const auto& model = problem_->model();
+  const int n = model.force_harmonic;
+  if (!h.has(n) || n == 0) return 0;
+  const std::complex<double> X(x_[h.cosine_index(n)], -x_[h.sine_index(n)]);
+  for (const auto& force : model.forces) {
+    if (force.harmonic != n) continue;
+    const std::complex<double> F(now.p[force.cosine], -now.p[force.sine]);
+    return X == 0.0 || F == 0.0 ? 0 : std::arg(F * std::conj(X));
+  }
+  return 0;
+}
+
+ResponsePoint Observer::observe(const continuation::Accepted& now) {
+  const auto& at = evaluator_of(now);
+  const auto& h = problem_->harmonics();
+  ResponsePoint point;
+  const Extreme at_most = extreme(now);
+  point.omega = now.p[model::frequency];
+  point.amplitude = at_most.amplitude;
+  point.phase = phase(now);
+  const TruncationEstimate truncation = truncation_.estimate(now, at_most);
+  point.truncation_estimate = truncation.amplitude;
+  point.truncation_flagged = truncation.flagged;
+  point.energy_viscous = at.stiffness().viscous_energy(now.u, at.force_factor());
+  elements::FrictionState state;
+  for (std::size_t e = 0; e < at.element_count(); ++e) {
+    ElementResponse response;
+    response.name = problem_->model().elements[e].name;
+    response.has_stick = at.element(e).friction(state);
+    if (response.has_stick) {
+      response.stick_percent = 100 * state.stick_share;
+      response.slip_angles = state.slip_onsets;
+      response.reversal_angles = state.slip_ends;
+      response.energy = state.slip_onsets.empty() ? 0 : element_energy(h, at.element_motion(e), at.element(e).force());
+      point.energy_friction += response.energy;
+    }
+    point.elements.push_back(std::move(response));
+  }
+  for (int i = 0; i < h.cosines(); ++i) {
+    const int n = h.cosine_order(i);
+    point.coefficients.push_back(x_[i]);
+    point.coefficients.push_back(n == 0 ? 0.0 : x_[h.sine_index(n)]);
+  }
+  return point;
+}
+
+continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
+  return {"peak", [observer](const continuation::Accepted& now) { return observer->amplitude_slope(now); },
+          continuation::Crossing::falling};
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,40 @@
+#pragma once
+// From an accepted solution of harmonic balance to what an engineer reads off it.
+
+#include <arcslip/continuation/monitor.hpp>
+#include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/amplitude.hpp>
+#include <arcslip/observables/response.hpp>
+#include <arcslip/observables/truncation.hpp>
+
+#include <memory>
+
+namespace arcslip::observables {
+
+/// Observes the points of branches of one problem in the excitation frequency. Owns its buffers; one for each thread.
+class Observer {
+ public:
+  explicit Observer(std::shared_ptr<const hbm::HbmProblem> problem, const continuation::Vector& p);
+
+  /// Everything at one point.
+  ResponsePoint observe(const continuation::Accepted& now);
+
+  /// Largest |x| of the observed coordinate.
+  Extreme extreme(const continuation::Accepted& now);
+
+  /// dA/ds along the branch.
+  double amplitude_slope(const continuation::Accepted& now);
+
+ private:
+  double phase(const continuation::Accepted& now) const;
+
+  std::shared_ptr<const hbm::HbmProblem> problem_;
+  Amplitude amplitude_;
+  Truncation truncation_;
+  continuation::Vector x_, dx_, by_frequency_;
+};
+
+/// Peaks: dA/ds falls through zero. There is no pole at folds, as dA/domega has.
+continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer);
+
+}  // namespace arcslip::observables

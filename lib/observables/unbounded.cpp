@@ -1,0 +1,64 @@
+#include <arcslip/observables/unbounded.hpp>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <sstream>
+
+namespace arcslip::observables {
+namespace {
+
+constexpr double negligible = 1e-9;  // share of a shape in an element or damper that does not count
+
+}  // namespace
+
+Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                            const continuation::Vector& u) {
+  const auto& model = problem.model();
+  const auto evaluator = problem.hbm_evaluator();
+  Unboundedness result;
+  std::ostringstream text;
+  text.precision(6);
+  if (evaluator->move_to(u, p, continuation::Needs::residual) != continuation::Evaluated::ok) {
+    result.message = "the response exceeds what can be computed";
+    return result;
+  }
+  const double viscous = evaluator->stiffness().viscous_energy(u, 1) / std::numbers::pi;  // over amplitude^2 below
+  // Work of the forces: those of the excitation and of the sliders, on the motion u, over pi and its amplitude.
+  const auto& h = problem.harmonics();
+  double amplitude = 0, sliders = 0;
+  bool restoring = false;
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const auto& w = evaluator->element_motion(e);
+    const double size = w.norm();
+    amplitude = std::max(amplitude, size);
+    if (model.elements[e].law == model::Law::cubic_spring)
+      restoring = restoring || (p[model.elements[e].parameters[0]] != 0 && size > negligible * u.norm());
+    else
+      sliders += 4 / std::numbers::pi * p[model.elements[e].parameters[1]] * p[model.elements[e].parameters[2]] * size;
+  }
+  if (model.elements.empty()) amplitude = u.norm();
+  continuation::Vector f(u.size());
+  evaluator->stiffness().force(f);
+  // At resonance the motion is in quadrature to the force: the work of harmonic n is n |F_n| |X_n|.
+  for (int i = 0; i < problem.coordinates().unknowns; ++i)
+    for (int j = 0; j < h.sines(); ++j) {
+      const int n = h.sine_order(j), c = i * h.size() + h.cosine_index(n), s = i * h.size() + h.sine_index(n);
+      result.input += n * std::hypot(f[c], f[s]) * std::hypot(u[c], u[s]);
+    }
+  result.input /= amplitude;
+  result.dissipation = sliders / amplitude;
+  const bool damped = viscous > negligible * result.input * amplitude;
+  result.unbounded = !damped && !restoring && result.dissipation <= result.input * (1 + negligible);
+  if (result.unbounded) {
+    text << "the resonance is unbounded: nothing damps it viscously, and friction takes out " << result.dissipation
+         << " N of the " << result.input << " N that the excitation puts in (work per period over pi and amplitude)";
+  } else {
+    text << "the response exceeds " << amplitude << " m, more than can be followed; it is bounded by "
+         << (damped ? "viscous damping" : restoring ? "a nonlinear spring" : "friction");
+  }
+  result.message = text.str();
+  return result;
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,134 @@
+#include <arcslip/output/csv.hpp>
+
+#include <arcslip/output/event_places.hpp>
+#include <arcslip/output/friction_elements.hpp>
+#include <arcslip/output/units.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace arcslip::output {
+namespace {
+
+using observables::ResponseBranch;
+using observables::ResponsePoint;
+
+/// A field, in quotes where RFC 4180 asks for them.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text) {
+    quoted.append(c == '"' ? 2 : 1, c);
+  }
+  return quoted + '"';
+}
+
+std::string number(double value) {
+  return std::isnan(value) ? "" : shortest(value);
+}
+
+void write_row(std::ostream& out, const std::vector<std::string>& cells) {
+  const char* separator = "";
+  for (const std::string& cell : cells) {
+    out << separator << field(cell);
+    separator = ",";
+  }
+  out << "\r\n";
+}
+
+struct Columns {
+  std::vector<std::string> parameters;  // that some branch sets
+  std::vector<std::string> friction;    // elements that stick and slip
+};
+
+Columns columns_of(std::span<const ResponseBranch> branches) {
+  Columns columns;
+  for (const ResponseBranch& branch : branches) {
+    for (const auto& [name, value] : branch.set) {
+      if (std::find(columns.parameters.begin(), columns.parameters.end(), name) == columns.parameters.end()) {
+        columns.parameters.push_back(name);
+      }
+    }
+  }
+  columns.friction = friction_elements(branches);
+  return columns;
+}
+
+std::vector<std::string> header(const scene::Scene& scene, const Columns& columns) {
+  std::vector<std::string> cells;
+  for (const std::string& name : columns.parameters) {
+    cells.push_back(with_unit(name, parameter_unit(scene, name)));
+  }
+  cells.insert(cells.end(),
+               {"branch", "event", with_unit("frequency", scene::unit_name(scene.frequency_unit)),
+                "amplitude (m)", "phase (rad)"});
+  for (const std::string& name : columns.friction) {
+    cells.push_back(columns.friction.size() == 1 ? "stick (%)" : name + ".stick (%)");
+  }
+  cells.insert(cells.end(), {"truncation_estimate (m)", "truncation_flagged", "energy_friction (J)",
+                             "energy_viscous (J)"});
+  return cells;
+}
+
+/// The value that `branch` gives to a parameter: set for this branch, or the scene's own.
+double parameter(const ResponseBranch& branch, const std::string& name) {
+  for (const auto* values : {&branch.set, &branch.parameters}) {
+    for (const auto& [key, value] : *values) {
+      if (key == name) {
+        return value;
+      }
+    }
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, const ResponseBranch& branch,
+                             std::size_t branch_number, const std::string& event,
+                             const ResponsePoint& point) {
+  std::vector<std::string> cells;
+  for (const std::string& name : columns.parameters) {
+    cells.push_back(number(parameter(branch, name)));
+  }
+  cells.push_back(std::to_string(branch_number));
+  cells.push_back(event);
+  cells.push_back(number(in_scene_unit(scene, point.omega)));
+  cells.push_back(number(point.unbounded ? std::numeric_limits<double>::infinity() : point.amplitude));
+  cells.push_back(number(point.phase));
+  for (const std::string& name : columns.friction) {
+    cells.push_back(number(stick_percent(point, name)));
+  }
+  cells.push_back(number(point.truncation_estimate));
+  cells.push_back(point.truncation_flagged ? "yes" : "no");
+  cells.push_back(number(point.energy_friction));
+  cells.push_back(number(point.energy_viscous));
+  return cells;
+}
+
+}  // namespace
+
+void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const ResponseBranch> branches) {
+  const Columns columns = columns_of(branches);
+  write_row(out, header(scene, columns));
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    const ResponseBranch& branch = branches[b];
+    const std::vector<std::size_t> before = points_before_events(branch);
+    std::size_t event = 0;
+    for (std::size_t i = 0; i <= branch.points.size(); ++i) {
+      for (; event < branch.events.size() && before[event] == i; ++event) {
+        const observables::ResponseEvent& found = branch.events[event];
+        write_row(out, row(scene, columns, branch, b + 1, found.kind, found.point));
+      }
+      if (i < branch.points.size()) {
+        write_row(out, row(scene, columns, branch, b + 1, "", branch.points[i]));
+      }
+    }
+  }
+}
+
+}  // namespace arcslip::output

@@ -1,0 +1,211 @@
+#include <arcslip/output/gnuplot_script.hpp>
+
+#include <arcslip/output/figure_labels.hpp>
+#include <arcslip/output/figures.hpp>
+#include <arcslip/output/friction_elements.hpp>
+#include <arcslip/output/gnuplot_axes.hpp>
+#include <arcslip/output/gnuplot_style.hpp>
+#include <arcslip/output/units.hpp>
+#include <arcslip/output/version.hpp>
+
+#include <algorithm>
+#include <ostream>
+
+namespace arcslip::output {
+namespace {
+
+constexpr int longest_title = 76;        // characters across a figure
+constexpr std::size_t most_in_key = 24;  // lines that a key has room for
+
+double height(const FigureMark& mark, const GnuplotFigure& figure) {
+  return figure.column == 2 ? mark.amplitude : mark.stick[static_cast<std::size_t>(figure.column - 3)];
+}
+
+/// The lines over the axes, from 0 to 1, so that no label is put upon one.
+std::vector<std::vector<Place>> places(const FigureData& data, const GnuplotFigure& figure,
+                                       const Axes& axes) {
+  std::vector<std::vector<Place>> lines;
+  for (const FigureLine& line : data.lines) {
+    for (const observables::ResponseBranch* part : line.parts) {
+      std::vector<Place>& path = lines.emplace_back();
+      for (const observables::ResponsePoint& point : part->points) {
+        const double y = figure.column == 2 ? point.amplitude : stick_percent(point, figure.element);
+        if (axes.shows(y) && !point.unbounded) {
+          path.push_back(axes.place(point.omega / data.frequency_unit, y));
+        }
+      }
+    }
+  }
+  return lines;
+}
+
+/// Labels at the peaks, for those that find room.
+void write_labels(std::ostream& out, const FigureData& data, const GnuplotFigure& figure, const Axes& axes) {
+  struct Label {
+    double x, y;
+    std::size_t line;
+  };
+  std::vector<LabelWish> wishes;
+  std::vector<Label> labels;
+  for (std::size_t i = 0; i < data.lines.size(); ++i) {
+    for (const FigureMark& mark : data.lines[i].marks) {
+      const double y = height(mark, figure);
+      if (mark.peak && axes.shows(y) && !data.lines[i].label.empty()) {
+        wishes.push_back({axes.place(mark.frequency, y), data.lines[i].label});
+        labels.push_back({mark.frequency, y, i});
+      }
+    }
+  }
+  const std::vector<LabelSide> sides = place_labels(wishes, places(data, figure, axes));
+  out << "unset label\n";
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (sides[i] == LabelSide::none) {
+      continue;
+    }
+    const LabelOffset shift = offset(sides[i]);
+    out << "set label " << quoted(wishes[i].text) << " at " << shortest(labels[i].x) << ","
+        << shortest(labels[i].y)
+        << (shift.alignment == 0 ? " center" : (shift.alignment > 0 ? " left" : " right")) << " offset "
+        << shortest(shift.x) << "," << shortest(shift.y) << " front noenhanced font ',13' textcolor rgb '"
+        << line_colour(labels[i].line, data.lines.size()) << "'\n";
+  }
+}
+
+/// The names of the parameters, one a line, and room for the longest: gnuplot reserves none for the title of
+/// a key.
+void write_key_title(std::ostream& out, const FigureData& data) {
+  if (data.parameters.empty()) {
+    return;
+  }
+  std::size_t longest_entry = 0;
+  for (const FigureLine& line : data.lines) {
+    longest_entry = std::max(longest_entry, line.label.size());
+  }
+  std::size_t longest_name = 0;
+  out << "set key title ";
+  const char* separator = "";
+  for (const std::string& name : data.parameters) {
+    out << separator << quoted(name);
+    separator = ".\"\\n\".";
+    longest_name = std::max(longest_name, name.size());
+  }
+  const std::size_t entry = longest_entry + 4;  // with its piece of line
+  out << " noenhanced left\nset key width " << (longest_name > entry ? longest_name - entry : 0) << '\n';
+}
+
+bool has_mark(const FigureLine& line, bool peak) {
+  return std::any_of(line.marks.begin(), line.marks.end(),
+                     [&](const FigureMark& mark) { return mark.peak == peak; });
+}
+
+bool is_unbounded(const FigureLine& line) {
+  for (const observables::ResponseBranch* part : line.parts) {
+    for (const observables::ResponseEvent& event : part->events) {
+      if (event.point.unbounded) {
+        return true;
+      }
+    }
+    for (const observables::ResponsePoint& point : part->points) {
+      if (point.unbounded) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void write_plot(std::ostream& out, const FigureData& data, const GnuplotFigure& figure) {
+  const std::string columns = " using 1:" + std::to_string(figure.column);
+  const std::size_t count = data.lines.size();
+  const std::size_t key_step = (count + most_in_key - 1) / most_in_key;
+  std::vector<std::string> curves;
+  std::vector<std::string> marks;
+  int index = 0;
+  bool peaks = false;
+  bool folds = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FigureLine& line = data.lines[i];
+    const std::string paint = " linecolor rgb '" + line_colour(i, count) + "'";
+    const bool in_key = !line.label.empty() && i % key_step == 0;
+    const std::string title = line.label + (is_unbounded(line) ? " (unbounded)" : "");
+    curves.push_back("data index " + std::to_string(index++) + columns + " with lines linewidth 2 dashtype " +
+                     line_dash(i) + paint +
+                     (in_key ? " title " + quoted(title) + " noenhanced" : " notitle"));
+    if (has_mark(line, true)) {
+      peaks = true;
+      marks.push_back("data index " + std::to_string(index++) + columns +
+                      " with points pointtype 7 pointsize 0.8" + paint + " notitle");
+    }
+    if (has_mark(line, false)) {
+      folds = true;
+      marks.push_back("data index " + std::to_string(index++) + columns +
+                      " with points pointtype 4 pointsize 1 linewidth 1.5" + paint + " notitle");
+    }
+  }
+  curves.insert(curves.end(), marks.begin(), marks.end());
+  if (peaks) {
+    curves.push_back("NaN with points pointtype 7 pointsize 0.8 linecolor rgb '#444444' title 'peak'");
+  }
+  if (folds) {
+    curves.push_back(
+        "NaN with points pointtype 4 pointsize 1 linewidth 1.5 linecolor rgb '#444444' title 'fold'");
+  }
+  out << "plot ";
+  const char* separator = "";
+  for (const std::string& curve : curves) {
+    out << separator << curve;
+    separator = ", \\\n     ";
+  }
+  out << '\n';
+}
+
+}  // namespace
+
+std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::string& name) {
+  std::vector<GnuplotFigure> figures;
+  if (data.lines.empty()) {
+    return figures;
+  }
+  figures.push_back({name + "_amplitude", 2, "", "amplitude (m)"});
+  for (std::size_t i = 0; i < data.friction.size(); ++i) {
+    const bool alone = data.friction.size() == 1;
+    const std::string& element = data.friction[i];
+    std::string image = name + "_stick" + (alone ? "" : "_" + file_name(element));
+    for (const GnuplotFigure& other : figures) {  // two names may differ only in what a file name cannot hold
+      image += other.name == image ? "_" + std::to_string(i + 1) : "";
+    }
+    figures.push_back(
+        {image, static_cast<int>(i) + 3, element, (alone ? "" : element + ": ") + "stick (% of the period)"});
+  }
+  return figures;
+}
+
+void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::string& name,
+                          const std::vector<GnuplotFigure>& figures) {
+  out << "# Made by arcslip " << version() << ". Draws the figures again: gnuplot -d " << name << ".gp\n"
+      << "if (!exists('suffix')) suffix = ''\n"
+      << "data = '" << name << ".dat'\n"
+      << "set encoding utf8\n"
+      << "set title " << quoted(shortened(data.title, longest_title)) << " noenhanced font ',16'\n"
+      << "set border 3 back linewidth 1 linecolor rgb '#333333'\n"
+      << "set tics nomirror out scale 0.8,0.4\n"
+      << "set grid xtics ytics back linetype 1 linewidth 0.5 linecolor rgb '#dddddd'\n"
+      << "set key outside right center vertical Left reverse samplen 3.5 spacing 1.2 noenhanced\n";
+  write_key_title(out, data);
+  for (const GnuplotFigure& figure : figures) {
+    const Axes axes = axes_of(data, figure);
+    out << "\n# " << figure.name << '\n';
+    write_axes(out, data, figure, axes);
+    write_labels(out, data, figure, axes);
+    out << "set terminal svg size 800,500 font 'Helvetica,15' background rgb 'white' dashlength 0.5\n"
+        << "set output '" << figure.name << ".svg'.suffix\n";
+    write_plot(out, data, figure);
+    out << "set terminal pngcairo size 1600,1000 font 'Sans,15' fontscale 1.6 linewidth 2 pointscale 2 "
+           "dashlength 0.5\n"
+        << "set output '" << figure.name << ".png'.suffix\n"
+        << "replot\n"
+        << "unset output\n";
+  }
+}
+
+}  // namespace arcslip::output

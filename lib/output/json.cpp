@@ -1,0 +1,146 @@
+#include <arcslip/output/json.hpp>
+
+#include <arcslip/output/units.hpp>
+#include <arcslip/output/version.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <ostream>
+
+namespace arcslip::output {
+namespace {
+
+using observables::ResponseBranch;
+using observables::ResponseEvent;
+using observables::ResponsePoint;
+using Json = nlohmann::ordered_json;
+
+const char* name(observables::Status status) {
+  switch (status) {
+    case observables::Status::complete:
+      return "complete";
+    case observables::Status::stopped:
+      return "stopped";
+    case observables::Status::failed:
+      break;
+  }
+  return "failed";
+}
+
+std::string text(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json elements(const ResponsePoint& point) {
+  Json all = Json::object();
+  for (const observables::ElementResponse& element : point.elements) {
+    Json& json = all[element.name] = Json::object();
+    if (element.has_stick) {
+      json["stick_percent"] = element.stick_percent;
+      json["slip_angles"] = element.slip_angles;
+      json["reversal_angles"] = element.reversal_angles;
+    }
+    json["energy"] = element.energy;
+  }
+  return all;
+}
+
+/// The point's fields, put after those that `json` has.
+Json with_point(Json json, const scene::Scene& scene, const ResponsePoint& point,
+                const JsonOptions& options) {
+  json["omega"] = point.omega;
+  json["frequency"] = in_scene_unit(scene, point.omega);
+  if (point.unbounded) {
+    json["amplitude"] = nullptr;
+    json["unbounded"] = true;
+  } else {
+    json["amplitude"] = point.amplitude;
+  }
+  json["phase"] = point.phase;
+  json["truncation_estimate"] = point.truncation_estimate;
+  json["truncation_flagged"] = point.truncation_flagged;
+  json["energy_friction"] = point.energy_friction;
+  json["energy_viscous"] = point.energy_viscous;
+  const auto has_stick = [](const observables::ElementResponse& element) { return element.has_stick; };
+  if (std::count_if(point.elements.begin(), point.elements.end(), has_stick) == 1) {
+    json["stick_percent"] =
+        std::find_if(point.elements.begin(), point.elements.end(), has_stick)->stick_percent;
+  }
+  json["elements"] = elements(point);
+  if (options.coefficients) {
+    json["coefficients"] = point.coefficients;
+  }
+  return json;
+}
+
+Json named_values(const std::vector<std::pair<std::string, double>>& values) {
+  Json json = Json::object();
+  for (const auto& [key, value] : values) {
+    json[key] = value;
+  }
+  return json;
+}
+
+Json solver(const observables::SolverSummary& summary) {
+  return {{"linear_solver", summary.linear_solver},
+          {"unknowns", summary.unknowns},
+          {"points", summary.points},
+          {"rejected_steps", summary.rejected_steps},
+          {"residuals", summary.residuals},
+          {"jacobians", summary.jacobians},
+          {"factorizations", summary.factorizations},
+          {"solves", summary.solves},
+          {"seconds", summary.seconds}};
+}
+
+template <class Range, class ToJson>
+void write_list(std::ostream& out, const Range& range, const ToJson& to_json) {
+  out << '[';
+  const char* separator = "\n";
+  for (const auto& item : range) {
+    out << separator << text(to_json(item));
+    separator = ",\n";
+  }
+  out << ']';
+}
+
+void write_branch(std::ostream& out, const scene::Scene& scene, const ResponseBranch& branch,
+                  const JsonOptions& options) {
+  const Json stop = {{"reason", branch.stop.reason},
+                     {"value", branch.stop.value},
+                     {"limit", branch.stop.limit},
+                     {"message", branch.stop.message}};
+  out << "{\"status\": \"" << name(branch.status) << "\",\n\"stop\": " << text(stop)
+      << ",\n\"set\": " << text(named_values(branch.set))
+      << ",\n\"parameters\": " << text(named_values(branch.parameters));
+  if (options.coefficients) {
+    out << ",\n\"harmonics\": " << text(branch.harmonics);
+  }
+  out << ",\n\"points\": ";
+  write_list(out, branch.points,
+             [&](const ResponsePoint& point) { return with_point(Json::object(), scene, point, options); });
+  out << ",\n\"events\": ";
+  write_list(out, branch.events, [&](const ResponseEvent& event) {
+    return with_point({{"kind", event.kind}, {"nonsmooth", event.nonsmooth}}, scene, event.point, options);
+  });
+  out << ",\n\"solver\": " << text(solver(branch.solver)) << '}';
+}
+
+}  // namespace
+
+void write_json(std::ostream& out, const scene::Scene& scene, std::span<const ResponseBranch> branches,
+                const JsonOptions& options) {
+  out << "{\"format\": \"arcslip-branches-1\",\n\"program\": \"arcslip " << version()
+      << "\",\n\"scene_hash\": " << text(scene::hash(scene)) << ",\n\"title\": " << text(scene.title)
+      << ",\n\"frequency_unit\": " << text(scene::unit_name(scene.frequency_unit)) << ",\n\"branches\": [";
+  const char* separator = "\n";
+  for (const ResponseBranch& branch : branches) {
+    out << separator;
+    write_branch(out, scene, branch, options);
+    separator = ",\n";
+  }
+  out << "]}\n";
+}
+
+}  // namespace arcslip::output

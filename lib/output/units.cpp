@@ -1,0 +1,46 @@
+#include <arcslip/output/units.hpp>
+
+#include <array>
+#include <charconv>
+
+namespace arcslip::output {
+std::string parameter_unit(const scene::Scene& scene, std::string_view parameter) {
+  return std::string(scene::parameter_fields(scene, parameter).front()->unit);
+}
+
+std::string with_unit(std::string_view quantity, std::string_view unit) {
+  std::string text(quantity);
+  if (!unit.empty()) {
+    text.append(" (").append(unit).append(")");
+  }
+  return text;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> text;
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), result.ptr};
+}
+
+std::string quantity(double value, std::string_view unit) {
+  std::string text = shortest(value);
+  if (!unit.empty() && unit != "-") {
+    text.append(" ").append(unit);
+  }
+  return text;
+}
+
+std::string assignment(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
+  std::string text;
+  for (const auto& [name, value] : set) {
+    text.append(text.empty() ? "" : ", ").append(name).append(" = ");
+    text += quantity(value, parameter_unit(scene, name));
+  }
+  return text;
+}
+
+double in_scene_unit(const scene::Scene& scene, double omega) {
+  return omega / scene::to_rad_per_s(scene.frequency_unit);
+}
+
+}  // namespace arcslip::output

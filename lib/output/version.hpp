@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace arcslip::output {
+
+/// The project's version, "0.1.0".
+std::string_view version();
+
+}  // namespace arcslip::output

@@ -1,0 +1,89 @@
+#include <arcslip/scene/checks.hpp>
+
+#include <algorithm>
+
+namespace arcslip::scene::detail {
+namespace {
+
+bool any_value(const std::vector<Part>& parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.values.front() != 0; });
+}
+
+// Marks the degrees of freedom on which parts act. A value of zero does nothing; an element counts as it is.
+void mark(const std::vector<Part>& parts, bool even_zero, std::vector<bool>& acted_on) {
+  for (const Part& part : parts) {
+    for (const Term& term : part.direction) {
+      if (even_zero || part.values.front() != 0) {
+        acted_on[static_cast<std::size_t>(term.dof)] = true;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void check_samples(const Scene& scene, Faults& faults) {
+  const Harmonics& harmonics = scene.harmonics;
+  const int least = 4 * harmonics.order + 4;
+  if (harmonics.friction == Friction::sampled && harmonics.samples < least) {
+    faults.add("/harmonics/samples", "found " + std::to_string(harmonics.samples) +
+                                         (harmonics.samples == Harmonics{}.samples ? " (the default)" : "") +
+                                         ", must be an integer from " + std::to_string(least) +
+                                         " (4*order + 4) to " + std::to_string(largest_samples) +
+                                         " where friction is sampled");
+  }
+}
+
+void check_excitation(const Scene& scene, Faults& faults) {
+  for (std::size_t i = 0; i < scene.excitation.size(); ++i) {
+    const int harmonic = scene.excitation[i].harmonic;
+    if (harmonic > scene.harmonics.order) {
+      faults.add(child(child("/excitation", i), "harmonic"),
+                 "found " + std::to_string(harmonic) + ", must be at most harmonics.order, which is " +
+                     std::to_string(scene.harmonics.order));
+    }
+  }
+}
+
+void check_structure(const Scene& scene, Faults& faults) {
+  if (!any_value(scene.masses)) {
+    faults.add("/structure/masses", "found no mass, must have at least one mass with a value above 0 kg");
+  }
+  if (!any_value(scene.springs) && scene.elements.empty()) {
+    faults.add(
+        "/structure/springs",
+        "found no stiffness, must have at least one spring with a value other than 0 N/m, or an element");
+  }
+  std::vector<bool> acted_on(scene.dofs.size(), false);
+  mark(scene.masses, false, acted_on);
+  mark(scene.springs, false, acted_on);
+  mark(scene.dampers, false, acted_on);
+  mark(scene.elements, true, acted_on);
+  if (std::find(acted_on.begin(), acted_on.end(), true) == acted_on.end()) {
+    return;  // told above
+  }
+  for (std::size_t i = 0; i < acted_on.size(); ++i) {
+    if (!acted_on[i]) {
+      faults.add(child("/structure/dofs", i),
+                 "found nothing that acts on " + shown(scene.dofs[i]) +
+                     ", must have a mass, spring or damper with a value other than 0, or an element");
+    }
+  }
+}
+
+void check_ties(const Scene& scene, Faults& faults) {
+  for (const Tie& tie : scene.ties) {
+    const double common = value(scene, tie.members.front());
+    for (const std::string& member : tie.members) {
+      const double own = value(scene, member);
+      if (own != common) {
+        faults.add(child("/ties", tie.name), "found " + member + " = " + number_text(own) + " and " +
+                                                 tie.members.front() + " = " + number_text(common) +
+                                                 ", must have one common value");
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace arcslip::scene::detail

@@ -1,0 +1,159 @@
+#include <arcslip/scene/faults.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace arcslip::scene {
+namespace {
+
+std::string lines_of(const std::vector<Fault>& faults) {
+  std::string lines;
+  for (const Fault& fault : faults) {
+    lines += lines.empty() ? "" : "\n";
+    lines += fault.pointer.empty() ? fault.message : fault.pointer + ": " + fault.message;
+  }
+  return lines;
+}
+
+}  // namespace
+
+SceneError::SceneError(std::vector<Fault> faults)
+    : std::runtime_error(lines_of(faults)), faults_(std::move(faults)) {}
+
+namespace detail {
+namespace {
+
+constexpr std::size_t most_faults = 1000;
+constexpr std::size_t most_bytes = std::size_t{1} << 20;
+
+}  // namespace
+
+void Faults::add(std::string pointer, std::string message) {
+  ++count_;
+  if (!full()) {
+    size_ += pointer.size() + message.size();
+    kept_.push_back({std::move(pointer), std::move(message)});
+  }
+}
+
+bool Faults::full() const {
+  return kept_.size() >= most_faults || size_ >= most_bytes;
+}
+
+void Faults::raise() const {
+  if (count_ == 0) {
+    return;
+  }
+  std::vector<Fault> faults = kept_;
+  if (count_ > kept_.size()) {
+    faults.push_back(
+        {"", "and " + std::to_string(count_ - kept_.size()) + " faults more, which are not listed"});
+  }
+  throw SceneError(std::move(faults));
+}
+
+std::string child(std::string_view pointer, std::string_view key) {
+  std::string result(pointer);
+  result += '/';
+  for (const char c : key) {
+    if (c == '~') {
+      result += "~0";
+    } else if (c == '/') {
+      result += "~1";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string child(std::string_view pointer, std::size_t index) {
+  return std::string(pointer) + '/' + std::to_string(index);
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (c == '\n') {
+      result += "\\n";
+    } else if (c == '\t') {
+      result += "\\t";
+    } else if (code < 0x20 || code == 0x7f) {
+      result += "\\u00";
+      result += digits[code >> 4];
+      result += digits[code & 15];
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  if (text.size() <= longest) {
+    return quoted(text);
+  }
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) {
+    --end;  // not in the middle of a character of UTF-8
+  }
+  return quoted(text.substr(0, end)) + "... (" + std::to_string(text.size()) + " bytes)";
+}
+
+std::string listed(std::span<const std::string> words) {
+  constexpr std::size_t most = 12;
+  std::string result;
+  for (std::size_t i = 0; i < words.size() && i < most; ++i) {
+    result += (i == 0 ? "" : ", ") + shown(words[i]);
+  }
+  if (words.size() > most) {
+    result += ", ... (" + std::to_string(words.size()) + " in all)";
+  }
+  return result;
+}
+
+std::string hint(std::string_view word, std::span<const std::string> known) {
+  constexpr std::size_t most = 10'000;  // a search for each of many faults must not take minutes
+  const std::string near = known.size() <= most ? nearest(word, known) : "";
+  return near.empty() ? "" : "; did you mean " + quoted(near) + "?";
+}
+
+bool within(const Field& field, double value) {
+  return std::isfinite(value) && value <= field.upper &&
+         (field.lower_open ? value > field.lower : value >= field.lower);
+}
+
+std::string allowed_text(const Field& field) {
+  const std::string unit = field.unit == "-" ? "" : " " + std::string(field.unit);
+  const bool below = std::isfinite(field.lower), above = std::isfinite(field.upper);
+  const std::string lower = (field.lower_open ? "above " : "at least ") + number_text(field.lower);
+  const std::string upper = "at most " + number_text(field.upper);
+  if (below && above) {
+    return lower + " and " + upper + unit;
+  }
+  if (below || above) {
+    return (below ? lower : upper) + unit;
+  }
+  return "a finite number" + (unit.empty() ? unit : " (" + std::string(field.unit) + ")");
+}
+
+std::string bound_fault(const Field& field, double value) {
+  return "found " + number_text(value) + ", must be " + allowed_text(field);
+}
+
+}  // namespace detail
+}  // namespace arcslip::scene

@@ -1,0 +1,50 @@
+#pragma once
+// Collecting the faults of a scene file, and the phrases in which they are told.
+
+#include <arcslip/scene/scene.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace arcslip::scene::detail {
+
+/// The faults found so far. Only the first thousand or so are kept, so that no file can exhaust the memory.
+class Faults {
+ public:
+  void add(std::string pointer, std::string message);
+  std::size_t count() const { return count_; }
+  /// True where further faults are only counted: their messages need not be made.
+  bool full() const;
+  /// Throws SceneError where there is any fault.
+  void raise() const;
+
+ private:
+  std::vector<Fault> kept_;
+  std::size_t count_ = 0, size_ = 0;
+};
+
+/// Pointer to a member of an object or list, with the escapes of RFC 6901.
+std::string child(std::string_view pointer, std::string_view key);
+std::string child(std::string_view pointer, std::size_t index);
+
+/// A number as short as it can be without loss: 17890, 0.1, 1e+20.
+std::string number_text(double value);
+/// A string as JSON writes it, with its quotes.
+std::string quoted(std::string_view text);
+/// The same, cut to a length that fits a message.
+std::string shown(std::string_view text);
+/// `"a", "b", "c"`, cut after a dozen.
+std::string listed(std::span<const std::string> words);
+/// ` did you mean "word"?` with a leading `;`, or "" where no known word is near.
+std::string hint(std::string_view word, std::span<const std::string> known);
+
+bool within(const Field& field, double value);
+/// What a field allows: "at least 0 kg", "above 0 N/m", "a finite number (N)".
+std::string allowed_text(const Field& field);
+/// "found -1.24, must be at least 0 kg".
+std::string bound_fault(const Field& field, double value);
+
+}  // namespace arcslip::scene::detail

@@ -1,0 +1,196 @@
+#include <arcslip/scene/read_studies.hpp>
+#include <arcslip/scene/words.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+namespace arcslip::scene::detail {
+namespace {
+
+// Where the parameters of a scene are looked up by name.
+struct Parameters {
+  const std::vector<Tie>& ties;
+  bool ties_complete;
+  const Names& names;
+  std::unordered_map<std::string_view, const Tie*> tie_by_name, tie_of_field;
+};
+
+// The fields that a value for this parameter must suit; empty where a fault is told.
+std::vector<const Field*> fields_of(const std::string& parameter, const std::string& pointer,
+                                    const Parameters& all, Faults& faults) {
+  const auto tied = all.tie_of_field.find(parameter);
+  if (tied != all.tie_of_field.end()) {
+    faults.add(pointer,
+               "found " + shown(parameter) + ", which is tied; must be its tie " + shown(tied->second->name));
+    return {};
+  }
+  const auto tie = all.tie_by_name.find(parameter);
+  Faults ignored;
+  std::vector<const Field*> fields;
+  if (tie != all.tie_by_name.end()) {
+    for (const std::string& member : tie->second->members) {
+      fields.push_back(all.names.field(member, pointer, ignored));
+    }
+  } else if (all.names.may_exist(parameter) ||
+             (!all.ties_complete && parameter.find('.') == std::string::npos)) {
+    return {};  // it may belong to what could not be read
+  } else if (const Field* field = all.names.field(parameter, pointer, ignored)) {
+    fields.push_back(field);
+  } else if (!faults.full()) {
+    std::vector<std::string> known;
+    for (const Tie& each : all.ties) {
+      known.push_back(each.name);
+    }
+    known.insert(known.end(), all.names.fields().begin(), all.names.fields().end());
+    faults.add(pointer, "found the unknown parameter " + shown(parameter) + ", must be one of " +
+                            listed(known) + hint(parameter, known));
+  } else {
+    faults.add({}, {});
+  }
+  return fields;
+}
+
+std::vector<double> read_values(const Place& place, const std::vector<const Field*>& fields, Faults& faults) {
+  constexpr std::string_view wanted = "a list of at least one number";
+  std::vector<double> values;
+  const Node::List* list = read_list(place, wanted, faults);
+  if (list != nullptr && list->empty()) {
+    faults.add(place.pointer, "found an empty list, must be " + std::string(wanted));
+  }
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    const Node& node = (*list)[i];
+    const auto* number = node.get<double>();
+    const auto bad = std::find_if(fields.begin(), fields.end(), [&](const Field* field) {
+      return number == nullptr || !within(*field, *number);
+    });
+    if (number != nullptr && bad == fields.end()) {
+      values.push_back(*number);
+    } else if (bad != fields.end()) {
+      read_number({&node, child(place.pointer, i)}, **bad, faults);
+    } else {
+      add_wrong_type({&node, child(place.pointer, i)}, "a number", faults);
+    }
+  }
+  return values;
+}
+
+void read_for_each(const Place& place, const Parameters& all, Study& study, Faults& faults) {
+  if (place.node == nullptr || !Keys(place, {}, faults).is_object()) {
+    return;
+  }
+  std::unordered_set<std::string_view> seen;
+  for (const Member& member : *place.node->get<Node::Object>()) {
+    if (!seen.insert(member.key).second) {
+      continue;  // told as a duplicate key
+    }
+    const Place item{&member.value, child(place.pointer, member.key)};
+    const auto fields = fields_of(member.key, item.pointer, all, faults);
+    study.for_each.emplace_back(member.key, read_values(item, fields, faults));
+  }
+}
+
+// Results are filed under the study's name.
+bool is_file_name(const std::string& name) {
+  const auto forbidden = [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return c == '/' || c == '\\' || code < 0x20 || code == 0x7f;
+  };
+  return !name.empty() && name.size() <= 100 && name.front() != '.' &&
+         std::none_of(name.begin(), name.end(), forbidden);
+}
+
+void read_range(const Keys& keys, FrequencyUnit unit, Study& study, Faults& faults) {
+  const Field bounds{.name = "frequency",
+                     .unit = unit_name(unit),
+                     .lower = 0,
+                     .upper = std::numeric_limits<double>::infinity(),
+                     .lower_open = true};
+  const auto from = read_number(keys.require("from", allowed_text(bounds), faults), bounds, faults);
+  const Place to_place = keys.require("to", allowed_text(bounds), faults);
+  const auto to = read_number(to_place, bounds, faults);
+  study.from = from.value_or(0);
+  study.to = to.value_or(0);
+  if (from && to && !(*from < *to)) {
+    faults.add(to_place.pointer, "found " + number_text(*to) + ", must be above \"from\", which is " +
+                                     number_text(*from) + " " + std::string(unit_name(unit)));
+  }
+}
+
+StudyKind read_kind(const Place& study, Faults& faults) {
+  Faults told_later;
+  const Place place =
+      Keys(study, {}, told_later).require("kind", "one of " + listed(texts(study_kinds)), faults);
+  return read_choice(place, study_kinds, Study{}.kind, faults);
+}
+
+// The name "frf", "frf_2", ... that no other study has.
+std::string unused_name(const std::string& wish, std::unordered_map<std::string, int>& next,
+                        const std::unordered_map<std::string, std::string>& used) {
+  std::string name;
+  int& n = next[wish];
+  do {
+    ++n;
+    name = n == 1 ? wish : wish + '_' + std::to_string(n);
+  } while (used.contains(name));
+  return name;
+}
+
+}  // namespace
+
+std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const std::vector<Tie>& ties,
+                                bool ties_complete, const Names& names, Faults& faults) {
+  Parameters all{ties, ties_complete, names, {}, {}};
+  for (const Tie& tie : ties) {
+    all.tie_by_name.emplace(tie.name, &tie);
+    for (const std::string& member : tie.members) {
+      all.tie_of_field.emplace(member, &tie);
+    }
+  }
+  std::vector<Study> studies;
+  std::unordered_map<std::string, std::string> used;  // names and where they stand
+  const Node::List* list = read_list(place, "a list of objects", faults);
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    Study& study = studies.emplace_back();
+    const Place item{&(*list)[i], child(place.pointer, i)};
+    const std::size_t before = faults.count();
+    if (item.node->get<Node::Object>() != nullptr) {
+      study.kind = read_kind(item, faults);
+    }
+    if (faults.count() > before) {
+      continue;  // without its kind nobody knows what else it may hold
+    }
+    const Keys keys(item, {"name", "kind", "from", "to", "for_each"}, faults);
+    if (!keys.is_object()) {
+      continue;
+    }
+    const Place name = keys.find("name");
+    if (const auto text = read_string(name, "a string, the name of the study", faults)) {
+      const auto [first, is_new] = used.emplace(*text, name.pointer);
+      if (!is_file_name(*text)) {
+        faults.add(name.pointer,
+                   "found " + shown(*text) +
+                       ", must be a name of 1 to 100 characters that does not begin with '.' and has no "
+                       "'/', '\\' and control characters, since results are filed under it");
+      } else if (!is_new) {
+        faults.add(name.pointer, "found the name " + shown(*text) + " again, which is also at " +
+                                     first->second + "; studies must have different names");
+      }
+      study.name = *text;
+    }
+    read_range(keys, unit, study, faults);
+    read_for_each(keys.find("for_each"), all, study, faults);
+  }
+  std::unordered_map<std::string, int> next;
+  for (Study& study : studies) {
+    if (study.name.empty()) {
+      study.name = unused_name(std::string(word_of(study_kinds, study.kind)), next, used);
+      used.emplace(study.name, "");
+    }
+  }
+  return studies;
+}
+
+}  // namespace arcslip::scene::detail

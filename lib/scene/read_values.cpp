@@ -1,0 +1,109 @@
+#include <arcslip/scene/read_values.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+#include <utility>
+
+namespace arcslip::scene::detail {
+
+void add_wrong_type(const Place& place, std::string_view must_be, Faults& faults) {
+  faults.add(place.pointer, "found " + described(*place.node) + ", must be " + std::string(must_be));
+}
+
+Keys::Keys(const Place& place, std::vector<std::string> allowed, Faults& faults)
+    : object_(place.node != nullptr ? place.node->get<Node::Object>() : nullptr), pointer_(place.pointer) {
+  if (object_ == nullptr) {
+    if (place.node != nullptr) {
+      add_wrong_type(place, allowed.empty() ? "an object" : "an object with the keys " + listed(allowed),
+                     faults);
+    }
+    return;
+  }
+  std::unordered_set<std::string_view> seen;
+  for (const Member& member : *object_) {
+    if (!seen.insert(member.key).second) {
+      faults.add(child(pointer_, member.key),
+                 "found the key " + shown(member.key) + " again, must stand only once");
+    } else if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), member.key) == allowed.end()) {
+      faults.add(child(pointer_, member.key), "found the unknown key " + shown(member.key) +
+                                                  ", must be one of " + listed(allowed) +
+                                                  hint(member.key, allowed));
+    }
+  }
+}
+
+Place Keys::find(std::string_view key) const {
+  Place place{nullptr, child(pointer_, key)};
+  if (object_ != nullptr) {
+    const auto member =
+        std::find_if(object_->begin(), object_->end(), [&](const Member& m) { return m.key == key; });
+    place.node = member != object_->end() ? &member->value : nullptr;
+  }
+  return place;
+}
+
+Place Keys::require(std::string_view key, const std::string& what, Faults& faults) const {
+  Place place = find(key);
+  if (place.node == nullptr && is_object()) {
+    faults.add(place.pointer, "found no key " + quoted(key) + ", which is required: must be " + what);
+  }
+  return place;
+}
+
+std::optional<double> read_number(const Place& place, const Field& bounds, Faults& faults) {
+  if (place.node == nullptr) {
+    return {};
+  }
+  if (const auto* number = place.node->get<double>()) {
+    if (within(bounds, *number)) {
+      return *number;
+    }
+    faults.add(place.pointer, bound_fault(bounds, *number));
+  } else if (place.node->get<Oversized>() != nullptr) {
+    add_wrong_type(place, "a finite number of at most 1.797e308 in size", faults);
+  } else {
+    const std::string allowed = allowed_text(bounds);
+    add_wrong_type(place, allowed.starts_with("a finite") ? allowed : "a number, " + allowed, faults);
+  }
+  return {};
+}
+
+std::optional<int> read_integer(const Place& place, int lower, int upper, Faults& faults,
+                                std::string_view why) {
+  if (place.node == nullptr) {
+    return {};
+  }
+  const auto* number = place.node->get<double>();
+  if (number != nullptr && *number == std::floor(*number) && *number >= lower && *number <= upper) {
+    return static_cast<int>(*number);
+  }
+  const std::string found = number != nullptr ? number_text(*number) : described(*place.node);
+  faults.add(place.pointer, "found " + found + ", must be an integer from " + std::to_string(lower) + " to " +
+                                std::to_string(upper) + std::string(why));
+  return {};
+}
+
+std::optional<std::string> read_string(const Place& place, std::string_view what, Faults& faults) {
+  if (place.node == nullptr) {
+    return {};
+  }
+  if (const auto* text = place.node->get<std::string>()) {
+    return *text;
+  }
+  add_wrong_type(place, what, faults);
+  return {};
+}
+
+const Node::List* read_list(const Place& place, std::string_view what, Faults& faults) {
+  if (place.node == nullptr) {
+    return nullptr;
+  }
+  const auto* list = place.node->get<Node::List>();
+  if (list == nullptr) {
+    add_wrong_type(place, what, faults);
+  }
+  return list;
+}
+
+}  // namespace arcslip::scene::detail

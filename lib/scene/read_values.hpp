@@ -1,0 +1,67 @@
+#pragma once
+// Reading single values and the keys of one object, with a fault for whatever is not as it must be.
+
+#include <arcslip/scene/faults.hpp>
+#include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/words.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace arcslip::scene::detail {
+
+/// A value and the pointer to where it stands, or to where it should stand when `node` is null.
+struct Place {
+  const Node* node = nullptr;
+  std::string pointer;
+};
+
+/// The keys of an object. Wrong type, duplicate keys and unknown keys are told at once; an empty list of
+/// allowed keys allows every key. Of duplicates the first counts.
+class Keys {
+ public:
+  Keys(const Place& place, std::vector<std::string> allowed, Faults& faults);
+  bool is_object() const { return object_ != nullptr; }
+  bool has(std::string_view key) const { return find(key).node != nullptr; }
+  const std::string& pointer() const { return pointer_; }
+  /// The value of a key that may be absent.
+  Place find(std::string_view key) const;
+  /// The value of a key that must be there; `what` says what it must be. A fault where it is absent.
+  Place require(std::string_view key, const std::string& what, Faults& faults) const;
+
+ private:
+  const Node::Object* object_;
+  std::string pointer_;
+};
+
+/// Each of these tells a fault and returns nothing where the value is absent or not as it must be.
+std::optional<double> read_number(const Place& place, const Field& bounds, Faults& faults);
+/// `why` follows the bounds in a message.
+std::optional<int> read_integer(const Place& place, int lower, int upper, Faults& faults,
+                                std::string_view why = {});
+std::optional<std::string> read_string(const Place& place, std::string_view what, Faults& faults);
+const Node::List* read_list(const Place& place, std::string_view what, Faults& faults);
+
+/// "found 3 (a number), must be a string".
+void add_wrong_type(const Place& place, std::string_view must_be, Faults& faults);
+
+/// One of a few words; absent means `otherwise`.
+template <class Words, class Choice>
+Choice read_choice(const Place& place, const Words& words, Choice otherwise, Faults& faults) {
+  const std::vector<std::string> known = texts(words);
+  if (const auto text = read_string(place, "one of " + listed(known), faults)) {
+    for (const auto& word : words) {
+      if (word.text == *text) {
+        return word.value;
+      }
+    }
+    faults.add(place.pointer,
+               "found " + shown(*text) + ", must be one of " + listed(known) + hint(*text, known));
+  }
+  return otherwise;
+}
+
+}  // namespace arcslip::scene::detail

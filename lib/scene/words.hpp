@@ -1,0 +1,48 @@
+#pragma once
+// The words by which a scene file names the choices of the data, for reading and for writing.
+
+#include <arcslip/scene/scene.hpp>
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace arcslip::scene::detail {
+
+inline constexpr std::string_view format_name = "arcslip-scene-1";
+inline constexpr std::string_view ground = "ground";
+
+template <class Choice>
+struct Word {
+  std::string_view text;
+  Choice value;
+};
+
+inline constexpr std::array<Word<FrequencyUnit>, 2> frequency_units = {
+    {{"Hz", FrequencyUnit::hertz}, {"rad/s", FrequencyUnit::radian_per_second}}};
+inline constexpr std::array<Word<Friction>, 2> friction_methods = {
+    {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
+inline constexpr std::array<Word<StudyKind>, 1> study_kinds = {{{"frf", StudyKind::frf}}};
+
+template <class Words>
+std::vector<std::string> texts(const Words& words) {
+  std::vector<std::string> result;
+  for (const auto& word : words) {
+    result.emplace_back(word.text);
+  }
+  return result;
+}
+
+/// The word of a value.
+template <class Words, class Choice>
+constexpr std::string_view word_of(const Words& words, Choice value) {
+  for (const auto& word : words) {
+    if (word.value == value) {
+      return word.text;
+    }
+  }
+  return {};
+}
+
+}  // namespace arcslip::scene::detail

@@ -1,0 +1,147 @@
+// A scene as the tree of its file, with every default.
+#include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/words.hpp>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+namespace arcslip::scene {
+namespace detail {
+namespace {
+
+Node node(std::string_view text) {
+  return {std::string(text)};
+}
+
+Node node(double value) {
+  return {value};
+}
+
+Node node(int value) {
+  return {static_cast<double>(value)};
+}
+
+Node node(const std::vector<double>& values) {
+  Node::List list;
+  for (const double value : values) {
+    list.push_back(node(value));
+  }
+  return {std::move(list)};
+}
+
+Node node(const std::vector<std::string>& texts) {
+  Node::List list;
+  for (const std::string& text : texts) {
+    list.push_back(node(text));
+  }
+  return {std::move(list)};
+}
+
+// "at", "between" or "direction", whichever is the plainest that gives the same terms in the same order.
+Member place_member(const Direction& direction, const std::vector<std::string>& dofs) {
+  const auto name = [&](std::size_t i) { return dofs[static_cast<std::size_t>(direction[i].dof)]; };
+  if (direction.size() == 1 && direction[0].weight == 1) {
+    return {"at", node(name(0))};
+  }
+  if (direction.size() == 2 && direction[0].weight == 1 && direction[1].weight == -1) {
+    return {"between", node(std::vector<std::string>{name(0), name(1)})};
+  }
+  Node::Object weights;
+  for (std::size_t i = 0; i < direction.size(); ++i) {
+    weights.push_back({name(i), node(direction[i].weight)});
+  }
+  return {"direction", {std::move(weights)}};
+}
+
+Node node(const std::vector<Part>& parts, const std::vector<std::string>& dofs, bool with_type = false) {
+  Node::List list;
+  for (const Part& part : parts) {
+    Node::Object object = {{"name", node(part.name)}};
+    if (with_type) {
+      object.push_back({"type", node(part.type->name)});
+    }
+    object.push_back(place_member(part.direction, dofs));
+    if (part.type == &force_type) {
+      object.push_back({"harmonic", node(part.harmonic)});
+    }
+    for (std::size_t i = 0; i < part.type->fields.size(); ++i) {
+      object.push_back({std::string(part.type->fields[i].name), node(part.values[i])});
+    }
+    list.push_back({std::move(object)});
+  }
+  return {std::move(list)};
+}
+
+Node node(const std::vector<Tie>& ties) {
+  Node::Object object;
+  for (const Tie& tie : ties) {
+    object.push_back({tie.name, node(tie.members)});
+  }
+  return {std::move(object)};
+}
+
+Node node(const Harmonics& harmonics) {
+  return {Node::Object{{"order", node(harmonics.order)},
+                       {"friction", node(word_of(friction_methods, harmonics.friction))},
+                       {"samples", node(harmonics.samples)}}};
+}
+
+Node node(const std::vector<Study>& studies) {
+  Node::List list;
+  for (const Study& study : studies) {
+    Node::Object lists;
+    for (const auto& [parameter, values] : study.for_each) {
+      lists.push_back({parameter, node(values)});
+    }
+    list.push_back({Node::Object{{"name", node(study.name)},
+                                 {"kind", node(word_of(study_kinds, study.kind))},
+                                 {"from", node(study.from)},
+                                 {"to", node(study.to)},
+                                 {"for_each", {std::move(lists)}}}});
+  }
+  return {std::move(list)};
+}
+
+Node node(const Scene& scene) {
+  const Node structure{Node::Object{{"dofs", node(scene.dofs)},
+                                    {"masses", node(scene.masses, scene.dofs)},
+                                    {"springs", node(scene.springs, scene.dofs)},
+                                    {"dampers", node(scene.dampers, scene.dofs)}}};
+  return {Node::Object{{"format", node(format_name)},
+                       {"title", node(scene.title)},
+                       {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))},
+                       {"structure", structure},
+                       {"elements", node(scene.elements, scene.dofs, true)},
+                       {"excitation", node(scene.excitation, scene.dofs)},
+                       {"ties", node(scene.ties)},
+                       {"harmonics", node(scene.harmonics)},
+                       {"response", {Node::Object{place_member(scene.response, scene.dofs)}}},
+                       {"studies", node(scene.studies)}}};
+}
+
+}  // namespace
+}  // namespace detail
+
+std::string write(const Scene& scene) {
+  return detail::print_tree(detail::node(scene));
+}
+
+std::string hash(const Scene& scene) {
+  std::uint64_t state = 0xcbf29ce484222325u;  // FNV-1a, 64 bits (Fowler, Noll, Vo)
+  for (const char c : write(scene)) {
+    state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  }
+  std::array<char, 16> digits{};
+  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, state >>= 4) {
+    *digit = "0123456789abcdef"[state & 15];
+  }
+  return {digits.data(), digits.size()};
+}
+
+std::string_view unit_name(FrequencyUnit unit) {
+  return detail::word_of(detail::frequency_units, unit);
+}
+
+}  // namespace arcslip::scene

@@ -1,0 +1,3 @@
+#include <arcslip/optimize/minimize.hpp>
+
+int main() { return arcslip::optimize::algorithms().empty() ? 1 : 0; }

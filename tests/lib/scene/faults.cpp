@@ -1,0 +1,187 @@
+#include <arcslip/scene/scene.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "bad_scenes.hpp"
+#include "catch.hpp"
+
+using namespace arcslip::scene;
+using namespace arcslip::scene::test;
+
+namespace {
+
+std::vector<Fault> faults_of(std::istream& in) {
+  try {
+    read(in);
+  } catch (const SceneError& error) {
+    return error.faults();
+  }
+  return {};
+}
+
+std::vector<Fault> faults_of(const std::string& text) {
+  std::istringstream in(text);
+  return faults_of(in);
+}
+
+// A file that is gone after the test.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& text)
+      : path_(std::filesystem::temp_directory_path() / ("arcslip_" + std::to_string(counter()) + ".json")) {
+    std::ofstream(path_, std::ios::binary) << text;
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  std::string path() const { return path_.string(); }
+
+ private:
+  static std::uint64_t counter() {
+    return static_cast<std::uint64_t>(
+        std::filesystem::file_time_type::clock::now().time_since_epoch().count());
+  }
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+TEST_CASE("the scene that the bad scenes are made from is sound") {
+  CHECK(faults_of(good_scene()).empty());
+}
+
+TEST_CASE("each bad scene gives the one fault that its row expects") {
+  for (const BadScene& bad : bad_scenes()) {
+    CAPTURE(bad.name, bad.pointer, bad.message_part);
+    const auto in = open(bad);
+    const std::vector<Fault> faults = faults_of(*in);
+    REQUIRE(faults.size() == 1);
+    CAPTURE(faults[0].message);
+    CHECK(faults[0].pointer == bad.pointer);
+    CHECK(faults[0].message.find(bad.message_part) != std::string::npos);
+    CHECK(faults[0].message.size() < 1000);
+  }
+}
+
+TEST_CASE("a file with seven faults gives these seven in one go") {
+  const std::vector<Fault> faults = faults_of(R"({
+    "format": "arcslip-scene-1", "titel": "x",
+    "structure": {
+      "dofs": ["a"],
+      "masses": [{"name": "m", "at": "a", "value": -1}, {"name": "m", "at": "b", "value": 1}],
+      "springs": [{"name": "k", "at": "a", "value": "stiff"}]
+    },
+    "excitation": [{"name": "f", "at": "a", "harmonic": 9}],
+    "studies": [{"kind": "frf", "from": 2, "to": 1}]
+  })");
+  std::vector<std::string> pointers;
+  for (const Fault& fault : faults) {
+    pointers.push_back(fault.pointer);
+  }
+  const std::vector<std::string> expected = {"/titel",
+                                             "/structure/masses/0/value",
+                                             "/structure/masses/1/name",
+                                             "/structure/masses/1/at",
+                                             "/structure/springs/0/value",
+                                             "/excitation/0/harmonic",
+                                             "/studies/0/to"};
+  CHECK(pointers == expected);
+}
+
+TEST_CASE("what() of a scene error has one line for each fault, with its pointer") {
+  const SceneError error({{"/a", "found 1"}, {"", "too long"}});
+  CHECK(std::string(error.what()) == "/a: found 1\ntoo long");
+}
+
+TEST_CASE("what follows from a fault that is told is not told again") {
+  SECTION("the parameters of an element whose type is not known") {
+    const auto faults = faults_of(good_scene_with("\"jenkins\"", "\"jenkinz\""));
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].pointer == "/elements/0/type");
+  }
+  SECTION("the parameters of an element whose name is not known") {
+    const auto faults = faults_of(good_scene_with("\"name\": \"d\"", "\"name\": 4"));
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].pointer == "/elements/0/name");
+  }
+  SECTION("the names of degrees of freedom whose list is at fault") {
+    const auto faults =
+        faults_of(good_scene_with("[\"a\", \"b\"],\n    \"masses\"", "[\"A\", 3],\n    \"masses\""));
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].pointer == "/structure/dofs/1");
+  }
+}
+
+TEST_CASE("of a hundred thousand faults a thousand are listed and the rest are counted") {
+  std::string sweep = "{\"m.value\": [-1";
+  for (int i = 1; i < 100'000; ++i) {
+    sweep += ",-1";
+  }
+  const auto faults = faults_of(good_scene_with("{\"d.normal_load\": [1, 2]}", sweep + "]}"));
+  REQUIRE(faults.size() == 1001);
+  CHECK(faults.back().message == "and 99000 faults more, which are not listed");
+}
+
+TEST_CASE("more than five million values are refused before the memory is full") {
+  std::string text = "[0";
+  for (std::size_t i = 0; i < largest_count; ++i) {
+    text += ",0";
+  }
+  const auto faults = faults_of(text + "]");
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].message.find("found more than 5000000 values, a scene must have at most so many") !=
+        std::string::npos);
+}
+
+TEST_CASE("a file that is not there is an error that names it") {
+  CHECK_THROWS_WITH(read_file("/nowhere/scene.json"),
+                    "cannot open /nowhere/scene.json: No such file or directory");
+  CHECK_THROWS_AS(read_file("/nowhere/scene.json"), FileError);
+}
+
+TEST_CASE("a folder is not read as a scene") {
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  CHECK_THROWS_WITH(read_file(folder), folder + " is a directory, must be a scene file");
+}
+
+TEST_CASE("a stream that has failed is a file error and not an empty scene") {
+  std::istringstream in(good_scene());
+  in.setstate(std::ios::failbit);
+  CHECK_THROWS_AS(read(in), FileError);
+  std::istringstream broken(good_scene());
+  broken.setstate(std::ios::badbit);
+  CHECK_THROWS_AS(read(broken), FileError);
+}
+
+TEST_CASE("a regular file above 64 MB is refused by its size") {
+  const TemporaryFile file("[");
+  std::filesystem::resize_file(file.path(), largest_size + 1);  // sparse: nothing is written
+  CHECK_THROWS_WITH(read_file(file.path()), "found a file of 67108865 bytes, a scene must be at most 64 MB");
+  CHECK_THROWS_AS(read_file(file.path()), SceneError);
+}
+
+TEST_CASE("a scene is read from a file as from a stream") {
+  const TemporaryFile file(good_scene());
+  std::istringstream in(good_scene());
+  CHECK(read_file(file.path()) == read(in));
+}
+
+TEST_CASE("a scene that was changed in code is checked as its file would be") {
+  std::istringstream in(good_scene());
+  Scene scene = read(in);
+  CHECK_NOTHROW(check(scene));
+  scene.harmonics.order = 3000;
+  scene.masses[0].values[0] = -2;
+  try {
+    check(scene);
+    FAIL("not refused");
+  } catch (const SceneError& error) {
+    REQUIRE(error.faults().size() == 2);
+    CHECK(error.faults()[0].pointer == "/structure/masses/0/value");
+    CHECK(error.faults()[1].pointer == "/harmonics/order");
+  }
+  scene = Scene{};
+  CHECK_THROWS_AS(check(scene), SceneError);
+}

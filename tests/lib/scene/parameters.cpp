@@ -1,0 +1,119 @@
+#include <arcslip/scene/scene.hpp>
+
+#include <limits>
+#include <sstream>
+
+#include "bad_scenes.hpp"
+#include "catch.hpp"
+
+using namespace arcslip::scene;
+using namespace arcslip::scene::test;
+
+namespace {
+
+Scene read_text(const std::string& text) {
+  std::istringstream in(text);
+  return read(in);
+}
+
+Scene tied_scene() {
+  return read_text(R"({"format": "arcslip-scene-1",
+    "structure": {"dofs": ["a"], "masses": [{"name": "m", "at": "a", "value": 1}]},
+    "elements": [
+      {"name": "d1", "type": "jenkins", "at": "a", "stiffness": 1, "friction_coefficient": 0.5, "normal_load": 3},
+      {"name": "d2", "type": "jenkins", "at": "a", "stiffness": 2, "friction_coefficient": 0.5, "normal_load": 3}],
+    "excitation": [{"name": "f", "at": "a", "cosine": 1}],
+    "ties": {"load": ["d1.normal_load", "d2.normal_load"]},
+    "studies": [{"kind": "frf", "from": 1, "to": 2, "for_each": {"load": [1, 2], "m.value": [1, 2]}},
+                {"kind": "frf", "from": 1, "to": 2, "for_each": {"load": [5]}}]})");
+}
+
+}  // namespace
+
+TEST_CASE("the parameters are the ties and then every field of every part") {
+  CHECK(parameter_names(tied_scene()) == std::vector<std::string>{"load", "m.value", "d1.stiffness",
+                                                                  "d1.friction_coefficient", "d1.normal_load",
+                                                                  "d2.stiffness", "d2.friction_coefficient",
+                                                                  "d2.normal_load", "f.cosine", "f.sine"});
+}
+
+TEST_CASE("every parameter has a value and knows its unit") {
+  const Scene scene = tied_scene();
+  for (const std::string& name : parameter_names(scene)) {
+    CAPTURE(name);
+    CHECK_NOTHROW(value(scene, name));
+    CHECK_FALSE(parameter_fields(scene, name).empty());
+  }
+  CHECK(value(scene, "d2.stiffness") == 2);
+  CHECK(parameter_fields(scene, "load").size() == 2);
+  CHECK(parameter_fields(scene, "load")[1]->unit == "N");
+}
+
+TEST_CASE("a parameter that is set has the value and is swept no more") {
+  Scene scene = tied_scene();
+  set(scene, "m.value", 4);
+  CHECK(value(scene, "m.value") == 4);
+  CHECK(scene.masses[0].values[0] == 4);
+  REQUIRE(scene.studies[0].for_each.size() == 1);
+  CHECK(scene.studies[0].for_each[0].first == "load");
+}
+
+TEST_CASE("a tie that is set gives its value to all its members") {
+  Scene scene = tied_scene();
+  CHECK(value(scene, "load") == 3);
+  set(scene, "load", 7);
+  CHECK(value(scene, "load") == 7);
+  CHECK(value(scene, "d1.normal_load") == 7);
+  CHECK(value(scene, "d2.normal_load") == 7);
+  CHECK(scene.studies[0].for_each.size() == 1);
+  CHECK(scene.studies[1].for_each.empty());
+  CHECK_NOTHROW(check(scene));
+}
+
+TEST_CASE("a tied field is not set apart from its tie") {
+  Scene scene = tied_scene();
+  CHECK_THROWS_WITH(set(scene, "d1.normal_load", 4),
+                    "parameter \"d1.normal_load\" is tied, must be set by its tie \"load\"");
+  CHECK(scene == tied_scene());
+}
+
+TEST_CASE("a parameter that is not there is an error that names the nearest") {
+  Scene scene = tied_scene();
+  CHECK_THROWS_AS(value(scene, "d1.normal_laod"), ParameterError);
+  CHECK_THROWS_WITH(value(scene, "d1.normal_laod"),
+                    Catch::Matchers::Contains("unknown parameter \"d1.normal_laod\"") &&
+                        Catch::Matchers::EndsWith("did you mean \"d1.normal_load\"?"));
+  CHECK_THROWS_WITH(set(scene, "laod", 1), Catch::Matchers::EndsWith("did you mean \"load\"?"));
+  for (const std::string name :
+       {"", ".", "m", "m.", ".value", "m.value.value", "frequency", "ground.value"}) {
+    CAPTURE(name);
+    CHECK_THROWS_AS(value(scene, name), ParameterError);
+    CHECK_THROWS_AS(set(scene, name, 1), ParameterError);
+    CHECK_THROWS_AS(parameter_fields(scene, name), ParameterError);
+  }
+}
+
+TEST_CASE(
+    "a value out of a parameter's bounds is refused with the bound and its unit, and nothing is changed") {
+  Scene scene = tied_scene();
+  CHECK_THROWS_WITH(set(scene, "m.value", -1), "parameter \"m.value\": found -1, must be at least 0 kg");
+  CHECK_THROWS_WITH(set(scene, "d1.stiffness", 0),
+                    "parameter \"d1.stiffness\": found 0, must be above 0 N/m");
+  CHECK_THROWS_WITH(set(scene, "load", -2), "parameter \"load\": found -2, must be at least 0 N");
+  CHECK_THROWS_WITH(set(scene, "f.sine", std::numeric_limits<double>::infinity()),
+                    "parameter \"f.sine\": found inf, must be a finite number (N)");
+  CHECK_THROWS_AS(set(scene, "f.sine", std::numeric_limits<double>::quiet_NaN()), ParameterError);
+  CHECK(scene == tied_scene());
+}
+
+TEST_CASE("each type of element is known by its name and describes its fields") {
+  std::vector<std::string> names;
+  for (const PartType* type : element_types()) {
+    names.emplace_back(type->name);
+    for (const Field& field : type->fields) {
+      CHECK_FALSE(field.unit.empty());
+      CHECK_FALSE(field.help.empty());
+    }
+  }
+  CHECK(names == std::vector<std::string>{"jenkins", "cubic_spring"});
+}

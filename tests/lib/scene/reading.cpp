@@ -1,0 +1,148 @@
+#include <arcslip/scene/scene.hpp>
+
+#include <cstdlib>
+#include <numbers>
+#include <sstream>
+
+#include "bad_scenes.hpp"
+#include "catch.hpp"
+
+using namespace arcslip::scene;
+using namespace arcslip::scene::test;
+
+namespace {
+
+Scene read_text(const std::string& text) {
+  std::istringstream in(text);
+  return read(in);
+}
+
+}  // namespace
+
+TEST_CASE("the scene of the paper is read with the paper's numbers") {
+  const Scene scene = read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  CHECK(scene.title == "Blade to ground with a friction damper (Al Sayed et al. 2011)");
+  CHECK(scene.frequency_unit == FrequencyUnit::hertz);
+  CHECK(scene.dofs == std::vector<std::string>{"blade"});
+  CHECK(value(scene, "m.value") == 1.24);
+  CHECK(value(scene, "k.value") == 17890.0);
+  CHECK(value(scene, "c.value") == 0.134);
+  REQUIRE(scene.elements.size() == 1);
+  CHECK(scene.elements[0].type == &jenkins_type);
+  CHECK(scene.elements[0].direction == Direction{{0, 1.0}});
+  CHECK(scene.elements[0].values == std::vector<double>{3500.0, 0.5, 3.0});
+  CHECK(value(scene, "force.cosine") == 1.0);
+  CHECK(scene.response == Direction{{0, 1.0}});
+  REQUIRE(scene.studies.size() == 1);
+  CHECK(scene.studies[0].from == 18.0);
+  CHECK(scene.studies[0].to == 22.0);
+  REQUIRE(scene.studies[0].for_each.size() == 1);
+  CHECK(scene.studies[0].for_each[0].first == "damper.normal_load");
+  CHECK(scene.studies[0].for_each[0].second ==
+        std::vector<double>{0.01, 0.1, 1, 2, 3, 4, 5, 10, 50, 100, 300, 500});
+}
+
+TEST_CASE("what a scene leaves out has the default of the format") {
+  const Scene scene = read_text(R"({"format": "arcslip-scene-1",
+    "structure": {"dofs": ["a"], "masses": [{"name": "m", "at": "a", "value": 1}],
+                  "springs": [{"name": "k", "at": "a", "value": 1}]},
+    "excitation": [{"name": "f", "at": "a"}]})");
+  CHECK(scene.title.empty());
+  CHECK(scene.frequency_unit == FrequencyUnit::hertz);
+  CHECK(scene.dampers.empty());
+  CHECK(scene.elements.empty());
+  CHECK(scene.ties.empty());
+  CHECK(scene.harmonics.order == 7);
+  CHECK(scene.harmonics.friction == Friction::exact);
+  CHECK(scene.harmonics.samples == 512);
+  CHECK(scene.excitation[0].harmonic == 1);
+  CHECK(scene.excitation[0].values == std::vector<double>{0.0, 0.0});
+  CHECK(scene.response == Direction{{0, 1.0}});
+  CHECK(scene.studies.empty());
+}
+
+TEST_CASE("a place acts on what the format says") {
+  const auto direction_of = [](const std::string& place) {
+    return read_text(good_scene_with("\"between\": [\"a\", \"ground\"]", place)).springs[0].direction;
+  };
+  CHECK(direction_of("\"at\": \"b\"") == Direction{{1, 1.0}});
+  CHECK(direction_of("\"between\": [\"b\", \"a\"]") == Direction{{1, 1.0}, {0, -1.0}});
+  CHECK(direction_of("\"between\": [\"b\", \"ground\"]") == Direction{{1, 1.0}});
+  CHECK(direction_of("\"between\": [\"ground\", \"b\"]") == Direction{{1, -1.0}});
+  CHECK(direction_of("\"direction\": {\"b\": 2.5, \"a\": -0.5}") == Direction{{1, 2.5}, {0, -0.5}});
+  CHECK(direction_of("\"direction\": {\"b\": 2.5, \"a\": 0, \"ground\": 3}") == Direction{{1, 2.5}});
+}
+
+TEST_CASE("a softened structure may have a negative spring") {
+  CHECK(read_text(good_scene_with("\"value\": 50}", "\"value\": -50}")).springs[1].values[0] == -50);
+}
+
+TEST_CASE("a massless degree of freedom behind a spring is sound") {
+  CHECK_NOTHROW(read_text(good_scene()));  // nothing but a spring acts on "b"
+}
+
+TEST_CASE("an integer may be written as 9.0 or 9e0") {
+  for (const std::string nine : {"9", "9.0", "9e0"}) {
+    CHECK(read_text(good_scene_with("\"response\"", "\"harmonics\": {\"order\": " + nine + "}, \"response\""))
+              .harmonics.order == 9);
+  }
+}
+
+TEST_CASE("samples are held against the order only where friction is sampled") {
+  const auto with = [](const std::string& harmonics) {
+    return read_text(good_scene_with("\"response\"", "\"harmonics\": " + harmonics + ", \"response\""))
+        .harmonics;
+  };
+  CHECK(with("{\"order\": 2000}").order == 2000);
+  CHECK(with("{\"order\": 100, \"samples\": 5}").samples == 5);
+  CHECK(with("{\"order\": 100, \"samples\": 404, \"friction\": \"sampled\"}").friction == Friction::sampled);
+}
+
+TEST_CASE("decimal numbers are rounded once, to the nearest double") {
+  // the first two are rounded wrongly where the digits pass through a long double of 64 bits
+  for (const std::string digits :
+       {"9007199254740993.00000000001", "1.00000000000000011102230246251565404236316680908203125001",
+        "5e-324", "1.7976931348623157e308", "0.1"}) {
+    CAPTURE(digits);
+    CHECK(read_text(good_scene_with("\"value\": 50}", "\"value\": " + digits + "}")).springs[1].values[0] ==
+          std::strtod(digits.c_str(), nullptr));
+  }
+}
+
+TEST_CASE("studies without a name are named after their kind, each differently") {
+  const std::string frf = "\"kind\": \"frf\", \"from\": 1, \"to\": 2}";
+  const Scene scene = read_text(good_scene_with(
+      "\"studies\": [", "\"studies\": [{" + frf + ", {\"name\": \"frf_2\", " + frf + ", {" + frf + ", "));
+  REQUIRE(scene.studies.size() == 4);
+  CHECK(scene.studies[0].name == "frf");
+  CHECK(scene.studies[1].name == "frf_2");
+  CHECK(scene.studies[2].name == "frf_3");
+  CHECK(scene.studies[3].name == "frf_4");
+}
+
+TEST_CASE("a hertz is 2 pi radians per second") {
+  CHECK(to_rad_per_s(FrequencyUnit::hertz) == 2 * std::numbers::pi);
+  CHECK(to_rad_per_s(FrequencyUnit::radian_per_second) == 1.0);
+  CHECK(unit_name(FrequencyUnit::hertz) == "Hz");
+  CHECK(unit_name(FrequencyUnit::radian_per_second) == "rad/s");
+}
+
+TEST_CASE("the nearest known word is found across one slip and not across another word") {
+  const std::vector<std::string> known = {"masses", "springs", "dampers", "normal_load", "at"};
+  CHECK(nearest("massses", known) == "masses");
+  CHECK(nearest("normal_laod", known) == "normal_load");
+  CHECK(nearest("Springs", known) == "springs");
+  CHECK(nearest("dmaper", known) == "dampers");
+  CHECK(nearest("ta", known) == "at");
+  CHECK(nearest("stiffness", known).empty());
+  CHECK(nearest("x", known).empty());
+  CHECK(nearest("", known).empty());
+  CHECK(nearest("masses", std::vector<std::string>{}).empty());
+  CHECK(nearest(std::string(1'000'000, 'm'), std::vector<std::string>{std::string(1'000'000, 'n')}).empty());
+}
+
+TEST_CASE("a word of nine letters is near up to three edits and not at four") {
+  const std::vector<std::string> known = {"stiffness"};
+  CHECK(nearest("stiffnxyz", known) == "stiffness");
+  CHECK(nearest("stiffwxyz", known).empty());
+}

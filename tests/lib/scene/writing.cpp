@@ -1,0 +1,120 @@
+#include <arcslip/scene/scene.hpp>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "bad_scenes.hpp"
+#include "catch.hpp"
+
+using namespace arcslip::scene;
+using namespace arcslip::scene::test;
+
+namespace {
+
+Scene read_text(const std::string& text) {
+  std::istringstream in(text);
+  return read(in);
+}
+
+// A scene with one of everything.
+const char* const full_scene = R"({
+  "format": "arcslip-scene-1",
+  "title": "\"Full\" \\ scene\nwith µ, \t and \u0001",
+  "frequency_unit": "rad/s",
+  "structure": {
+    "dofs": ["blade 1", "b.l/a~de", "x\"y"],
+    "masses": [
+      {"name": "m1", "at": "blade 1", "value": 1.24},
+      {"name": "m2", "between": ["b.l/a~de", "x\"y"], "value": 0.1},
+      {"name": "m3", "direction": {"blade 1": 1, "b.l/a~de": -0.3333333333333333, "x\"y": 1e-300}, "value": 1e300}
+    ],
+    "springs": [{"name": "k", "between": ["ground", "x\"y"], "value": -5e-324}],
+    "dampers": []
+  },
+  "elements": [
+    {"name": "d1", "type": "jenkins", "at": "blade 1", "stiffness": 3500, "friction_coefficient": 0.5, "normal_load": 3},
+    {"name": "d2", "type": "jenkins", "at": "x\"y", "stiffness": 3500, "friction_coefficient": 0.5, "normal_load": 3},
+    {"name": "n", "type": "cubic_spring", "between": ["blade 1", "ground"], "stiffness": -1e20}
+  ],
+  "excitation": [{"name": "f", "at": "blade 1", "harmonic": 3, "sine": 0.7}],
+  "ties": {"load": ["d1.normal_load", "d2.normal_load"]},
+  "harmonics": {"order": 3, "friction": "sampled", "samples": 16},
+  "response": {"direction": {"blade 1": 1, "x\"y": 1}},
+  "studies": [
+    {"kind": "frf", "from": 0.1, "to": 1e9},
+    {"name": "loads", "kind": "frf", "from": 1, "to": 2, "for_each": {"load": [0, 1e-12, 1e9], "n.stiffness": [-1]}}
+  ]
+})";
+
+}  // namespace
+
+TEST_CASE("what is written is read as the same scene") {
+  for (const std::string& text : {std::string(full_scene), good_scene()}) {
+    const Scene scene = read_text(text);
+    const Scene again = read_text(write(scene));
+    CHECK(again == scene);
+    CHECK(write(again) == write(scene));
+    CHECK(again.title == scene.title);
+  }
+}
+
+TEST_CASE("a scene is written with every default, in the order of the format") {
+  CHECK(write(read_text(good_scene())) == R"({
+  "format": "arcslip-scene-1",
+  "title": "",
+  "frequency_unit": "Hz",
+  "structure": {
+    "dofs": ["a", "b"],
+    "masses": [{"name": "m", "at": "a", "value": 1}],
+    "springs": [{"name": "k", "at": "a", "value": 100}, {"name": "k2", "between": ["a", "b"], "value": 50}],
+    "dampers": [{"name": "c", "at": "a", "value": 0.1}]
+  },
+  "elements": [
+    {"name": "d", "type": "jenkins", "at": "a", "stiffness": 10, "friction_coefficient": 0.5,
+     "normal_load": 3}
+  ],
+  "excitation": [{"name": "f", "at": "a", "harmonic": 1, "cosine": 1, "sine": 0}],
+  "ties": {},
+  "harmonics": {"order": 7, "friction": "exact", "samples": 512},
+  "response": {"at": "a"},
+  "studies": [{"name": "frf", "kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}}]
+}
+)");
+}
+
+TEST_CASE("no line of a long scene is wider than 110 columns where it can be broken") {
+  Scene scene = read_text(full_scene);
+  for (int i = 0; i < 1000; ++i) {
+    scene.studies[1].for_each[0].second.push_back(i / 7.0);
+  }
+  const std::string text = write(scene);
+  CHECK(read_text(text) == scene);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    CAPTURE(line);
+    CHECK(line.size() <= 110);
+    CHECK((line.empty() || line.back() != ' '));
+  }
+}
+
+TEST_CASE("the hash is FNV-1a of the resolved scene") {
+  // computed apart, by the definition of Fowler, Noll and Vo, of the text in the test above
+  CHECK(hash(read_text(good_scene())) == "a29356c3d9e6e534");
+}
+
+TEST_CASE("the hash does not see how a file is laid out, and sees each value") {
+  Scene scene = read_text(good_scene());
+  const std::string before = hash(scene);
+  CHECK(hash(read_text(write(scene))) == before);
+  CHECK(hash(read_text(good_scene_with("\"response\"", "\"harmonics\": {\"order\": 7},\n\n\"response\""))) ==
+        before);
+  scene.masses[0].values[0] = std::nextafter(1.0, 2.0);
+  CHECK(hash(scene) != before);
+}
+
+TEST_CASE("a value that is not finite does not come back as a scene") {
+  Scene scene = read_text(good_scene());
+  scene.masses[0].values[0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(check(scene), SceneError);
+}
