@@ -6,7 +6,7 @@ namespace arcslip::continuation {
 struct NewtonOptions {
   double tolerance = 1e-11;        // on the estimated error, relative to |u| in scales; > 0
   double rounding_level = 1e-8;    // a correction that stagnates below this is accepted as rounding; >= tolerance
-  int iterations = 12;             // at most
+  int iterations = 8;              // at most
   double chord_contraction = 0.3;  // factors are kept while corrections shrink at least so fast; in [0, 1)
 };
 

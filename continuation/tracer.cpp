@@ -14,8 +14,7 @@ namespace {
 constexpr double first_share_of_window = 0.01;    // |dp| of a step where the user names none
 constexpr double growth = 2.0, shrinkage = 0.3;   // of the step, at most
 constexpr double rejection = 0.25;                // of the step after a rejection
-constexpr double kept_angle = 0.5;                // share of the turn that is left at a kink when the step shrinks
-constexpr int rejections_of_a_kink = 3;
+constexpr double kink_step = 0.25, kink_turn = 0.7;  // a turn that keeps so much of itself over so short a step is a kink
 constexpr double largest_extrapolation = 2.5;     // in last steps, for the cubic predictor
 constexpr double nonsmooth_share = 1e-4;          // of a monitor's change over a step, left at its zero
 constexpr double event_state_tolerance = 1e-10;   // relative, of u at an event
@@ -85,6 +84,7 @@ Accepted Tracer::accepted(Corrector& at, const Place& place) {
 bool Tracer::settle(Corrector& at, Place& place, const Vector& row, const Place& from, bool kink) {
   if (!at.linearize(place.v, row) || !at.tangent(place.tangent)) return false;
   place.orientation = at.factors().determinant_sign();  // row . t > 0
+  place.piece = at.evaluator().piece();
   if (kink && place.orientation != from.orientation) {
     place.tangent = -place.tangent;
     place.orientation = from.orientation;
@@ -106,6 +106,7 @@ bool Tracer::begin() {
   if (!main_.linearize(here_.v, row_) || !main_.tangent(here_.tangent))
     return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
   here_.orientation = main_.factors().determinant_sign();
+  here_.piece = main_.evaluator().piece();
   if (direction_ < 0) {
     here_.tangent = -here_.tangent;
     here_.orientation = -here_.orientation;
@@ -161,13 +162,12 @@ bool Tracer::step() {
   }
 }
 
-// Whether a turn of the tangent that is too large is a kink: it does not shrink with the step.
-bool Tracer::is_kink(double angle) {
-  if (angle_rejections_ == 0) {
-    first_rejected_angle_ = angle;
-    first_rejected_ds_ = ds_;
-  }
-  return angle_rejections_++ >= rejections_of_a_kink && angle > kept_angle * first_rejected_angle_;
+// Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink with the
+// step. A turn is first met with a long step and rejected; it is the same one as long as its place is not passed.
+bool Tracer::is_kink(double turn, const Place& next) {
+  if (next.piece == here_.piece) return false;
+  if (here_.arclength > turn_.end) turn_ = {turn, ds_, here_.arclength + 2 * ds_};
+  return ds_ <= kink_step * turn_.step && turn >= kink_turn * turn_.angle;
 }
 
 Tracer::Attempt Tracer::attempt() {
@@ -186,7 +186,7 @@ Tracer::Attempt Tracer::attempt() {
   const double turn = std::max(angle_between(main_.dot(next_.tangent, here_.tangent)), angle_between(ahead / length));
   bool kink = false;
   if (turn > options_.step.largest_angle) {
-    kink = is_kink(turn);
+    kink = is_kink(turn, next_);
     if (!kink) return Attempt::rejected;
     if (next_.orientation != here_.orientation) {
       next_.tangent = -next_.tangent;
@@ -206,12 +206,10 @@ Tracer::Attempt Tracer::attempt() {
     return Attempt::ended;
   }
 
-  const double taken = ds_;
-  const double next_ds = kink ? first_rejected_ds_ * rejection : choose_step(turn, correction);
+  const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
   last_ds_ = length;
   has_before_ = !kink;
   factors_fit_ = !kink && turn < options_.step.largest_angle;
-  angle_rejections_ = 0;
   const bool go_on = accept(std::move(next_), correction);
   ds_ = limited(next_ds);
   if (!go_on) return Attempt::ended;
@@ -227,7 +225,6 @@ Tracer::Attempt Tracer::attempt() {
         "reached the largest number of points, " + std::to_string(options_.points));
     return Attempt::ended;
   }
-  (void)taken;
   return Attempt::accepted;
 }
 

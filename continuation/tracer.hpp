@@ -46,6 +46,7 @@ class Tracer {
     Vector v, tangent;
     double arclength = 0;
     int orientation = 1;  // sign of det [J F_p; t^T]
+    std::uint64_t piece = 0;
     std::vector<double> monitors;
   };
   enum class Attempt { accepted, rejected, ended };
@@ -54,7 +55,7 @@ class Tracer {
   Attempt attempt();
   void predict(Vector& v) const;
   bool settle(Corrector& at, Place& place, const Vector& row, const Place& from, bool kink);
-  bool is_kink(double angle);
+  bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
   bool locate_events(const Place& from, const Place& to);
   std::optional<Event> locate(std::size_t monitor, const Place& from, const Place& to, Place& found);
@@ -77,8 +78,9 @@ class Tracer {
   bool has_before_ = false, factors_fit_ = false, ended_ = false, begun_ = false;
   bool evaluated_ = true;             // the last rejection came from the corrector, not from the problem
   double ds_ = 0, last_ds_ = 0;
-  double first_rejected_angle_ = 0, first_rejected_ds_ = 0;
-  int angle_rejections_ = 0;
+  struct Turn {  // a turn of the tangent that was rejected: how much, over which step, and where it is passed
+    double angle = 0, step = 0, end = -1;
+  } turn_;
   Vector row_, v_;
 };
 

@@ -25,39 +25,24 @@ class SampledJenkins final : public Element {
     samples_.values(u, x_);
     onsets_.clear();
     ends_.clear();
-    const int M = samples_.count();
-    Eigen::Index top = 0, bottom = 0;
-    double high = x_.maxCoeff(&top), low = x_.minCoeff(&bottom);
-    double turned = 1;  // the motion is looked at with this sign: its largest value is at the start
-    if (h_.odd) {
-      if (-low > high) {
-        top = bottom;
-        turned = -1;
-      }
-      high = std::max(high, -low);
-      low = -high;
+    A_.setZero();
+    B_.setZero();
+    if (jacobian) J_.setZero();
+    Eigen::Index highest = 0, lowest = 0;
+    const double high = x_.maxCoeff(&highest), low = x_.minCoeff(&lowest);
+    const double range = h_.odd ? 2 * std::max(high, -low) : high - low;
+    if (p == 0 && range == 0) {
+      stick_share_ = 0;
+      piece_ = 0;
+      F_.setZero();
+    } else if (range <= 2 * x_s) {
+      stick(u, kd, static_cast<int>(highest), static_cast<int>(lowest), jacobian);
+    } else {
+      // Where the motion is odd it may begin at the lowest sample, seen with the other sign.
+      const bool mirrored = h_.odd && -low > high;
+      march(u, static_cast<int>(mirrored ? lowest : highest), mirrored ? -1 : 1, kd, x_s, jacobian);
+      F_ = kd * A_ + p * B_;
     }
-    stick_share_ = 1;
-    frictionless_ = p == 0;
-    if (high - low <= 2 * x_s) {
-      A_ = u;
-      B_.setZero();
-      if (frictionless_) A_.setZero();
-      if (jacobian) J_ = frictionless_ ? Eigen::MatrixXd::Zero(h_.size(), h_.size()).eval() : Eigen::MatrixXd();
-      if (frictionless_) stick_share_ = 0;
-      if (!frictionless_ && jacobian) {
-        J_.setZero(h_.size(), h_.size());
-        J_.diagonal().setConstant(kd);
-      }
-      if (!h_.odd && !frictionless_) {
-        A_[0] -= 0.5 * (high + low);
-        if (jacobian) J_.row(0) -= 0.5 * kd * (samples_.basis(static_cast<int>(top)) +
-                                               samples_.basis(static_cast<int>(bottom)));
-      }
-      F_ = kd * A_;
-      return;
-    }
-    march(u, static_cast<int>(top), turned, kd, p, x_s, jacobian, M);
   }
 
   const Eigen::VectorXd& force() const override { return F_; }
@@ -69,6 +54,8 @@ class SampledJenkins final : public Element {
     else
       dF = (field == 1 ? fields_[2] : fields_[1]) * B_;
   }
+
+  std::uint64_t piece() const override { return piece_; }
 
   bool friction(FrictionState& state) const override {
     state.stick_share = stick_share_;
@@ -85,6 +72,18 @@ class SampledJenkins final : public Element {
       angles.push_back(std::fmod(at + shift, 2 * std::numbers::pi));
   }
 
+  void stick(In u, double kd, int highest, int lowest, bool jacobian) {
+    stick_share_ = 1;
+    piece_ = 1;
+    A_ = u;
+    if (jacobian) J_.diagonal().setConstant(kd);
+    if (!h_.odd) {
+      A_[0] -= 0.5 * (x_[highest] + x_[lowest]);
+      if (jacobian) J_.row(0) -= 0.5 * kd * (samples_.basis(highest) + samples_.basis(lowest));
+    }
+    F_ = kd * A_;
+  }
+
   // The sample that lies `offset` after the top, and the sign with which it appears there.
   struct Seen {
     int sample;
@@ -96,54 +95,47 @@ class SampledJenkins final : public Element {
     return {wrapped ? at - samples_.count() : at, wrapped && h_.odd ? -turned : turned};
   }
 
-  void march(In u, int top, double turned, double kd, double p, double x_s, bool jacobian, int M) {
+  void march(In u, int top, double turned, double kd, double x_s, bool jacobian) {
     const double kappa = (h_.odd ? 2 : 1) / std::numbers::pi * samples_.weight();
-    A_.setZero();
-    B_.setZero();
-    if (jacobian) J_.setZero();
     stick_.setZero();
     weights_A_.setZero();
     weights_B_.setZero();
-    int anchor = 0;
-    double anchor_x = turned * x_[top], anchored = 1, last = 1;
-    bool slipping = true;
-    int stuck = 0;
     integral_.setZero();
+    int anchor = 0, stuck = 0;
+    double anchor_x = turned * x_[top], anchored = 1;
+    bool slipping = true;
+    piece_ = 2;
     const auto close_anchor = [&] {
       if (!jacobian) return;
       const Seen a = seen(top, anchor, turned);
-      J_.noalias() -= kappa * kd * a.sign * (integral_ * samples_.basis(a.sample));
+      J_.noalias() -= (kappa * kd * a.sign * integral_) * samples_.basis(a.sample);
       integral_.setZero();
     };
-    for (int k = 0; k < M; ++k) {
+    for (int k = 0; k < samples_.count(); ++k) {
       const Seen s = seen(top, k, turned);
       const double x = s.sign * x_[s.sample];
-      const double f_over_kd = anchored * x_s + x - anchor_x;  // if it sticks
-      const bool up = f_over_kd >= x_s, down = f_over_kd <= -x_s;
-      if (up || down) {
-        const double sign = up ? 1 : -1;
+      const double elastic = anchored * x_s + x - anchor_x;  // f/k_d if it sticks
+      const bool slips = std::abs(elastic) >= x_s;
+      piece_ = (piece_ ^ (slips ? 1u : 2u)) * 1099511628211ull;
+      if (slips) {
         if (!slipping) note(onsets_, samples_.angle(top + k));
         close_anchor();
         anchor = k;
         anchor_x = x;
-        anchored = sign;
-        last = sign;
-        slipping = true;
-        weights_B_[s.sample] = s.sign * kappa * sign;
+        anchored = elastic > 0 ? 1 : -1;
       } else {
         if (slipping && k > 0) note(ends_, samples_.angle(top + k - 1));
-        slipping = false;
         ++stuck;
         stick_[s.sample] = kappa;
         weights_A_[s.sample] = -s.sign * kappa * anchor_x;
-        weights_B_[s.sample] = s.sign * kappa * anchored;
         if (jacobian) integral_ += s.sign * samples_.basis(s.sample).transpose();
       }
+      weights_B_[s.sample] = s.sign * kappa * anchored;
+      slipping = slips;
     }
+    if (slipping) note(ends_, samples_.angle(top));  // it turns at the top
     close_anchor();
-    (void)last;
-    (void)p;
-    stick_share_ = static_cast<double>(stuck) / M;
+    stick_share_ = static_cast<double>(stuck) / samples_.count();
     samples_.moments(stick_, moments_);
     samples_.project(weights_A_, A_);
     samples_.project(weights_B_, B_);
@@ -154,7 +146,6 @@ class SampledJenkins final : public Element {
       B_[0] *= 0.5;
       if (jacobian) J_.row(0) *= 0.5;
     }
-    F_ = kd * A_ + p * B_;
   }
 
   Harmonics h_;
@@ -166,7 +157,7 @@ class SampledJenkins final : public Element {
   std::vector<double> onsets_, ends_;
   std::array<double, 3> fields_{};
   double stick_share_ = 1;
-  bool frictionless_ = false;
+  std::uint64_t piece_ = 0;
 };
 
 }  // namespace

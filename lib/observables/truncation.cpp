@@ -11,7 +11,13 @@ namespace {
 using continuation::Vector;
 
 constexpr int least_tail = 9;            // orders above N looked at: N + 9 at least, 2 N + 9 in all
-constexpr double linear_response = 1e-13;  // tail of the forces, relative: below, nothing is neglected
+constexpr double linear_motion = 1e-13;  // forces left out, relative: below, nothing is neglected
+constexpr double at_a_fold = 1e-9;       // of domega/ds: below, the frequency cannot be held fixed
+
+std::shared_ptr<const model::Model> with_exact_friction(model::Model model) {
+  model.settings.friction = scene::Friction::exact;
+  return std::make_shared<const model::Model>(std::move(model));
+}
 
 elements::Harmonics widened(const elements::Harmonics& h) { return {2 * h.order + least_tail, h.odd}; }
 
@@ -36,9 +42,9 @@ double highest_natural_frequency(const model::Model& model, const Vector& p) {
 
 Truncation::Truncation(const hbm::HbmProblem& problem, const Vector& p)
     : problem_(problem), kept_(problem.harmonics()), wide_(widened(kept_)),
-      wide_problem_(problem.shared_model(), wide_, 1, 1), evaluator_(wide_problem_.hbm_evaluator()),
+      wide_problem_(with_exact_friction(problem.model()), wide_, 1, 1), evaluator_(wide_problem_.hbm_evaluator()),
       highest_(highest_natural_frequency(problem.model(), p)), u_(wide_problem_.size()), tail_(u_.size()),
-      effect_(u_.size()), change_(problem.size() + 1), response_(wide_.size()) {}
+      effect_(u_.size()), change_(problem.size() + 1), residual_(problem.size()), response_(wide_.size()) {}
 
 void Truncation::embed(continuation::In u, Vector& wide) const {
   wide.setZero();
@@ -71,27 +77,24 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   for (std::size_t e = 0; e < evaluator_->element_count(); ++e)
     force = std::max(force, evaluator_->element(e).force().cwiseAbs().maxCoeff());
   tail_ = evaluator_->residual();
-  restrict_to_kept(tail_, change_.head(n));  // what remains in tail_: f_n, n > N
-  if (tail_.cwiseAbs().maxCoeff() <= linear_response * force) return {};
+  restrict_to_kept(tail_, residual_);  // what remains in tail_ are the f_n with n > N
+  if (tail_.cwiseAbs().maxCoeff() <= linear_motion * force && residual_.cwiseAbs().maxCoeff() <= linear_motion * force)
+    return {};
 
   evaluator_->stiffness().solve(tail_);
   tail_ = -tail_;
-  evaluator_->stiffness().response(tail_, 0, response_);
-  double direct = 0;
-  for (int h = kept_.cosines(); h < wide_.cosines(); ++h)
-    direct += std::hypot(response_[h], response_[wide_.sine_index(wide_.cosine_order(h))]);
-
   effect_.noalias() = evaluator_->jacobian() * tail_;
   restrict_to_kept(effect_, change_.head(n));
-  change_.head(n) *= -1;
+  change_.head(n) = -change_.head(n) - residual_;
   change_[n] = 0;
   now.bordered.solve(change_);
   const double along = now.tangent[n];
-  if (std::abs(along) > 1e-9 * std::abs(change_[n])) change_ -= change_[n] / along * now.tangent;  // at fixed frequency
+  if (std::abs(along) > at_a_fold * std::abs(change_[n])) change_ -= change_[n] / along * now.tangent;
   embed(change_.head(n), u_);
+  u_ += tail_;
   evaluator_->stiffness().response(u_, 0, response_);
-  const double indirect = std::abs(amplitude_change(wide_, extreme, response_));
-  return {direct + indirect, kept_.order * now.p[model::frequency] < highest_};
+  return {std::abs(amplitude_change(wide_, extreme, response_)),
+          kept_.order * now.p[model::frequency] < highest_};
 }
 
 }  // namespace arcslip::observables

@@ -2,10 +2,14 @@
 // What the harmonics above N would add to the amplitude, to first order.
 //
 // At the solution u of order N the element forces have coefficients f_n for n > N as well. They drive
-//   X_n = -Z_n^-1 f_n,  N < n <= N_2,
-// and X_n acts back on the harmonics kept through the elements: du = -J^-1 (dF/dX_n) X_n at fixed frequency. The
-// estimate is |A_u du| + sum |X_n| at the observed coordinate. It is flagged where N omega lies below the highest
-// natural frequency of the structure (elements stuck): a resonance there is left out, and first order may be far off.
+//   X_n = -Z_n^-1 f_n,  N < n <= 2 N + 9,
+// and X_n acts back on the harmonics kept through the elements, at fixed frequency:
+//   J du = -(dF/dX_n) X_n - R,
+// where R is the residual at u with exact friction: zero but for rounding, or, where the scene samples its friction,
+// the error of sampling. The estimate is |dA/dx . (du, X_n)|, the change of the amplitude, not a bound: it has been
+// within a factor of two of the error wherever that is known (docs/performance.md), but both change sign along a
+// branch. It is flagged where N omega lies below the highest natural frequency of the structure with its sliders
+// stuck: a resonance is left out there, and the first order may be far off.
 
 #include <arcslip/continuation/monitor.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -35,7 +39,7 @@ class Truncation {
   hbm::HbmProblem wide_problem_;
   std::unique_ptr<hbm::HbmEvaluator> evaluator_;
   double highest_;
-  continuation::Vector u_, tail_, effect_, change_, response_;
+  continuation::Vector u_, tail_, effect_, change_, residual_, response_;
 };
 
 /// Highest natural frequency (rad/s) of M x'' + (K + sum of element stiffnesses) x = 0 at p; massless motions have

@@ -18,7 +18,7 @@ bool traces_a_parabola() {
   Options options;
   options.lower = 0;
   options.upper = 2;
-  const Branch branch = trace(parabola, {Vector::Zero(1), parameter_values(*parabola), 0}, options);
+  const Branch branch = trace(parabola, {.u = Vector::Zero(1), .p = parameter_values(*parabola)}, options);
   return branch.stop.reason == StopReason::boundary && std::abs(branch.points.back().u[0] - 4) < 1e-9;
 }
 

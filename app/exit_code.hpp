@@ -1,0 +1,13 @@
+#pragma once
+
+namespace arcslip::app {
+
+/// How the program ends.
+enum class ExitCode {
+  done = 0,
+  usage_or_file = 1,
+  invalid_scene = 2,
+  stopped_early = 3,  // partial results are written
+};
+
+}  // namespace arcslip::app

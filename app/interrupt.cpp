@@ -1,0 +1,42 @@
+#include "interrupt.hpp"
+
+#include <csignal>
+
+namespace arcslip::app {
+namespace {
+
+volatile std::sig_atomic_t end_asked = 0;  // a handler can reach nothing else
+
+extern "C" void ask_for_end(int signal) {
+  if (end_asked != 0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);  // taken when this handler returns
+  }
+  end_asked = 1;
+}
+
+void watch(int signal) {
+  struct sigaction old {};
+  if (::sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN) {
+    return;  // as nohup wants it
+  }
+  struct sigaction action {};
+  action.sa_handler = ask_for_end;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  ::sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void watch_signals() {
+  watch(SIGINT);
+  watch(SIGTERM);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool interrupted() {
+  return end_asked != 0;
+}
+
+}  // namespace arcslip::app

@@ -1,0 +1,72 @@
+// The command arcslip: see arcslip --help.
+
+#include "exit_code.hpp"
+#include "interrupt.hpp"
+#include "message.hpp"
+#include "options.hpp"
+#include "standard_output.hpp"
+#include "verbs.hpp"
+
+#include <arcslip/scene/scene.hpp>
+
+#include <exception>
+#include <new>
+#include <ostream>
+#include <string>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace arcslip::app {
+namespace {
+
+/// A stream that is closed at the start would lend its number to the first file that is opened.
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0) {
+      ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // its use fails, as it should
+    }
+  }
+}
+
+ExitCode print(const Information& information) {
+  StandardOutput().write([&](std::ostream& out) { out << information.text; });
+  return ExitCode::done;
+}
+
+void tell_faults(const std::string& file, const scene::SceneError& error) {
+  for (const scene::Fault& fault : error.faults()) {
+    tell_plainly(file + ": " + fault.pointer + (fault.pointer.empty() ? "" : ": ") + fault.message + "\n");
+  }
+}
+
+ExitCode run(int argc, const char* const* argv) {
+  std::string scene_file;
+  try {
+    const auto request = parse(argc, argv);
+    if (const auto* information = std::get_if<Information>(&request)) {
+      return print(*information);
+    }
+    scene_file = std::get<Options>(request).scene;
+    return execute(std::get<Options>(request));
+  } catch (const scene::SceneError& error) {
+    tell_faults(scene_file, error);
+    return ExitCode::invalid_scene;
+  } catch (const std::bad_alloc&) {
+    tell("out of memory: ask for fewer harmonics, a shorter range or fewer values in for_each");
+  } catch (const std::exception& error) {
+    tell(error.what());
+  } catch (...) {
+    tell("an unknown error: please report it with the scene");
+  }
+  return ExitCode::usage_or_file;
+}
+
+}  // namespace
+}  // namespace arcslip::app
+
+int main(int argc, char** argv) {
+  arcslip::app::hold_standard_streams();
+  arcslip::app::watch_signals();
+  return static_cast<int>(arcslip::app::run(argc, argv));
+}

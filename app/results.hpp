@@ -1,0 +1,35 @@
+#pragma once
+// Where the results of a run go, and that they can go there, known before anything is computed.
+
+#include <arcslip/observables/response.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace arcslip::app {
+
+/// The files of one study in a folder: NAME.scene.json, NAME.json, NAME.csv and the figures.
+struct StudyFiles {
+  std::string folder, name;
+
+  std::string path(const std::string& extension) const;
+};
+
+/// A name for the files of each study, different for each.
+std::vector<StudyFiles> study_files(const std::string& folder, std::span<const scene::Study> studies);
+
+/// Makes the folder, with those above it. Throws UsageError.
+void make_folder(const std::string& folder);
+
+/// Throws if one of the files cannot be written, or is the scene file itself.
+void check_writable(const StudyFiles& files, const std::string& scene_file);
+void check_writable(const std::string& file, const std::string& scene_file);
+
+/// Writes the files and figures. Returns their paths; tells on standard error why figures are missing.
+std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
+                                     std::span<const observables::ResponseBranch> branches,
+                                     bool coefficients);
+
+}  // namespace arcslip::app

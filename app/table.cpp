@@ -1,0 +1,116 @@
+#include "table.hpp"
+
+#include <arcslip/output/friction_elements.hpp>
+#include <arcslip/output/units.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace arcslip::app {
+namespace {
+
+using observables::ResponseBranch;
+using Row = std::vector<std::string>;
+
+std::string formatted(const char* format, double value) {
+  if (!std::isfinite(value)) {
+    return "-";
+  }
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+const char* text(observables::Status status) {
+  switch (status) {
+    case observables::Status::complete:
+      return "complete";
+    case observables::Status::stopped:
+      return "stopped";
+    case observables::Status::failed:
+      break;
+  }
+  return "failed";
+}
+
+Row header(const scene::Scene& scene, const Row& parameters, const Row& friction) {
+  Row row;
+  for (const std::string& name : parameters) {
+    row.push_back(output::with_unit(name, output::parameter_unit(scene, name)));
+  }
+  row.insert(row.end(),
+             {"event", output::with_unit("frequency", scene::unit_name(scene.frequency_unit)), "A_max (m)"});
+  for (const std::string& name : friction) {
+    row.push_back(friction.size() == 1 ? "stick (%)" : name + " stick (%)");
+  }
+  row.emplace_back("branch");
+  return row;
+}
+
+/// A row for an event, or for a branch that has none.
+Row row(const scene::Scene& scene, const ResponseBranch& branch, const observables::ResponseEvent* event,
+        const Row& friction) {
+  Row cells;
+  for (const auto& [name, value] : branch.set) {
+    cells.push_back(output::shortest(value));
+  }
+  if (event != nullptr) {
+    const observables::ResponsePoint& point = event->point;
+    cells.insert(cells.end(), {event->kind, formatted("%.8f", output::in_scene_unit(scene, point.omega)),
+                               point.unbounded ? "unbounded" : formatted("%.8e", point.amplitude)});
+    for (const std::string& name : friction) {
+      cells.push_back(formatted("%.4f", output::stick_percent(point, name)));
+    }
+  } else {
+    cells.insert(cells.end(), 3 + friction.size(), "-");
+  }
+  cells.emplace_back(text(branch.status));
+  return cells;
+}
+
+void write_aligned(std::ostream& out, const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& cells : rows) {
+    widths.resize(std::max(widths.size(), cells.size()));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      widths[i] = std::max(widths[i], cells[i].size());
+    }
+  }
+  for (const Row& cells : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      line += (i > 0 ? "  " : "") + std::string(widths[i] - cells[i].size(), ' ') + cells[i];
+    }
+    out << line << '\n';
+  }
+}
+
+}  // namespace
+
+void write_table(std::ostream& out, const scene::Scene& scene, std::span<const ResponseBranch> branches) {
+  if (branches.empty()) {
+    return;
+  }
+  Row parameters;
+  for (const auto& [name, value] : branches.front().set) {
+    parameters.push_back(name);
+  }
+  const Row friction = output::friction_elements(branches);
+  std::vector<Row> rows{header(scene, parameters, friction)};
+  for (const ResponseBranch& branch : branches) {
+    for (const observables::ResponseEvent& event : branch.events) {
+      rows.push_back(row(scene, branch, &event, friction));
+    }
+    if (branch.events.empty()) {
+      rows.push_back(row(scene, branch, nullptr, friction));
+    }
+  }
+  write_aligned(out, rows);
+}
+
+}  // namespace arcslip::app
