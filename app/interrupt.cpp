@@ -33,6 +33,7 @@ void watch_signals() {
   watch(SIGINT);
   watch(SIGTERM);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() {

@@ -11,6 +11,9 @@
 namespace arcslip::app {
 namespace {
 
+constexpr std::string_view exit_codes =
+    "Exit codes: 0 done, 1 usage or file, 2 invalid scene, 3 stopped early with partial results written.";
+
 /// The whole text as a finite number, or nothing.
 std::optional<double> number(const std::string& text) {
   const char* begin = text.data();
@@ -65,9 +68,11 @@ std::optional<int> harmonics(const std::string& text) {
 CLI::App* add_verb(CLI::App& app, const std::string& name, const std::string& help, Options& options,
                    Texts& texts) {
   CLI::App* verb = app.add_subcommand(name, help);
-  verb->add_option("scene", options.scene, "scene file (JSON, format arcslip-scene-1)")
+  verb->add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-1)")
       ->required()
-      ->type_name("SCENE");
+      ->type_name("");
+  verb->group("Verbs");
+  verb->footer(std::string(exit_codes));
   verb->add_option(
           "--set", texts.set,
           "give a parameter a value, as damper.normal_load=3; replaces its list in for_each; may be repeated")
@@ -112,16 +117,16 @@ bool given(const CLI::App& verb, const std::string& option) {
 }  // namespace
 
 std::variant<Options, Information> parse(int argc, const char* const* argv) {
+  const std::string hint = "Run arcslip --help for the verbs, arcslip VERB --help for their options.";
   Options options;
   Texts texts;
   CLI::App app("Frequency responses of vibrating structures with friction and other nonlinear elements.",
                "arcslip");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "arcslip " + std::string(output::version()));
+  app.set_version_flag("--version", "arcslip " + std::string(output::version()), "print the version");
   app.set_help_flag("--help,-h", "print this help");
-  app.footer(
-      "Exit codes: 0 done, 1 usage or file, 2 invalid scene, 3 stopped early with partial results written.\n"
-      "arcslip VERB --help tells the options of a verb.");
+  app.get_formatter()->label("SUBCOMMAND", "VERB SCENE");
+  app.footer(std::string(exit_codes) + "\narcslip VERB --help tells the options of a verb.");
 
   CLI::App* run = add_verb(app, "run", "every study of the scene: results and figures", options, texts);
   CLI::App* frf = add_verb(app, "frf", "frequency responses, with their peaks and folds", options, texts);
@@ -136,6 +141,9 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   add_study_options(*frf, options, texts);
   check->add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
 
+  if (argc < 2) {
+    throw UsageError("what shall be done? Give a verb and a scene, as in arcslip run scene.json\n" + hint);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion& version) {
@@ -143,8 +151,11 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   } catch (const CLI::CallForHelp&) {
     return Information{app.help()};
   } catch (const CLI::ParseError& error) {
-    throw UsageError(std::string(error.what()) +
-                     "\nRun arcslip --help for the verbs, arcslip VERB --help for options.");
+    const std::string first = argv[1];
+    if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
+      throw UsageError("unknown verb \"" + first + "\", must be run, frf or check\n" + hint);
+    }
+    throw UsageError(std::string(error.what()) + "\n" + hint);
   }
   const CLI::App* verb = app.get_subcommands().front();
   options.verb = verb == run ? Verb::run : verb == frf ? Verb::frf : Verb::check;

@@ -68,7 +68,9 @@ void ProgressLine::show(const observables::Progress& progress) {
 
 void ProgressLine::clear() {
   if (width_ > 0) {
-    tell_plainly("\r" + std::string(width_, ' ') + "\r");
+    std::string blank(width_ + 2, ' ');
+    blank.front() = blank.back() = '\r';
+    tell_plainly(blank);
     width_ = 0;
   }
 }

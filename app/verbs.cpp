@@ -105,13 +105,16 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       continue;
     }
     std::vector<ResponseBranch> branches = compute(scene, studies[i], options.quiet);
-    if (report_ends(scene, branches) != ExitCode::done || interrupted()) {
+    if (report_ends(scene, branches) != ExitCode::done) {
       code = ExitCode::stopped_early;
     }
     if (!options.out.empty()) {
       for (const std::string& path : write_study(files[i], scene, branches, options.coefficients)) {
         places += path + "\n";
       }
+    }
+    if (interrupted()) {  // while figures were drawn, too
+      code = ExitCode::stopped_early;
     }
     if (!takes_standard_output(options)) {
       screen.write([&](std::ostream& out) {

@@ -7,11 +7,11 @@
 namespace arcslip::continuation {
 namespace {
 
-// Chord steps that cost less than new factors: a factorization is n/3 solves, an evaluation with Jacobian somewhat
-// more than one without.
-double chord_steps_worth_a_factorization(int n) { return std::clamp(n / 8.0, 1.0, 8.0); }
-
 constexpr double smallest_damping = 1.0 / 256;
+constexpr double undamped = 1e-2;      // corrections below are taken whole, and tested at the next place
+constexpr double divergence = 2;       // of such corrections, from one to the next
+constexpr int longest_chord = 5;       // chord steps before new factors
+constexpr double chord_safety = 5;     // on the contraction expected of the next one: new factors cost more
 constexpr double smallest_relevant_state = 1e-6;  // in scales: below, corrections are measured absolutely
 
 }  // namespace
@@ -19,8 +19,7 @@ constexpr double smallest_relevant_state = 1e-6;  // in scales: below, correctio
 Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts)
     : options_(options), counts_(counts), evaluator_(problem.evaluator()), lu_(problem.size()), p_(std::move(p)),
       weights_(problem.size() + 1), F_p_(problem.size()), dv_(problem.size() + 1), next_(problem.size() + 1),
-      trial_(problem.size() + 1), free_(free),
-      longest_chord_(chord_steps_worth_a_factorization(problem.size())) {
+      trial_(problem.size() + 1), free_(free) {
   const double parameter_scale = problem.parameters()[static_cast<std::size_t>(free)].scale;
   weights_.head(problem.size()) = problem.scales().cwiseAbs2().cwiseInverse();
   weights_[problem.size()] = 1 / (parameter_scale * parameter_scale);
@@ -76,86 +75,84 @@ bool Corrector::tangent(Vector& t) const {
   return true;
 }
 
-// New factors at v and the Newton correction there.
-bool Corrector::renew(const Vector& v, const Vector& row, Vector& dv) {
-  if (!linearize(v, row)) return false;
-  solve(dv);
-  return dv.allFinite();
+// With the factors that are there, to where linearizing is expected to end the correction. False: they do not fit, and
+// v is as good as before.
+bool Corrector::chord(Vector& v, Correction& result) {
+  if (!evaluate(v, Needs::residual)) {
+    result.evaluated = false;
+    return false;
+  }
+  solve(dv_);
+  double now = size(dv_, v);
+  result.first = now;
+  if (!(now < 1)) return false;
+  v += dv_;
+  ++result.iterations;
+  for (int k = 1; k < longest_chord && now * chord_safety * contraction_ > options_.tolerance; ++k) {
+    if (!evaluate(v, Needs::residual)) {
+      result.evaluated = false;
+      return false;
+    }
+    solve(next_);
+    const double next = size(next_, v);
+    const double ratio = next / now;
+    if (k == 1) result.contraction = ratio;
+    if (!(ratio <= options_.chord_contraction)) {
+      if (!(ratio <= 1)) v -= dv_;
+      break;
+    }
+    v += next_;
+    std::swap(dv_, next_);
+    now = next;
+    contraction_ = ratio;
+    ++result.iterations;
+  }
+  result.last = now;
+  return true;
 }
 
 Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
   Correction result;
-  const auto give_up = [&](bool evaluated) {
-    result.evaluated = evaluated;
-    return result;
-  };
-
-  bool fresh = !keep_factors;
-  if (fresh) {
-    if (!renew(v, row, dv_)) return give_up(false);
-  } else {
-    if (!evaluate(v, Needs::residual)) return give_up(false);
-    solve(dv_);
+  double before = 0;  // size of the correction that led to v
+  if (keep_factors) {
+    if (!chord(v, result) && !result.evaluated) return result;
+    before = result.last;
   }
-
-  double damping = 1;
-  double now = size(dv_, v);
-  result.first = now;
-  for (result.iterations = 1; result.iterations <= options_.iterations; ++result.iterations) {
-    trial_ = v + damping * dv_;
-    const bool evaluated = evaluate(trial_, Needs::residual);
-    double next = std::numeric_limits<double>::infinity();
-    if (evaluated) {
-      solve(next_);
-      next = size(next_, trial_);
-      if (!(next >= 0)) next = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < options_.iterations; ++k, ++result.iterations) {
+    if (!linearize(v, row)) {
+      result.evaluated = false;
+      return result;
     }
-    const double ratio = now > 0 ? next / now : 0;
-    if (result.iterations == 1) result.contraction = ratio;
-
-    if (damping == 1 && ratio <= options_.chord_contraction) {
-      v = trial_;
-      std::swap(dv_, next_);
-      now = next;
-      if (next * ratio <= (1 - ratio) * options_.tolerance) {  // error left after this last correction
-        v += dv_;
-        result.last = next;
-        result.converged = true;
-        return result;
-      }
-      const double steps_left = std::log(options_.tolerance / next) / std::log(ratio);
-      if (steps_left > longest_chord_) {
-        if (!renew(v, row, dv_)) return give_up(false);
-        fresh = true;
-        now = size(dv_, v);
-      } else {
-        fresh = false;
-      }
-      continue;
-    }
-    if (next <= options_.rounding_level && now <= options_.rounding_level && fresh) {  // stagnates at rounding
-      v = trial_;
-      result.last = next;
+    solve(dv_);
+    const double now = size(dv_, v);
+    if (result.first == 0) result.first = now;
+    if (result.contraction == 0 && before > 0) result.contraction = now / before;
+    if (k == 0 && before > 0) contraction_ = std::max(now / before, 1e-4);
+    result.last = now;
+    const bool stagnates = before > 0 && now > 0.5 * before && now <= options_.rounding_level;
+    if (now <= options_.tolerance || stagnates) {
+      v += dv_;
       result.converged = true;
       return result;
     }
-    if (!fresh) {  // old factors are to blame: renew, at the trial point if it is nearer
-      if (ratio < 1) v = trial_;
-      if (!renew(v, row, dv_)) return give_up(false);
-      fresh = true;
-      damping = 1;
-      now = size(dv_, v);
+    if (!std::isfinite(now)) return result;
+    if (now < undamped) {
+      if (before > 0 && before < undamped && now > divergence * before) return result;
+      v += dv_;
+      before = now;
       continue;
     }
-    if (ratio < 1 - damping / 4) {  // monotone: go on from here
-      v = trial_;
-      if (!renew(v, row, dv_)) return give_up(false);
-      damping = std::min(1.0, 2 * damping);
-      now = size(dv_, v);
-      continue;
+    double damping = 1, next = 0;
+    for (;; damping /= 2) {
+      if (damping < smallest_damping) return result;
+      trial_ = v + damping * dv_;
+      if (!evaluate(trial_, Needs::residual)) continue;
+      solve(next_);
+      next = size(next_, trial_);
+      if (next <= (1 - damping / 4) * now) break;
     }
-    damping /= 2;
-    if (damping < smallest_damping) return give_up(evaluated);
+    v = trial_;
+    before = 0;
   }
   return result;
 }

@@ -1,10 +1,14 @@
 #pragma once
 // From a prediction to the branch: Newton's method for F(u, p) = 0 in the plane r . (v - v_predicted) = 0, v = (u, p).
 //
-// Error-oriented (Deuflhard, Newton Methods for Nonlinear Problems, 2004, chapter 3): the size of the simplified
-// correction -B^-1 F(v + lambda dv) decides whether factors are kept (a chord step), renewed, or the step damped. It
-// is invariant under scaling of the equations and, since it never looks at the Jacobian across a kink, serves
-// piecewise smooth F as a semismooth Newton method with a safeguard.
+// Factors of a nearby place are used first, in chord steps, as long as these contract. Then F and J are evaluated and
+// factorized where they led to: if the correction dv = -B^-1 F from those factors is below the tolerance, v + dv is
+// the solution, whose error is of the order |dv|^2 (|dv| next to a kink), and the factors are those of the branch
+// there. If not, Newton's method goes on from there. So a point that was well predicted costs one factorization.
+//
+// Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004, chapter
+// 3): |B^-1 F(v + lambda dv)| must fall below |dv|. It is invariant under scaling of the equations and never compares
+// Jacobians across a kink: so it serves piecewise smooth F as a semismooth Newton method with a safeguard.
 
 #include <arcslip/continuation/bordered_lu.hpp>
 #include <arcslip/continuation/branch.hpp>
@@ -21,7 +25,7 @@ struct Correction {
   bool evaluated = true;       // false: the problem could not be evaluated
   int iterations = 0;
   double first = 0, last = 0;  // size of the first and of the last correction
-  double contraction = 0;      // second over first
+  double contraction = 0;      // of the second over the first
 };
 
 /// One place to work in: an evaluator, factors and buffers. Nothing in correct() or linearize() allocates.
@@ -30,14 +34,14 @@ class Corrector {
   /// counts: where the work is added up; outlives the corrector.
   Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts);
 
-  /// v: n + 1, the prediction, becomes the solution. row: n + 1. keep_factors: the factors that are there are those
-  /// of a nearby place with a similar row, and are tried first.
+  /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1. keep_factors: the
+  /// factors that are there are those of a nearby place with a similar row, and are tried first.
   Correction correct(Vector& v, const Vector& row, bool keep_factors);
 
   /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
   bool linearize(const Vector& v, const Vector& row);
 
-  /// The unit tangent at the last linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in scales. False where
+  /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in scales. False where
   /// the row is (nearly) orthogonal to it.
   bool tangent(Vector& t) const;
 
@@ -53,7 +57,7 @@ class Corrector {
   bool evaluate(const Vector& v, Needs needs);
   bool factorize(const Vector& row);
   void solve(Vector& dv) const;  // dv = -B^-1 (F, 0)
-  bool renew(const Vector& v, const Vector& row, Vector& dv);
+  bool chord(Vector& v, Correction& result);
 
   NewtonOptions options_;
   Counts& counts_;
@@ -62,7 +66,7 @@ class Corrector {
   Vector p_, weights_, F_p_, dv_, next_, trial_;
   int free_;
   double parameter_floor_;
-  double longest_chord_;
+  double contraction_ = 1;  // of the last chord step
 };
 
 }  // namespace arcslip::continuation

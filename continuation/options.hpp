@@ -4,8 +4,8 @@
 namespace arcslip::continuation {
 
 struct NewtonOptions {
-  double tolerance = 1e-11;        // on the estimated error, relative to |u| in scales; > 0
-  double rounding_level = 1e-8;    // a correction that stagnates below this is accepted as rounding; >= tolerance
+  double tolerance = 1e-9;         // of the last correction, relative to |u| in scales; the error left is its square
+  double rounding_level = 1e-7;    // a correction that stagnates below this is accepted as rounding; >= tolerance
   int iterations = 8;              // at most
   double chord_contraction = 0.3;  // factors are kept while corrections shrink at least so fast; in [0, 1)
 };

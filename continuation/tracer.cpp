@@ -17,6 +17,7 @@ constexpr double rejection = 0.25;                // of the step after a rejecti
 constexpr double kink_step = 0.25, kink_turn = 0.7;  // a turn that keeps so much of itself over so short a step is a kink
 constexpr double largest_extrapolation = 2.5;     // in last steps, for the cubic predictor
 constexpr double nonsmooth_share = 1e-4;          // of a monitor's change over a step, left at its zero
+constexpr double event_newton = 1e-2;             // the corrector's tolerance at events, of that on the branch
 constexpr double event_state_tolerance = 1e-10;   // relative, of u at an event
 
 double angle_between(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
@@ -79,16 +80,11 @@ Accepted Tracer::accepted(Corrector& at, const Place& place) {
   return {place.v.head(n_), at.parameters(), place.tangent, place.arclength, at.evaluator(), at.factors()};
 }
 
-// At the converged place.v: factors, tangent with its orientation, monitors. `from` tells the direction of travel;
-// at a kink the sign of the determinant does, since the angle to the last tangent says nothing there.
-bool Tracer::settle(Corrector& at, Place& place, const Vector& row, const Place& from, bool kink) {
-  if (!at.linearize(place.v, row) || !at.tangent(place.tangent)) return false;
-  place.orientation = at.factors().determinant_sign();  // row . t > 0
+// The tangent at the solution place.v of the last correction, on the side of its border row: row . t > 0.
+bool Tracer::settle(Corrector& at, Place& place) const {
+  if (!at.tangent(place.tangent)) return false;
+  place.orientation = at.factors().determinant_sign();
   place.piece = at.evaluator().piece();
-  if (kink && place.orientation != from.orientation) {
-    place.tangent = -place.tangent;
-    place.orientation = from.orientation;
-  }
   return true;
 }
 
@@ -103,10 +99,7 @@ bool Tracer::begin() {
                correction.evaluated ? "the corrector did not converge at the start (" +
                                           std::to_string(correction.iterations) + " iterations)"
                                     : "the problem could not be evaluated at the start");
-  if (!main_.linearize(here_.v, row_) || !main_.tangent(here_.tangent))
-    return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
-  here_.orientation = main_.factors().determinant_sign();
-  here_.piece = main_.evaluator().piece();
+  if (!settle(main_, here_)) return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
   if (direction_ < 0) {
     here_.tangent = -here_.tangent;
     here_.orientation = -here_.orientation;
@@ -181,7 +174,7 @@ Tracer::Attempt Tracer::attempt() {
   const double length = std::sqrt(main_.dot(v_, v_));
   const double ahead = main_.dot(v_, here_.tangent);
   if (!(length > 0)) return Attempt::rejected;
-  if (!settle(main_, next_, row_, here_, false)) return Attempt::rejected;
+  if (!settle(main_, next_)) return Attempt::rejected;
 
   const double turn = std::max(angle_between(main_.dot(next_.tangent, here_.tangent)), angle_between(ahead / length));
   bool kink = false;
@@ -245,7 +238,11 @@ bool Tracer::to_boundary(Place& place, double bound) {
   v_[n_] = 1;
   if (!main_.correct(place.v, v_, false).converged) return false;
   place.v[n_] = bound;
-  if (!settle(main_, place, row_, here_, false)) return false;
+  if (!settle(main_, place)) return false;
+  if (main_.dot(place.tangent, here_.tangent) < 0) {
+    place.tangent = -place.tangent;
+    place.orientation = -place.orientation;
+  }
   v_ = place.v - here_.v;
   place.arclength = here_.arclength + std::sqrt(main_.dot(v_, v_));
   return true;
@@ -269,6 +266,7 @@ bool Tracer::locate_events(const Place& from, const Place& to) {
   struct Found {
     Event event;
     Place place;
+    Vector row;
   };
   std::vector<Found> found;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
@@ -277,7 +275,10 @@ bool Tracer::locate_events(const Place& from, const Place& to) {
     const Crossing wanted = monitors_[m].crossing;
     if (!(falling && wanted != Crossing::rising) && !(rising && wanted != Crossing::falling)) continue;
     Place place;
-    if (auto event = locate(m, from, to, place)) found.push_back({std::move(*event), std::move(place)});
+    if (auto event = locate(m, from, to, place)) {
+      const Vector row = place.tangent.cwiseProduct(main_.weights());
+      found.push_back({std::move(*event), std::move(place), row});
+    }
   }
   std::sort(found.begin(), found.end(),
             [](const Found& x, const Found& y) { return x.event.point.arclength < y.event.point.arclength; });
@@ -285,7 +286,7 @@ bool Tracer::locate_events(const Place& from, const Place& to) {
   for (Found& f : found) {
     f.event.after = branch_.points.size() - 1;
     branch_.events.push_back(std::move(f.event));
-    if (observer_ && go_on && probe_->linearize(f.place.v, row_))
+    if (observer_ && go_on && probe_->linearize(f.place.v, f.row))
       go_on = observer_(accepted(*probe_, f.place), &branch_.events.back());
   }
   return go_on;
@@ -293,8 +294,11 @@ bool Tracer::locate_events(const Place& from, const Place& to) {
 
 // The zero of a monitor between two points, on the cubic between them and then on the branch.
 std::optional<Event> Tracer::locate(std::size_t monitor, const Place& from, const Place& to, Place& found) {
-  if (!probe_)
-    probe_ = std::make_unique<Corrector>(*problem_, main_.parameters(), free_, options_.newton, branch_.counts);
+  if (!probe_) {
+    NewtonOptions newton = options_.newton;
+    newton.tolerance *= event_newton;
+    probe_ = std::make_unique<Corrector>(*problem_, main_.parameters(), free_, newton, branch_.counts);
+  }
   const double length = to.arclength - from.arclength;
   Vector chord = to.v - from.v;
   const Vector row = (chord / length).cwiseProduct(main_.weights());
@@ -305,7 +309,7 @@ std::optional<Event> Tracer::locate(std::size_t monitor, const Place& from, cons
     hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
     correction = probe_->correct(place.v, row, factors);
     if (!correction.converged) correction = probe_->correct(place.v, row, false);
-    if (!correction.converged || !settle(*probe_, place, row, from, false)) {
+    if (!correction.converged || !settle(*probe_, place)) {
       failed = true;
       return 0.0;
     }

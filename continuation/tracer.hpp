@@ -54,7 +54,7 @@ class Tracer {
   bool begin();
   Attempt attempt();
   void predict(Vector& v) const;
-  bool settle(Corrector& at, Place& place, const Vector& row, const Place& from, bool kink);
+  bool settle(Corrector& at, Place& place) const;
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
   bool locate_events(const Place& from, const Place& to);

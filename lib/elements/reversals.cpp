@@ -8,24 +8,25 @@ namespace {
 
 constexpr int deepest = 14;
 constexpr int newton_steps = 60;
-constexpr double angle_rounding = 4e-16;
+constexpr double settled = 3e-9;  // rad
 
-// Newton's method on an increasing or decreasing function in a bracket, halving where it leaves it.
-// values(t) -> {f, f'}.
-template <class Function>
-double bracketed_newton(Function&& values, double lower, double upper, double guess, bool rising) {
+// Newton's method on an increasing or decreasing function in a bracket, halving where it leaves it. The last step is
+// below `settled`; what it leaves over is its square, rounding.
+// values(t) -> {f, f'}. Returns the root and tells at_last(root - t) how far it lies from the last values.
+template <class Function, class AtLast>
+double bracketed_newton(Function&& values, double lower, double upper, double guess, bool rising, AtLast&& at_last) {
   double t = guess > lower && guess < upper ? guess : 0.5 * (lower + upper);
-  for (int k = 0; k < newton_steps; ++k) {
+  for (int k = 0;; ++k) {
     const auto [f, slope] = values(t);
-    if (f == 0) return t;
     ((f > 0) == rising ? upper : lower) = t;
-    double next = t - f / slope;
+    double next = f == 0 ? t : t - f / slope;
     if (!(next >= lower && next <= upper)) next = 0.5 * (lower + upper);
-    const double change = std::abs(next - t);
+    if (std::abs(next - t) <= settled || k == newton_steps) {
+      at_last(next - t);
+      return next;
+    }
     t = next;
-    if (change <= angle_rounding * (1 + std::abs(t)) || upper - lower <= angle_rounding * (1 + std::abs(t))) break;
   }
-  return t;
 }
 
 }  // namespace
@@ -49,12 +50,15 @@ Reversals::Reversals(const Harmonics& harmonics)
 
 Reversal Reversals::polish(In u, double t0, double g0, double t1, double g1, bool rising) const {
   const double secant = g1 != g0 ? t0 - g0 * (t1 - t0) / (g1 - g0) : t0;
-  const auto derivatives = [&](double t) {
-    const Values v = series_values(harmonics_, u, t);
-    return std::pair{v.d1, v.d2};
-  };
-  const double theta = bracketed_newton(derivatives, t0, t1, secant, rising);
-  return {theta, series_values(harmonics_, u, theta).x};
+  Values v{};
+  double x = 0;
+  const double theta = bracketed_newton(
+      [&](double t) {
+        v = series_values(harmonics_, u, t);
+        return std::pair{v.d1, v.d2};
+      },
+      t0, t1, secant, rising, [&](double d) { x = v.x + d * (v.d1 + 0.5 * d * v.d2); });
+  return {theta, x};
 }
 
 void Reversals::search(In u, double t0, double g0, bool positive0, double t1, double g1, bool positive1, double M,
@@ -97,11 +101,12 @@ double Reversals::crossing(In u, const Reversal& from, const Reversal& to, doubl
   if (share <= -1) return to.theta;
   // Exact for one harmonic: between two reversals x runs like a cosine.
   const double guess = from.theta + (to.theta - from.theta) * std::acos(share) / std::numbers::pi;
-  const auto values = [&](double t) {
-    const Values v = series_values(harmonics_, u, t);
-    return std::pair{v.x - target, v.d1};
-  };
-  return bracketed_newton(values, from.theta, to.theta, guess, range < 0);
+  return bracketed_newton(
+      [&](double t) {
+        const Values v = series_values(harmonics_, u, t);
+        return std::pair{v.x - target, v.d1};
+      },
+      from.theta, to.theta, guess, range < 0, [](double) {});
 }
 
 }  // namespace arcslip::elements

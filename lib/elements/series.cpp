@@ -6,8 +6,8 @@
 namespace arcslip::elements {
 
 Values series_values(const Harmonics& h, In u, double theta) {
-  const double step_c = std::cos(h.stride() * theta), step_s = std::sin(h.stride() * theta);
-  double c = h.odd ? std::cos(theta) : step_c, s = h.odd ? std::sin(theta) : step_s;
+  double c = std::cos(theta), s = std::sin(theta);
+  const double step_c = h.odd ? (c - s) * (c + s) : c, step_s = h.odd ? 2 * c * s : s;
   Values v{h.odd ? 0.0 : u[0], 0, 0};
   const int sines = h.sines();
   const double* a = u.data() + (h.odd ? 0 : 1);

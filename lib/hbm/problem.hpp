@@ -70,6 +70,7 @@ class HbmProblem final : public continuation::Problem {
   std::shared_ptr<const model::Model> shared_model() const { return model_; }
   const Harmonics& harmonics() const { return harmonics_; }
   const Coordinates& coordinates() const { return coordinates_; }
+  double displacement() const { return displacement_; }
   int excitation_factor() const { return static_cast<int>(parameters_.size()) - 1; }
 
  private:

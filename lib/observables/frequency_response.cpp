@@ -1,8 +1,6 @@
 #include <arcslip/observables/frequency_response.hpp>
 
-#include <arcslip/continuation/tracer.hpp>
-#include <arcslip/hbm/steady_state.hpp>
-#include <arcslip/observables/observe.hpp>
+#include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
 #include <algorithm>
@@ -16,8 +14,6 @@ namespace {
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double points_in_window = 150;     // at least, on a branch from end to end
-constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
 constexpr double beyond_display = 1e6;       // |u| in scales: points above, next to an unbounded peak, are left out
 constexpr double next_to_pole = 100;         // |u| in scales: where the far side of an unbounded peak is taken up
 
@@ -71,47 +67,25 @@ class Sweep {
     ResponseBranch result;
     describe(result, set);
 
-    const auto rough = std::make_shared<const hbm::HbmProblem>(model_, model_->harmonics, scale_of(from), window());
-    const Vector p = hbm::parameters_at(*rough, from);
-    const auto start = hbm::steady_state(rough, p);
-    if (!start) {
-      result.status = Status::failed;
-      result.stop = {name(StopReason::start_failed), from / unit_, 0,
-                     "no periodic response was found at " + text(from / unit_) + " " + unit_name_ +
-                         ": Newton's method failed from rest, from the response without elements, and along a "
-                         "growing excitation"};
-      return result;
-    }
-    const double size = start->norm() > 0 ? start->norm() : 1;
-    const auto problem = std::make_shared<const hbm::HbmProblem>(model_, model_->harmonics, size, window());
-    result.solver.unknowns = problem->size();
-    const auto observer = std::make_shared<Observer>(problem, p);
-
-    continuation::Options options;
-    options.lower = lower_;
-    options.upper = upper_;
-    options.step.largest_parameter = window() / points_in_window;
-    options.step.relative_parameter = largest_relative_step;
-
     std::vector<std::pair<double, double>> course;  // frequency, |u| in scales
     double last = from;
-    const auto record = [&](const continuation::Accepted& now, const continuation::Event* event) {
-      const double state = now.u.norm() / size, omega = now.p[model::frequency];
+    const auto record = [&](Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
       if (event) {
-        result.events.push_back({event->monitor, event->nonsmooth, observer->observe(now)});
+        result.events.push_back({event->monitor, event->nonsmooth, observer.observe(now)});
         return true;
       }
-      course.emplace_back(omega, state);
-      if (state < beyond_display) result.points.push_back(observer->observe(now));
+      const double omega = now.p[model::frequency];
+      course.emplace_back(omega, now.u.norm() / observer.problem().displacement());
+      if (course.back().second < beyond_display) result.points.push_back(observer.observe(now));
       if (!progress_) return true;
       const Progress progress{index_, count_, static_cast<long>(course.size()), omega / unit_,
-                              (omega - last) / unit_, std::clamp((omega - lower_) / window(), 0.0, 1.0)};
+                              (omega - last) / unit_, std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0)};
       last = omega;
       return progress_(progress);
     };
-    const auto branch = continuation::trace(problem, {*start, p, model::frequency, 1}, options,
-                                            {peak_monitor(observer), continuation::fold_monitor()}, record);
-    finish(result, branch, *problem, p, course);
+    const auto traced = frequency_branch(model_, {lower_, upper_}, from, record);
+    result.solver.unknowns = traced.problem->size();
+    finish(result, traced, course);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return result;
   }
@@ -127,10 +101,16 @@ class Sweep {
     result.solver.linear_solver = "dense LU";
   }
 
-  void finish(ResponseBranch& result, const continuation::Branch& branch, const hbm::HbmProblem& problem,
-              const Vector& p, const std::vector<std::pair<double, double>>& course) {
+  void finish(ResponseBranch& result, const FrequencyBranch& traced,
+              const std::vector<std::pair<double, double>>& course) {
+    const continuation::Branch& branch = traced.branch;
     result.status = status_of(branch.stop.reason);
     result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
+    if (branch.stop.reason == StopReason::start_failed) {
+      result.stop.message = "no periodic response was found at " + text(branch.stop.value / unit_) + " " + unit_name_ +
+                            ": Newton's method failed from rest, from the response without elements, and along a "
+                            "growing excitation";
+    }
     if (branch.stop.reason == StopReason::boundary) {
       result.stop.value = result.stop.limit = branch.stop.value / unit_;
       result.stop.message = "reached the end of the window at " + text(result.stop.value) + " " + unit_name_;
@@ -144,9 +124,8 @@ class Sweep {
     result.solver.solves = counts.solves;
     if (branch.stop.reason != StopReason::state_too_large) return;
 
-    Vector at = p;
-    at[model::frequency] = branch.points.back().parameter;
-    const Unboundedness reason = unboundedness(problem, at, branch.points.back().u);
+    const Vector at = hbm::parameters_at(*traced.problem, branch.points.back().parameter);
+    const Unboundedness reason = unboundedness(*traced.problem, at, branch.points.back().u);
     result.stop.message = reason.message + " (near " + text(at[model::frequency] / unit_) + " " + unit_name_ + ")";
     if (!reason.unbounded) return;
     result.status = Status::complete;
@@ -168,14 +147,6 @@ class Sweep {
     }
   }
 
-  // A first guess of the response's magnitude.
-  double scale_of(double omega) const {
-    const hbm::HbmProblem problem(model_, model_->harmonics, 1, window());
-    const double size = hbm::linear_response(problem, hbm::parameters_at(problem, omega)).norm();
-    return std::isfinite(size) && size > 0 ? size : 1;
-  }
-
-  double window() const { return upper_ - lower_; }
   static std::string text(double x) {
     std::ostringstream s;
     s.precision(8);

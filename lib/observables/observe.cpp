@@ -24,9 +24,8 @@ double element_energy(const elements::Harmonics& h, const continuation::Vector& 
 
 }  // namespace
 
-Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem, const continuation::Vector& p)
-    : problem_(std::move(problem)), amplitude_(problem_->harmonics()), truncation_(*problem_, p),
-      x_(problem_->harmonics().size()), dx_(x_.size()), by_frequency_(x_.size()) {}
+Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem)
+    : problem_(std::move(problem)), amplitude_(problem_->harmonics()), x_(problem_->harmonics().size()), dx_(x_.size()), by_frequency_(x_.size()) {}
 
 Extreme Observer::extreme(const continuation::Accepted& now) {
   const auto& at = evaluator_of(now);
@@ -67,7 +66,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now) {
   point.omega = now.p[model::frequency];
   point.amplitude = at_most.amplitude;
   point.phase = phase(now);
-  const TruncationEstimate truncation = truncation_.estimate(now, at_most);
+  if (!truncation_) truncation_ = std::make_unique<Truncation>(*problem_, now.p);
+  const TruncationEstimate truncation = truncation_->estimate(now, at_most);
   point.truncation_estimate = truncation.amplitude;
   point.truncation_flagged = truncation.flagged;
   point.energy_viscous = at.stiffness().viscous_energy(now.u, at.force_factor());

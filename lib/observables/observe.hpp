@@ -14,7 +14,9 @@ namespace arcslip::observables {
 /// Observes the points of branches of one problem in the excitation frequency. Owns its buffers; one for each thread.
 class Observer {
  public:
-  explicit Observer(std::shared_ptr<const hbm::HbmProblem> problem, const continuation::Vector& p);
+  explicit Observer(std::shared_ptr<const hbm::HbmProblem> problem);
+
+  const hbm::HbmProblem& problem() const { return *problem_; }
 
   /// Everything at one point.
   ResponsePoint observe(const continuation::Accepted& now);
@@ -30,7 +32,7 @@ class Observer {
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
   Amplitude amplitude_;
-  Truncation truncation_;
+  std::unique_ptr<Truncation> truncation_;  // made at the first observe()
   continuation::Vector x_, dx_, by_frequency_;
 };
 

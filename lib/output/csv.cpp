@@ -98,13 +98,18 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
   cells.push_back(std::to_string(branch_number));
   cells.push_back(event);
   cells.push_back(number(in_scene_unit(scene, point.omega)));
-  cells.push_back(number(point.unbounded ? std::numeric_limits<double>::infinity() : point.amplitude));
+  if (point.unbounded) {  // nothing but its place is known
+    cells.emplace_back("inf");
+    cells.resize(cells.size() + 5 + columns.friction.size());
+    return cells;
+  }
+  cells.push_back(number(point.amplitude));
   cells.push_back(number(point.phase));
   for (const std::string& name : columns.friction) {
     cells.push_back(number(stick_percent(point, name)));
   }
   cells.push_back(number(point.truncation_estimate));
-  cells.push_back(point.truncation_flagged ? "yes" : "no");
+  cells.emplace_back(point.truncation_flagged ? "yes" : "no");
   cells.push_back(number(point.energy_friction));
   cells.push_back(number(point.energy_viscous));
   return cells;

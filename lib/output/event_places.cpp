@@ -13,8 +13,8 @@ using Position = std::array<double, 4>;
 
 /// Omega and amplitude as shares of their largest value, and the phase without its jump at 2 pi.
 Position position(const ResponsePoint& point, double omega_scale, double amplitude_scale) {
-  const double amplitude = point.unbounded ? 1.0 : point.amplitude / amplitude_scale;
-  return {point.omega / omega_scale, amplitude, std::cos(point.phase), std::sin(point.phase)};
+  return {point.omega / omega_scale, point.amplitude / amplitude_scale, std::cos(point.phase),
+          std::sin(point.phase)};
 }
 
 double distance(const Position& a, const Position& b) {
@@ -51,7 +51,7 @@ std::vector<std::size_t> points_before_events(const observables::ResponseBranch&
     const Position here = position(event.point, omega_scale, amplitude_scale);
     std::size_t best = std::max(first, positions.size());
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = first; i < positions.size(); ++i) {
+    for (std::size_t i = first; i < positions.size() && !event.point.unbounded; ++i) {
       const double detour = distance(positions[i - 1], here) + distance(here, positions[i]) -
                             distance(positions[i - 1], positions[i]);
       if (detour < least) {

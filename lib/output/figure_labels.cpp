@@ -41,7 +41,9 @@ Box box(const LabelWish& wish, LabelSide side, const LabelMetrics& metrics) {
   const double anchor = wish.mark.x + shift.x * metrics.character_width;
   const double left = anchor - (1 - shift.alignment) * width / 2;
   const double middle = wish.mark.y + shift.y * metrics.line_height;
-  return {left, left + width, middle - 0.4 * metrics.line_height, middle + 0.4 * metrics.line_height};
+  const double margin = metrics.character_width / 2;
+  return {left - margin, left + width + margin, middle - 0.4 * metrics.line_height,
+          middle + 0.4 * metrics.line_height};
 }
 
 bool meets_line(const Box& box, const std::vector<Place>& line) {

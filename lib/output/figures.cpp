@@ -32,9 +32,13 @@ std::string problem_of(const ProcessResult& result, const std::string& folder, c
            "after installing it, run gnuplot -d " +
            script + " in " + folder;
   }
-  std::string problem = result.signal != 0 ? "gnuplot was ended by signal " + std::to_string(result.signal)
-                                           : "gnuplot could not draw the figures (exit code " +
-                                                 std::to_string(result.exit_code) + ")";
+  std::string problem =
+      "gnuplot could not draw the figures (exit code " + std::to_string(result.exit_code) + ")";
+  if (result.signal != 0) {
+    problem = "gnuplot was ended by signal " + std::to_string(result.signal);
+  } else if (result.exit_code == 0) {
+    problem = "gnuplot left a figure incomplete, or it could not be put in its place (is the disk full?)";
+  }
   problem += "; to see why, run gnuplot -d " + script + " in " + folder;
   std::string said = result.text;
   said.erase(std::unique(said.begin(), said.end(), [](char a, char b) { return a == '\n' && b == '\n'; }),

@@ -1,7 +1,6 @@
 #include <arcslip/output/gnuplot_axes.hpp>
 
 #include <arcslip/output/gnuplot_style.hpp>
-#include <arcslip/output/units.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,16 +12,15 @@
 namespace arcslip::output {
 namespace {
 
-/// Numbers in full digits with a round step, so that the script can be read and edited.
+/// Without the rounding of units in the last digits, so that the tic at the end of an axis is there.
 std::string rounded(double value) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
+  std::snprintf(text.data(), text.size(), "%.10g", value);
   return text.data();
 }
 
 /// Tics of a logarithmic axis: decades, or 1, 2, 5 where there are few of them.
 void write_logarithmic_tics(std::ostream& out, const Range& range) {
-  out << "set logscale y 10\n";
   const double decades = std::log10(range.upper / range.lower);
   if (decades > 2) {
     out << "set ytics " << (decades > 12 ? "1e3" : "10") << "\nset mytics 10\nset format y '10^{%T}'\n";
@@ -79,15 +77,16 @@ Axes axes_of(const FigureData& data, const GnuplotFigure& figure) {
 }
 
 void write_axes(std::ostream& out, const FigureData& data, const GnuplotFigure& figure, const Axes& axes) {
-  out << "set xlabel " << quoted(data.frequency_label) << " noenhanced\n"
+  out << (axes.logarithmic ? "set logscale y 10\n" : "unset logscale y\n") << "set xlabel "
+      << quoted(data.frequency_label) << " noenhanced\n"
       << "set ylabel " << quoted(figure.axis_label) << " noenhanced\n"
-      << "set xrange [" << shortest(axes.x.lower) << ":" << shortest(axes.x.upper) << "]\n"
+      << "set xrange [" << rounded(axes.x.lower) << ":" << rounded(axes.x.upper) << "]\n"
       << "set yrange [" << rounded(axes.y.lower) << ":" << rounded(axes.y.upper) << "]\n"
       << "set xtics autofreq\nset format x '%g'\n";
   if (axes.logarithmic) {
     write_logarithmic_tics(out, axes.y);
   } else {
-    out << "unset logscale y\nset ytics autofreq\nunset mytics\nset format y '%g'\n";
+    out << "set ytics autofreq\nunset mytics\nset format y '%g'\n";
   }
 }
 

@@ -168,14 +168,18 @@ std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::st
   }
   figures.push_back({name + "_amplitude", 2, "", "amplitude (m)"});
   for (std::size_t i = 0; i < data.friction.size(); ++i) {
-    const bool alone = data.friction.size() == 1;
     const std::string& element = data.friction[i];
-    std::string image = name + "_stick" + (alone ? "" : "_" + file_name(element));
-    for (const GnuplotFigure& other : figures) {  // two names may differ only in what a file name cannot hold
-      image += other.name == image ? "_" + std::to_string(i + 1) : "";
+    GnuplotFigure figure{name + "_stick", static_cast<int>(i) + 3, element, "stick (% of the period)"};
+    if (data.friction.size() > 1) {
+      figure.name.append("_").append(file_name(element));
+      figure.axis_label.insert(0, element + ": ");
     }
-    figures.push_back(
-        {image, static_cast<int>(i) + 3, element, (alone ? "" : element + ": ") + "stick (% of the period)"});
+    for (const GnuplotFigure& other : figures) {  // two names may differ only in what a file name cannot hold
+      if (other.name == figure.name) {
+        figure.name.append("_").append(std::to_string(i + 1));
+      }
+    }
+    figures.push_back(figure);
   }
   return figures;
 }

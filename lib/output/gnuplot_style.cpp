@@ -10,8 +10,12 @@ namespace arcslip::output {
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
-    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    result.append(c == '\'' ? 2 : 1, control ? ' ' : c);
+    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    if (c == '\'') {
+      result += R"('."'".')";  // gnuplot takes a doubled quote at the beginning for an empty text
+    } else {
+      result += is_control ? ' ' : c;
+    }
   }
   return result + "'";
 }

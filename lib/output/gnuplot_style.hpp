@@ -5,7 +5,7 @@
 
 namespace arcslip::output {
 
-/// Text in gnuplot's single quotes, where nothing is special but the quote itself.
+/// A text as gnuplot reads it: in single quotes, where nothing is special but the quote itself.
 std::string quoted(const std::string& text);
 
 /// The first `longest` characters (UTF-8) of a text, and " ..." where there are more.

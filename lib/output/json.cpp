@@ -51,17 +51,16 @@ Json with_point(Json json, const scene::Scene& scene, const ResponsePoint& point
                 const JsonOptions& options) {
   json["omega"] = point.omega;
   json["frequency"] = in_scene_unit(scene, point.omega);
+  const auto known = [&](double value) { return point.unbounded ? Json(nullptr) : Json(value); };
+  json["amplitude"] = known(point.amplitude);
   if (point.unbounded) {
-    json["amplitude"] = nullptr;
     json["unbounded"] = true;
-  } else {
-    json["amplitude"] = point.amplitude;
   }
-  json["phase"] = point.phase;
-  json["truncation_estimate"] = point.truncation_estimate;
+  json["phase"] = known(point.phase);
+  json["truncation_estimate"] = known(point.truncation_estimate);
   json["truncation_flagged"] = point.truncation_flagged;
-  json["energy_friction"] = point.energy_friction;
-  json["energy_viscous"] = point.energy_viscous;
+  json["energy_friction"] = known(point.energy_friction);
+  json["energy_viscous"] = known(point.energy_viscous);
   const auto has_stick = [](const observables::ElementResponse& element) { return element.has_stick; };
   if (std::count_if(point.elements.begin(), point.elements.end(), has_stick) == 1) {
     json["stick_percent"] =

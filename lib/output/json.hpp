@@ -13,14 +13,15 @@ struct JsonOptions {
   bool coefficients = false;  // also the harmonics of the response: a_n, b_n for each n of "harmonics"
 };
 
-/// Writes one object, {"format", "program", "scene_hash", "title", "frequency_unit", "branches": [B, ...]}
+/// Writes one object, {"format", "program", "scene_hash", "title", "frequency_unit", "branches": [B, ...]},
 /// with
 ///   B = {"status", "stop": {"reason", "value", "limit", "message"}, "set", "parameters", "points", "events",
-///   "solver"}.
+///        "solver"}.
 /// Points and events hold omega (rad/s), frequency (scene's unit), amplitude (m), phase (rad),
-/// truncation_estimate (m), energies (J per period) and under "elements" what each element has (angles in
-/// rad). Numbers are the shortest that read back exactly; what is not finite is null. A point a line; written
-/// as it goes.
+/// truncation_estimate (m), energies (J per period), and under "elements" what each element has (angles in
+/// rad). Numbers are the shortest that read back exactly; what is not finite is null. Where the amplitude is
+/// unbounded it is null, as is all that depends on it, and "unbounded" is true. A point a line; written as it
+/// goes.
 void write_json(std::ostream& out, const scene::Scene& scene,
                 std::span<const observables::ResponseBranch> branches, const JsonOptions& options = {});
 

@@ -1,0 +1,114 @@
+// Time of a whole frequency response: from the model to the last point, peaks and folds located.
+//
+//   paper_frf/H:N     paper's oscillator, Fn = 3 N, 18 to 22 Hz, N harmonics
+//   duffing_frf/H:7   Duffing oscillator, 0.5 to 1.6 rad/s
+//
+// Counters: points and events of the branch; factorizations and solves of it; linear_share, the share of the time
+// that so many bare factorizations and solves of that size take; over_lu, the time over that of the factorizations
+// alone. Bare costs are measured in the same run.
+
+#include <arcslip/continuation/bordered_lu.hpp>
+#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <Eigen/LU>
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using namespace arcslip;
+
+scene::Scene example(const std::string& name, int order) {
+  scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + name + "/scene.json");
+  scene.harmonics.order = order;
+  return scene;
+}
+
+// Seconds of one call of f, the least of several batches.
+template <class Function>
+double seconds(Function&& f) {
+  using clock = std::chrono::steady_clock;
+  double least = 1e9;
+  for (int batch = 0; batch < 5; ++batch) {
+    const int calls = 200;
+    const auto begin = clock::now();
+    for (int k = 0; k < calls; ++k) f();
+    least = std::min(least, std::chrono::duration<double>(clock::now() - begin).count() / calls);
+  }
+  return least;
+}
+
+struct LinearCosts {
+  double factorization, solve;
+};
+
+LinearCosts linear_costs(int n) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n) + n * Eigen::MatrixXd::Identity(n, n);
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu(n);
+  Eigen::VectorXd b = Eigen::VectorXd::Random(n), x(n);
+  return {seconds([&] { lu.compute(A); }), seconds([&] {
+            x.noalias() = lu.permutationP() * b;
+            lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(x);
+            lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(x);
+            benchmark::DoNotOptimize(x.data());
+          })};
+}
+
+void trace_whole(benchmark::State& state, const scene::Scene& scene, const observables::FrequencyWindow& window,
+                 std::size_t events) {
+  const auto model = std::make_shared<const model::Model>(model::build(scene));
+  observables::FrequencyBranch last;
+  double total = 0;
+  for (auto _ : state) {
+    const auto begin = std::chrono::steady_clock::now();
+    last = observables::frequency_branch(model, window, window.lower);
+    total += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  const auto& branch = last.branch;
+  if (branch.stop.reason != continuation::StopReason::boundary || branch.events.size() != events ||
+      branch.points.size() < 150) {
+    state.SkipWithError(("not the whole branch: " + std::to_string(branch.points.size()) + " points, " +
+                         std::to_string(branch.events.size()) + " events, " + branch.stop.message)
+                            .c_str());
+    return;
+  }
+  const LinearCosts cost = linear_costs(last.problem->size() + 1);
+  const double time = total / static_cast<double>(state.iterations());
+  const double factorizations = static_cast<double>(branch.counts.factorizations);
+  const double solves = static_cast<double>(branch.counts.solves);
+  state.counters["points"] = static_cast<double>(branch.points.size());
+  state.counters["factorizations"] = factorizations;
+  state.counters["residuals"] = static_cast<double>(branch.counts.residuals);
+  state.counters["solves"] = solves;
+  state.counters["linear_share"] = (factorizations * cost.factorization + solves * cost.solve) / time;
+  state.counters["over_lu"] = time / (factorizations * cost.factorization);
+}
+
+void paper_frf(benchmark::State& state) {
+  scene::Scene scene = example("al_sayed_2011", static_cast<int>(state.range(0)));
+  scene::set(scene, "damper.normal_load", 3);
+  const double hertz = scene::to_rad_per_s(scene::FrequencyUnit::hertz);
+  trace_whole(state, scene, {18 * hertz, 22 * hertz}, 1);
+}
+BENCHMARK(paper_frf)->ArgName("H")->Arg(1)->Arg(7)->Arg(27)->Arg(55)->Unit(benchmark::kMillisecond);
+
+void duffing_frf(benchmark::State& state) {
+  trace_whole(state, example("duffing", static_cast<int>(state.range(0))), {0.5, 1.6}, 3);  // a peak and two folds
+}
+BENCHMARK(duffing_frf)->ArgName("H")->Arg(7)->Unit(benchmark::kMillisecond);
+
+// The study as the command runs it, with all observables and the estimate of truncation at each point.
+void paper_frf_observed(benchmark::State& state) {
+  scene::Scene scene = example("al_sayed_2011", static_cast<int>(state.range(0)));
+  scene::set(scene, "damper.normal_load", 3);
+  for (auto _ : state) benchmark::DoNotOptimize(observables::frequency_response(scene, scene.studies.front()));
+}
+BENCHMARK(paper_frf_observed)->ArgName("H")->Arg(1)->Arg(7)->Arg(27)->Arg(55)->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -1,0 +1,50 @@
+#include <arcslip/observables/frequency_branch.hpp>
+
+#include <arcslip/hbm/steady_state.hpp>
+
+#include <cmath>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::Vector;
+
+constexpr double points_in_window = 150;        // at least, from end to end
+constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
+
+}  // namespace
+
+FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model, const FrequencyWindow& window,
+                                 double from, const Record& record) {
+  const double width = window.upper - window.lower;
+  const auto problem_with = [&](double displacement) {
+    const double scale = displacement > 0 && std::isfinite(displacement) ? displacement : 1;
+    return std::make_shared<const hbm::HbmProblem>(model, model->harmonics, scale, width);
+  };
+  auto problem = problem_with(1);
+  const Vector p = hbm::parameters_at(*problem, from);
+  problem = problem_with(hbm::linear_response(*problem, p).norm());
+  const auto start = hbm::steady_state(problem, p);
+  if (!start) {
+    FrequencyBranch failed{problem, {}};
+    failed.branch.stop = {continuation::StopReason::start_failed, from, 0, "no periodic response at the start"};
+    return failed;
+  }
+  problem = problem_with(start->norm());
+
+  continuation::Options options;
+  options.lower = window.lower;
+  options.upper = window.upper;
+  options.step.largest_parameter = width / points_in_window;
+  options.step.relative_parameter = largest_relative_step;
+  const auto observer = std::make_shared<Observer>(problem);
+  continuation::Observer each;
+  if (record)
+    each = [&](const continuation::Accepted& now, const continuation::Event* event) {
+      return record(*observer, now, event);
+    };
+  return {problem, continuation::trace(problem, {*start, p, model::frequency, 1}, options,
+                                       {peak_monitor(observer), continuation::fold_monitor()}, each)};
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,29 @@
+#pragma once
+// The branch of periodic responses over the excitation frequency, with peaks and folds, for one setting of a model.
+
+#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/observe.hpp>
+
+#include <functional>
+#include <memory>
+
+namespace arcslip::observables {
+
+struct FrequencyWindow {
+  double lower, upper;  // rad/s, 0 < lower < upper
+};
+
+struct FrequencyBranch {
+  std::shared_ptr<const hbm::HbmProblem> problem;
+  continuation::Branch branch;  // start_failed with value = omega where no response was found to start from
+};
+
+/// Called at each point (event: null) and each event; false stops.
+using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
+
+/// Traces upwards from omega = `from` in the window. At least 150 points from end to end.
+FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model, const FrequencyWindow& window,
+                                 double from, const Record& record = {});
+
+}  // namespace arcslip::observables

@@ -1,0 +1,118 @@
+#include "bad_inputs.hpp"
+
+namespace app_test {
+namespace {
+
+std::string scene_with(const std::string& structure, const std::string& rest) {
+  return R"({"format": "arcslip-scene-1", "title": "t", "structure": )" + structure +
+         R"(, "excitation": [{"name": "force", "at": "x", "harmonic": 1, "cosine": 1}], "response": {"at": "x"})" +
+         rest + "}";
+}
+
+std::string structure(const std::string& mass, const std::string& stiffness) {
+  return R"({"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": )" + mass +
+         R"(}], "springs": [{"name": "k", "at": "x", "value": )" + stiffness + "}]}";
+}
+
+std::string study(const std::string& from, const std::string& to) {
+  return R"(, "studies": [{"name": "frf", "kind": "frf", "from": )" + from + R"(, "to": )" + to + "}]";
+}
+
+BadInput line(std::string name, std::vector<std::string> arguments, std::string message) {
+  return {std::move(name), std::move(arguments), 1, std::move(message), "", {}};
+}
+
+BadInput scene(std::string name, std::string message, std::function<std::string()> content) {
+  return {std::move(name), {"run", "bad.json"}, 2, std::move(message), "bad.json", std::move(content)};
+}
+
+std::vector<BadInput> make() {
+  return {
+      // the command line
+      line("no verb", {}, "Give a verb and a scene"),
+      line("an unknown verb", {"fry", "scene.json"}, "unknown verb \"fry\", must be run, frf or check"),
+      line("no scene", {"run"}, "SCENE is required"),
+      line("an unknown option", {"frf", "scene.json", "--harmonic", "3"}, "--harmonic"),
+      line("--set without a value", {"frf", "scene.json", "--set", "damper.normal_load"},
+           "give it as name.field=value"),
+      line("--set with what is no number", {"frf", "scene.json", "--set", "damper.normal_load=3N"},
+           "found the value \"3N\", must be a finite number"),
+      line("--set to NaN", {"frf", "scene.json", "--set", "damper.normal_load=nan"},
+           "must be a finite number"),
+      line("--set to 1e999", {"frf", "scene.json", "--set", "damper.normal_load=1e999"},
+           "must be a finite number"),
+      line("--set of an unknown name", {"frf", "scene.json", "--set", "damper.normal_lod=3"},
+           "did you mean \"damper.normal_load\"?"),
+      line("--set out of bounds", {"frf", "scene.json", "--set", "damper.normal_load=-3"},
+           "found -3, must be at least 0 N"),
+      line("--set of all stiffness to zero",
+           {"frf", "scene.json", "--set", "k.value=0", "--set", "damper.stiffness=0"}, "stiffness"),
+      line("--harmonics 0", {"frf", "scene.json", "--harmonics", "0"},
+           "found 0, must be an integer from 1 to 2000"),
+      line("--harmonics 1e6", {"frf", "scene.json", "--harmonics", "1000000"},
+           "must be an integer from 1 to 2000"),
+      line("--harmonics beyond every integer", {"frf", "scene.json", "--harmonics", "99999999999999999999"},
+           "must be a whole number"),
+      line("--harmonics 5.5", {"frf", "scene.json", "--harmonics", "5.5"}, "must be a whole number"),
+      line("--from above --to", {"frf", "scene.json", "--from", "22", "--to", "18"},
+           "--from must be below --to; found --from 22 and --to 18"),
+      line("--from above the study's end", {"run", "scene.json", "--from", "30"},
+           "--from must be below 22 Hz, where the study \"frf\" ends; found 30 Hz"),
+      line("--to below the study's beginning", {"frf", "scene.json", "--to", "1"},
+           "--to must be above 18 Hz, where the study \"frf\" begins; found 1 Hz"),
+      line("--from 0", {"frf", "scene.json", "--from", "0"}, "must be a frequency above 0"),
+      line("--from that is no number", {"frf", "scene.json", "--from", "low"}, "must be a frequency above 0"),
+      {"frf without a study and without a range",
+       {"frf", "bare.json"},
+       1,
+       "give --from and --to",
+       "bare.json",
+       [] { return scene_with(structure("1", "100"), ""); }},
+      {"run without a study",
+       {"run", "bare.json"},
+       1,
+       "the scene has no studies",
+       "bare.json",
+       [] { return scene_with(structure("1", "100"), ""); }},
+      // places
+      line("a scene that is not there", {"run", "nothing.json"}, "nothing.json: No such file or directory"),
+      line("a folder as the scene", {"run", "."}, "is a directory"),
+      line("results into a folder that is not there", {"frf", "scene.json", "--json", "nowhere/frf.json"},
+           "cannot write nowhere/frf.json: No such file or directory (make the folder first, or check its "
+           "name)"),
+      line("results into a folder", {"frf", "scene.json", "--csv", "."}, "Is a directory (it is a folder"),
+      line("results into the scene itself", {"frf", "scene.json", "--json", "./scene.json"},
+           "./scene.json is the scene itself"),
+      line("JSON and CSV into one place", {"frf", "scene.json", "--json", "-", "--csv", "-"},
+           "--json and --csv both go to standard output"),
+      line("an output folder that is a file", {"run", "scene.json", "--out", "scene.json"},
+           "cannot make the folder scene.json"),
+      line("an output folder that cannot be made", {"run", "scene.json", "--out", "/proc/arcslip"},
+           "cannot make the folder /proc/arcslip"),
+      line("a file where no file can be made", {"frf", "scene.json", "--json", "/proc/frf.json"},
+           "cannot write /proc/frf.json"),
+      line(
+          "a full disk", {"frf", "scene.json", "--set", "damper.normal_load=3", "--json", "/dev/full"},
+          "cannot write /dev/full: No space left on device (free some space there or write to another disk)"),
+      // scenes
+      scene("an empty scene", "the file is empty", [] { return ""; }),
+      scene("a truncated scene", "bad.json: line ", [] { return R"({"format": "arcslip-scene-1", "struc)"; }),
+      scene("nesting 100 000 deep", "nested deeper than 64", [] { return std::string(100'000, '['); }),
+      scene("a negative mass", "bad.json: /structure/masses/0/value: found -1.24",
+            [] { return scene_with(structure("-1.24", "100"), study("1", "2")); }),
+      scene("NaN", "bad.json: line ", [] { return scene_with(structure("NaN", "100"), study("1", "2")); }),
+      scene("no stiffness at all", "stiffness",
+            [] { return scene_with(structure("1", "0"), study("1", "2")); }),
+      scene("a study that ends before it begins", "bad.json: /studies/0/to: found 1, must be above \"from\"",
+            [] { return scene_with(structure("1", "100"), study("2", "1")); }),
+  };
+}
+
+}  // namespace
+
+const std::vector<BadInput>& bad_inputs() {
+  static const std::vector<BadInput> all = make();
+  return all;
+}
+
+}  // namespace app_test

@@ -1,0 +1,205 @@
+#include "catch.hpp"
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+
+#include <sys/wait.h>
+
+using namespace app_test;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::vector<std::string> quick{"frf",         "scene.json", "--set", "damper.normal_load=3",
+                                     "--harmonics", "7"};
+
+std::vector<std::string> quick_with(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = quick;
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+bool have_gnuplot() {
+  return std::system("gnuplot --version >/dev/null 2>&1") == 0;
+}
+
+}  // namespace
+
+TEST_CASE("frf --json - prints one object and nothing else") {
+  const Workplace place;
+  const Ended ended = run(place, quick_with({"--json", "-"}));
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.err.empty());
+  const Json json = Json::parse(ended.out);
+  CHECK(json["format"] == "arcslip-branches-1");
+  REQUIRE(json["branches"].size() == 1);
+  const Json& branch = json["branches"][0];
+  CHECK(branch["status"] == "complete");
+  CHECK(branch["parameters"]["damper.normal_load"] == 3.0);
+  REQUIRE(branch["events"].size() == 1);
+  CHECK(branch["events"][0]["kind"] == "peak");
+  // exact: 8.8497001e-4 m; seven harmonics leave some 1e-5 of it
+  CHECK(branch["events"][0]["amplitude"].get<double>() == Approx(8.8497e-4).epsilon(1e-4));
+  CHECK(branch["points"][0]["frequency"].get<double>() == Approx(18));
+  CHECK(branch["points"].back()["frequency"].get<double>() == Approx(22));
+  CHECK(place.files() == std::vector<std::string>{"scene.json"});
+}
+
+TEST_CASE("frf --csv - prints the table and nothing else") {
+  const Workplace place;
+  const Ended ended = run(place, {"frf", "scene.json", "--harmonics", "1", "--csv", "-"});
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.err.empty());
+  CHECK(ended.out.find("damper.normal_load (N),branch,event,frequency (Hz),amplitude (m)") == 0);
+  CHECK(ended.out.find("\r\n3,5,peak,") != std::string::npos);
+}
+
+TEST_CASE("frf prints a table of peaks, and writes what it is asked to") {
+  const Workplace place;
+  const Ended ended =
+      run(place,
+          quick_with({"--json", "a.json", "--csv", "a.csv", "--from", "19", "--to", "21", "--coefficients"}));
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.err.empty());
+  CHECK(ended.out.find("frequency (Hz)") != std::string::npos);
+  CHECK(ended.out.find(" peak  ") != std::string::npos);
+  CHECK(ended.out.find("complete") != std::string::npos);
+  CHECK(place.files() == std::vector<std::string>{"a.csv", "a.json", "scene.json"});
+  const Json branch = Json::parse(place.read("a.json"))["branches"][0];
+  CHECK(branch["points"][0]["frequency"].get<double>() == Approx(19));
+  CHECK(branch["harmonics"] == Json{1, 3, 5, 7});
+  CHECK(branch["points"][0]["coefficients"].size() == 8);
+}
+
+TEST_CASE("frf takes its range from the command where the scene has no study") {
+  const Workplace place;
+  Json scene = Json::parse(place.read("scene.json"));
+  scene["studies"] = Json::array();
+  place.write("bare.json", scene.dump());
+  const Ended ended =
+      run(place, {"frf", "bare.json", "--harmonics", "1", "--from", "19", "--to", "21", "--json", "-"});
+  CHECK(ended.exit_code == 0);
+  CHECK(Json::parse(ended.out)["branches"].size() == 1);
+}
+
+TEST_CASE("the resolved scene that run leaves gives the same results again, with the same hash") {
+  const Workplace place;
+  const std::vector<std::string> changes{"--set", "damper.normal_load=3", "--harmonics", "7"};
+  std::vector<std::string> arguments{"run", "scene.json", "--out", "first", "--quiet"};
+  arguments.insert(arguments.end(), changes.begin(), changes.end());
+  CHECK(run(place, arguments).exit_code == 0);
+  CHECK(run(place, {"run", "first/frf.scene.json", "--out", "second", "--quiet"}).exit_code == 0);
+  const Json first = Json::parse(place.read("first/frf.json"));
+  const Json second = Json::parse(place.read("second/frf.json"));
+  CHECK(first["scene_hash"] == second["scene_hash"]);
+  CHECK(first["branches"][0]["points"] == second["branches"][0]["points"]);
+  CHECK(place.read("first/frf.csv") == place.read("second/frf.csv"));
+}
+
+TEST_CASE("run writes every study into out/NAME and tells the places of the files") {
+  if (!have_gnuplot()) {
+    WARN("gnuplot is not there");
+    return;
+  }
+  const Workplace place;
+  Json scene = Json::parse(place.read("scene.json"));
+  scene["studies"].push_back({{"name", "near the peak"}, {"kind", "frf"}, {"from", 19.5}, {"to", 20.5}});
+  place.write("two.json", scene.dump());
+  const Ended ended = run(place, {"run", "two.json", "--harmonics", "1"});
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.err.empty());
+  for (const std::string name : {"frf", "near_the_peak"}) {
+    for (const char* extension : {".scene.json", ".json", ".csv", ".dat", ".gp", "_amplitude.svg",
+                                  "_amplitude.png", "_stick.svg", "_stick.png"}) {
+      const std::string path = "out/two/" + name + extension;
+      CAPTURE(path);
+      CHECK(std::filesystem::exists(place / path));
+      CHECK(ended.out.find("\n" + path + "\n") != std::string::npos);
+    }
+  }
+  CHECK(place.files().size() == 2 + 2 + 18);  // scenes, folders, results
+  CHECK(Json::parse(place.read("out/two/frf.json"))["branches"].size() == 12);
+}
+
+TEST_CASE("without gnuplot run says so, writes the data all the same, and is done") {
+  const Workplace place;
+  const Ended ended = run(place, {"run", "scene.json", "--harmonics", "1"}, {{"PATH", "/nonexistent"}});
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.err.find("arcslip: figures need gnuplot (Debian package gnuplot-nox)") == 0);
+  CHECK(place.files() == std::vector<std::string>{
+                             "out", "out/scene", "out/scene/frf.csv", "out/scene/frf.dat", "out/scene/frf.gp",
+                             "out/scene/frf.json", "out/scene/frf.scene.json", "scene.json"});
+}
+
+TEST_CASE("check prints the resolved scene, which is a fixed point") {
+  const Workplace place;
+  const Ended first =
+      run(place, {"check", "scene.json", "--set", "damper.normal_load=7", "--harmonics", "3"});
+  CHECK(first.exit_code == 0);
+  CHECK(first.err.empty());
+  const Json scene = Json::parse(first.out);
+  CHECK(scene["harmonics"]["order"] == 3);
+  CHECK(scene["elements"][0]["normal_load"] == 7.0);
+  CHECK_FALSE(scene["studies"][0].contains("/for_each/damper.normal_load"_json_pointer));
+  place.write("resolved.json", first.out);
+  CHECK(run(place, {"check", "resolved.json"}).out == first.out);
+  CHECK(run(place, {"check", "resolved.json", "--quiet"}).out.empty());
+}
+
+TEST_CASE("help and version stand on standard output") {
+  const Workplace place;
+  const Ended version = run(place, {"--version"});
+  CHECK(version.exit_code == 0);
+  CHECK(version.out.find("arcslip ") == 0);
+  CHECK(version.err.empty());
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"frf", "-h"}, {"check", "--help"}}) {
+    const Ended help = run(place, arguments);
+    CHECK(help.exit_code == 0);
+    CHECK(help.out.find("Usage: arcslip") != std::string::npos);
+    CHECK(help.out.find("3 stopped early") != std::string::npos);
+    CHECK(help.err.empty());
+  }
+}
+
+TEST_CASE("a reader that goes away early is no error") {
+  const Workplace place;
+  const std::string command =
+      std::string("cd '") + place.path() +
+      "' && { '" ARCSLIP_PROGRAM
+      "' frf scene.json --harmonics 1 --json - 2>err; echo $? >code; } | head -c 11 >out";
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(place.read("out") == "{\"format\": ");
+  CHECK(place.read("err").empty());
+  CHECK(place.read("code") == "0\n");
+}
+
+TEST_CASE("a closed standard output is an error and no file takes its place") {
+  const Workplace place;
+  const std::string command = std::string("cd '") + place.path() +
+                              "' && '" ARCSLIP_PROGRAM "' frf scene.json --harmonics 1 --csv a.csv >&- 2>err";
+  const int status = std::system(command.c_str());
+  CHECK(WEXITSTATUS(status) == 1);
+  CHECK(place.read("err").find("cannot write standard output: Bad file descriptor") != std::string::npos);
+}
+
+TEST_CASE(
+    "progress is a line on a terminal that is cleared at the end, and nothing without one or with --quiet") {
+  const Workplace place;
+  const std::vector<std::string> slow{"frf", "scene.json", "--harmonics", "101", "--json", "-"};
+  const Ended shown = Program(place, slow, {}, "", true).wait();
+  CHECK(shown.exit_code == 0);
+  CHECK(shown.err.find("\rbranch ") == 0);
+  CHECK(shown.err.find("/12  ") != std::string::npos);
+  CHECK(shown.err.find(" points  ") != std::string::npos);
+  CHECK(shown.err.find(" Hz  step ") != std::string::npos);
+  CHECK(shown.err.find('\n') == std::string::npos);
+  CHECK(shown.err.back() == '\r');
+  CHECK(Json::parse(shown.out)["branches"].size() == 12);
+
+  std::vector<std::string> quiet = slow;
+  quiet.emplace_back("--quiet");
+  CHECK(Program(place, quiet, {}, "", true).wait().err.empty());
+}

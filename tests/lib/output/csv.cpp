@@ -1,0 +1,92 @@
+#include "catch.hpp"
+#include "lib/output/support.hpp"
+
+#include <arcslip/output/csv.hpp>
+#include <arcslip/output/event_places.hpp>
+
+#include <sstream>
+
+using namespace arcslip;
+
+namespace {
+
+std::vector<std::string> lines(const scene::Scene& scene,
+                               const std::vector<observables::ResponseBranch>& branches) {
+  std::ostringstream text;
+  output::write_csv(text, scene, branches);
+  std::istringstream in(text.str());
+  std::vector<std::string> all;
+  for (std::string line; std::getline(in, line);) {
+    REQUIRE(!line.empty());
+    REQUIRE(line.back() == '\r');  // RFC 4180
+    line.pop_back();
+    all.push_back(line);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the header of CSV carries units") {
+  CHECK(lines(support::scene(), {support::branch()}).at(0) ==
+        "damper.normal_load (N),branch,event,frequency (Hz),amplitude (m),phase (rad),stick (%),"
+        "truncation_estimate (m),truncation_flagged,energy_friction (J),energy_viscous (J)");
+}
+
+TEST_CASE("CSV has a row a point, with the events in order") {
+  const auto rows = lines(support::scene(), {support::branch(3), support::branch(0.5)});
+  REQUIRE(rows.size() == 1 + 2 * 6);
+  CHECK(rows[1] == "3,1,,1,0.01,0.5,100,1e-09,no,0.25,0.125");
+  CHECK(rows[3] == "3,1,peak,1.5,0.1,0.5,40,1e-09,no,0.25,0.125");
+  CHECK(rows[9] == "0.5,2,peak,1.5,0.1,0.5,40,1e-09,no,0.25,0.125");
+}
+
+TEST_CASE("an unbounded peak in CSV has its frequency, inf, and nothing else") {
+  auto branch = support::branch();
+  branch.events[0].point.unbounded = true;
+  branch.events[0].point.elements.clear();
+  branch.points.resize(2);
+  CHECK(lines(support::scene(), {branch}).back() == "3,1,peak,1.5,inf,,,,,,");
+}
+
+TEST_CASE("several friction elements have a column each") {
+  auto branch = support::branch();
+  branch.events.clear();
+  for (auto& point : branch.points) {
+    point.elements.push_back({"tip", true, 12.5, {}, {}, 0});
+  }
+  const auto rows = lines(support::scene(), {branch});
+  CHECK(rows[0].find(",damper.stick (%),tip.stick (%),") != std::string::npos);
+  CHECK(rows[1].find(",100,12.5,") != std::string::npos);
+}
+
+TEST_CASE("names with commas and quotes are quoted in CSV") {
+  auto scene = support::scene();
+  scene.elements[0].name = "a \"b\", c";
+  auto branch = support::branch();
+  branch.set = {{"a \"b\", c.normal_load", 3}};
+  CHECK(lines(scene, {branch})[0].find("\"a \"\"b\"\", c.normal_load (N)\",branch,") == 0);
+}
+
+TEST_CASE("no branch gives a header alone") {
+  CHECK(lines(support::scene(), {}).size() == 1);
+}
+
+TEST_CASE("a fold stands between the points around it, beyond both in frequency") {
+  auto branch = support::branch();
+  branch.points = {support::point(1, 0.1),    support::point(1.5, 0.5),  support::point(1.9, 0.9),
+                   support::point(1.95, 0.8), support::point(1.5, 0.35), support::point(1.55, 0.2),
+                   support::point(2, 0.05)};
+  branch.events = {{"peak", false, support::point(1.94, 0.92)},
+                   {"fold", false, support::point(1.97, 0.86)},
+                   {"fold", false, support::point(1.45, 0.28)}};
+  CHECK(output::points_before_events(branch) == std::vector<std::size_t>{3, 3, 5});
+}
+
+TEST_CASE("events of a branch without points, or with one, come at its end") {
+  auto branch = support::branch();
+  branch.points.resize(1);
+  CHECK(output::points_before_events(branch) == std::vector<std::size_t>{1});
+  branch.points.clear();
+  CHECK(output::points_before_events(branch) == std::vector<std::size_t>{0});
+}

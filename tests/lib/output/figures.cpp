@@ -1,0 +1,210 @@
+#include "catch.hpp"
+#include "lib/output/support.hpp"
+
+#include <arcslip/output/atomic_file.hpp>
+#include <arcslip/output/figure_labels.hpp>
+#include <arcslip/output/figures.hpp>
+#include <arcslip/output/process.hpp>
+
+#include <cstdlib>
+
+using namespace arcslip;
+using support::content;
+using support::TemporaryFolder;
+
+namespace {
+
+/// PATH is this while it lives.
+class SearchPath {
+ public:
+  explicit SearchPath(const std::string& path) : old_(std::getenv("PATH")) {
+    ::setenv("PATH", path.c_str(), 1);
+  }
+  SearchPath(const SearchPath&) = delete;
+  SearchPath& operator=(const SearchPath&) = delete;
+  ~SearchPath() { ::setenv("PATH", old_.c_str(), 1); }
+
+ private:
+  std::string old_;
+};
+
+bool have_gnuplot() {
+  return output::run_program("gnuplot", {"--version"}, ".").found;
+}
+
+void write_program(const std::string& path, const std::string& script) {
+  output::write_file(path, [&](std::ostream& out) { out << "#!/bin/sh\n" << script; });
+  support::fs::permissions(path, support::fs::perms::owner_all);
+}
+
+}  // namespace
+
+TEST_CASE("figures come as whole SVG and PNG, amplitude and stick share") {
+  if (!have_gnuplot()) {
+    WARN("gnuplot is not there");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::vector branches{support::branch(1), support::branch(3)};
+  const auto figures = output::write_figures(support::scene(), branches, folder.path(), "frf");
+  CHECK(figures.problem.empty());
+  CHECK(figures.sources == std::vector<std::string>{folder / "frf.dat", folder / "frf.gp"});
+  CHECK(figures.images == std::vector<std::string>{folder / "frf_amplitude.svg", folder / "frf_amplitude.png",
+                                                   folder / "frf_stick.svg", folder / "frf_stick.png"});
+  const std::string svg = content(folder / "frf_amplitude.svg");
+  for (const char* text :
+       {"amplitude (m)", "frequency (Hz)", "A slider", "damper.normal_load", "3 N", "peak"}) {
+    CAPTURE(text);
+    CHECK(svg.find(text) != std::string::npos);
+  }
+  CHECK(content(folder / "frf_amplitude.png").substr(1, 3) == "PNG");
+  CHECK(folder.files() == 6);
+}
+
+TEST_CASE("no name or title runs a command or breaks a figure") {
+  if (!have_gnuplot()) {
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string evil =
+      "'; system('touch broken'); #\n`touch broken` $(touch broken) \" \\ {/=99 x}_a^b @m";
+  auto branch = support::branch();
+  for (auto& point : branch.points) {
+    point.elements[0].name = evil;
+    point.elements.push_back({"other", true, 10, {}, {}, 0});
+  }
+  auto scene = support::scene(evil);
+  scene.elements[0].name = evil;
+  branch.set = {{evil + ".normal_load", 3}};
+  const auto figures = output::write_figures(scene, std::vector{branch}, folder.path(), evil);
+  CHECK(figures.problem == "");
+  CHECK(figures.images.size() == 6);
+  CHECK_FALSE(support::fs::exists(folder / "broken"));
+}
+
+TEST_CASE("results that are hard to draw are drawn") {
+  if (!have_gnuplot()) {
+    return;
+  }
+  auto zero = support::branch();
+  auto one_point = support::branch();
+  auto unbounded = support::branch();
+  auto no_friction = support::branch();
+  for (auto& point : zero.points) {
+    point.amplitude = 0;
+  }
+  zero.events.clear();
+  one_point.points.resize(1);
+  unbounded.events[0].point.unbounded = true;
+  unbounded.events[0].point.elements.clear();
+  auto huge = support::branch();
+  huge.points[2].amplitude = 1e40;
+  huge.points[3].amplitude = 1e-40;
+  for (auto& point : no_friction.points) {
+    point.elements.clear();
+  }
+  const std::vector<std::pair<std::string, std::vector<observables::ResponseBranch>>> cases{
+      {"zero", {zero}},
+      {"one_point", {one_point}},
+      {"unbounded", {unbounded, support::branch(5)}},
+      {"no_friction", {no_friction}},
+      {"huge", {huge}},
+      {"many", std::vector<observables::ResponseBranch>(60, support::branch())}};
+  for (const auto& [name, given] : cases) {
+    CAPTURE(name);
+    const TemporaryFolder folder;
+    auto branches = given;
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+      branches[i].set[0].second = static_cast<double>(i);
+    }
+    const auto figures = output::write_figures(support::scene(), branches, folder.path(), name);
+    CHECK(figures.problem == "");
+    CHECK(figures.images.size() == (name == "no_friction" ? 2 : 4));
+  }
+}
+
+TEST_CASE("branches without a point give data and a reason, and no figure") {
+  const TemporaryFolder folder;
+  auto branch = support::branch();
+  branch.points.clear();
+  const auto figures = output::write_figures(support::scene(), std::vector{branch}, folder.path(), "frf");
+  CHECK(figures.problem == "there is no point to draw, so there is no figure");
+  CHECK(figures.images.empty());
+  CHECK(folder.files() == 2);
+}
+
+TEST_CASE("without gnuplot there are the data, the script and a plain message") {
+  const TemporaryFolder folder;
+  const SearchPath nothing("/nonexistent");
+  const auto figures =
+      output::write_figures(support::scene(), std::vector{support::branch()}, folder.path(), "frf");
+  CHECK(figures.problem.find("figures need gnuplot (Debian package gnuplot-nox)") == 0);
+  CHECK(figures.images.empty());
+  CHECK(folder.files() == 2);
+}
+
+TEST_CASE("a gnuplot that fails, is killed or stops half way leaves a message and no half figure") {
+  const TemporaryFolder programs;
+  struct Case {
+    std::string script, message;
+  };
+  const std::vector<Case> cases{
+      {"echo no such terminal >&2; exit 3", "gnuplot could not draw the figures (exit code 3)"},
+      {"kill -9 $$", "gnuplot was ended by signal 9"},
+      {"s=${3#suffix=\\'}; echo '<svg>' > frf_amplitude.svg${s%\\'}", "gnuplot left a figure incomplete"}};
+  for (const Case& c : cases) {
+    CAPTURE(c.script);
+    const TemporaryFolder folder;
+    write_program(programs / "gnuplot", c.script);
+    const SearchPath path(programs.path() + ":/usr/bin:/bin");
+    const auto figures =
+        output::write_figures(support::scene(), std::vector{support::branch()}, folder.path(), "frf");
+    CHECK(figures.problem.find(c.message) == 0);
+    CHECK(figures.images.empty());
+    CHECK(folder.files() == 2);
+  }
+}
+
+TEST_CASE("what a failing gnuplot says is told") {
+  const TemporaryFolder folder;
+  const TemporaryFolder programs;
+  write_program(programs / "gnuplot", "echo no such terminal >&2; exit 3");
+  const SearchPath path(programs.path() + ":/usr/bin:/bin");
+  const auto figures =
+      output::write_figures(support::scene(), std::vector{support::branch()}, folder.path(), "frf");
+  CHECK(figures.problem.find("\nno such terminal") != std::string::npos);
+}
+
+TEST_CASE("the data of a figure has a block for each line and its marks") {
+  const TemporaryFolder folder;
+  const SearchPath nothing("/nonexistent");
+  auto second = support::branch();  // goes on beyond a cut: the same line
+  second.events.clear();
+  output::write_figures(support::scene(), std::vector{support::branch(), second}, folder.path(), "frf");
+  const std::string data = content(folder / "frf.dat");
+  CHECK(data.find(
+            "# frequency (Hz), amplitude (m), damper stick (%)\n# damper.normal_load = 3 N\n1 0.01 100\n") ==
+        0);
+  CHECK(data.find("2 0.005 50\n\n1 0.01 100\n") != std::string::npos);
+  CHECK(data.find("2 0.005 50\n\n\n1.5 0.1 40\n\n\n") != std::string::npos);
+}
+
+TEST_CASE("a label keeps off marks, lines, other labels and the border") {
+  using output::LabelSide;
+  const output::LabelMetrics metrics{0.02, 0.05};
+  const auto sides = [&](const std::vector<output::LabelWish>& wishes,
+                         const std::vector<std::vector<output::Place>>& lines) {
+    return output::place_labels(wishes, lines, metrics);
+  };
+  CHECK(sides({{{0.5, 0.5}, "3 N"}}, {}) == std::vector{LabelSide::above});
+  CHECK(sides({{{0.5, 0.97}, "3 N"}}, {}) == std::vector{LabelSide::right});
+  CHECK(sides({{{0.99, 0.97}, "3 N"}}, {}) == std::vector{LabelSide::left});
+  CHECK(sides({{{0.5, 0.5}, "3 N"}}, {{{0, 0.55}, {1, 0.55}}}) == std::vector{LabelSide::right});
+  CHECK(sides({{{0.5, 0.5}, "3 N"}, {{0.5, 0.501}, "4 N"}}, {}) ==
+        std::vector{LabelSide::above, LabelSide::right});
+  std::vector<std::vector<output::Place>> hatched;
+  for (int i = 0; i <= 100; ++i) {
+    hatched.push_back({{0, i / 100.0}, {1, i / 100.0}});
+  }
+  CHECK(sides({{{0.5, 0.5}, "3 N"}}, hatched) == std::vector{LabelSide::none});
+}

@@ -1,0 +1,131 @@
+#include "catch.hpp"
+#include "lib/output/support.hpp"
+
+#include <arcslip/output/json.hpp>
+#include <arcslip/output/version.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+using namespace arcslip;
+using Json = nlohmann::json;
+
+namespace {
+
+Json written(const scene::Scene& scene, const std::vector<observables::ResponseBranch>& branches,
+             const output::JsonOptions& options = {}) {
+  std::ostringstream text;
+  output::write_json(text, scene, branches, options);
+  return Json::parse(text.str());
+}
+
+}  // namespace
+
+TEST_CASE("JSON carries the format, the program, the scene and its hash") {
+  const scene::Scene scene = support::scene("A \"title\"\nin two lines");
+  const Json json = written(scene, {});
+  CHECK(json["format"] == "arcslip-branches-1");
+  CHECK(json["program"] == "arcslip " + std::string(output::version()));
+  CHECK(json["scene_hash"] == scene::hash(scene));
+  CHECK(json["title"] == "A \"title\"\nin two lines");
+  CHECK(json["frequency_unit"] == "Hz");
+  CHECK(json["branches"] == Json::array());
+}
+
+TEST_CASE("a branch in JSON has its status, stop, parameters, points, events and solver") {
+  const Json json = written(support::scene(), {support::branch(3), support::branch(5)});
+  REQUIRE(json["branches"].size() == 2);
+  const Json& branch = json["branches"][1];
+  CHECK(branch["status"] == "complete");
+  CHECK(branch["stop"] == Json{{"reason", "boundary"},
+                               {"value", 2.0},
+                               {"limit", 2.0},
+                               {"message", "reached the end of the window at 2 Hz"}});
+  CHECK(branch["set"] == Json{{"damper.normal_load", 5.0}});
+  CHECK(branch["parameters"] == Json{{"m.value", 1.0}, {"k.value", 100.0}});
+  CHECK(branch["solver"]["linear_solver"] == "dense LU");
+  CHECK(branch["solver"]["factorizations"] == 9);
+  CHECK_FALSE(branch.contains("harmonics"));
+  REQUIRE(branch["points"].size() == 5);
+  const Json& point = branch["points"][0];
+  CHECK(point["frequency"].get<double>() == Approx(1).epsilon(1e-15));
+  CHECK(point["omega"].get<double>() == support::point(1, 1).omega);
+  CHECK(point["amplitude"] == 0.01);
+  CHECK(point["stick_percent"] == 100.0);
+  CHECK(point["elements"]["damper"] == Json{{"stick_percent", 100.0},
+                                            {"slip_angles", {1.5, 4.5}},
+                                            {"reversal_angles", {0.5, 3.5}},
+                                            {"energy", 0.25}});
+  CHECK_FALSE(point.contains("coefficients"));
+  REQUIRE(branch["events"].size() == 1);
+  CHECK(branch["events"][0]["kind"] == "peak");
+  CHECK(branch["events"][0]["amplitude"] == 0.1);
+}
+
+TEST_CASE("the status of a branch is written by its name") {
+  auto branch = support::branch();
+  branch.status = observables::Status::stopped;
+  CHECK(written(support::scene(), {branch})["branches"][0]["status"] == "stopped");
+  branch.status = observables::Status::failed;
+  CHECK(written(support::scene(), {branch})["branches"][0]["status"] == "failed");
+}
+
+TEST_CASE("numbers in JSON read back exactly") {
+  auto branch = support::branch();
+  const std::vector<double> numbers{0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, 8.84970005351e-4, -0.0};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    branch.points.resize(numbers.size(), support::point(1, 1));
+    branch.points[i].amplitude = numbers[i];
+  }
+  const Json json = written(support::scene(), {branch});
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    CHECK(json["branches"][0]["points"][i]["amplitude"].get<double>() == numbers[i]);
+  }
+}
+
+TEST_CASE("coefficients come with their harmonics when they are asked for") {
+  const Json json = written(support::scene(), {support::branch()}, {.coefficients = true});
+  CHECK(json["branches"][0]["harmonics"] == Json{1, 3});
+  CHECK(json["branches"][0]["points"][1]["coefficients"] == Json{0.05, 0.0, 0.0, -0.05});
+}
+
+TEST_CASE("an unbounded amplitude is null and said to be unbounded") {
+  auto branch = support::branch();
+  branch.events[0].point.unbounded = true;
+  const Json event = written(support::scene(), {branch})["branches"][0]["events"][0];
+  CHECK(event["amplitude"].is_null());
+  CHECK(event["phase"].is_null());
+  CHECK(event["unbounded"] == true);
+  CHECK(event["frequency"].get<double>() == Approx(1.5));
+}
+
+TEST_CASE("what is not finite never reaches JSON") {
+  auto branch = support::branch();
+  for (double& value : branch.points[0].coefficients) {
+    value = std::numeric_limits<double>::infinity();
+  }
+  branch.points[0].amplitude = std::nan("");
+  branch.points[0].elements[0].slip_angles = {-std::numeric_limits<double>::infinity()};
+  branch.stop.limit = std::numeric_limits<double>::infinity();
+  const Json json = written(support::scene(), {branch}, {.coefficients = true});
+  CHECK(json["branches"][0]["points"][0]["amplitude"].is_null());
+  CHECK(json["branches"][0]["points"][0]["elements"]["damper"]["slip_angles"][0].is_null());
+  CHECK(json["branches"][0]["stop"]["limit"].is_null());
+}
+
+TEST_CASE("stick_percent stands at the top of a point only with exactly one friction element") {
+  auto branch = support::branch();
+  branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
+  branch.points[1].elements.push_back({"second", true, 10, {}, {}, 0});
+  branch.points[2].elements.clear();
+  const Json points = written(support::scene(), {branch})["branches"][0]["points"];
+  CHECK(points[0].contains("stick_percent"));
+  CHECK_FALSE(points[0]["elements"]["spring"].contains("stick_percent"));
+  CHECK_FALSE(points[1].contains("stick_percent"));
+  CHECK(points[1]["elements"]["second"]["stick_percent"] == 10.0);
+  CHECK_FALSE(points[2].contains("stick_percent"));
+  CHECK(points[2]["elements"] == Json::object());
+}

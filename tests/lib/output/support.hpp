@@ -1,0 +1,89 @@
+#pragma once
+// Made-up results with numbers that are easy to find again, and a folder that goes away by itself.
+
+#include <arcslip/observables/response.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <stdlib.h>
+
+namespace support {
+
+namespace fs = std::filesystem;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "arcslip_test_XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string path() const { return path_.string(); }
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
+  }
+
+ private:
+  fs::path path_;
+};
+
+inline std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// One degree of freedom with a slider; frequencies in Hz.
+inline arcslip::scene::Scene scene(const std::string& title = "A slider") {
+  std::istringstream text(R"({"format": "arcslip-scene-1", "title": "t", "structure": {"dofs": ["x"],
+    "masses": [{"name": "m", "at": "x", "value": 1}], "springs": [{"name": "k", "at": "x", "value": 100}],
+    "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "damper", "type": "jenkins", "at": "x", "stiffness": 10, "friction_coefficient": 0.5,
+                  "normal_load": 3}],
+    "excitation": [{"name": "force", "at": "x", "harmonic": 1, "cosine": 1}], "response": {"at": "x"},
+    "studies": [{"name": "frf", "kind": "frf", "from": 1, "to": 2}]})");
+  arcslip::scene::Scene scene = arcslip::scene::read(text);
+  scene.title = title;
+  return scene;
+}
+
+inline arcslip::observables::ResponsePoint point(double hertz, double amplitude, double stick_percent = 50) {
+  arcslip::observables::ResponsePoint point;
+  point.omega = hertz * 2 * 3.14159265358979323846;
+  point.amplitude = amplitude;
+  point.phase = 0.5;
+  point.truncation_estimate = 1e-9;
+  point.energy_friction = 0.25;
+  point.energy_viscous = 0.125;
+  point.elements.push_back({"damper", true, stick_percent, {1.5, 4.5}, {0.5, 3.5}, 0.25});
+  point.coefficients = {amplitude, 0, 0, -amplitude};
+  return point;
+}
+
+/// A resonance at 1.5 Hz: five points and a peak between the second and the third.
+inline arcslip::observables::ResponseBranch branch(double normal_load = 3) {
+  arcslip::observables::ResponseBranch branch;
+  branch.stop = {"boundary", 2, 2, "reached the end of the window at 2 Hz"};
+  branch.set = {{"damper.normal_load", normal_load}};
+  branch.parameters = {{"m.value", 1.0}, {"k.value", 100.0}};
+  branch.harmonics = {1, 3};
+  branch.points = {point(1, 0.01, 100), point(1.4, 0.05), point(1.6, 0.05), point(1.8, 0.02),
+                   point(2, 0.005)};
+  branch.events = {{"peak", false, point(1.5, 0.1, 40)}};
+  branch.solver = {"dense LU", 4, 5, 1, 20, 18, 9, 30, 0.001};
+  return branch;
+}
+
+}  // namespace support

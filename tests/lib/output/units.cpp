@@ -1,0 +1,43 @@
+#include "catch.hpp"
+#include "lib/output/support.hpp"
+
+#include <arcslip/output/figures.hpp>
+#include <arcslip/output/units.hpp>
+
+#include <limits>
+
+using namespace arcslip;
+
+TEST_CASE("a parameter's unit is its field's, a tie's that of its members") {
+  auto scene = support::scene();
+  scene.ties.push_back({"load", {"damper.normal_load"}});
+  CHECK(output::parameter_unit(scene, "damper.normal_load") == "N");
+  CHECK(output::parameter_unit(scene, "load") == "N");
+  CHECK(output::parameter_unit(scene, "k.value") == "N/m");
+  CHECK_THROWS_AS(output::parameter_unit(scene, "nothing.value"), scene::ParameterError);
+}
+
+TEST_CASE("numbers are written as short as they read back") {
+  CHECK(output::shortest(3) == "3");
+  CHECK(output::shortest(0.01) == "0.01");
+  CHECK(output::shortest(1e-12) == "1e-12");
+  CHECK(output::shortest(1.0 / 3) == "0.3333333333333333");
+  CHECK(output::shortest(-std::numeric_limits<double>::infinity()) == "-inf");
+}
+
+TEST_CASE("a set of parameters reads as an assignment with units") {
+  CHECK(output::assignment(support::scene(),
+                           {{"damper.normal_load", 3}, {"damper.friction_coefficient", 0.5}}) ==
+        "damper.normal_load = 3 N, damper.friction_coefficient = 0.5");
+  CHECK(output::assignment(support::scene(), {}).empty());
+}
+
+TEST_CASE("a file name holds nothing that a shell, gnuplot or another folder could make something of") {
+  CHECK(output::file_name("frf") == "frf");
+  CHECK(output::file_name("best load") == "best_load");
+  CHECK(output::file_name("../../etc/passwd") == "_._.._etc_passwd");
+  CHECK(output::file_name("a'b\"c`d$(e)") == "a_b_c_d__e_");
+  CHECK(output::file_name("-e") == "_-e");
+  CHECK(output::file_name("") == "_");
+  CHECK(output::file_name(std::string(400, 'x')).size() == 100);
+}
