@@ -132,6 +132,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
     const bool stagnates = before > 0 && now > 0.5 * before && now <= options_.rounding_level;
     if (now <= options_.tolerance || stagnates) {
       v += dv_;
+      p_[free_] = v[v.size() - 1];
       result.converged = true;
       return result;
     }

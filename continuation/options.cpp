@@ -30,6 +30,7 @@ void check(const Options& o) {
   require(o.step.smallest > 0, "step.smallest", o.step.smallest, "> 0");
   require(o.step.largest_parameter >= 0, "step.largest_parameter", o.step.largest_parameter, ">= 0");
   require(o.step.relative_parameter >= 0, "step.relative_parameter", o.step.relative_parameter, ">= 0");
+  require(o.step.relative_state > 0, "step.relative_state", o.step.relative_state, "> 0");
   require(o.step.angle > 0 && o.step.angle < o.step.largest_angle, "step.angle", o.step.angle,
           "> 0 and below step.largest_angle");
   require(o.step.largest_angle < 1.5, "step.largest_angle", o.step.largest_angle, "< 1.5");

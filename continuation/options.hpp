@@ -15,6 +15,7 @@ struct StepOptions {
   double smallest = 1e-10;         // relative to 1 + |u| in scales
   double largest_parameter = 0;    // |dp| of a step; 0: a hundredth of the window
   double relative_parameter = 0;   // |dp| <= relative_parameter * |p|; 0: no such limit
+  double relative_state = 0.5;     // |du| <= relative_state * (1 + |u|), in scales; > 0
   double angle = 0.2;              // rad between the tangents of neighbouring points, aimed at
   double largest_angle = 0.6;      // rad; more is a jump to another branch, unless it is a kink
   double contraction = 0.3;        // of the corrector's first two corrections, aimed at

@@ -15,6 +15,7 @@ constexpr double first_share_of_window = 0.01;    // |dp| of a step where the us
 constexpr double growth = 2.0, shrinkage = 0.3;   // of the step, at most
 constexpr double rejection = 0.25;                // of the step after a rejection
 constexpr double kink_step = 0.25, kink_turn = 0.7;  // a turn that keeps so much of itself over so short a step is a kink
+constexpr double parameter_rounding = 1e-9;       // relative changes of p below tell no direction
 constexpr double largest_extrapolation = 2.5;     // in last steps, for the cubic predictor
 constexpr double nonsmooth_share = 1e-4;          // of a monitor's change over a step, left at its zero
 constexpr double event_newton = 1e-2;             // the corrector's tolerance at events, of that on the branch
@@ -118,6 +119,7 @@ bool Tracer::begin() {
 }
 
 double Tracer::limited(double ds) const {
+  ds = std::min(ds, options_.step.relative_state * (1 + main_.norm_u(here_.v)));
   const double along = std::abs(here_.tangent[n_]);
   double limit = options_.step.largest_parameter;
   if (options_.step.relative_parameter > 0)
@@ -155,6 +157,12 @@ bool Tracer::step() {
   }
 }
 
+// Both tangents point one way in p, and p went the other way: another branch, or two folds in one step.
+bool Tracer::went_back(const Place& next) const {
+  const double a = here_.tangent[n_], b = next.tangent[n_], dp = next.v[n_] - here_.v[n_];
+  return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(here_.v[n_]);
+}
+
 // Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink with the
 // step. A turn is first met with a long step and rejected; it is the same one as long as its place is not passed.
 bool Tracer::is_kink(double turn, const Place& next) {
@@ -175,6 +183,7 @@ Tracer::Attempt Tracer::attempt() {
   const double ahead = main_.dot(v_, here_.tangent);
   if (!(length > 0)) return Attempt::rejected;
   if (!settle(main_, next_)) return Attempt::rejected;
+  if (went_back(next_)) return Attempt::rejected;
 
   const double turn = std::max(angle_between(main_.dot(next_.tangent, here_.tangent)), angle_between(ahead / length));
   bool kink = false;

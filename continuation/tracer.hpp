@@ -55,6 +55,7 @@ class Tracer {
   Attempt attempt();
   void predict(Vector& v) const;
   bool settle(Corrector& at, Place& place) const;
+  bool went_back(const Place& next) const;
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
   bool locate_events(const Place& from, const Place& to);

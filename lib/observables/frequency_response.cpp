@@ -14,8 +14,8 @@ namespace {
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double beyond_display = 1e6;       // |u| in scales: points above, next to an unbounded peak, are left out
-constexpr double next_to_pole = 100;         // |u| in scales: where the far side of an unbounded peak is taken up
+constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded at all
+constexpr double next_to_pole = 100;    // |u| in scales: where the far side of an unbounded peak is taken up
 
 Status status_of(StopReason reason) {
   switch (reason) {
@@ -69,6 +69,7 @@ class Sweep {
 
     std::vector<std::pair<double, double>> course;  // frequency, |u| in scales
     double last = from;
+    Unboundedness growth;
     const auto record = [&](Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
       if (event) {
         result.events.push_back({event->monitor, event->nonsmooth, observer.observe(now)});
@@ -76,7 +77,11 @@ class Sweep {
       }
       const double omega = now.p[model::frequency];
       course.emplace_back(omega, now.u.norm() / observer.problem().displacement());
-      if (course.back().second < beyond_display) result.points.push_back(observer.observe(now));
+      if (course.back().second > beyond_display && course[course.size() - 2].second <= beyond_display) {
+        growth = unboundedness(observer.problem(), now.p, now.u);
+        if (growth.unbounded) return false;
+      }
+      result.points.push_back(observer.observe(now));
       if (!progress_) return true;
       const Progress progress{index_, count_, static_cast<long>(course.size()), omega / unit_,
                               (omega - last) / unit_, std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0)};
@@ -85,7 +90,7 @@ class Sweep {
     };
     const auto traced = frequency_branch(model_, {lower_, upper_}, from, record);
     result.solver.unknowns = traced.problem->size();
-    finish(result, traced, course);
+    finish(result, traced, growth, course);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return result;
   }
@@ -101,20 +106,9 @@ class Sweep {
     result.solver.linear_solver = "dense LU";
   }
 
-  void finish(ResponseBranch& result, const FrequencyBranch& traced,
+  void finish(ResponseBranch& result, const FrequencyBranch& traced, const Unboundedness& growth,
               const std::vector<std::pair<double, double>>& course) {
     const continuation::Branch& branch = traced.branch;
-    result.status = status_of(branch.stop.reason);
-    result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
-    if (branch.stop.reason == StopReason::start_failed) {
-      result.stop.message = "no periodic response was found at " + text(branch.stop.value / unit_) + " " + unit_name_ +
-                            ": Newton's method failed from rest, from the response without elements, and along a "
-                            "growing excitation";
-    }
-    if (branch.stop.reason == StopReason::boundary) {
-      result.stop.value = result.stop.limit = branch.stop.value / unit_;
-      result.stop.message = "reached the end of the window at " + text(result.stop.value) + " " + unit_name_;
-    }
     const auto& counts = branch.counts;
     result.solver.points = counts.points;
     result.solver.rejected_steps = counts.rejected_steps;
@@ -122,27 +116,42 @@ class Sweep {
     result.solver.jacobians = counts.jacobians;
     result.solver.factorizations = counts.factorizations;
     result.solver.solves = counts.solves;
-    if (branch.stop.reason != StopReason::state_too_large) return;
+    if (growth.unbounded) {
+      end_unbounded(result, growth, course);
+      return;
+    }
+    result.status = status_of(branch.stop.reason);
+    result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
+    if (branch.stop.reason == StopReason::start_failed) {
+      result.stop.value = branch.stop.value / unit_;
+      result.stop.message = "no periodic response was found at " + text(result.stop.value) + " " + unit_name_ +
+                            ": Newton's method failed from rest, from the response without elements, and along a "
+                            "growing excitation";
+    } else if (branch.stop.reason == StopReason::boundary) {
+      result.stop.value = result.stop.limit = branch.stop.value / unit_;
+      result.stop.message = "reached the end of the window at " + text(result.stop.value) + " " + unit_name_;
+    } else if (!growth.message.empty()) {
+      result.stop.message += "; " + growth.message;
+    }
+  }
 
-    const Vector at = hbm::parameters_at(*traced.problem, branch.points.back().parameter);
-    const Unboundedness reason = unboundedness(*traced.problem, at, branch.points.back().u);
-    result.stop.message = reason.message + " (near " + text(at[model::frequency] / unit_) + " " + unit_name_ + ")";
-    if (!reason.unbounded) return;
+  // The peak at infinity, and where the branch is to be taken up on the other side of the pole: as far beyond it as it
+  // was before.
+  void end_unbounded(ResponseBranch& result, const Unboundedness& growth,
+                     const std::vector<std::pair<double, double>>& course) {
+    const double omega = course.back().first;
     result.status = Status::complete;
-    result.stop.reason = "unbounded";
-    result.stop.value = reason.dissipation;
-    result.stop.limit = reason.input;
+    result.stop = {"unbounded", growth.dissipation, growth.input,
+                   growth.message + ", near " + text(omega / unit_) + " " + unit_name_};
     ResponseEvent peak;
     peak.kind = "peak";
-    peak.point.omega = at[model::frequency];
+    peak.point.omega = omega;
     peak.point.unbounded = true;
     result.events.push_back(std::move(peak));
-
-    // The branch comes back from infinity on the other side of the pole: take it up as far beyond as it was before.
     far_side_ = upper_;
     for (auto it = course.rbegin(); it != course.rend(); ++it) {
       if (it->second > next_to_pole) continue;
-      far_side_ = 2 * at[model::frequency] - it->first;
+      far_side_ = 2 * omega - it->first;
       break;
     }
   }

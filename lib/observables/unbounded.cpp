@@ -54,7 +54,7 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
     text << "the resonance is unbounded: nothing damps it viscously, and friction takes out " << result.dissipation
          << " N of the " << result.input << " N that the excitation puts in (work per period over pi and amplitude)";
   } else {
-    text << "the response exceeds " << amplitude << " m, more than can be followed; it is bounded by "
+    text << "beyond " << amplitude << " m the response is bounded by "
          << (damped ? "viscous damping" : restoring ? "a nonlinear spring" : "friction");
   }
   result.message = text.str();
