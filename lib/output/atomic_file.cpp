@@ -21,6 +21,8 @@ const char* advice(int error) {
     case ENOSPC:
     case EDQUOT:
       return "free some space there or write to another disk";
+    case EFBIG:
+      return "files may not grow that large here (see ulimit -f)";
     case EACCES:
     case EPERM:
     case EROFS:

@@ -1,3 +1,5 @@
 #include <arcslip/optimize/minimize.hpp>
 
-int main() { return arcslip::optimize::algorithms().empty() ? 1 : 0; }
+int main() {
+  return arcslip::optimize::algorithms().empty() ? 1 : 0;
+}

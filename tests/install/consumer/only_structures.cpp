@@ -1,3 +1,5 @@
 #include <arcslip/scene/scene.hpp>
 
-int main() { return arcslip::scene::unit_name(arcslip::scene::FrequencyUnit::hertz) == "Hz" ? 0 : 1; }
+int main() {
+  return arcslip::scene::unit_name(arcslip::scene::FrequencyUnit::hertz) == "Hz" ? 0 : 1;
+}

@@ -1,0 +1,69 @@
+#include "catch.hpp"
+
+#include <arcslip/continuation/corrector.hpp>
+#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/model/model.hpp>
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::size_t calls = 0;
+
+}  // namespace
+
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __wrap_malloc(std::size_t size) {
+  ++calls;
+  return __real_malloc(size);
+}
+}
+
+void* operator new(std::size_t size) {
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+using namespace arcslip;
+
+TEST_CASE("malloc is counted here") {
+  const std::size_t before = calls;
+  delete new int(1);
+  Eigen::VectorXd v(1000);
+  CHECK(calls == before + 2);
+}
+
+TEST_CASE("a Newton iteration allocates nothing, up to 300 unknowns") {
+  for (const char* friction : {"exact", "sampled"})
+    for (int order : {1, 7, 55, 151, 299}) {
+      scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+      scene.harmonics.order = order;
+      scene.harmonics.samples = 2 * (2 * order + 2);
+      if (std::string(friction) == "sampled") scene.harmonics.friction = scene::Friction::sampled;
+      const auto model = std::make_shared<const model::Model>(model::build(scene));
+      const auto problem = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-3, 25.0);
+      const continuation::Vector p = hbm::parameters_at(*problem, 125.5);
+      const auto u = hbm::steady_state(problem, p);
+      REQUIRE(u);
+      continuation::Counts counts;
+      continuation::Corrector corrector(*problem, p, model::frequency, {}, counts);
+      continuation::Vector v(problem->size() + 1), row = continuation::Vector::Zero(v.size()), t(v.size());
+      row[row.size() - 1] = 1;
+      v << 1.02 * *u, 125.5;
+      const continuation::Vector far = v;
+      corrector.correct(v, row, false);  // first-time growth of buffers, if any
+      v = far;
+      const std::size_t before = calls;
+      const auto correction = corrector.correct(v, row, false);
+      corrector.tangent(t);
+      const std::size_t during = calls - before;
+      CAPTURE(friction, order, correction.iterations);
+      CHECK(correction.converged);
+      CHECK(correction.iterations >= 1);
+      CHECK(during == 0);
+    }
+}

@@ -1,0 +1,77 @@
+#include "catch.hpp"
+
+#include "continuation/problems.hpp"
+
+using namespace problems;
+
+TEST_CASE("the folds of mu + x - x^3 are found at mu = +-2/3^(3/2), in both directions") {
+  const double fold = 0.3849001794597505;
+  for (int direction : {1, -1}) {
+    Vector u(1), p(2);
+    u << (direction > 0 ? -1.3 : 1.3);
+    p << -direction * 1.0, 1;
+    const Branch branch = trace(cusp(), {u, p, 0, direction}, window(-1, 1), {fold_monitor()});
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.points.back().parameter == direction);
+    REQUIRE(branch.events.size() == 2);
+    CHECK(std::abs(branch.events[0].point.parameter - direction * fold) < 1e-14);
+    CHECK(std::abs(branch.events[1].point.parameter + direction * fold) < 1e-14);
+    CHECK(std::abs(branch.events[0].point.u[0] + direction * std::sqrt(1.0 / 3)) < 1e-9);
+    CHECK_FALSE(branch.events[0].nonsmooth);
+    CHECK(branch.events[0].point.arclength < branch.events[1].point.arclength);
+  }
+}
+
+TEST_CASE("the folds of Freudenstein and Roth in x3 are those of PITCON") {
+  Vector u(2), p(1);
+  u << 15, -2;
+  p << 0;
+  const Branch branch = trace(freudenstein_roth(), {u, p, 0, 1}, window(-1, 1.5), {fold_monitor()});
+  REQUIRE(branch.events.size() == 2);
+  CHECK(branch.events[0].point.parameter == Approx(0.5875873).margin(1e-7));
+  CHECK(branch.events[0].point.u[0] == Approx(20.48586).margin(1e-5));
+  CHECK(branch.events[0].point.u[1] == Approx(-0.8968053).margin(1e-7));
+  CHECK(branch.events[1].point.parameter == Approx(-0.6863528).margin(1e-7));
+  CHECK(branch.events[1].point.u[0] == Approx(61.02031).margin(1e-5));
+  CHECK(branch.events[1].point.u[1] == Approx(2.230139).margin(1e-6));
+}
+
+TEST_CASE("the folds of Chan's problem with 100 nodes are those of LOCA") {
+  const Branch branch =
+      trace(chan(100), {Vector::Zero(100), Vector::Zero(1), 0, 1}, window(0, 5), {fold_monitor()});
+  CHECK(branch.stop.reason == StopReason::boundary);
+  REQUIRE(branch.events.size() == 2);
+  CHECK(std::abs(branch.events[0].point.parameter - 4.06755724) < 1e-8);
+  CHECK(std::abs(branch.events[1].point.parameter - 3.16019522) < 1e-8);
+  CHECK(branch.points.back().parameter == 5);
+  CHECK(std::abs(branch.points.back().u.norm() - 203.1991024) < 1e-7);
+}
+
+TEST_CASE("a smooth branch costs less than 3.5 factorizations a point") {
+  for (const auto& [problem, start, p, w] :
+       {std::tuple{chan(100), Vector(Vector::Zero(100)), Vector(Vector::Zero(1)), window(0, 5)},
+        std::tuple{freudenstein_roth(), Vector{{15.0, -2.0}}, Vector(Vector::Zero(1)), window(-1, 1.5)}}) {
+    const Branch branch = trace(problem, {start, p, 0, 1}, w, {fold_monitor()});
+    CHECK(static_cast<double>(branch.counts.factorizations) < 3.5 * static_cast<double>(branch.counts.points));
+  }
+}
+
+TEST_CASE("unknowns and parameter in units 1e12 larger or smaller make the same branch") {
+  const auto fold_of = [](double in_u, double in_p) {
+    const auto problem = from_functions(
+        1, {parameter("mu", 0, in_p)},
+        [=](In u, In p, Out F) { F[0] = p[0] / in_p + u[0] / in_u - std::pow(u[0] / in_u, 3); }, {}, {},
+        Vector::Constant(1, in_u));
+    const Branch branch = trace(problem, {Vector::Constant(1, -1.3 * in_u), Vector::Constant(1, -in_p), 0, 1},
+                                window(-in_p, in_p), {fold_monitor()});
+    REQUIRE(branch.events.size() == 2);
+    return std::pair{branch.events[0].point.parameter / in_p, branch.points.size()};
+  };
+  const auto [fold, points] = fold_of(1, 1);
+  for (double in_u : {1e-12, 1.0, 1e12})
+    for (double in_p : {1e-12, 1.0, 1e12}) {
+      const auto [other, count] = fold_of(in_u, in_p);
+      CHECK(std::abs(other - fold) < 1e-12);
+      CHECK(std::abs(static_cast<double>(count) - static_cast<double>(points)) <= 2);
+    }
+}

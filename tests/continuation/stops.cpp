@@ -1,0 +1,104 @@
+// One test for each StopReason.
+
+#include "catch.hpp"
+
+#include "continuation/problems.hpp"
+
+#include <cstring>
+
+using namespace problems;
+
+namespace {
+
+Start at(double u, double p) { return {Vector::Constant(1, u), Vector::Constant(1, p), 0, 1}; }
+
+std::shared_ptr<const Problem> scalar(ResidualFunction f) { return from_functions(1, {parameter("p", 0)}, f); }
+
+}  // namespace
+
+TEST_CASE("boundary: a branch that reaches the window's end stops exactly there") {
+  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0] * p[0]; }), at(0, 0), window(0, 2));
+  CHECK(branch.stop.reason == StopReason::boundary);
+  CHECK(branch.points.back().parameter == 2);
+  CHECK(std::abs(branch.points.back().u[0] - 4) < 1e-14);
+  CHECK(branch.stop.message == "reached the end of the window at 2");
+}
+
+TEST_CASE("start_failed: no solution near the start is said, and there are no points") {
+  const Branch branch =
+      trace(scalar([](In u, In, Out F) { F[0] = 1 + u[0] * u[0]; }), at(0.5, 0), window(0, 1));
+  CHECK(branch.stop.reason == StopReason::start_failed);
+  CHECK(branch.points.empty());
+}
+
+TEST_CASE("start_failed: a singular start is said") {
+  const Branch branch = trace(scalar([](In u, In, Out F) { F[0] = 0 * u[0]; }), at(0.5, 0), window(0, 1));
+  CHECK((branch.stop.reason == StopReason::start_failed || branch.stop.reason == StopReason::not_evaluated));
+  CHECK(branch.points.empty());
+}
+
+TEST_CASE("step_too_small: a wrong Jacobian ends the branch and keeps what there is") {
+  const auto problem = from_functions(
+      1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - std::sin(3 * p[0]); },
+      [](In, In p, Eigen::Ref<Eigen::MatrixXd> J) { J(0, 0) = p[0] > 0.5 ? -0.4 : 1; });
+  const Branch branch = trace(problem, at(0, 0), window(0, 1));
+  CHECK(branch.stop.reason == StopReason::step_too_small);
+  CHECK(branch.stop.value < branch.stop.limit);
+  CHECK(branch.points.size() > 10);
+}
+
+TEST_CASE("state_too_large: a pole is followed to the limit of the state and no further") {
+  Options options = window(0, 2);
+  options.largest_state = 1e9;
+  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] * (1 - p[0]) - 1; }), at(1, 0), options);
+  CHECK(branch.stop.reason == StopReason::state_too_large);
+  CHECK(branch.stop.value > 1e9);
+  CHECK(std::abs(branch.points.back().parameter - 1) < 1e-8);
+  for (const Point& point : branch.points) CHECK(point.parameter < 1);
+}
+
+TEST_CASE("point_limit: as many points as asked for") {
+  Options options = window(0, 2);
+  options.points = 7;
+  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), options);
+  CHECK(branch.stop.reason == StopReason::point_limit);
+  CHECK(branch.points.size() == 7);
+}
+
+TEST_CASE("user: the observer stops the branch, at a point or at an event") {
+  int calls = 0;
+  const Branch at_point = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), window(0, 2), {},
+                                [&](const Accepted&, const Event*) { return ++calls < 5; });
+  CHECK(at_point.stop.reason == StopReason::user);
+  CHECK(at_point.points.size() == 5);
+  const Branch at_event = trace(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1),
+                                {fold_monitor()}, [](const Accepted&, const Event* event) { return !event; });
+  CHECK(at_event.stop.reason == StopReason::user);
+  CHECK(at_event.events.size() == 1);
+}
+
+TEST_CASE("not_evaluated: a residual that cannot be evaluated ahead ends the branch where it can") {
+  const Branch branch = trace(
+      scalar([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); }), at(std::sqrt(0.7), 0), window(0, 2));
+  CHECK((branch.stop.reason == StopReason::not_evaluated || branch.stop.reason == StopReason::step_too_small));
+  CHECK(branch.points.size() > 10);
+  CHECK(branch.points.back().parameter <= 0.7);
+  CHECK(std::abs(branch.points.back().parameter - 0.7) < 1e-3);
+}
+
+TEST_CASE("not_evaluated: nor can a start outside the domain") {
+  const Branch branch =
+      trace(scalar([](In u, In, Out F) { F[0] = std::log(u[0]); }), at(-1, 0), window(0, 2));
+  CHECK(branch.stop.reason == StopReason::not_evaluated);
+  CHECK(branch.points.empty());
+}
+
+TEST_CASE("every stop reason has a name of its own") {
+  const StopReason all[] = {StopReason::boundary,        StopReason::start_failed, StopReason::step_too_small,
+                            StopReason::state_too_large, StopReason::point_limit,  StopReason::user,
+                            StopReason::not_evaluated};
+  for (StopReason a : all) {
+    CHECK(std::strcmp(name(a), "unknown") != 0);
+    for (StopReason b : all) CHECK((a == b) == (std::strcmp(name(a), name(b)) == 0));
+  }
+}

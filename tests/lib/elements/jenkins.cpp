@@ -1,0 +1,218 @@
+#include "catch.hpp"
+
+#include <arcslip/elements/jenkins.hpp>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace arcslip::elements;
+constexpr double pi = std::numbers::pi;
+
+namespace {
+
+// A motion whose harmonics fall as n^-2, of largest coefficient about `amplitude`.
+Eigen::VectorXd motion(const Harmonics& h, double amplitude, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  Eigen::VectorXd u(h.size());
+  for (int i = 0; i < h.cosines(); ++i) u[i] = number(random) / std::max(1, h.cosine_order(i) * h.cosine_order(i));
+  for (int j = 0; j < h.sines(); ++j)
+    u[h.cosines() + j] = number(random) / (h.sine_order(j) * h.sine_order(j));
+  return amplitude * u / u.cwiseAbs().maxCoeff();
+}
+
+using Fields = std::array<double, 3>;  // stiffness, friction coefficient, normal load
+
+}  // namespace
+
+TEST_CASE("with one harmonic the force has the describing function of the Jenkins element") {
+  // Full slip from the turn at A: theta* = arccos(1 - 2 x_s/A); F_c = (k_d A/pi)(theta* - sin theta* cos theta*),
+  // F_s = -(4 p/pi)(1 - x_s/A) against x = A cos theta.
+  const auto element = make_jenkins({1, true});
+  const double kd = 3500, mu = 0.5;
+  for (double A : {1.0001, 1.5, 2.0, 5.0, 1e3, 1e6})
+    for (double Fn : {1e-6, 3.0, 1e6}) {
+      const double p = mu * Fn, x_s = p / kd, a = A * x_s;
+      element->move_to(Eigen::VectorXd{{a, 0.0}}, Fields{kd, mu, Fn}, false);
+      const double onset = std::acos(1 - 2 / A);
+      CAPTURE(A, Fn);
+      CHECK(element->force()[0] == Approx(kd * a / pi * (onset - std::sin(onset) * std::cos(onset))).epsilon(1e-11));
+      CHECK(element->force()[1] == Approx(-4 * p / pi * (1 - 1 / A)).epsilon(1e-11));
+      FrictionState state;
+      REQUIRE(element->friction(state));
+      CHECK(state.stick_share == Approx(onset / pi).epsilon(1e-12));
+      REQUIRE(state.slip_onsets.size() == 2);
+      CHECK(state.slip_onsets[0] == Approx(onset).epsilon(1e-12));
+      CHECK(std::abs(std::sin(state.slip_ends[0])) < 1e-14);
+    }
+}
+
+TEST_CASE("the Jacobian is that of central differences, over decades of amplitude and load, for all kinds of motion") {
+  for (bool odd : {true, false})
+    for (int order : {1, 2, 3, 7, 15})
+      for (double amplitude : {1e-6, 1e-3, 1.0, 1e3})
+        for (double load : {0.1, 0.5, 1.3, 10.0, 1e3})
+          for (unsigned seed : {1u, 2u, 3u}) {
+            const Harmonics h{order, odd};
+            const auto element = make_jenkins(h);
+            const Eigen::VectorXd u = motion(h, amplitude, seed);
+            const Fields fields{2.0, 0.5, amplitude * load};
+            element->move_to(u, fields, true);
+            const Eigen::MatrixXd J = element->jacobian();
+            const std::uint64_t piece = element->piece();
+            double worst = 0;
+            bool across_a_kink = false;
+            for (int i = 0; i < h.size(); ++i) {
+              const double step = 1e-5 * amplitude;
+              Eigen::VectorXd v = u;
+              v[i] += step;
+              element->move_to(v, fields, false);
+              const Eigen::VectorXd plus = element->force();
+              across_a_kink = across_a_kink || element->piece() != piece;
+              v[i] -= 2 * step;
+              element->move_to(v, fields, false);
+              across_a_kink = across_a_kink || element->piece() != piece;
+              worst = std::max(worst, (J.col(i) - (plus - element->force()) / (2 * step)).cwiseAbs().maxCoeff());
+            }
+            CAPTURE(odd, order, amplitude, load, seed);
+            if (!across_a_kink) CHECK(worst < 2e-7);  // of k_d = 2
+          }
+}
+
+TEST_CASE("the derivative in every field is that of central differences") {
+  for (bool odd : {true, false})
+    for (const bool sampled : {false, true})
+      for (double load : {0.3, 1.0, 2.0, 1e3}) {
+        const Harmonics h{7, odd};
+        const auto element = sampled ? make_sampled_jenkins(h, 256) : make_jenkins(h);
+        const Eigen::VectorXd u = motion(h, 1, 5);
+        const Fields fields{2.0, 0.5, load};
+        for (int k = 0; k < 3; ++k) {
+          const auto at = static_cast<std::size_t>(k);
+          Eigen::VectorXd dF(h.size());
+          element->move_to(u, fields, true);
+          element->field_derivative(k, dF);
+          const double step = 1e-6 * fields[at];
+          Fields changed = fields;
+          changed[at] += step;
+          element->move_to(u, changed, false);
+          const Eigen::VectorXd plus = element->force();
+          changed[at] -= 2 * step;
+          element->move_to(u, changed, false);
+          CAPTURE(odd, sampled, load, k);
+          CHECK((dF - (plus - element->force()) / (2 * step)).norm() < 1e-7 * (1 + dF.norm()));
+        }
+      }
+}
+
+TEST_CASE("sampling converges to the exact force as samples^-2") {
+  for (bool odd : {true, false}) {
+    const Harmonics h{9, odd};
+    const Eigen::VectorXd u = motion(h, 1, 11);
+    const Fields fields{2.0, 0.5, 0.8};
+    const auto exact = make_jenkins(h);
+    exact->move_to(u, fields, true);
+    double last = 0;
+    for (int samples : {1000, 10000, 100000}) {
+      const auto sampled = make_sampled_jenkins(h, samples);
+      sampled->move_to(u, fields, true);
+      last = (sampled->force() - exact->force()).norm();
+      CHECK(last < 40.0 / samples / samples);
+    }
+    CHECK(last > 0);
+  }
+}
+
+TEST_CASE("the sampled Jacobian is exact for the sampled force") {
+  for (bool odd : {true, false})
+    for (double load : {0.5, 1.0, 2.5, 100.0}) {
+      const Harmonics h{5, odd};
+      const auto element = make_sampled_jenkins(h, 100);
+      const Eigen::VectorXd u = motion(h, 1, 3);
+      const Fields fields{2.0, 0.5, load};
+      element->move_to(u, fields, true);
+      const Eigen::MatrixXd J = element->jacobian();
+      for (int i = 0; i < h.size(); ++i) {
+        Eigen::VectorXd v = u;
+        v[i] += 1e-6;
+        element->move_to(v, fields, false);
+        const Eigen::VectorXd plus = element->force();
+        v[i] -= 2e-6;
+        element->move_to(v, fields, false);
+        CHECK((J.col(i) - (plus - element->force()) / 2e-6).norm() < 1e-8);
+      }
+    }
+}
+
+TEST_CASE("force and energy are continuous where slip is born, between stick and slip") {
+  for (bool odd : {true, false}) {
+    const Harmonics h{5, odd};
+    const auto element = make_jenkins(h);
+    const Eigen::VectorXd u = motion(h, 1, 7);
+    // Bisect the load for the limit of full stick, and compare both sides.
+    double slips = 1e-3, sticks = 1e3;
+    FrictionState state;
+    for (int k = 0; k < 200; ++k) {
+      const double middle = 0.5 * (slips + sticks);
+      element->move_to(u, Fields{2.0, 0.5, middle}, false);
+      element->friction(state);
+      (state.stick_share == 1 ? sticks : slips) = middle;
+    }
+    element->move_to(u, Fields{2.0, 0.5, slips}, false);
+    const Eigen::VectorXd below = element->force();
+    element->move_to(u, Fields{2.0, 0.5, sticks}, false);
+    CHECK((element->force() - below).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("a small loop within the large one keeps the anchor of the large one") {
+  // cos + 0.5 cos 3 has a small reversal pair in each half period that does not slip at this limit.
+  const Harmonics h{3, true};
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(4);
+  u[0] = 1;
+  u[1] = 0.5;
+  const auto exact = make_jenkins(h);
+  const auto sampled = make_sampled_jenkins(h, 400000);
+  for (double load : {0.2, 0.6, 1.0, 1.4, 2.0}) {
+    exact->move_to(u, Fields{1.0, 1.0, load}, true);
+    sampled->move_to(u, Fields{1.0, 1.0, load}, true);
+    CAPTURE(load);
+    CHECK((exact->force() - sampled->force()).norm() < 1e-9);
+    CHECK((exact->jacobian() - sampled->jacobian()).norm() < 1e-4);
+  }
+}
+
+TEST_CASE("without load or without motion the force is what it must be") {
+  for (bool odd : {true, false}) {
+    const Harmonics h{5, odd};
+    for (const bool sampled : {false, true}) {
+      const auto element = sampled ? make_sampled_jenkins(h, 128) : make_jenkins(h);
+      const Eigen::VectorXd u = motion(h, 1, 2);
+      element->move_to(u, Fields{2.0, 0.5, 0.0}, true);
+      CHECK(element->force().norm() < 1e-14);
+      CHECK(element->jacobian().norm() < 1e-12);
+      element->move_to(0 * u, Fields{2.0, 0.5, 0.0}, true);
+      CHECK(element->force().norm() == 0);
+      CHECK(element->jacobian().norm() == 0);
+      element->move_to(0 * u, Fields{2.0, 0.5, 1.0}, true);
+      CHECK(element->force().norm() == 0);
+      CHECK(element->jacobian().bottomRightCorner(5 - 2 * odd, 5 - 2 * odd).isApprox(
+          2.0 * Eigen::MatrixXd::Identity(5 - 2 * odd, 5 - 2 * odd)));
+    }
+  }
+}
+
+TEST_CASE("full stick is a centred linear spring, mean included") {
+  const Harmonics h{4, false};
+  const auto element = make_jenkins(h);
+  Eigen::VectorXd u = motion(h, 1, 9);
+  element->move_to(u, Fields{2.0, 0.5, 1e3}, true);
+  Eigen::VectorXd shifted = u;
+  shifted[0] += 0.7;
+  const Eigen::VectorXd F = element->force();
+  CHECK((F.tail(8) - 2 * u.tail(8)).norm() < 1e-14);
+  element->move_to(shifted, Fields{2.0, 0.5, 1e3}, true);
+  CHECK((element->force() - F).norm() < 1e-13);  // the slider has no memory of where it stands
+}

@@ -1,0 +1,102 @@
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/hbm/dynamic_stiffness.hpp>
+
+#include <Eigen/Dense>
+
+#include <complex>
+
+using namespace arcslip;
+using continuation::Vector;
+
+TEST_CASE("unknowns are those of the nonlinear elements: 3 masses, 3 elements in 2 directions, 2 unknowns") {
+  const model::Model model = model::build(scenes::chain(5, false));
+  const hbm::Coordinates c = hbm::coordinates(model);
+  CHECK(c.unknowns == 2);
+  CHECK(c.linear() == 1);
+  // The unknowns are the displacements along the first two elements; the linear coordinate is seen by none.
+  for (int e = 0; e < 3; ++e) {
+    const Vector seen = c.P.transpose() * model.elements[static_cast<std::size_t>(e)].direction;
+    CHECK(std::abs(seen[2]) < 1e-14);
+    if (e < 2) CHECK((seen.head(2) - Vector::Unit(2, e)).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("condensed, with its response, a linear structure answers as the full complex system does") {
+  for (const bool even : {false, true}) {
+    const scene::Scene s = scenes::chain(5, even);
+    const model::Model model = model::build(s);
+    const hbm::Coordinates coordinates = hbm::coordinates(model);
+    hbm::DynamicStiffness stiffness(model, coordinates, model.harmonics);
+    Vector p(model.parameters.size());
+    for (std::size_t k = 0; k < model.parameters.size(); ++k) p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+    for (double omega : {0.05, 0.9, 1.3, 7.0}) {
+      p[model::frequency] = omega;
+      REQUIRE(stiffness.move_to(p));
+      const int c = model.harmonics.size();
+      Vector u(2 * c), x(c);
+      stiffness.force(u);
+      stiffness.solve(u);
+      stiffness.response(u, 1, x);
+      const auto M = model::assemble(model.masses, p, 3), C = model::assemble(model.dampers, p, 3),
+                 K = model::assemble(model.springs, p, 3);
+      for (int n : {1, even ? 2 : 3}) {
+        const std::complex<double> i(0, 1);
+        const Eigen::MatrixXcd Z =
+            (K - n * n * omega * omega * M).cast<std::complex<double>>() + i * (n * omega * C);
+        Eigen::VectorXcd f = Eigen::VectorXcd::Zero(3);
+        if (n == 1) f[2] = {1, -0.3};
+        if (n != 1) f[1] = 0.2;
+        const Eigen::VectorXcd X = Z.partialPivLu().solve(f);
+        const auto& h = model.harmonics;
+        CHECK(std::abs(X[2] - std::complex<double>(x[h.cosine_index(n)], -x[h.sine_index(n)])) < 1e-13 * X.norm());
+      }
+      // R of that solution, and its energy: what the dampers take is the work of the force.
+      Vector R(2 * c);
+      stiffness.residual(u, 1, R);
+      CHECK(R.norm() < 1e-13);
+    }
+  }
+}
+
+TEST_CASE("the response's gradient and its change with frequency are those of differences") {
+  const model::Model model = model::build(scenes::chain(4, true));
+  hbm::DynamicStiffness stiffness(model, hbm::coordinates(model), model.harmonics);
+  Vector p(model.parameters.size());
+  for (std::size_t k = 0; k < model.parameters.size(); ++k) p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+  const int c = model.harmonics.size();
+  const Vector u = Vector::Random(2 * c), v = Vector::Random(2 * c), a = Vector::Random(c);
+  Vector x(c), g(2 * c), plus(c), minus(c), dx(c);
+  p[model::frequency] = 0.8;
+  stiffness.move_to(p);
+  stiffness.response(v, 0, x);
+  stiffness.response_transposed(a, g);
+  CHECK(std::abs(a.dot(x) - g.dot(v)) < 1e-13);
+  stiffness.response_by_frequency(u, 1, dx);
+  p[model::frequency] = 0.8 + 1e-6;
+  stiffness.move_to(p);
+  stiffness.response(u, 1, plus);
+  p[model::frequency] = 0.8 - 1e-6;
+  stiffness.move_to(p);
+  stiffness.response(u, 1, minus);
+  CHECK((dx - (plus - minus) / 2e-6).norm() < 1e-8 * dx.norm());
+}
+
+TEST_CASE("a resonance of the condensed part alone, undamped, is no place to evaluate") {
+  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["a", "b"], "masses": [{"name": "ma", "at": "a", "value": 1},
+      {"name": "mb", "at": "b", "value": 1}],
+      "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kb", "between": ["a", "b"], "value": 4}]},
+    "elements": [{"name": "s", "type": "cubic_spring", "at": "a", "stiffness": 1}],
+    "excitation": [{"name": "f", "at": "a", "cosine": 1}], "harmonics": {"order": 1}, "response": {"at": "a"}})");
+  const model::Model model = model::build(s);
+  hbm::DynamicStiffness stiffness(model, hbm::coordinates(model), model.harmonics);
+  Vector p(model.parameters.size());
+  for (std::size_t k = 0; k < model.parameters.size(); ++k) p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+  p[model::frequency] = 2;
+  CHECK_FALSE(stiffness.move_to(p));
+  p[model::frequency] = 2.0000001;
+  CHECK(stiffness.move_to(p));
+}

@@ -1,0 +1,121 @@
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/hbm/problem.hpp>
+
+using namespace arcslip;
+using continuation::Needs;
+using continuation::Vector;
+
+namespace {
+
+struct Worst {
+  double jacobian = 0, parameters = 0;
+  int checked = 0;
+};
+
+// Largest difference from central differences, relative to the row sums of |J| (|dR/dp|), off kinks.
+Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequency, double load, unsigned seed) {
+  scene::Scene s = scene;
+  for (const auto& element : s.elements)
+    if (element.type == &scene::jenkins_type) scene::set(s, element.name + ".normal_load", load);
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const hbm::HbmProblem problem(model, model->harmonics, amplitude, frequency);
+  const auto at = problem.hbm_evaluator();
+  std::srand(seed);
+  Vector u = amplitude * Vector::Random(problem.size());
+  const int c = problem.harmonics().size();
+  for (int i = 0; i < u.size(); ++i) {
+    const int k = i % c, cosines = problem.harmonics().cosines();
+    const int n = k < cosines ? problem.harmonics().cosine_order(k) : problem.harmonics().sine_order(k - cosines);
+    u[i] /= std::max(1, n * n);
+  }
+  const Vector p = hbm::parameters_at(problem, frequency);
+  Worst worst;
+  REQUIRE(at->move_to(u, p, Needs::jacobian) == continuation::Evaluated::ok);
+  const Eigen::MatrixXd J = at->jacobian();
+  const auto piece = at->piece();
+  const auto differ = [&](Vector v, Vector q, Vector w, Vector r, double width, const Vector& derivative, double size,
+                          double& result) {
+    at->move_to(v, q, Needs::residual);
+    const Vector plus = at->residual();
+    const bool kink = at->piece() != piece;
+    at->move_to(w, r, Needs::residual);
+    if (kink || at->piece() != piece) return;
+    ++worst.checked;
+    result = std::max(result, ((plus - at->residual()) / width - derivative).cwiseAbs().maxCoeff() / size);
+  };
+  const double size = J.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const double step = 3e-6 * amplitude;
+    Vector plus = u, minus = u;
+    plus[i] += step;
+    minus[i] -= step;
+    differ(plus, p, minus, p, 2 * step, J.col(i), size, worst.jacobian);
+  }
+  for (Eigen::Index k = 0; k < p.size(); ++k) {
+    if (p[k] == 0) continue;
+    Vector dR(problem.size());
+    at->move_to(u, p, Needs::jacobian);
+    at->parameter_derivative(static_cast<int>(k), dR);
+    const double step = 1e-5 * p[k];
+    Vector plus = p, minus = p;
+    plus[k] += step;
+    minus[k] -= step;
+    const double scale = dR.cwiseAbs().maxCoeff() + 1e-3 * size * amplitude / p[k];
+    differ(u, plus, u, minus, 2 * step, dR, scale, worst.parameters);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("dR/du and dR/dp of every named parameter are those of central differences, over decades") {
+  for (const bool even : {false, true})
+    for (double amplitude : {1e-6, 1e-3, 1.0, 1e2})
+      for (double frequency : {1e-2, 0.3, 1.1, 20.0})
+        for (double load : {0.3, 1.0, 30.0}) {
+          const Worst worst = worst_derivative(scenes::chain(5, even), amplitude, frequency, load * amplitude, 3);
+          CAPTURE(even, amplitude, frequency, load, worst.checked);
+          CHECK(worst.checked > 10);
+          CHECK(worst.jacobian < 1e-6);
+          CHECK(worst.parameters < 1e-5);
+        }
+}
+
+TEST_CASE("the same holds for the paper's oscillator from full slip to full stick") {
+  for (int order : {1, 7, 55})
+    for (double amplitude : {1e-6, 1e-3, 1.0})
+      for (double load : {1e-3, 0.3, 1.0, 1e3})
+        for (double hz : {0.1, 20.0, 1000.0}) {
+          const Worst worst = worst_derivative(scenes::paper(order), amplitude, hz * scenes::hertz,
+                                               load * amplitude * 3500, 7);
+          CAPTURE(order, amplitude, load, hz, worst.checked);
+          CHECK(worst.checked > 2);
+          CHECK(worst.jacobian < 1e-6);
+          CHECK(worst.parameters < 1e-5);
+        }
+}
+
+TEST_CASE("a tie is one parameter whose derivative is the sum over its members") {
+  scene::Scene s = scenes::chain(3, false);
+  scene::set(s, "d2.normal_load", 0.9);
+  s.ties.push_back({"load", {"d1.normal_load", "d2.normal_load"}});
+  const auto tied = std::make_shared<const model::Model>(model::build(s));
+  s.ties.clear();
+  const auto apart = std::make_shared<const model::Model>(model::build(s));
+  CHECK(tied->parameters.size() + 1 == apart->parameters.size());
+  const hbm::HbmProblem one(tied, tied->harmonics, 1, 1), two(apart, apart->harmonics, 1, 1);
+  const Vector u = 3 * Vector::Random(one.size());
+  const auto a = one.hbm_evaluator(), b = two.hbm_evaluator();
+  a->move_to(u, hbm::parameters_at(one, 1), Needs::jacobian);
+  b->move_to(u, hbm::parameters_at(two, 1), Needs::jacobian);
+  Vector sum(u.size()), first(u.size()), second(u.size());
+  a->parameter_derivative(model::parameter_index(*tied, "load"), sum);
+  b->parameter_derivative(model::parameter_index(*apart, "d1.normal_load"), first);
+  b->parameter_derivative(model::parameter_index(*apart, "d2.normal_load"), second);
+  CHECK((sum - first - second).norm() < 1e-14);
+  CHECK(sum.norm() > 0.1);
+  CHECK_THROWS_WITH(model::parameter_index(*apart, "d1.normal_lod"), Catch::Contains("d1.normal_load"));
+}

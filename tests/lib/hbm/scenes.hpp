@@ -1,0 +1,64 @@
+#pragma once
+// Scenes for tests, and single responses of them.
+
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <numbers>
+#include <sstream>
+#include <string>
+
+namespace scenes {
+
+using namespace arcslip;
+
+inline constexpr double hertz = 2 * std::numbers::pi;
+
+inline scene::Scene parse(const std::string& text) {
+  std::istringstream in(text);
+  return scene::read(in);
+}
+
+/// The paper's oscillator with one load.
+inline scene::Scene paper(int order, double load = 3) {
+  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  s.harmonics.order = order;
+  s.studies.front().for_each.clear();
+  scene::set(s, "damper.normal_load", load);
+  return s;
+}
+
+/// Three masses, one of them seen by no element, friction to ground and between masses, a cubic spring along a general
+/// direction, forces in two harmonics and, if `even`, in the second.
+inline scene::Scene chain(int order, bool even) {
+  return parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["a", "b", "c"],
+      "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1.5},
+                 {"name": "mc", "at": "c", "value": 0.7}],
+      "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 0.8},
+                  {"name": "kbc", "between": ["b", "c"], "value": 1.2}, {"name": "kc", "at": "c", "value": 0.5}],
+      "dampers": [{"name": "ca", "at": "a", "value": 0.03}, {"name": "cbc", "between": ["b", "c"], "value": 0.02}]},
+    "elements": [
+      {"name": "d1", "type": "jenkins", "at": "a", "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": 0.9},
+      {"name": "d2", "type": "jenkins", "between": ["a", "b"], "stiffness": 0.3, "friction_coefficient": 0.5,
+       "normal_load": 0.5},
+      {"name": "s", "type": "cubic_spring", "direction": {"a": 0.5, "b": -1}, "stiffness": 0.2}],
+    "excitation": [{"name": "f", "at": "c", "cosine": 1, "sine": 0.3},
+                   {"name": "g", "at": "b", "harmonic": )" + std::string(even ? "2" : "3") + R"(, "cosine": 0.2}],
+    "harmonics": {"order": )" + std::to_string(order) + R"(},
+    "response": {"at": "c"},
+    "studies": [{"kind": "frf", "from": 0.3, "to": 2.2}]})");
+}
+
+/// The response at one frequency, in the scene's unit.
+inline observables::ResponsePoint response_at(scene::Scene s, double frequency) {
+  scene::Study study;
+  study.from = frequency;
+  study.to = 1.001 * frequency;
+  const auto branches =
+      observables::frequency_response(s, study, [](const observables::Progress&) { return false; });
+  if (branches.front().points.empty()) throw std::runtime_error(branches.front().stop.message);
+  return branches.front().points.front();
+}
+
+}  // namespace scenes

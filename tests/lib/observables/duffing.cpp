@@ -1,0 +1,74 @@
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+
+using namespace arcslip;
+
+namespace {
+
+std::vector<observables::ResponseEvent> folds(const observables::ResponseBranch& branch) {
+  std::vector<observables::ResponseEvent> found;
+  for (const auto& event : branch.events)
+    if (event.kind == "fold") found.push_back(event);
+  return found;
+}
+
+scene::Scene duffing(double damping, double cubic, double force, int order, double to) {
+  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json");
+  scene::set(s, "c.value", damping);
+  scene::set(s, "hardening.stiffness", cubic);
+  scene::set(s, "force.cosine", force);
+  s.harmonics.order = order;
+  s.studies.front().to = to;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("both folds of the Duffing oscillator of NLvib example 01 are found to 1e-9") {
+  const scene::Scene s = duffing(0.05, 0.1, 0.18, 15, 1.6);
+  const auto branches = observables::frequency_response(s, s.studies.front());
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].status == observables::Status::complete);
+  const auto found = folds(branches[0]);
+  REQUIRE(found.size() == 2);
+  CHECK(reference::error(found[0].point.omega, 1.269601955546) < 1e-9);
+  CHECK(reference::error(found[1].point.omega, 1.115700251771) < 1e-9);
+  CHECK(reference::error(found[0].point.amplitude, 2.871574832) < 1e-9);
+  CHECK(reference::error(found[1].point.amplitude, 1.0850358251) < 1e-9);
+  for (const auto& fold : found) CHECK_FALSE(fold.nonsmooth);
+}
+
+TEST_CASE("with one harmonic the folds are those of the closed form, with many those of the differential equation") {
+  const auto one = folds([] {
+    const scene::Scene s = duffing(0.1, 1, 0.1, 1, 2);
+    return observables::frequency_response(s, s.studies.front()).front();
+  }());
+  REQUIRE(one.size() == 2);
+  CHECK(std::abs(one[0].point.omega - 1.227095772) < 1e-9);
+  CHECK(std::abs(one[1].point.omega - 1.157717746) < 1e-9);
+  CHECK(std::abs(one[0].point.amplitude - 0.808418576) < 1e-8);
+  CHECK(std::abs(one[1].point.amplitude - 0.424611125) < 1e-8);
+  for (int order : {9, 15, 35}) {
+    const scene::Scene s = duffing(0.1, 1, 0.1, order, 2);
+    const auto many = folds(observables::frequency_response(s, s.studies.front()).front());
+    REQUIRE(many.size() == 2);
+    CHECK(std::abs(many[0].point.omega - 1.2287354913) < 1e-9);
+    CHECK(std::abs(many[1].point.omega - 1.1579517117) < 1e-9);
+  }
+}
+
+TEST_CASE("the Jenkins and Duffing oscillator folds where its describing function does") {
+  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.02}]},
+    "elements": [{"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 0.5},
+      {"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.5, "friction_coefficient": 0.5, "normal_load": 0.8}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.5}], "harmonics": {"order": 1}, "response": {"at": "x"},
+    "studies": [{"kind": "frf", "from": 0.2, "to": 3}]})");
+  const auto found = folds(observables::frequency_response(s, s.studies.front()).front());
+  REQUIRE(found.size() == 2);
+  CHECK(reference::error(found[0].point.omega, 2.1150531362) < 1e-9);
+  CHECK(reference::error(found[1].point.omega, 1.5063740448) < 1e-9);
+}

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+namespace reference {
+
+inline nlohmann::json read(const std::string& file) {
+  std::ifstream in(ARCSLIP_SOURCE_DIR "/tests/reference/" + file);
+  return nlohmann::json::parse(in);
+}
+
+inline nlohmann::json exact() { return read("exact_1dof.json"); }
+
+inline double error(double value, double exact) { return std::abs(value / exact - 1); }
+
+}  // namespace reference

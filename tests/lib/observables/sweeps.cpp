@@ -1,0 +1,61 @@
+// Long sweeps. Reduced by default; ARCSLIP_FULL=1 runs them in full.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+
+#include <cstdlib>
+
+using namespace arcslip;
+
+namespace {
+
+bool full() { return std::getenv("ARCSLIP_FULL") != nullptr; }
+
+}  // namespace
+
+TEST_CASE("resonance peaks are exact to 5e-9 with 101 harmonics, at every load") {
+  for (const auto& exact : reference::exact()["resonance_peaks"]) {
+    const double load = exact["normal_load"];
+    if (!full() && load != 2 && load != 3 && load != 100) continue;
+    const scene::Scene s = scenes::paper(101, load);
+    const auto branches = observables::frequency_response(s, s.studies.front());
+    REQUIRE(branches[0].events.size() == 1);
+    const auto& peak = branches[0].events[0].point;
+    CAPTURE(load);
+    CHECK(reference::error(peak.amplitude, exact["amplitude"]) < 5e-9);
+    CHECK(reference::error(peak.omega / scenes::hertz, exact["frequency_hz"]) < 2e-8);
+    CHECK(std::abs(peak.elements[0].stick_percent - exact["stick_percent"].get<double>()) < 1e-4);
+  }
+}
+
+TEST_CASE("responses at fixed frequency are exact to 5e-9 with 101 harmonics") {
+  for (const auto& exact : reference::exact()["fixed_frequency"]) {
+    const auto point = scenes::response_at(scenes::paper(101, exact["normal_load"]), exact["frequency_hz"]);
+    CHECK(reference::error(point.amplitude, exact["amplitude"]) < 5e-9);
+    CHECK(std::abs(point.elements[0].stick_percent - exact["stick_percent"].get<double>()) < 1e-4);
+  }
+}
+
+TEST_CASE("500 harmonics: the whole response, to the digits of the reference") {
+  scene::Scene s = scenes::paper(full() ? 501 : 251, 3);
+  const auto branches = observables::frequency_response(s, s.studies.front());
+  CHECK(branches[0].status == observables::Status::complete);
+  REQUIRE(branches[0].events.size() == 1);
+  CHECK(reference::error(branches[0].events[0].point.amplitude, 0.000884970009333055) < 2e-11);
+}
+
+TEST_CASE("low frequencies with many slip phases: 0.1 Hz to 1 Hz at 0.1 N, order past the resonance") {
+  scene::Scene s = scenes::paper(full() ? 251 : 101, 0.1);
+  s.studies.front().from = full() ? 0.1 : 0.25;
+  s.studies.front().to = full() ? 1 : 0.4;
+  const auto branches = observables::frequency_response(s, s.studies.front());
+  CHECK(branches[0].status == observables::Status::complete);
+  std::size_t most = 0;
+  for (const auto& point : branches[0].points) {
+    CHECK(std::isfinite(point.amplitude));
+    most = std::max(most, point.elements[0].slip_angles.size());
+  }
+  CHECK(most >= 6);
+}

@@ -1,0 +1,46 @@
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+
+using namespace arcslip;
+
+TEST_CASE("the truncation estimate is the error of the amplitude within a factor of two, for N = 1 to 55") {
+  for (int order : {1, 3, 7, 15, 27, 55})
+    for (const auto& exact : reference::exact()["resonance_peaks"]) {
+      const double load = exact["normal_load"], amplitude = exact["amplitude"];
+      if (load == 500) continue;  // full stick: no error
+      const scene::Scene s = scenes::paper(order, load);
+      const auto peak = observables::frequency_response(s, s.studies.front()).front().events.at(0).point;
+      const double error = std::abs(peak.amplitude - amplitude);
+      if (error < 2e-11 * amplitude) continue;  // the digits of the reference
+      CAPTURE(order, load, error / amplitude);
+      CHECK(peak.truncation_estimate > 0.5 * error);
+      CHECK(peak.truncation_estimate < 2 * error);
+    }
+}
+
+TEST_CASE("where friction is sampled the estimate holds the error of sampling too") {
+  for (double load : {0.1, 1.0, 2.0}) {
+    scene::Scene s = scenes::paper(27, load);
+    s.harmonics.friction = scene::Friction::sampled;
+    const auto sampled = scenes::response_at(s, 20);
+    const auto exact = scenes::response_at(scenes::paper(101, load), 20);
+    const double error = std::abs(sampled.amplitude - exact.amplitude);
+    CHECK(error > 1e-7 * exact.amplitude);
+    CHECK(sampled.truncation_estimate > 0.4 * error);
+    CHECK(sampled.truncation_estimate < 2.5 * error);
+  }
+}
+
+TEST_CASE("a linear response has no truncation error and no flag") {
+  const auto stuck = scenes::response_at(scenes::paper(7, 1e6), 20);
+  CHECK(stuck.truncation_estimate < 1e-12 * stuck.amplitude);
+  CHECK_FALSE(stuck.truncation_flagged);
+}
+
+TEST_CASE("the flag tells whether N omega passes the resonances of the stuck structure") {
+  // f2 = 20.903 Hz: with N = 3 from 6.97 Hz on.
+  CHECK(scenes::response_at(scenes::paper(3, 0.2), 6.9).truncation_flagged);
+  CHECK_FALSE(scenes::response_at(scenes::paper(3, 0.2), 7.0).truncation_flagged);
+}
