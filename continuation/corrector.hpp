@@ -41,6 +41,9 @@ class Corrector {
   /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
   bool linearize(const Vector& v, const Vector& row);
 
+  /// Moves the evaluator (not the factors) to v.
+  bool move_to(const Vector& v) { return evaluate(v, Needs::residual); }
+
   /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in scales. False where
   /// the row is (nearly) orthogonal to it.
   bool tangent(Vector& t) const;

@@ -9,8 +9,8 @@
 
 namespace arcslip::continuation {
 
-/// An accepted solution with all that was computed for it: the evaluator stands at (u, p) with its Jacobian, and
-/// `bordered` holds the factors of [J F_p; r^T] there.
+/// An accepted solution with all that was computed for it. `at` and `bordered`, the factors of [J F_p; r^T], stand
+/// where the last correction began: within the corrector's tolerance of (u, p). An observer finds `at` at (u, p) itself.
 struct Accepted {
   In u;                       // n
   In p;                       // all parameters

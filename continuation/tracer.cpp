@@ -15,8 +15,11 @@ constexpr double first_share_of_window = 0.01;    // |dp| of a step where the us
 constexpr double growth = 2.0, shrinkage = 0.3;   // of the step, at most
 constexpr double rejection = 0.25;                // of the step after a rejection
 constexpr double kink_step = 0.25, kink_turn = 0.7;  // a turn that keeps so much of itself over so short a step is a kink
+constexpr int rejections_before_a_corner = 3;
+constexpr double branch_point_step = 1e-7;        // relative to 1 + |u|: no shorter step tells two branches apart
 constexpr double parameter_rounding = 1e-9;       // relative changes of p below tell no direction
 constexpr double largest_extrapolation = 2.5;     // in last steps, for the cubic predictor
+constexpr int kink_bisections = 50;
 constexpr double nonsmooth_share = 1e-4;          // of a monitor's change over a step, left at its zero
 constexpr double event_newton = 1e-2;             // the corrector's tolerance at events, of that on the branch
 constexpr double event_state_tolerance = 1e-10;   // relative, of u at an event
@@ -77,6 +80,12 @@ Point Tracer::point(const Place& place, const Correction& correction) const {
   return {place.v.head(n_), place.v[n_], place.tangent, place.arclength, correction.iterations, correction.last};
 }
 
+// For the user's eyes, the evaluator moves the last correction further, onto the point itself.
+Accepted Tracer::observed(Corrector& at, const Place& place) {
+  at.move_to(place.v);
+  return accepted(at, place);
+}
+
 Accepted Tracer::accepted(Corrector& at, const Place& place) {
   return {place.v.head(n_), at.parameters(), place.tangent, place.arclength, at.evaluator(), at.factors()};
 }
@@ -105,16 +114,17 @@ bool Tracer::begin() {
     here_.tangent = -here_.tangent;
     here_.orientation = -here_.orientation;
   }
-  const double along = std::abs(here_.tangent[n_]);
+  const double to_scale = std::sqrt(main_.weights()[n_]);
+  const double along = to_scale * std::abs(here_.tangent[n_]);
   ds_ = options_.step.initial > 0 ? options_.step.initial
-                                  : 0.1 * options_.step.largest_parameter / std::max(along, 1e-3);
+                                  : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
   ds_ = limited(ds_);
   const Accepted now = accepted(main_, here_);
   for (const Monitor& m : monitors_) here_.monitors.push_back(m.value(now));
   branch_.points.push_back(point(here_, correction));
   ++branch_.counts.points;
   factors_fit_ = false;  // their border row is that of the start
-  if (observer_ && !observer_(now, nullptr)) return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (observer_ && !observer_(observed(main_, here_), nullptr)) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }
 
@@ -150,8 +160,11 @@ bool Tracer::step() {
       case Attempt::ended: return false;
       case Attempt::rejected:
         ++branch_.counts.rejected_steps;
-        ds_ *= rejection;
         factors_fit_ = false;
+        has_before_ = false;
+        if (++rejections_ >= rejections_before_a_corner && corner()) return !ended_;
+        factors_fit_ = false;
+        ds_ *= rejection;
         break;
     }
   }
@@ -180,12 +193,10 @@ Tracer::Attempt Tracer::attempt() {
 
   v_ = next_.v - here_.v;
   const double length = std::sqrt(main_.dot(v_, v_));
-  const double ahead = main_.dot(v_, here_.tangent);
-  if (!(length > 0)) return Attempt::rejected;
-  if (!settle(main_, next_)) return Attempt::rejected;
-  if (went_back(next_)) return Attempt::rejected;
+  if (!(length > 0) || !settle(main_, next_) || went_back(next_)) return Attempt::rejected;
 
-  const double turn = std::max(angle_between(main_.dot(next_.tangent, here_.tangent)), angle_between(ahead / length));
+  const double turn = std::max(angle_between(main_.dot(next_.tangent, here_.tangent)),
+                               angle_between(main_.dot(v_, here_.tangent) / length));
   bool kink = false;
   if (turn > options_.step.largest_angle) {
     kink = is_kink(turn, next_);
@@ -194,40 +205,70 @@ Tracer::Attempt Tracer::attempt() {
       next_.tangent = -next_.tangent;
       next_.orientation = here_.orientation;
     }
+  } else if (next_.orientation != here_.orientation && next_.piece == here_.piece &&
+             ds_ > branch_point_step * (1 + main_.norm_u(here_.v))) {
+    return Attempt::rejected;  // a jump to a branch near by, unless it stays however short the step: a branch point
   }
-  next_.arclength = here_.arclength + length;
-
-  const double p = next_.v[n_];
-  const double bound = std::clamp(p, options_.lower, options_.upper);
-  if (p != bound) {
-    if (!to_boundary(next_, bound)) return Attempt::rejected;
-    accept(std::move(next_), correction);
-    if (!ended_)
-      end(StopReason::boundary, bound, bound,
-          "reached the end of the window at " + text(bound));
-    return Attempt::ended;
-  }
-
   const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
+  return take(length, next_ds, kink, correction) ? Attempt::accepted : Attempt::ended;
+}
+
+// Where the branch turns by any angle at a kink just ahead: linearizes beyond it, and steps along the tangent there,
+// whose direction the sign of the determinant tells.
+bool Tracer::corner() {
+  next_.v = here_.v + ds_ * here_.tangent;
+  row_ = here_.tangent.cwiseProduct(main_.weights());
+  if (!main_.linearize(next_.v, row_) || !settle(main_, next_)) {  // at a right angle, a row that is neither
+    row_.setZero();
+    row_[n_] = 1;
+    if (!main_.linearize(next_.v, row_) || !settle(main_, next_)) return false;
+  }
+  if (next_.piece == here_.piece) return false;
+  if (next_.orientation != here_.orientation) next_.tangent = -next_.tangent;
+  const Vector beyond = next_.tangent;
+  next_.v = here_.v + ds_ * beyond;
+  row_ = beyond.cwiseProduct(main_.weights());
+  const Correction correction = main_.correct(next_.v, row_, false);
+  if (!correction.converged || !settle(main_, next_)) return false;
+  v_ = next_.v - here_.v;
+  const double length = std::sqrt(main_.dot(v_, v_));
+  if (next_.piece == here_.piece || next_.orientation != here_.orientation || !(length > 0) ||
+      angle_between(main_.dot(next_.tangent, beyond)) > options_.step.largest_angle ||
+      angle_between(main_.dot(v_, beyond) / length) > options_.step.largest_angle)
+    return false;
+  take(length, ds_, true, correction);
+  return true;
+}
+
+// Accepts next_, or, beyond the window, ends the branch at its bound.
+bool Tracer::take(double length, double next_ds, bool kink, const Correction& correction) {
+  next_.arclength = here_.arclength + length;
+  const double p = next_.v[n_], bound = std::clamp(p, options_.lower, options_.upper);
+  if (p != bound) {
+    if (!to_boundary(next_, bound)) {
+      ds_ *= rejection;
+      factors_fit_ = false;
+      return true;
+    }
+    if (accept(std::move(next_), correction))
+      end(StopReason::boundary, bound, bound, "reached the end of the window at " + text(bound));
+    return false;
+  }
   last_ds_ = length;
   has_before_ = !kink;
-  factors_fit_ = !kink && turn < options_.step.largest_angle;
-  const bool go_on = accept(std::move(next_), correction);
+  factors_fit_ = !kink;
+  rejections_ = 0;
+  if (!accept(std::move(next_), correction)) return false;
   ds_ = limited(next_ds);
-  if (!go_on) return Attempt::ended;
-
   const double state = main_.norm_u(here_.v);
-  if (state > options_.largest_state) {
-    end(StopReason::state_too_large, state, options_.largest_state,
-        "the solution grows without bound near " + text(here_.v[n_]));
-    return Attempt::ended;
-  }
-  if (branch_.counts.points >= options_.points) {
-    end(StopReason::point_limit, static_cast<double>(branch_.counts.points), static_cast<double>(options_.points),
-        "reached the largest number of points, " + std::to_string(options_.points));
-    return Attempt::ended;
-  }
-  return Attempt::accepted;
+  if (state > options_.largest_state)
+    return end(StopReason::state_too_large, state, options_.largest_state,
+               "the solution grows without bound near " + text(here_.v[n_]));
+  if (branch_.counts.points >= options_.points)
+    return end(StopReason::point_limit, static_cast<double>(branch_.counts.points),
+               static_cast<double>(options_.points),
+               "reached the largest number of points, " + std::to_string(options_.points));
+  return true;
 }
 
 double Tracer::choose_step(double angle, const Correction& correction) const {
@@ -266,7 +307,7 @@ bool Tracer::accept(Place&& place, const Correction& correction) {
   ++branch_.counts.points;
   std::swap(before_, here_);
   std::swap(here_, place);
-  if (!events_go_on || (observer_ && !observer_(accepted(main_, here_), nullptr)))
+  if (!events_go_on || (observer_ && !observer_(observed(main_, here_), nullptr)))
     return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }
@@ -296,9 +337,32 @@ bool Tracer::locate_events(const Place& from, const Place& to) {
     f.event.after = branch_.points.size() - 1;
     branch_.events.push_back(std::move(f.event));
     if (observer_ && go_on && probe_->linearize(f.place.v, f.row))
-      go_on = observer_(accepted(*probe_, f.place), &branch_.events.back());
+      go_on = observer_(observed(*probe_, f.place), &branch_.events.back());
   }
   return go_on;
+}
+
+// Where the smooth piece of `from` ends, along its tangent: the kink, seen from this side.
+bool Tracer::locate_kink(const Place& from, double length, Place& kink, Correction& correction) {
+  const Vector row = from.tangent.cwiseProduct(main_.weights());
+  double lower = 0, upper = length;
+  kink = from;
+  Vector v = from.v;
+  for (int k = 0; k < kink_bisections; ++k) {
+    const double middle = 0.5 * (lower + upper);
+    v = from.v + middle * from.tangent;
+    const Correction at = probe_->correct(v, row, false);
+    if (!at.converged || probe_->evaluator().piece() != from.piece) {
+      upper = middle;
+      continue;
+    }
+    lower = middle;
+    kink.v = v;
+    kink.arclength = from.arclength + middle;
+    correction = at;
+    if (!settle(*probe_, kink)) return false;
+  }
+  return true;
 }
 
 // The zero of a monitor between two points, on the cubic between them and then on the branch.
@@ -309,10 +373,19 @@ std::optional<Event> Tracer::locate(std::size_t monitor, const Place& from, cons
     probe_ = std::make_unique<Corrector>(*problem_, main_.parameters(), free_, newton, branch_.counts);
   }
   const double length = to.arclength - from.arclength;
+  Correction correction;
+  if (to.piece != from.piece && main_.dot(to.tangent, from.tangent) < std::cos(options_.step.largest_angle)) {
+    if (!locate_kink(from, length, found, correction)) return std::nullopt;
+    Event event;
+    event.monitor = monitors_[monitor].name;
+    event.value = from.monitors[monitor];
+    event.nonsmooth = true;
+    event.point = point(found, correction);
+    return event;
+  }
   Vector chord = to.v - from.v;
   const Vector row = (chord / length).cwiseProduct(main_.weights());
   Place place = to;
-  Correction correction;
   bool factors = false, failed = false;
   const auto value = [&](double s) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);

@@ -53,18 +53,22 @@ class Tracer {
 
   bool begin();
   Attempt attempt();
+  bool corner();
+  bool take(double length, double next_ds, bool kink, const Correction& correction);
   void predict(Vector& v) const;
   bool settle(Corrector& at, Place& place) const;
   bool went_back(const Place& next) const;
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
   bool locate_events(const Place& from, const Place& to);
+  bool locate_kink(const Place& from, double length, Place& kink, Correction& correction);
   std::optional<Event> locate(std::size_t monitor, const Place& from, const Place& to, Place& found);
   double choose_step(double angle, const Correction& correction) const;
   double limited(double ds) const;
   bool to_boundary(Place& place, double bound);
   Point point(const Place& place, const Correction& correction) const;
   Accepted accepted(Corrector& at, const Place& place);
+  Accepted observed(Corrector& at, const Place& place);
   bool end(StopReason reason, double value, double limit, std::string message);
 
   std::shared_ptr<const Problem> problem_;
@@ -79,6 +83,7 @@ class Tracer {
   bool has_before_ = false, factors_fit_ = false, ended_ = false, begun_ = false;
   bool evaluated_ = true;             // the last rejection came from the corrector, not from the problem
   double ds_ = 0, last_ds_ = 0;
+  int rejections_ = 0;
   struct Turn {  // a turn of the tangent that was rejected: how much, over which step, and where it is passed
     double angle = 0, step = 0, end = -1;
   } turn_;

@@ -64,6 +64,7 @@ TEST_CASE("unknowns and parameter in units 1e12 larger or smaller make the same 
         Vector::Constant(1, in_u));
     const Branch branch = trace(problem, {Vector::Constant(1, -1.3 * in_u), Vector::Constant(1, -in_p), 0, 1},
                                 window(-in_p, in_p), {fold_monitor()});
+    CAPTURE(in_u, in_p, branch.stop.message, branch.points.size());
     REQUIRE(branch.events.size() == 2);
     return std::pair{branch.events[0].point.parameter / in_p, branch.points.size()};
   };

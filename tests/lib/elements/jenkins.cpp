@@ -36,15 +36,16 @@ TEST_CASE("with one harmonic the force has the describing function of the Jenkin
     for (double Fn : {1e-6, 3.0, 1e6}) {
       const double p = mu * Fn, x_s = p / kd, a = A * x_s;
       element->move_to(Eigen::VectorXd{{a, 0.0}}, Fields{kd, mu, Fn}, false);
-      const double onset = std::acos(1 - 2 / A);
+      const double onset = 2 * std::asin(std::sqrt(1 / A));
+      const double digits = 1e-11 + 1e-15 * A;  // k_d a is A times the force
       CAPTURE(A, Fn);
-      CHECK(element->force()[0] == Approx(kd * a / pi * (onset - std::sin(onset) * std::cos(onset))).epsilon(1e-11));
-      CHECK(element->force()[1] == Approx(-4 * p / pi * (1 - 1 / A)).epsilon(1e-11));
+      CHECK(element->force()[0] == Approx(kd * a / pi * (onset - std::sin(onset) * std::cos(onset))).epsilon(digits));
+      CHECK(element->force()[1] == Approx(-4 * p / pi * (1 - 1 / A)).epsilon(digits));
       FrictionState state;
       REQUIRE(element->friction(state));
-      CHECK(state.stick_share == Approx(onset / pi).epsilon(1e-12));
+      CHECK(state.stick_share == Approx(onset / pi).epsilon(digits));
       REQUIRE(state.slip_onsets.size() == 2);
-      CHECK(state.slip_onsets[0] == Approx(onset).epsilon(1e-12));
+      CHECK(state.slip_onsets[0] == Approx(onset).epsilon(digits));
       CHECK(std::abs(std::sin(state.slip_ends[0])) < 1e-14);
     }
 }
@@ -77,7 +78,7 @@ TEST_CASE("the Jacobian is that of central differences, over decades of amplitud
               worst = std::max(worst, (J.col(i) - (plus - element->force()) / (2 * step)).cwiseAbs().maxCoeff());
             }
             CAPTURE(odd, order, amplitude, load, seed);
-            if (!across_a_kink) CHECK(worst < 2e-7);  // of k_d = 2
+            if (!across_a_kink) CHECK(worst < 1e-6);  // of k_d = 2; the differences' own error at order 15 is 2.5e-7
           }
 }
 

@@ -20,6 +20,8 @@ Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequ
   scene::Scene s = scene;
   for (const auto& element : s.elements)
     if (element.type == &scene::jenkins_type) scene::set(s, element.name + ".normal_load", load);
+  for (auto& force : s.excitation)  // forces of the size of the motion, so that differences keep their digits
+    for (double& value : force.values) value *= amplitude;
   const auto model = std::make_shared<const model::Model>(model::build(s));
   const hbm::HbmProblem problem(model, model->harmonics, amplitude, frequency);
   const auto at = problem.hbm_evaluator();
@@ -63,7 +65,7 @@ Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequ
     Vector plus = p, minus = p;
     plus[k] += step;
     minus[k] -= step;
-    const double scale = dR.cwiseAbs().maxCoeff() + 1e-3 * size * amplitude / p[k];
+    const double scale = dR.cwiseAbs().maxCoeff() + 1e-3 * size * amplitude / std::abs(p[k]);
     differ(u, plus, u, minus, 2 * step, dR, scale, worst.parameters);
   }
   return worst;
