@@ -3,9 +3,9 @@
 //   paper_frf/H:N     paper's oscillator, Fn = 3 N, 18 to 22 Hz, N harmonics
 //   duffing_frf/H:7   Duffing oscillator, 0.5 to 1.6 rad/s
 //
-// Counters: points and events of the branch; factorizations and solves of it; linear_share, the share of the time
-// that so many bare factorizations and solves of that size take; over_lu, the time over that of the factorizations
-// alone. Bare costs are measured in the same run.
+// Counters: points and events of the branch; factorizations and solves of it; linear_share, the share of the
+// time that so many bare factorizations and solves of that size take; over_lu, the time over that of the
+// factorizations alone. Bare costs are measured in the same run.
 
 #include <arcslip/continuation/bordered_lu.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
@@ -60,8 +60,8 @@ LinearCosts linear_costs(int n) {
           })};
 }
 
-void trace_whole(benchmark::State& state, const scene::Scene& scene, const observables::FrequencyWindow& window,
-                 std::size_t events) {
+void trace_whole(benchmark::State& state, const scene::Scene& scene,
+                 const observables::FrequencyWindow& window, std::size_t events) {
   const auto model = std::make_shared<const model::Model>(model::build(scene));
   observables::FrequencyBranch last;
   double total = 0;
@@ -99,7 +99,8 @@ void paper_frf(benchmark::State& state) {
 BENCHMARK(paper_frf)->ArgName("H")->Arg(1)->Arg(7)->Arg(27)->Arg(55)->Unit(benchmark::kMillisecond);
 
 void duffing_frf(benchmark::State& state) {
-  trace_whole(state, example("duffing", static_cast<int>(state.range(0))), {0.5, 1.6}, 3);  // a peak and two folds
+  trace_whole(state, example("duffing", static_cast<int>(state.range(0))), {0.5, 1.6},
+              3);  // a peak and two folds
 }
 BENCHMARK(duffing_frf)->ArgName("H")->Arg(7)->Unit(benchmark::kMillisecond);
 
@@ -107,7 +108,8 @@ BENCHMARK(duffing_frf)->ArgName("H")->Arg(7)->Unit(benchmark::kMillisecond);
 void paper_frf_observed(benchmark::State& state) {
   scene::Scene scene = example("al_sayed_2011", static_cast<int>(state.range(0)));
   scene::set(scene, "damper.normal_load", 3);
-  for (auto _ : state) benchmark::DoNotOptimize(observables::frequency_response(scene, scene.studies.front()));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(observables::frequency_response(scene, scene.studies.front()));
 }
 BENCHMARK(paper_frf_observed)->ArgName("H")->Arg(1)->Arg(7)->Arg(27)->Arg(55)->Unit(benchmark::kMillisecond);
 

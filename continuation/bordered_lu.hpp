@@ -21,7 +21,8 @@ class BorderedLU {
   /// Returns false where the matrix is singular or not finite; the factors are then not usable.
   bool factorize(const Jacobian& J, In F_p, In row);
 
-  /// x: n + 1 on entry the right-hand side (f, g), on return the solution; g is in the units of the row given.
+  /// x: n + 1 on entry the right-hand side (f, g), on return the solution; g is in the units of the row
+  /// given.
   void solve(Out x) const;
   /// The same with the transposed matrix.
   void solve_transposed(Out x) const;

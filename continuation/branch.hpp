@@ -28,16 +28,25 @@ struct Event {
 };
 
 /// Why a branch ended.
-///   boundary         the free parameter reached a bound of the window: p = lower or p = upper. The usual end.
-///   start_failed     Newton's method at the start did not converge: |correction| > tolerance after all attempts.
+///   boundary         the free parameter reached a bound of the window: p = lower or p = upper. The usual
+///   end. start_failed     Newton's method at the start did not converge: |correction| > tolerance after all
+///   attempts.
 ///                    Causes: a start far from a solution, a wrong Jacobian, no solution there.
-///   step_too_small   |ds| < smallest step, after rejections. Causes: a wrong Jacobian, an end of the branch, a
+///   step_too_small   |ds| < smallest step, after rejections. Causes: a wrong Jacobian, an end of the branch,
+///   a
 ///                    tolerance below rounding.
-///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, as an undamped resonance does.
-///   point_limit      as many points as asked for.
-///   user             the callback said stop.
+///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, as an undamped
+///   resonance does. point_limit      as many points as asked for. user             the callback said stop.
 ///   not_evaluated    the problem answered `failed` at every attempt, or gave numbers that are not finite.
-enum class StopReason { boundary, start_failed, step_too_small, state_too_large, point_limit, user, not_evaluated };
+enum class StopReason {
+  boundary,
+  start_failed,
+  step_too_small,
+  state_too_large,
+  point_limit,
+  user,
+  not_evaluated
+};
 
 const char* name(StopReason reason);
 

@@ -7,19 +7,33 @@
 namespace arcslip::continuation {
 namespace {
 
+// On the contraction expected of the next chord step: the larger the problem, the more new factors cost
+// beside it.
+double chord_safety(int n) {
+  return std::clamp(n / 8.0, 1.0, 5.0);
+}
+
 constexpr double smallest_damping = 1.0 / 256;
-constexpr double undamped = 1e-2;      // corrections below are taken whole, and tested at the next place
-constexpr double divergence = 2;       // of such corrections, from one to the next
-constexpr int longest_chord = 5;       // chord steps before new factors
-constexpr double chord_safety = 5;     // on the contraction expected of the next one: new factors cost more
+constexpr double undamped = 1e-2;  // corrections below are taken whole, and tested at the next place
+constexpr double divergence = 2;   // of such corrections, from one to the next
+constexpr int longest_chord = 5;   // chord steps before new factors
 constexpr double smallest_relevant_state = 1e-6;  // in scales: below, corrections are measured absolutely
 
 }  // namespace
 
 Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts)
-    : options_(options), counts_(counts), evaluator_(problem.evaluator()), lu_(problem.size()), p_(std::move(p)),
-      weights_(problem.size() + 1), F_p_(problem.size()), dv_(problem.size() + 1), next_(problem.size() + 1),
-      trial_(problem.size() + 1), free_(free) {
+    : options_(options),
+      counts_(counts),
+      evaluator_(problem.evaluator()),
+      lu_(problem.size()),
+      p_(std::move(p)),
+      weights_(problem.size() + 1),
+      F_p_(problem.size()),
+      dv_(problem.size() + 1),
+      next_(problem.size() + 1),
+      trial_(problem.size() + 1),
+      free_(free),
+      chord_safety_(chord_safety(problem.size())) {
   const double parameter_scale = problem.parameters()[static_cast<std::size_t>(free)].scale;
   weights_.head(problem.size()) = problem.scales().cwiseAbs2().cwiseInverse();
   weights_[problem.size()] = 1 / (parameter_scale * parameter_scale);
@@ -75,8 +89,8 @@ bool Corrector::tangent(Vector& t) const {
   return true;
 }
 
-// With the factors that are there, to where linearizing is expected to end the correction. False: they do not fit, and
-// v is as good as before.
+// With the factors that are there, to where linearizing is expected to end the correction. False: they do not
+// fit, and v is as good as before.
 bool Corrector::chord(Vector& v, Correction& result) {
   if (!evaluate(v, Needs::residual)) {
     result.evaluated = false;
@@ -88,7 +102,7 @@ bool Corrector::chord(Vector& v, Correction& result) {
   if (!(now < 1)) return false;
   v += dv_;
   ++result.iterations;
-  for (int k = 1; k < longest_chord && now * chord_safety * contraction_ > options_.tolerance; ++k) {
+  for (int k = 1; k < longest_chord && now * chord_safety_ * contraction_ > options_.tolerance; ++k) {
     if (!evaluate(v, Needs::residual)) {
       result.evaluated = false;
       return false;

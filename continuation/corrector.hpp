@@ -1,14 +1,17 @@
 #pragma once
-// From a prediction to the branch: Newton's method for F(u, p) = 0 in the plane r . (v - v_predicted) = 0, v = (u, p).
+// From a prediction to the branch: Newton's method for F(u, p) = 0 in the plane r . (v - v_predicted) = 0, v
+// = (u, p).
 //
-// Factors of a nearby place are used first, in chord steps, as long as these contract. Then F and J are evaluated and
-// factorized where they led to: if the correction dv = -B^-1 F from those factors is below the tolerance, v + dv is
-// the solution, whose error is of the order |dv|^2 (|dv| next to a kink), and the factors are those of the branch
-// there. If not, Newton's method goes on from there. So a point that was well predicted costs one factorization.
+// Factors of a nearby place are used first, in chord steps, as long as these contract. Then F and J are
+// evaluated and factorized where they led to: if the correction dv = -B^-1 F from those factors is below the
+// tolerance, v + dv is the solution, whose error is of the order |dv|^2 (|dv| next to a kink), and the
+// factors are those of the branch there. If not, Newton's method goes on from there. So a point that was well
+// predicted costs one factorization.
 //
-// Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004, chapter
-// 3): |B^-1 F(v + lambda dv)| must fall below |dv|. It is invariant under scaling of the equations and never compares
-// Jacobians across a kink: so it serves piecewise smooth F as a semismooth Newton method with a safeguard.
+// Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004,
+// chapter 3): |B^-1 F(v + lambda dv)| must fall below |dv|. It is invariant under scaling of the equations
+// and never compares Jacobians across a kink: so it serves piecewise smooth F as a semismooth Newton method
+// with a safeguard.
 
 #include <arcslip/continuation/bordered_lu.hpp>
 #include <arcslip/continuation/branch.hpp>
@@ -22,7 +25,7 @@ namespace arcslip::continuation {
 /// What became of a correction. Corrections are relative to |u| in scales (and to |p|).
 struct Correction {
   bool converged = false;
-  bool evaluated = true;       // false: the problem could not be evaluated
+  bool evaluated = true;  // false: the problem could not be evaluated
   int iterations = 0;
   double first = 0, last = 0;  // size of the first and of the last correction
   double contraction = 0;      // of the second over the first
@@ -34,8 +37,9 @@ class Corrector {
   /// counts: where the work is added up; outlives the corrector.
   Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts);
 
-  /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1. keep_factors: the
-  /// factors that are there are those of a nearby place with a similar row, and are tried first.
+  /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1.
+  /// keep_factors: the factors that are there are those of a nearby place with a similar row, and are tried
+  /// first.
   Correction correct(Vector& v, const Vector& row, bool keep_factors);
 
   /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
@@ -44,14 +48,16 @@ class Corrector {
   /// Moves the evaluator (not the factors) to v.
   bool move_to(const Vector& v) { return evaluate(v, Needs::residual); }
 
-  /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in scales. False where
-  /// the row is (nearly) orthogonal to it.
+  /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in
+  /// scales. False where the row is (nearly) orthogonal to it.
   bool tangent(Vector& t) const;
 
   double size(const Vector& dv, const Vector& v) const;  // of a correction, relative
   double norm_u(const Vector& v) const;                  // |u| in scales
-  double dot(const Vector& a, const Vector& b) const { return (a.array() * b.array() * weights_.array()).sum(); }
-  const Vector& weights() const { return weights_; }     // 1 / scale^2, n + 1
+  double dot(const Vector& a, const Vector& b) const {
+    return (a.array() * b.array() * weights_.array()).sum();
+  }
+  const Vector& weights() const { return weights_; }  // 1 / scale^2, n + 1
   const Vector& parameters() const { return p_; }
   Evaluator& evaluator() { return *evaluator_; }
   const BorderedLU& factors() const { return lu_; }
@@ -68,6 +74,7 @@ class Corrector {
   BorderedLU lu_;
   Vector p_, weights_, F_p_, dv_, next_, trial_;
   int free_;
+  double chord_safety_;
   double parameter_floor_;
   double contraction_ = 1;  // of the last chord step
 };

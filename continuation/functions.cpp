@@ -16,12 +16,19 @@ struct Functions {
   Vector scales;
 };
 
-double difference_step(double x, double scale) { return std::cbrt(2.2e-16) * std::max(std::abs(x), scale); }
+double difference_step(double x, double scale) {
+  return std::cbrt(2.2e-16) * std::max(std::abs(x), scale);
+}
 
 class FunctionEvaluator final : public Evaluator {
  public:
   explicit FunctionEvaluator(std::shared_ptr<const Functions> f)
-      : f_(std::move(f)), u_(f_->size), p_(f_->parameters.size()), F_(f_->size), plus_(f_->size), minus_(f_->size),
+      : f_(std::move(f)),
+        u_(f_->size),
+        p_(f_->parameters.size()),
+        F_(f_->size),
+        plus_(f_->size),
+        minus_(f_->size),
         J_(f_->size, f_->size) {}
 
   Evaluated move_to(In u, In p, Needs needs) override {
@@ -81,15 +88,18 @@ class FunctionProblem final : public Problem {
 
 }  // namespace
 
-std::shared_ptr<const Problem> from_functions(int size, std::vector<Parameter> parameters, ResidualFunction residual,
-                                              JacobianFunction jacobian, ParameterFunction derivative, Vector scales) {
+std::shared_ptr<const Problem> from_functions(int size, std::vector<Parameter> parameters,
+                                              ResidualFunction residual, JacobianFunction jacobian,
+                                              ParameterFunction derivative, Vector scales) {
   if (size < 1) throw std::invalid_argument("a problem has at least 1 unknown, not " + std::to_string(size));
   if (!residual) throw std::invalid_argument("a problem needs a residual function");
   if (scales.size() == 0) scales = Vector::Ones(size);
   if (scales.size() != size)
-    throw std::invalid_argument(std::to_string(scales.size()) + " scales for " + std::to_string(size) + " unknowns");
+    throw std::invalid_argument(std::to_string(scales.size()) + " scales for " + std::to_string(size) +
+                                " unknowns");
   return std::make_shared<FunctionProblem>(Functions{size, std::move(parameters), std::move(residual),
-                                                     std::move(jacobian), std::move(derivative), std::move(scales)});
+                                                     std::move(jacobian), std::move(derivative),
+                                                     std::move(scales)});
 }
 
 }  // namespace arcslip::continuation

@@ -21,8 +21,8 @@ using JacobianFunction = std::function<void(In u, In p, Eigen::Ref<Eigen::Matrix
 using ParameterFunction = std::function<void(In u, In p, int k, Out dF)>;
 
 /// Throws std::invalid_argument where size < 1 or the residual is empty.
-std::shared_ptr<const Problem> from_functions(int size, std::vector<Parameter> parameters, ResidualFunction residual,
-                                              JacobianFunction jacobian = {}, ParameterFunction derivative = {},
-                                              Vector scales = {});
+std::shared_ptr<const Problem> from_functions(int size, std::vector<Parameter> parameters,
+                                              ResidualFunction residual, JacobianFunction jacobian = {},
+                                              ParameterFunction derivative = {}, Vector scales = {});
 
 }  // namespace arcslip::continuation

@@ -9,12 +9,13 @@
 
 namespace arcslip::continuation {
 
-/// An accepted solution with all that was computed for it. `at` and `bordered`, the factors of [J F_p; r^T], stand
-/// where the last correction began: within the corrector's tolerance of (u, p). An observer finds `at` at (u, p) itself.
+/// An accepted solution with all that was computed for it. `at` and `bordered`, the factors of [J F_p; r^T],
+/// stand where the last correction began: within the corrector's tolerance of (u, p). An observer finds `at`
+/// at (u, p) itself.
 struct Accepted {
-  In u;                       // n
-  In p;                       // all parameters
-  In tangent;                 // n + 1: du/ds, dp/ds of the free parameter
+  In u;        // n
+  In p;        // all parameters
+  In tangent;  // n + 1: du/ds, dp/ds of the free parameter
   double arclength;
   Evaluator& at;
   const BorderedLU& bordered;

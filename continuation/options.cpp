@@ -19,7 +19,8 @@ void require(bool holds, const char* what, double value, const char* bound) {
 
 void check(const Options& o) {
   require(std::isfinite(o.lower), "options.lower", o.lower, "finite");
-  require(std::isfinite(o.upper) && o.upper > o.lower, "options.upper", o.upper, "finite and above options.lower");
+  require(std::isfinite(o.upper) && o.upper > o.lower, "options.upper", o.upper,
+          "finite and above options.lower");
   require(o.newton.tolerance > 0, "newton.tolerance", o.newton.tolerance, "> 0");
   require(o.newton.rounding_level >= o.newton.tolerance, "newton.rounding_level", o.newton.rounding_level,
           ">= newton.tolerance");
@@ -34,7 +35,8 @@ void check(const Options& o) {
   require(o.step.angle > 0 && o.step.angle < o.step.largest_angle, "step.angle", o.step.angle,
           "> 0 and below step.largest_angle");
   require(o.step.largest_angle < 1.5, "step.largest_angle", o.step.largest_angle, "< 1.5");
-  require(o.step.contraction > 0 && o.step.contraction < 1, "step.contraction", o.step.contraction, "in (0, 1)");
+  require(o.step.contraction > 0 && o.step.contraction < 1, "step.contraction", o.step.contraction,
+          "in (0, 1)");
   require(o.points >= 1, "options.points", static_cast<double>(o.points), ">= 1");
   require(o.largest_state > 0, "options.largest_state", o.largest_state, "> 0");
   require(o.event_tolerance > 0, "options.event_tolerance", o.event_tolerance, "> 0");

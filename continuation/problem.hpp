@@ -15,7 +15,8 @@ using Jacobian = Eigen::MatrixXd;
 using In = Eigen::Ref<const Vector>;
 using Out = Eigen::Ref<Vector>;
 
-/// What became of an evaluation: `outside_domain` makes the step shorter, `failed` too, and is told apart in the stop.
+/// What became of an evaluation: `outside_domain` makes the step shorter, `failed` too, and is told apart in
+/// the stop.
 enum class Evaluated { ok, outside_domain, failed };
 
 /// What an evaluation is to prepare. `jacobian` includes the residual.
@@ -24,13 +25,13 @@ enum class Needs { residual, jacobian };
 /// A named scalar of the problem.
 struct Parameter {
   std::string name, unit;
-  double value = 0;   // default
-  double scale = 1;   // a change that counts as large, > 0
+  double value = 0;  // default
+  double scale = 1;  // a change that counts as large, > 0
   double lower = -1e300, upper = 1e300;
 };
 
-/// Evaluates F at one place at a time. Mutable, one for each thread, owns every buffer: nothing that it does after
-/// its making allocates memory.
+/// Evaluates F at one place at a time. Mutable, one for each thread, owns every buffer: nothing that it does
+/// after its making allocates memory.
 class Evaluator {
  public:
   virtual ~Evaluator() = default;

@@ -1,6 +1,7 @@
 #pragma once
-// A bracketed zero of a function of one variable, by Chandrupatla's method (Adv. Eng. Software 28, 1997): inverse
-// quadratic interpolation where it is safe, bisection where not. A jump across zero is bracketed as well.
+// A bracketed zero of a function of one variable, by Chandrupatla's method (Adv. Eng. Software 28, 1997):
+// inverse quadratic interpolation where it is safe, bisection where not. A jump across zero is bracketed as
+// well.
 
 #include <cmath>
 #include <utility>

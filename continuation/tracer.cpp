@@ -11,20 +11,23 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double first_share_of_window = 0.01;    // |dp| of a step where the user names none
-constexpr double growth = 2.0, shrinkage = 0.3;   // of the step, at most
-constexpr double rejection = 0.25;                // of the step after a rejection
-constexpr double kink_step = 0.25, kink_turn = 0.7;  // a turn that keeps so much of itself over so short a step is a kink
+constexpr double first_share_of_window = 0.01;   // |dp| of a step where the user names none
+constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, at most
+constexpr double rejection = 0.25;               // of the step after a rejection
+constexpr double kink_step = 0.25,
+                 kink_turn = 0.7;  // a turn that keeps so much of itself over so short a step is a kink
 constexpr int rejections_before_a_corner = 3;
-constexpr double branch_point_step = 1e-7;        // relative to 1 + |u|: no shorter step tells two branches apart
-constexpr double parameter_rounding = 1e-9;       // relative changes of p below tell no direction
-constexpr double largest_extrapolation = 2.5;     // in last steps, for the cubic predictor
+constexpr double branch_point_step = 1e-7;   // relative to 1 + |u|: no shorter step tells two branches apart
+constexpr double parameter_rounding = 1e-9;  // relative changes of p below tell no direction
+constexpr double largest_extrapolation = 2.5;  // in last steps, for the cubic predictor
 constexpr int kink_bisections = 50;
-constexpr double nonsmooth_share = 1e-4;          // of a monitor's change over a step, left at its zero
-constexpr double event_newton = 1e-2;             // the corrector's tolerance at events, of that on the branch
-constexpr double event_state_tolerance = 1e-10;   // relative, of u at an event
+constexpr double nonsmooth_share = 1e-4;         // of a monitor's change over a step, left at its zero
+constexpr double event_newton = 1e-2;            // the corrector's tolerance at events, of that on the branch
+constexpr double event_state_tolerance = 1e-10;  // relative, of u at an event
 
-double angle_between(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
+double angle_between(double cosine) {
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
 
 std::string text(double x) {
   std::ostringstream s;
@@ -45,17 +48,22 @@ void hermite(const Vector& v0, const Vector& t0, const Vector& v1, const Vector&
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                std::vector<Monitor> monitors, Observer observer)
-    : problem_(std::move(problem)), options_(options), monitors_(std::move(monitors)), observer_(std::move(observer)),
-      n_(problem_->size()), free_(start.free), direction_(start.direction < 0 ? -1 : 1),
+    : problem_(std::move(problem)),
+      options_(options),
+      monitors_(std::move(monitors)),
+      observer_(std::move(observer)),
+      n_(problem_->size()),
+      free_(start.free),
+      direction_(start.direction < 0 ? -1 : 1),
       main_(*problem_, start.p, start.free, options.newton, branch_.counts) {
   check(options);
   const auto parameters = problem_->parameters();
   if (start.u.size() != n_)
-    throw std::invalid_argument("the start has " + std::to_string(start.u.size()) + " unknowns, the problem " +
-                                std::to_string(n_));
+    throw std::invalid_argument("the start has " + std::to_string(start.u.size()) +
+                                " unknowns, the problem " + std::to_string(n_));
   if (start.p.size() != static_cast<Eigen::Index>(parameters.size()))
-    throw std::invalid_argument("the start has " + std::to_string(start.p.size()) + " parameters, the problem " +
-                                std::to_string(parameters.size()));
+    throw std::invalid_argument("the start has " + std::to_string(start.p.size()) +
+                                " parameters, the problem " + std::to_string(parameters.size()));
   here_.v.resize(n_ + 1);
   here_.v << start.u, start.p[free_];
   if (!here_.v.allFinite()) throw std::invalid_argument("the start has numbers that are not finite");
@@ -77,7 +85,8 @@ bool Tracer::end(StopReason reason, double value, double limit, std::string mess
 }
 
 Point Tracer::point(const Place& place, const Correction& correction) const {
-  return {place.v.head(n_), place.v[n_], place.tangent, place.arclength, correction.iterations, correction.last};
+  return {place.v.head(n_), place.v[n_],           place.tangent,
+          place.arclength,  correction.iterations, correction.last};
 }
 
 // For the user's eyes, the evaluator moves the last correction further, onto the point itself.
@@ -109,7 +118,8 @@ bool Tracer::begin() {
                correction.evaluated ? "the corrector did not converge at the start (" +
                                           std::to_string(correction.iterations) + " iterations)"
                                     : "the problem could not be evaluated at the start");
-  if (!settle(main_, here_)) return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
+  if (!settle(main_, here_))
+    return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
   if (direction_ < 0) {
     here_.tangent = -here_.tangent;
     here_.orientation = -here_.orientation;
@@ -124,7 +134,8 @@ bool Tracer::begin() {
   branch_.points.push_back(point(here_, correction));
   ++branch_.counts.points;
   factors_fit_ = false;  // their border row is that of the start
-  if (observer_ && !observer_(observed(main_, here_), nullptr)) return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (observer_ && !observer_(observed(main_, here_), nullptr))
+    return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }
 
@@ -156,8 +167,10 @@ bool Tracer::step() {
                  evaluated_ ? "the step fell below its smallest size after rejections"
                             : "the problem could not be evaluated ahead, however short the step");
     switch (attempt()) {
-      case Attempt::accepted: return !ended_;
-      case Attempt::ended: return false;
+      case Attempt::accepted:
+        return !ended_;
+      case Attempt::ended:
+        return false;
       case Attempt::rejected:
         ++branch_.counts.rejected_steps;
         factors_fit_ = false;
@@ -176,8 +189,9 @@ bool Tracer::went_back(const Place& next) const {
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(here_.v[n_]);
 }
 
-// Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink with the
-// step. A turn is first met with a long step and rejected; it is the same one as long as its place is not passed.
+// Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink
+// with the step. A turn is first met with a long step and rejected; it is the same one as long as its place
+// is not passed.
 bool Tracer::is_kink(double turn, const Place& next) {
   if (next.piece == here_.piece) return false;
   if (here_.arclength > turn_.end) turn_ = {turn, ds_, here_.arclength + 2 * ds_};
@@ -207,14 +221,15 @@ Tracer::Attempt Tracer::attempt() {
     }
   } else if (next_.orientation != here_.orientation && next_.piece == here_.piece &&
              ds_ > branch_point_step * (1 + main_.norm_u(here_.v))) {
-    return Attempt::rejected;  // a jump to a branch near by, unless it stays however short the step: a branch point
+    return Attempt::rejected;  // a jump to a branch near by, unless it stays however short the step: a branch
+                               // point
   }
   const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction) ? Attempt::accepted : Attempt::ended;
 }
 
-// Where the branch turns by any angle at a kink just ahead: linearizes beyond it, and steps along the tangent there,
-// whose direction the sign of the determinant tells.
+// Where the branch turns by any angle at a kink just ahead: linearizes beyond it, and steps along the tangent
+// there, whose direction the sign of the determinant tells.
 bool Tracer::corner() {
   next_.v = here_.v + ds_ * here_.tangent;
   row_ = here_.tangent.cwiseProduct(main_.weights());
@@ -414,7 +429,8 @@ std::optional<Event> Tracer::locate(std::size_t monitor, const Place& from, cons
   Event event;
   event.monitor = monitors_[monitor].name;
   event.value = left;
-  event.nonsmooth = std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
+  event.nonsmooth =
+      std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
   event.point = point(place, correction);
   found = place;
   return event;

@@ -1,10 +1,11 @@
 #pragma once
 // Traces a solution branch of F(u, p) = 0 by pseudo-arclength continuation (Keller 1977), with events.
 //
-//   Branch branch = trace(problem, {.u = u0, .p = p0, .free = 0}, {.lower = -1, .upper = 1}, {fold_monitor()});
+//   Branch branch = trace(problem, {.u = u0, .p = p0, .free = 0}, {.lower = -1, .upper = 1},
+//   {fold_monitor()});
 //
-// Each accepted point is linearized once. Those factors give its tangent, serve its monitors, and correct the next
-// point by chord steps while these contract.
+// Each accepted point is linearized once. Those factors give its tangent, serve its monitors, and correct the
+// next point by chord steps while these contract.
 
 #include <arcslip/continuation/branch.hpp>
 #include <arcslip/continuation/corrector.hpp>
@@ -42,7 +43,7 @@ class Tracer {
   Branch take() { return std::move(branch_); }
 
  private:
-  struct Place {      // a solution, with its orientation
+  struct Place {  // a solution, with its orientation
     Vector v, tangent;
     double arclength = 0;
     int orientation = 1;  // sign of det [J F_p; t^T]
@@ -81,7 +82,7 @@ class Tracer {
   std::unique_ptr<Corrector> probe_;  // for events; made when the first one is met
   Place here_, next_, before_;
   bool has_before_ = false, factors_fit_ = false, ended_ = false, begun_ = false;
-  bool evaluated_ = true;             // the last rejection came from the corrector, not from the problem
+  bool evaluated_ = true;  // the last rejection came from the corrector, not from the problem
   double ds_ = 0, last_ds_ = 0;
   int rejections_ = 0;
   struct Turn {  // a turn of the tangent that was rejected: how much, over which step, and where it is passed

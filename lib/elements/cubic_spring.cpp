@@ -8,8 +8,14 @@ namespace {
 class CubicSpring final : public Element {
  public:
   explicit CubicSpring(const Harmonics& h)
-      : h_(h), samples_(h, h.odd ? 2 * h.order + 2 : 4 * h.order + 2), moments_(h), x_(samples_.count()),
-        f_(samples_.count()), cube_(h.size()), F_(h.size()), J_(h.size(), h.size()) {}
+      : h_(h),
+        samples_(h, h.odd ? 2 * h.order + 2 : 4 * h.order + 2),
+        moments_(h),
+        x_(samples_.count()),
+        f_(samples_.count()),
+        cube_(h.size()),
+        F_(h.size()),
+        J_(h.size(), h.size()) {}
 
   void move_to(In u, std::span<const double> fields, bool jacobian) override {
     const double k3 = fields[0];

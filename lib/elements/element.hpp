@@ -1,6 +1,6 @@
 #pragma once
-// A nonlinear element in the frequency domain: coefficients of a displacement in, coefficients of a force and its
-// derivatives out.
+// A nonlinear element in the frequency domain: coefficients of a displacement in, coefficients of a force and
+// its derivatives out.
 //
 // The force acts against the motion: the equation of motion is M x'' + C x' + K x + f(x) = excitation. The
 // coefficients of f are those of its Fourier series in the layout of harmonics.hpp:
@@ -27,11 +27,12 @@ class Element {
  public:
   virtual ~Element() = default;
 
-  /// u: harmonics.size(). fields: as listed with the element's type. The Jacobian is made only when asked for.
+  /// u: harmonics.size(). fields: as listed with the element's type. The Jacobian is made only when asked
+  /// for.
   virtual void move_to(In u, std::span<const double> fields, bool jacobian) = 0;
 
-  virtual const Eigen::VectorXd& force() const = 0;     // F(u), size
-  virtual const Eigen::MatrixXd& jacobian() const = 0;  // dF/du, size x size
+  virtual const Eigen::VectorXd& force() const = 0;            // F(u), size
+  virtual const Eigen::MatrixXd& jacobian() const = 0;         // dF/du, size x size
   virtual void field_derivative(int field, Out dF) const = 0;  // dF/d(fields[field]) at the last place
 
   /// Number of the smooth piece of F that the last place lies on.

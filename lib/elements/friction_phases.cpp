@@ -17,7 +17,8 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
     highest_ = lowest_ = {0, mean};
     return phases_;
   }
-  // One span from the highest point back to it (or, where the motion is odd, to its mirror image, the lowest).
+  // One span from the highest point back to it (or, where the motion is odd, to its mirror image, the
+  // lowest).
   path_.clear();
   const double span = harmonics_.span();
   std::size_t top = 0;
@@ -39,9 +40,10 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
     path_.push_back({turns[index].theta + shift + (wrapped ? span : 0), sign * turned * turns[index].x});
   }
   highest_ = path_.front();
-  lowest_ = harmonics_.odd ? Reversal{path_.back()}
-                           : *std::min_element(path_.begin(), path_.end(),
-                                               [](const Reversal& a, const Reversal& b) { return a.x < b.x; });
+  lowest_ = harmonics_.odd
+                ? Reversal{path_.back()}
+                : *std::min_element(path_.begin(), path_.end(),
+                                    [](const Reversal& a, const Reversal& b) { return a.x < b.x; });
   if (highest_.x - lowest_.x <= 2 * slip_displacement) return phases_;
 
   Reversal anchor = path_.front();
@@ -50,8 +52,8 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
     const Reversal &from = path_[k], &to = path_[k + 1];
     const bool rises = to.x > from.x;
     // f = anchored p + k_d (x - anchor.x) reaches +p or -p at
-    const double limit = rises ? anchor.x + (1 - anchored) * slip_displacement
-                               : anchor.x - (1 + anchored) * slip_displacement;
+    const double limit =
+        rises ? anchor.x + (1 - anchored) * slip_displacement : anchor.x - (1 + anchored) * slip_displacement;
     if (rises ? to.x <= limit : to.x >= limit) continue;
     const double onset = reversals_.crossing(u, {from.theta, from.x}, {to.theta, to.x}, limit);
     phases_.push_back({anchor.theta, anchor.x, anchored, onset, rises ? 1.0 : -1.0, to.theta});

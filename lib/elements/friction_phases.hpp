@@ -1,12 +1,13 @@
 #pragma once
-// The phases of a slider over one span of its motion, from the sequence of its reversals. Shared by all laws whose
-// force follows a play: the phases depend on x(theta) and on the slip displacement x_s = p/k_d alone.
+// The phases of a slider over one span of its motion, from the sequence of its reversals. Shared by all laws
+// whose force follows a play: the phases depend on x(theta) and on the slip displacement x_s = p/k_d alone.
 
 #include <arcslip/elements/reversals.hpp>
 
 namespace arcslip::elements {
 
-/// Sticking from the anchor (begin, x), where f = sign p, to `end`; then slipping with -1 or +1 to `slip_end`.
+/// Sticking from the anchor (begin, x), where f = sign p, to `end`; then slipping with -1 or +1 to
+/// `slip_end`.
 struct FrictionPhase {
   double begin, anchor_x, sign;
   double end;

@@ -21,8 +21,17 @@ double wrapped(double angle) {
 class Jenkins final : public Element {
  public:
   explicit Jenkins(const Harmonics& h)
-      : h_(h), phases_(h), moments_(h), A_(h.size()), B_(h.size()), F_(h.size()), J_(h.size(), h.size()),
-        integral_(h.size()), anchor_(h.size()), sum_(static_cast<std::size_t>(2 * h.order + 1)), half_(sum_.size()),
+      : h_(h),
+        phases_(h),
+        moments_(h),
+        A_(h.size()),
+        B_(h.size()),
+        F_(h.size()),
+        J_(h.size(), h.size()),
+        integral_(h.size()),
+        anchor_(h.size()),
+        sum_(static_cast<std::size_t>(2 * h.order + 1)),
+        half_(sum_.size()),
         inverse_(sum_.size()) {
     inverse_[0] = 0;
     for (std::size_t k = 1; k < inverse_.size(); ++k) inverse_[k] = 1.0 / static_cast<double>(k);
@@ -58,9 +67,15 @@ class Jenkins final : public Element {
 
   void field_derivative(int field, Out dF) const override {
     switch (field) {
-      case stiffness: dF = A_; break;
-      case friction_coefficient: dF = fields_[normal_load] * B_; break;
-      default: dF = fields_[friction_coefficient] * B_; break;
+      case stiffness:
+        dF = A_;
+        break;
+      case friction_coefficient:
+        dF = fields_[normal_load] * B_;
+        break;
+      default:
+        dF = fields_[friction_coefficient] * B_;
+        break;
     }
   }
 
@@ -192,6 +207,8 @@ class Jenkins final : public Element {
 
 }  // namespace
 
-std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics) { return std::make_unique<Jenkins>(harmonics); }
+std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics) {
+  return std::make_unique<Jenkins>(harmonics);
+}
 
 }  // namespace arcslip::elements

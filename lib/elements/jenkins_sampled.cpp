@@ -7,14 +7,23 @@
 namespace arcslip::elements {
 namespace {
 
-// One march over the span from the sample of largest x, where f = +p, is periodic by construction. The samples that
-// stick follow their anchor, the last sample that slipped.
+// One march over the span from the sample of largest x, where f = +p, is periodic by construction. The
+// samples that stick follow their anchor, the last sample that slipped.
 class SampledJenkins final : public Element {
  public:
   SampledJenkins(const Harmonics& h, int samples)
-      : h_(h), samples_(h, h.odd ? (samples + 1) / 2 : samples), moments_(h), x_(samples_.count()),
-        stick_(samples_.count()), A_(h.size()), B_(h.size()), F_(h.size()), J_(h.size(), h.size()),
-        integral_(h.size()), weights_A_(samples_.count()), weights_B_(samples_.count()) {
+      : h_(h),
+        samples_(h, h.odd ? (samples + 1) / 2 : samples),
+        moments_(h),
+        x_(samples_.count()),
+        stick_(samples_.count()),
+        A_(h.size()),
+        B_(h.size()),
+        F_(h.size()),
+        J_(h.size(), h.size()),
+        integral_(h.size()),
+        weights_A_(samples_.count()),
+        weights_B_(samples_.count()) {
     onsets_.reserve(static_cast<std::size_t>(samples_.count()));
     ends_.reserve(onsets_.capacity());
   }

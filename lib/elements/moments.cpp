@@ -7,13 +7,18 @@ namespace {
 struct Offsets {
   int cc_sum, ss_sum, cs_sum, cs_difference;
 };
-Offsets offsets(const Harmonics& h) { return h.odd ? Offsets{1, 1, 1, 0} : Offsets{0, 2, 1, -1}; }
+Offsets offsets(const Harmonics& h) {
+  return h.odd ? Offsets{1, 1, 1, 0} : Offsets{0, 2, 1, -1};
+}
 
 }  // namespace
 
 Moments::Moments(const Harmonics& h)
-    : harmonics_(h), count_(2 * h.order / h.stride() + 1), c_(Eigen::VectorXd::Zero(2 * count_ - 1)),
-      s_(Eigen::VectorXd::Zero(2 * count_ - 1)), inverse_(count_) {
+    : harmonics_(h),
+      count_(2 * h.order / h.stride() + 1),
+      c_(Eigen::VectorXd::Zero(2 * count_ - 1)),
+      s_(Eigen::VectorXd::Zero(2 * count_ - 1)),
+      inverse_(count_) {
   inverse_[0] = 0;
   for (int q = 1; q < count_; ++q) inverse_[q] = 1.0 / (q * h.stride());
 }
@@ -28,7 +33,8 @@ void Moments::add(int q, double c, double s) {
   s_[count_ - 1 + q] += s;
 }
 
-void Moments::add_interval(double length, const std::complex<double>* z_sum, const std::complex<double>* z_half) {
+void Moments::add_interval(double length, const std::complex<double>* z_sum,
+                           const std::complex<double>* z_half) {
   double* c = c_.data() + count_ - 1;
   double* s = s_.data() + count_ - 1;
   const int stride = harmonics_.stride();

@@ -10,11 +10,12 @@ constexpr int deepest = 14;
 constexpr int newton_steps = 60;
 constexpr double settled = 3e-9;  // rad
 
-// Newton's method on an increasing or decreasing function in a bracket, halving where it leaves it. The last step is
-// below `settled`; what it leaves over is its square, rounding.
-// values(t) -> {f, f'}. Returns the root and tells at_last(root - t) how far it lies from the last values.
+// Newton's method on an increasing or decreasing function in a bracket, halving where it leaves it. The last
+// step is below `settled`; what it leaves over is its square, rounding. values(t) -> {f, f'}. Returns the
+// root and tells at_last(root - t) how far it lies from the last values.
 template <class Function, class AtLast>
-double bracketed_newton(Function&& values, double lower, double upper, double guess, bool rising, AtLast&& at_last) {
+double bracketed_newton(Function&& values, double lower, double upper, double guess, bool rising,
+                        AtLast&& at_last) {
   double t = guess > lower && guess < upper ? guess : 0.5 * (lower + upper);
   for (int k = 0;; ++k) {
     const auto [f, slope] = values(t);
@@ -32,8 +33,12 @@ double bracketed_newton(Function&& values, double lower, double upper, double gu
 }  // namespace
 
 Reversals::Reversals(const Harmonics& harmonics)
-    : harmonics_(harmonics), intervals_((harmonics.odd ? 1 : 2) * (harmonics.order + 7)), start_(0.0871),
-      step_(harmonics.span() / intervals_), derivative_(intervals_, harmonics.size()), samples_(intervals_) {
+    : harmonics_(harmonics),
+      intervals_((harmonics.odd ? 1 : 2) * (harmonics.order + 15)),
+      start_(0.0871),
+      step_(harmonics.span() / intervals_),
+      derivative_(intervals_, harmonics.size()),
+      samples_(intervals_) {
   for (int k = 0; k < intervals_; ++k) {
     const double theta = start_ + k * step_;
     for (int i = 0; i < harmonics.cosines(); ++i) {
@@ -61,8 +66,8 @@ Reversal Reversals::polish(In u, double t0, double g0, double t1, double g1, boo
   return {theta, x};
 }
 
-void Reversals::search(In u, double t0, double g0, bool positive0, double t1, double g1, bool positive1, double M,
-                       int depth) {
+void Reversals::search(In u, double t0, double g0, bool positive0, double t1, double g1, bool positive1,
+                       double M, int depth) {
   const double h = t1 - t0, bend = M * h * h;
   const bool changes = positive0 != positive1;
   if (changes ? (std::abs(g1 - g0) > bend / 2 || depth == 0)
@@ -76,17 +81,39 @@ void Reversals::search(In u, double t0, double g0, bool positive0, double t1, do
   search(u, middle, g, g > 0, t1, g1, positive1, M, depth - 1);
 }
 
+// a cos theta + b sin theta turns at atan2(b, a) and half a period later.
+void Reversals::one_harmonic(In u) {
+  const double a = u[harmonics_.cosine_index(1)], b = u[harmonics_.sine_index(1)];
+  const double amplitude = std::sqrt(a * a + b * b), mean = harmonics_.odd ? 0 : u[0];
+  double theta = std::atan2(b, a), x = amplitude;
+  for (; theta < start_; theta += std::numbers::pi) x = -x;
+  found_.push_back({theta, mean + x});
+  if (harmonics_.odd) return;
+  theta += std::numbers::pi;
+  if (theta < start_ + harmonics_.span()) {
+    found_.push_back({theta, mean - x});
+  } else {
+    found_.insert(found_.begin(), {theta - 2 * std::numbers::pi, mean - x});
+  }
+}
+
 const std::vector<Reversal>& Reversals::find(In u) {
   found_.clear();
   const double M = series_bound(harmonics_, u, 3);
   if (!(M > 0) || !std::isfinite(M)) return found_;
+  if (harmonics_.sines() == 1) {
+    one_harmonic(u);
+    return found_;
+  }
   samples_.noalias() = derivative_ * u;
   const bool first_positive = samples_[0] > 0;
   bool positive = first_positive;
   for (int k = 0; k < intervals_; ++k) {
     const bool last = k + 1 == intervals_;
-    const double g0 = samples_[k], g1 = last ? (harmonics_.odd ? -samples_[0] : samples_[0]) : samples_[k + 1];
-    // The span closes on itself: what is positive at its start is, where the motion is odd, not so at its end.
+    const double g0 = samples_[k],
+                 g1 = last ? (harmonics_.odd ? -samples_[0] : samples_[0]) : samples_[k + 1];
+    // The span closes on itself: what is positive at its start is, where the motion is odd, not so at its
+    // end.
     const bool positive1 = last ? first_positive != harmonics_.odd : g1 > 0;
     search(u, start_ + k * step_, g0, positive, start_ + (k + 1) * step_, g1, positive1, M, deepest);
     positive = positive1;

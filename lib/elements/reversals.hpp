@@ -1,10 +1,10 @@
 #pragma once
 // The reversals of a motion: all roots of dx/dtheta over one span of the harmonics, none missed.
 //
-// dx/dtheta is sampled, and each interval is decided by a bound of its curvature, |x'''| <= M = sum n^3 |X_n|: no root
-// where both ends lie farther than M h^2/8 from zero on the same side; one root where they differ in sign and
-// |x'_1 - x'_0| > M h^2/2 (x' is monotone); else the interval is halved. Double roots closer than about 1e-5 rad,
-// whose loops are below rounding, may be left out as a pair.
+// dx/dtheta is sampled, and each interval is decided by a bound of its curvature, |x'''| <= M = sum n^3
+// |X_n|: no root where both ends lie farther than M h^2/8 from zero on the same side; one root where they
+// differ in sign and |x'_1 - x'_0| > M h^2/2 (x' is monotone); else the interval is halved. Double roots
+// closer than about 1e-5 rad, whose loops are below rounding, may be left out as a pair.
 
 #include <arcslip/elements/series.hpp>
 
@@ -24,11 +24,14 @@ class Reversals {
   /// In the order of theta. The reference holds until the next call. Empty where x is constant.
   const std::vector<Reversal>& find(In u);
 
-  /// The root of x(theta) = target on a piece where x is monotone from `from` to `to`, target between their x.
+  /// The root of x(theta) = target on a piece where x is monotone from `from` to `to`, target between their
+  /// x.
   double crossing(In u, const Reversal& from, const Reversal& to, double target) const;
 
  private:
-  void search(In u, double t0, double g0, bool positive0, double t1, double g1, bool positive1, double M, int depth);
+  void one_harmonic(In u);
+  void search(In u, double t0, double g0, bool positive0, double t1, double g1, bool positive1, double M,
+              int depth);
   Reversal polish(In u, double t0, double g0, double t1, double g1, bool rising) const;
 
   Harmonics harmonics_;

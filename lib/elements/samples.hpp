@@ -26,8 +26,8 @@ class Samples {
  private:
   Harmonics harmonics_;
   int count_;
-  Eigen::MatrixXd basis_;        // count x size
-  Eigen::MatrixXd cos_, sin_;    // moments x count: of k theta_s, k = q * stride
+  Eigen::MatrixXd basis_;      // count x size
+  Eigen::MatrixXd cos_, sin_;  // moments x count: of k theta_s, k = q * stride
   mutable Eigen::VectorXd c_, s_;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 // Coordinates in which only few equations are nonlinear: x = P y, y = (unknowns, linear coordinates).
 //
-// The first `unknowns` entries of y are displacements along element directions d_e . x (a largest independent set of
-// them), the others span what no element sees; those are condensed away harmonic by harmonic.
+// The first `unknowns` entries of y are displacements along element directions d_e . x (a largest independent
+// set of them), the others span what no element sees; those are condensed away harmonic by harmonic.
 
 #include <arcslip/model/model.hpp>
 

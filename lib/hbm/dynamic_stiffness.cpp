@@ -11,11 +11,22 @@ constexpr double pole = 1e-14;  // pivot of the linear coordinates, relative to 
 
 DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates& coordinates,
                                    const Harmonics& harmonics)
-    : model_(model), harmonics_(harmonics), r_(coordinates.unknowns), l_(coordinates.linear()), P_(coordinates.P),
-      response_(P_.transpose() * model.response), lu_(l_), Zll_(l_, l_), rhs_(l_, r_ + 2), q_(r_), y_(r_ + l_),
-      v_(r_ + l_), full_f_(r_ + l_) {
+    : model_(model),
+      harmonics_(harmonics),
+      r_(coordinates.unknowns),
+      l_(coordinates.linear()),
+      P_(coordinates.P),
+      response_(P_.transpose() * model.response),
+      lu_(l_),
+      Zll_(l_, l_),
+      rhs_(l_, r_ + 2),
+      q_(r_),
+      y_(r_ + l_),
+      v_(r_ + l_),
+      full_f_(r_ + l_) {
   for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
     for (const auto& part : *parts) structural_parameters_.push_back(part.parameter);
+  for (const auto& force : model.forces) force_directions_.push_back(P_.transpose() * force.direction);
   structural_.assign(structural_parameters_.size(), std::nan(""));
   const auto H = static_cast<std::size_t>(harmonics.cosines());
   Z_.assign(H, Matrixc(r_, r_));
@@ -48,10 +59,11 @@ bool DynamicStiffness::move_to(In p) {
     const auto index = static_cast<std::size_t>(h);
     const double n = harmonics_.cosine_order(h), s = n * omega_;
     full_f_.setZero();
-    for (const model::Force& force : model_.forces) {
+    for (std::size_t which = 0; which < model_.forces.size(); ++which) {
+      const model::Force& force = model_.forces[which];
       if (force.harmonic != harmonics_.cosine_order(h)) continue;
       const Complex amplitude(p[force.cosine], n == 0 ? 0.0 : -p[force.sine]);
-      for (Eigen::Index i = 0; i < r_ + l_; ++i) full_f_[i] += amplitude * P_.col(i).dot(force.direction);
+      full_f_ += amplitude * force_directions_[which];
     }
     const auto entry = [&](Eigen::Index i, Eigen::Index j) {
       return Complex(K_(i, j) - s * s * M_(i, j), s * C_(i, j));
@@ -201,7 +213,8 @@ void DynamicStiffness::parameter_derivative(int k, In u, double force_factor, Ou
     if (by_frequency) {
       for (Eigen::Index i = 0; i < v_.size(); ++i) {
         Complex sum = 0;
-        for (Eigen::Index j = 0; j < v_.size(); ++j) sum += Complex(-2 * n * s * M_(i, j), n * C_(i, j)) * y_[j];
+        for (Eigen::Index j = 0; j < v_.size(); ++j)
+          sum += Complex(-2 * n * s * M_(i, j), n * C_(i, j)) * y_[j];
         v_[i] = sum;
       }
     } else {
@@ -211,7 +224,8 @@ void DynamicStiffness::parameter_derivative(int k, In u, double force_factor, Ou
           if (!is(part.parameter)) continue;
           Complex along = 0;
           for (Eigen::Index i = 0; i < v_.size(); ++i) along += P_.col(i).dot(part.direction) * y_[i];
-          for (Eigen::Index i = 0; i < v_.size(); ++i) v_[i] += factor * along * P_.col(i).dot(part.direction);
+          for (Eigen::Index i = 0; i < v_.size(); ++i)
+            v_[i] += factor * along * P_.col(i).dot(part.direction);
         }
       };
       add(model_.masses, -s * s);

@@ -3,8 +3,9 @@
 //
 //   R_n = Z_n(omega) X_n - f_n,   Z_n = K - (n omega)^2 M + i n omega C,   X_n = a_n - i b_n
 //
-// With y = (q, l), l linear:  Z = Z_qq - Z_ql Z_ll^-1 Z_lq,  f = f_q - Z_ql Z_ll^-1 f_l,  y_l = Z_ll^-1 (f_l - Z_lq q).
-// Every parameter derivative is that of the full equation at the full motion, v, projected: v_q - Z_ql Z_ll^-1 v_l.
+// With y = (q, l), l linear:  Z = Z_qq - Z_ql Z_ll^-1 Z_lq,  f = f_q - Z_ql Z_ll^-1 f_l,  y_l = Z_ll^-1 (f_l
+// - Z_lq q). Every parameter derivative is that of the full equation at the full motion, v, projected: v_q -
+// Z_ql Z_ll^-1 v_l.
 
 #include <arcslip/hbm/coordinates.hpp>
 
@@ -15,12 +16,13 @@
 
 namespace arcslip::hbm {
 
+using continuation::Vector;
 using elements::Harmonics;
 using elements::In;
 using elements::Out;
-using continuation::Vector;
 
-/// Mutable, one for each evaluator. Layout of u and R: r coordinates one after another, each as in harmonics.hpp.
+/// Mutable, one for each evaluator. Layout of u and R: r coordinates one after another, each as in
+/// harmonics.hpp.
 class DynamicStiffness {
  public:
   DynamicStiffness(const model::Model& model, const Coordinates& coordinates, const Harmonics& harmonics);
@@ -28,11 +30,11 @@ class DynamicStiffness {
   /// False where the linear coordinates resonate by themselves, undamped: the condensed stiffness has a pole.
   bool move_to(In p);
 
-  void residual(In u, double force_factor, Out R) const;            // R = Z u - force_factor f
-  void add_to(Eigen::MatrixXd& J) const;                            // J += Z
-  void force(Out f) const;                                          // f
+  void residual(In u, double force_factor, Out R) const;                      // R = Z u - force_factor f
+  void add_to(Eigen::MatrixXd& J) const;                                      // J += Z
+  void force(Out f) const;                                                    // f
   void parameter_derivative(int k, In u, double force_factor, Out dR) const;  // zero for element parameters
-  void solve(Out x) const;                                          // Z_n^-1 of each harmonic, in place
+  void solve(Out x) const;  // Z_n^-1 of each harmonic, in place
 
   /// The observed coordinate: its coefficients x = L u + x_0, the product L^T a, and dx/domega at fixed u.
   void response(In u, double force_factor, Out x) const;
@@ -57,16 +59,17 @@ class DynamicStiffness {
   const model::Model& model_;
   const Harmonics harmonics_;
   const int r_, l_;
-  Eigen::MatrixXd P_;                      // dofs x (r + l)
-  Eigen::MatrixXd M_, C_, K_;              // in y
-  Vector response_;                        // in y
-  std::vector<double> structural_;         // values of the last assemble()
+  Eigen::MatrixXd P_;                     // dofs x (r + l)
+  Eigen::MatrixXd M_, C_, K_;             // in y
+  Vector response_;                       // in y
+  std::vector<Vector> force_directions_;  // in y
+  std::vector<double> structural_;        // values of the last assemble()
   std::vector<int> structural_parameters_;
   double omega_ = -1;
   Vector last_p_;
-  std::vector<Matrixc> Z_;                 // per harmonic, r x r
-  std::vector<Vectorc> f_;                 // r
-  std::vector<Matrixc> W_;                 // l x (r + 2): Z_ll^-1 [Z_lq, f_l, response_l]
+  std::vector<Matrixc> Z_;  // per harmonic, r x r
+  std::vector<Vectorc> f_;  // r
+  std::vector<Matrixc> W_;  // l x (r + 2): Z_ll^-1 [Z_lq, f_l, response_l]
   Eigen::PartialPivLU<Matrixc> lu_;
   Matrixc Zll_, rhs_;
   mutable Vectorc q_, y_, v_, full_f_;

@@ -11,9 +11,14 @@ using continuation::Needs;
 
 HbmEvaluator::HbmEvaluator(std::shared_ptr<const model::Model> model, const Coordinates& coordinates,
                            const Harmonics& harmonics)
-    : model_(std::move(model)), harmonics_(harmonics), r_(coordinates.unknowns),
-      stiffness_(*model_, coordinates, harmonics), u_(r_ * harmonics.size()), R_(u_.size()),
-      derivative_(harmonics.size()), J_(u_.size(), u_.size()) {
+    : model_(std::move(model)),
+      harmonics_(harmonics),
+      r_(coordinates.unknowns),
+      stiffness_(*model_, coordinates, harmonics),
+      u_(r_ * harmonics.size()),
+      R_(u_.size()),
+      derivative_(harmonics.size()),
+      J_(u_.size(), u_.size()) {
   for (const auto& element : model_->elements) {
     Part part;
     part.element = model::make_element(*model_, element, harmonics);
@@ -74,10 +79,13 @@ std::uint64_t HbmEvaluator::piece() const {
   return hash;
 }
 
-HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
-                       double frequency)
-    : model_(std::move(model)), harmonics_(harmonics), coordinates_(hbm::coordinates(*model_)),
-      parameters_(model_->parameters), displacement_(displacement) {
+HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics,
+                       double displacement, double frequency)
+    : model_(std::move(model)),
+      harmonics_(harmonics),
+      coordinates_(hbm::coordinates(*model_)),
+      parameters_(model_->parameters),
+      displacement_(displacement) {
   parameters_[model::frequency].scale = frequency;
   parameters_.push_back({"excitation_factor", "-", 1, 1, 0, 1e300});
 }

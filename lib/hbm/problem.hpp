@@ -3,9 +3,9 @@
 //
 //   R(u, p) = Z(omega) u + sum_e D_e^T F_e(D_e u) - factor f = 0
 //
-// u: the coefficients of the nonlinear coordinates (coordinates.hpp), each in the layout of elements/harmonics.hpp.
-// p: the model's parameters ("frequency" first, rad/s), and last "excitation_factor", which scales all forces and
-// leads from rest (u = 0 at 0) to the scene (1).
+// u: the coefficients of the nonlinear coordinates (coordinates.hpp), each in the layout of
+// elements/harmonics.hpp. p: the model's parameters ("frequency" first, rad/s), and last "excitation_factor",
+// which scales all forces and leads from rest (u = 0 at 0) to the scene (1).
 
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 
@@ -16,7 +16,8 @@ namespace arcslip::hbm {
 
 class HbmEvaluator final : public continuation::Evaluator {
  public:
-  HbmEvaluator(std::shared_ptr<const model::Model> model, const Coordinates& coordinates, const Harmonics& harmonics);
+  HbmEvaluator(std::shared_ptr<const model::Model> model, const Coordinates& coordinates,
+               const Harmonics& harmonics);
 
   continuation::Evaluated move_to(continuation::In u, continuation::In p, continuation::Needs needs) override;
   const Vector& residual() const override { return R_; }
@@ -54,7 +55,8 @@ class HbmEvaluator final : public continuation::Evaluator {
 
 class HbmProblem final : public continuation::Problem {
  public:
-  /// displacement: typical amplitude (m), the scale of the unknowns; frequency: of the excitation frequency (rad/s).
+  /// displacement: typical amplitude (m), the scale of the unknowns; frequency: of the excitation frequency
+  /// (rad/s).
   HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
              double frequency);
 

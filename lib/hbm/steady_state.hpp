@@ -7,12 +7,12 @@
 
 namespace arcslip::hbm {
 
-/// The response of the structure without its elements, Z^-1 f, at the parameters p (with force_factor 1). Not finite
-/// at an undamped resonance.
+/// The response of the structure without its elements, Z^-1 f, at the parameters p (with force_factor 1). Not
+/// finite at an undamped resonance.
 Vector linear_response(const HbmProblem& problem, const Vector& p);
 
-/// Newton's method from rest (all sliders stuck), from the response without elements, and, where neither converges,
-/// a branch in the excitation factor from rest at 0 to 1. Empty where that fails too.
+/// Newton's method from rest (all sliders stuck), from the response without elements, and, where neither
+/// converges, a branch in the excitation factor from rest at 0 to 1. Empty where that fails too.
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p);
 
 }  // namespace arcslip::hbm

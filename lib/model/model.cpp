@@ -47,7 +47,9 @@ class Builder {
   }
 
  private:
-  LinearPart linear(const scene::Part& part) { return {parameter(part, 0), vector_of(part.direction, model_.dofs)}; }
+  LinearPart linear(const scene::Part& part) {
+    return {parameter(part, 0), vector_of(part.direction, model_.dofs)};
+  }
 
   // The parameter of one field: a new one, or that of the tie which the field belongs to.
   int parameter(const scene::Part& part, std::size_t field) {
@@ -74,7 +76,9 @@ class Builder {
 
 }  // namespace
 
-Model build(const scene::Scene& scene) { return Builder(scene).build(); }
+Model build(const scene::Scene& scene) {
+  return Builder(scene).build();
+}
 
 int parameter_index(const Model& model, const std::string& name) {
   std::vector<std::string> known;

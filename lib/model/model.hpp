@@ -1,7 +1,7 @@
 #pragma once
-// The model of a scene: which part acts where, with every number replaced by the index of its parameter. Immutable.
-// The parameter vector p holds the values, so that sweeps and studies never rebuild the model; the model keeps the
-// defaults.
+// The model of a scene: which part acts where, with every number replaced by the index of its parameter.
+// Immutable. The parameter vector p holds the values, so that sweeps and studies never rebuild the model; the
+// model keeps the defaults.
 
 #include <arcslip/continuation/problem.hpp>
 #include <arcslip/elements/element.hpp>
@@ -43,10 +43,11 @@ struct Model {
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<NonlinearPart> elements;
   std::vector<Force> forces;
-  Eigen::VectorXd response;          // direction whose motion is observed
-  elements::Harmonics harmonics;     // odd only, where no even harmonic is excited: all laws here are antisymmetric
+  Eigen::VectorXd response;  // direction whose motion is observed
+  elements::Harmonics
+      harmonics;  // odd only, where no even harmonic is excited: all laws here are antisymmetric
   scene::Harmonics settings;
-  int force_harmonic = 1;            // lowest order excited: the fundamental
+  int force_harmonic = 1;  // lowest order excited: the fundamental
 };
 
 /// Index of the excitation frequency in the parameters.

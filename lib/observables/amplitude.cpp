@@ -10,7 +10,8 @@ Extreme Amplitude::of(elements::In x) {
   const auto& turns = reversals_.find(x);
   if (!turns.empty()) extreme.amplitude = -1;
   for (const auto& turn : turns)
-    if (std::abs(turn.x) > extreme.amplitude) extreme = {std::abs(turn.x), turn.theta, turn.x < 0 ? -1.0 : 1.0};
+    if (std::abs(turn.x) > extreme.amplitude)
+      extreme = {std::abs(turn.x), turn.theta, turn.x < 0 ? -1.0 : 1.0};
   return extreme;
 }
 

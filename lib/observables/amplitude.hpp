@@ -1,8 +1,9 @@
 #pragma once
-// The amplitude of a motion: A = max over the period of |x|, found as the largest reversal, not the largest sample.
+// The amplitude of a motion: A = max over the period of |x|, found as the largest reversal, not the largest
+// sample.
 //
-// With the extreme at theta_hat, x'(theta_hat) = 0, so that dA/dx_coefficients = sign phi(theta_hat) (envelope
-// theorem), wherever the largest reversal is unique.
+// With the extreme at theta_hat, x'(theta_hat) = 0, so that dA/dx_coefficients = sign phi(theta_hat)
+// (envelope theorem), wherever the largest reversal is unique.
 
 #include <arcslip/elements/reversals.hpp>
 

@@ -14,8 +14,8 @@ constexpr double largest_relative_step = 0.05;  // of the frequency, so that wid
 
 }  // namespace
 
-FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model, const FrequencyWindow& window,
-                                 double from, const Record& record) {
+FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
+                                 const FrequencyWindow& window, double from, const Record& record) {
   const double width = window.upper - window.lower;
   const auto problem_with = [&](double displacement) {
     const double scale = displacement > 0 && std::isfinite(displacement) ? displacement : 1;
@@ -27,7 +27,8 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   const auto start = hbm::steady_state(problem, p);
   if (!start) {
     FrequencyBranch failed{problem, {}};
-    failed.branch.stop = {continuation::StopReason::start_failed, from, 0, "no periodic response at the start"};
+    failed.branch.stop = {continuation::StopReason::start_failed, from, 0,
+                          "no periodic response at the start"};
     return failed;
   }
   problem = problem_with(start->norm());

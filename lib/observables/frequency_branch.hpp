@@ -1,5 +1,6 @@
 #pragma once
-// The branch of periodic responses over the excitation frequency, with peaks and folds, for one setting of a model.
+// The branch of periodic responses over the excitation frequency, with peaks and folds, for one setting of a
+// model.
 
 #include <arcslip/continuation/tracer.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -23,7 +24,7 @@ struct FrequencyBranch {
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
 
 /// Traces upwards from omega = `from` in the window. At least 150 points from end to end.
-FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model, const FrequencyWindow& window,
-                                 double from, const Record& record = {});
+FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
+                                 const FrequencyWindow& window, double from, const Record& record = {});
 
 }  // namespace arcslip::observables

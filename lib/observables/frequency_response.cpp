@@ -14,15 +14,19 @@ namespace {
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded at all
-constexpr double next_to_pole = 100;    // |u| in scales: where the far side of an unbounded peak is taken up
+constexpr double beyond_display =
+    1e6;  // |u| in scales: where it is asked whether the response is bounded at all
+constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an unbounded peak is taken up
 
 Status status_of(StopReason reason) {
   switch (reason) {
-    case StopReason::boundary: return Status::complete;
+    case StopReason::boundary:
+      return Status::complete;
     case StopReason::user:
-    case StopReason::point_limit: return Status::stopped;
-    default: return Status::failed;
+    case StopReason::point_limit:
+      return Status::stopped;
+    default:
+      return Status::failed;
   }
 }
 
@@ -44,9 +48,15 @@ std::vector<std::vector<std::pair<std::string, double>>> combinations(const scen
 // One branch over the window [from, to], and what has to be known to go on beyond an unbounded peak.
 class Sweep {
  public:
-  Sweep(const scene::Scene& scene, const scene::Study& study, const ProgressCallback& progress, int index, int count)
-      : unit_(scene::to_rad_per_s(scene.frequency_unit)), unit_name_(scene::unit_name(scene.frequency_unit)),
-        lower_(study.from * unit_), upper_(study.to * unit_), progress_(progress), index_(index), count_(count),
+  Sweep(const scene::Scene& scene, const scene::Study& study, const ProgressCallback& progress, int index,
+        int count)
+      : unit_(scene::to_rad_per_s(scene.frequency_unit)),
+        unit_name_(scene::unit_name(scene.frequency_unit)),
+        lower_(study.from * unit_),
+        upper_(study.to * unit_),
+        progress_(progress),
+        index_(index),
+        count_(count),
         model_(std::make_shared<const model::Model>(model::build(scene))) {}
 
   std::vector<ResponseBranch> run(const std::vector<std::pair<std::string, double>>& set, bool& stopped) {
@@ -70,7 +80,8 @@ class Sweep {
     std::vector<std::pair<double, double>> course;  // frequency, |u| in scales
     double last = from;
     Unboundedness growth;
-    const auto record = [&](Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
+    const auto record = [&](Observer& observer, const continuation::Accepted& now,
+                            const continuation::Event* event) {
       if (event) {
         result.events.push_back({event->monitor, event->nonsmooth, observer.observe(now)});
         return true;
@@ -83,8 +94,12 @@ class Sweep {
       }
       result.points.push_back(observer.observe(now));
       if (!progress_) return true;
-      const Progress progress{index_, count_, static_cast<long>(course.size()), omega / unit_,
-                              (omega - last) / unit_, std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0)};
+      const Progress progress{index_,
+                              count_,
+                              static_cast<long>(course.size()),
+                              omega / unit_,
+                              (omega - last) / unit_,
+                              std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0)};
       last = omega;
       return progress_(progress);
     };
@@ -98,8 +113,10 @@ class Sweep {
   void describe(ResponseBranch& result, const std::vector<std::pair<std::string, double>>& set) const {
     result.set = set;
     for (const auto& parameter : model_->parameters) {
-      const bool is_set = std::any_of(set.begin(), set.end(), [&](const auto& s) { return s.first == parameter.name; });
-      if (parameter.name != "frequency" && !is_set) result.parameters.emplace_back(parameter.name, parameter.value);
+      const bool is_set =
+          std::any_of(set.begin(), set.end(), [&](const auto& s) { return s.first == parameter.name; });
+      if (parameter.name != "frequency" && !is_set)
+        result.parameters.emplace_back(parameter.name, parameter.value);
     }
     const auto& h = model_->harmonics;
     for (int i = 0; i < h.cosines(); ++i) result.harmonics.push_back(h.cosine_order(i));
@@ -124,9 +141,10 @@ class Sweep {
     result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
     if (branch.stop.reason == StopReason::start_failed) {
       result.stop.value = branch.stop.value / unit_;
-      result.stop.message = "no periodic response was found at " + text(result.stop.value) + " " + unit_name_ +
-                            ": Newton's method failed from rest, from the response without elements, and along a "
-                            "growing excitation";
+      result.stop.message =
+          "no periodic response was found at " + text(result.stop.value) + " " + unit_name_ +
+          ": Newton's method failed from rest, from the response without elements, and along a "
+          "growing excitation";
     } else if (branch.stop.reason == StopReason::boundary) {
       result.stop.value = result.stop.limit = branch.stop.value / unit_;
       result.stop.message = "reached the end of the window at " + text(result.stop.value) + " " + unit_name_;
@@ -135,8 +153,8 @@ class Sweep {
     }
   }
 
-  // The peak at infinity, and where the branch is to be taken up on the other side of the pole: as far beyond it as it
-  // was before.
+  // The peak at infinity, and where the branch is to be taken up on the other side of the pole: as far beyond
+  // it as it was before.
   void end_unbounded(ResponseBranch& result, const Unboundedness& growth,
                      const std::vector<std::pair<double, double>>& course) {
     const double omega = course.back().first;

@@ -1,5 +1,6 @@
 #pragma once
-// Frequency responses: the branch of periodic responses over the excitation frequency, with its peaks and folds.
+// Frequency responses: the branch of periodic responses over the excitation frequency, with its peaks and
+// folds.
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -11,18 +12,19 @@ namespace arcslip::observables {
 
 /// Progress of one branch; told after every accepted point.
 struct Progress {
-  int branch = 0, branches = 0;   // which of how many
-  long points = 0;                // accepted so far on this branch
-  double frequency = 0;           // in the scene's unit
-  double step = 0;                // last step in frequency, in the scene's unit
-  double share_done = 0;          // 0 to 1, of this branch
+  int branch = 0, branches = 0;  // which of how many
+  long points = 0;               // accepted so far on this branch
+  double frequency = 0;          // in the scene's unit
+  double step = 0;               // last step in frequency, in the scene's unit
+  double share_done = 0;         // 0 to 1, of this branch
 };
 
 /// Returns false to stop: the branch then ends with reason "user".
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 /// One branch (or several, where an unbounded resonance cuts it) for each combination of the study's for_each
-/// lists. A branch that ends early is kept, with its reason; after a stop by the callback no further branch is begun.
+/// lists. A branch that ends early is kept, with its reason; after a stop by the callback no further branch
+/// is begun.
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const scene::Study& study,
                                                const ProgressCallback& progress = {});
 

@@ -25,7 +25,11 @@ double element_energy(const elements::Harmonics& h, const continuation::Vector& 
 }  // namespace
 
 Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem)
-    : problem_(std::move(problem)), amplitude_(problem_->harmonics()), x_(problem_->harmonics().size()), dx_(x_.size()), by_frequency_(x_.size()) {}
+    : problem_(std::move(problem)),
+      amplitude_(problem_->harmonics()),
+      x_(problem_->harmonics().size()),
+      dx_(x_.size()),
+      by_frequency_(x_.size()) {}
 
 Extreme Observer::extreme(const continuation::Accepted& now) {
   const auto& at = evaluator_of(now);
@@ -80,7 +84,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now) {
       response.stick_percent = 100 * state.stick_share;
       response.slip_angles = state.slip_onsets;
       response.reversal_angles = state.slip_ends;
-      response.energy = state.slip_onsets.empty() ? 0 : element_energy(h, at.element_motion(e), at.element(e).force());
+      response.energy =
+          state.slip_onsets.empty() ? 0 : element_energy(h, at.element_motion(e), at.element(e).force());
       point.energy_friction += response.energy;
     }
     point.elements.push_back(std::move(response));

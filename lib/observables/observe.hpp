@@ -11,7 +11,8 @@
 
 namespace arcslip::observables {
 
-/// Observes the points of branches of one problem in the excitation frequency. Owns its buffers; one for each thread.
+/// Observes the points of branches of one problem in the excitation frequency. Owns its buffers; one for each
+/// thread.
 class Observer {
  public:
   explicit Observer(std::shared_ptr<const hbm::HbmProblem> problem);

@@ -10,43 +10,45 @@ namespace arcslip::observables {
 /// What one nonlinear element does over a period. Empty vectors and zeros where it has no such thing.
 struct ElementResponse {
   std::string name;
-  bool has_stick = false;             // true for friction elements
-  double stick_percent = 0;           // share of the period in stick, 0 to 100
-  std::vector<double> slip_angles;    // onset of each slip phase, rad in [0, 2 pi)
+  bool has_stick = false;               // true for friction elements
+  double stick_percent = 0;             // share of the period in stick, 0 to 100
+  std::vector<double> slip_angles;      // onset of each slip phase, rad in [0, 2 pi)
   std::vector<double> reversal_angles;  // end of each slip phase, rad in [0, 2 pi)
-  double energy = 0;                  // dissipated per period, J
+  double energy = 0;                    // dissipated per period, J
 };
 
 /// One periodic response.
 struct ResponsePoint {
-  double omega = 0;                   // excitation frequency, rad/s
-  double amplitude = 0;               // max over the period of |x|, m, at the scene's response
-  double phase = 0;                   // rad, lag of the response's fundamental behind the force's
-  double truncation_estimate = 0;     // m, what the neglected harmonics would add to the amplitude
-  bool truncation_flagged = false;    // N omega does not pass the structure's resonances: the estimate may be low
-  double energy_friction = 0;         // J per period
-  double energy_viscous = 0;          // J per period
-  bool unbounded = false;             // the amplitude grows without bound here; `amplitude` has no meaning
+  double omega = 0;                // excitation frequency, rad/s
+  double amplitude = 0;            // max over the period of |x|, m, at the scene's response
+  double phase = 0;                // rad, lag of the response's fundamental behind the force's
+  double truncation_estimate = 0;  // m, what the neglected harmonics would add to the amplitude
+  bool truncation_flagged =
+      false;                   // N omega does not pass the structure's resonances: the estimate may be low
+  double energy_friction = 0;  // J per period
+  double energy_viscous = 0;   // J per period
+  bool unbounded = false;      // the amplitude grows without bound here; `amplitude` has no meaning
   std::vector<ElementResponse> elements;
-  std::vector<double> coefficients;   // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
+  std::vector<double>
+      coefficients;  // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
 };
 
 struct ResponseEvent {
-  std::string kind;                   // "peak", "fold"
-  bool nonsmooth = false;             // at a kink of the branch
+  std::string kind;        // "peak", "fold"
+  bool nonsmooth = false;  // at a kink of the branch
   ResponsePoint point;
 };
 
 struct Stop {
-  std::string reason;                 // name of the StopReason
-  double value = 0, limit = 0;        // the numbers that decided it
-  std::string message;                // one sentence for people
+  std::string reason;           // name of the StopReason
+  double value = 0, limit = 0;  // the numbers that decided it
+  std::string message;          // one sentence for people
 };
 
 enum class Status { complete, stopped, failed };
 
 struct SolverSummary {
-  std::string linear_solver;          // "dense LU"
+  std::string linear_solver;  // "dense LU"
   int unknowns = 0;
   long points = 0, rejected_steps = 0, residuals = 0, jacobians = 0, factorizations = 0, solves = 0;
   double seconds = 0;

@@ -19,7 +19,9 @@ std::shared_ptr<const model::Model> with_exact_friction(model::Model model) {
   return std::make_shared<const model::Model>(std::move(model));
 }
 
-elements::Harmonics widened(const elements::Harmonics& h) { return {2 * h.order + least_tail, h.odd}; }
+elements::Harmonics widened(const elements::Harmonics& h) {
+  return {2 * h.order + least_tail, h.odd};
+}
 
 }  // namespace
 
@@ -29,9 +31,11 @@ double highest_natural_frequency(const model::Model& model, const Vector& p) {
   for (const auto& element : model.elements)
     if (element.law == model::Law::jenkins)
       K += p[element.parameters[0]] * element.direction * element.direction.transpose();
-  // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift > 0.
+  // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift >
+  // 0.
   const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(M, K + shift * M, Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(M, K + shift * M,
+                                                                         Eigen::EigenvaluesOnly);
   if (solver.info() != Eigen::Success) return 0;
   const double largest = solver.eigenvalues().maxCoeff();
   double highest = 0;
@@ -41,10 +45,18 @@ double highest_natural_frequency(const model::Model& model, const Vector& p) {
 }
 
 Truncation::Truncation(const hbm::HbmProblem& problem, const Vector& p)
-    : problem_(problem), kept_(problem.harmonics()), wide_(widened(kept_)),
-      wide_problem_(with_exact_friction(problem.model()), wide_, 1, 1), evaluator_(wide_problem_.hbm_evaluator()),
-      highest_(highest_natural_frequency(problem.model(), p)), u_(wide_problem_.size()), tail_(u_.size()),
-      effect_(u_.size()), change_(problem.size() + 1), residual_(problem.size()), response_(wide_.size()) {}
+    : problem_(problem),
+      kept_(problem.harmonics()),
+      wide_(widened(kept_)),
+      wide_problem_(with_exact_friction(problem.model()), wide_, 1, 1),
+      evaluator_(wide_problem_.hbm_evaluator()),
+      highest_(highest_natural_frequency(problem.model(), p)),
+      u_(wide_problem_.size()),
+      tail_(u_.size()),
+      effect_(u_.size()),
+      change_(problem.size() + 1),
+      residual_(problem.size()),
+      response_(wide_.size()) {}
 
 void Truncation::embed(continuation::In u, Vector& wide) const {
   wide.setZero();
@@ -72,13 +84,15 @@ void Truncation::restrict_to_kept(Vector& wide, continuation::Out kept) const {
 TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const Extreme& extreme) {
   const int n = problem_.size();
   embed(now.u, u_);
-  if (evaluator_->move_to(u_, now.p, continuation::Needs::jacobian) != continuation::Evaluated::ok) return {0, true};
+  if (evaluator_->move_to(u_, now.p, continuation::Needs::jacobian) != continuation::Evaluated::ok)
+    return {0, true};
   double force = 0;
   for (std::size_t e = 0; e < evaluator_->element_count(); ++e)
     force = std::max(force, evaluator_->element(e).force().cwiseAbs().maxCoeff());
   tail_ = evaluator_->residual();
   restrict_to_kept(tail_, residual_);  // what remains in tail_ are the f_n with n > N
-  if (tail_.cwiseAbs().maxCoeff() <= linear_motion * force && residual_.cwiseAbs().maxCoeff() <= linear_motion * force)
+  if (tail_.cwiseAbs().maxCoeff() <= linear_motion * force &&
+      residual_.cwiseAbs().maxCoeff() <= linear_motion * force)
     return {};
 
   evaluator_->stiffness().solve(tail_);

@@ -5,11 +5,11 @@
 //   X_n = -Z_n^-1 f_n,  N < n <= 2 N + 9,
 // and X_n acts back on the harmonics kept through the elements, at fixed frequency:
 //   J du = -(dF/dX_n) X_n - R,
-// where R is the residual at u with exact friction: zero but for rounding, or, where the scene samples its friction,
-// the error of sampling. The estimate is |dA/dx . (du, X_n)|, the change of the amplitude, not a bound: it has been
-// within a factor of two of the error wherever that is known (docs/performance.md), but both change sign along a
-// branch. It is flagged where N omega lies below the highest natural frequency of the structure with its sliders
-// stuck: a resonance is left out there, and the first order may be far off.
+// where R is the residual at u with exact friction: zero but for rounding, or, where the scene samples its
+// friction, the error of sampling. The estimate is |dA/dx . (du, X_n)|, the change of the amplitude, not a
+// bound: it has been within a factor of two of the error wherever that is known (docs/performance.md), but
+// both change sign along a branch. It is flagged where N omega lies below the highest natural frequency of
+// the structure with its sliders stuck: a resonance is left out there, and the first order may be far off.
 
 #include <arcslip/continuation/monitor.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -27,7 +27,8 @@ class Truncation {
   /// p: where the natural frequencies are taken.
   Truncation(const hbm::HbmProblem& problem, const continuation::Vector& p);
 
-  /// At an accepted point of a branch in frequency (of a problem with the same harmonics); extreme: of its response.
+  /// At an accepted point of a branch in frequency (of a problem with the same harmonics); extreme: of its
+  /// response.
   TruncationEstimate estimate(const continuation::Accepted& now, const Extreme& extreme);
 
  private:
@@ -42,8 +43,8 @@ class Truncation {
   continuation::Vector u_, tail_, effect_, change_, residual_, response_;
 };
 
-/// Highest natural frequency (rad/s) of M x'' + (K + sum of element stiffnesses) x = 0 at p; massless motions have
-/// none. 0 where there is none at all.
+/// Highest natural frequency (rad/s) of M x'' + (K + sum of element stiffnesses) x = 0 at p; massless motions
+/// have none. 0 where there is none at all.
 double highest_natural_frequency(const model::Model& model, const continuation::Vector& p);
 
 }  // namespace arcslip::observables

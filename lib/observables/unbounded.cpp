@@ -23,8 +23,10 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
     result.message = "the response exceeds what can be computed";
     return result;
   }
-  const double viscous = evaluator->stiffness().viscous_energy(u, 1) / std::numbers::pi;  // over amplitude^2 below
-  // Work of the forces: those of the excitation and of the sliders, on the motion u, over pi and its amplitude.
+  const double viscous =
+      evaluator->stiffness().viscous_energy(u, 1) / std::numbers::pi;  // over amplitude^2 below
+  // Work of the forces: those of the excitation and of the sliders, on the motion u, over pi and its
+  // amplitude.
   const auto& h = problem.harmonics();
   double amplitude = 0, sliders = 0;
   bool restoring = false;
@@ -35,7 +37,8 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
     if (model.elements[e].law == model::Law::cubic_spring)
       restoring = restoring || (p[model.elements[e].parameters[0]] != 0 && size > negligible * u.norm());
     else
-      sliders += 4 / std::numbers::pi * p[model.elements[e].parameters[1]] * p[model.elements[e].parameters[2]] * size;
+      sliders += 4 / std::numbers::pi * p[model.elements[e].parameters[1]] *
+                 p[model.elements[e].parameters[2]] * size;
   }
   if (model.elements.empty()) amplitude = u.norm();
   continuation::Vector f(u.size());
@@ -51,11 +54,14 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
   const bool damped = viscous > negligible * result.input * amplitude;
   result.unbounded = !damped && !restoring && result.dissipation <= result.input * (1 + negligible);
   if (result.unbounded) {
-    text << "the resonance is unbounded: nothing damps it viscously, and friction takes out " << result.dissipation
-         << " N of the " << result.input << " N that the excitation puts in (work per period over pi and amplitude)";
+    text << "the resonance is unbounded: nothing damps it viscously, and friction takes out "
+         << result.dissipation << " N of the " << result.input
+         << " N that the excitation puts in (work per period over pi and amplitude)";
   } else {
     text << "beyond " << amplitude << " m the response is bounded by "
-         << (damped ? "viscous damping" : restoring ? "a nonlinear spring" : "friction");
+         << (damped      ? "viscous damping"
+             : restoring ? "a nonlinear spring"
+                         : "friction");
   }
   result.message = text.str();
   return result;

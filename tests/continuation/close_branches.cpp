@@ -11,15 +11,16 @@ TEST_CASE("lambda u - u^3 + eps = 0 is followed without a jump between its branc
     });
     CAPTURE(eps);
     // From the left, u ~ -eps/lambda > 0: the branch goes up into u = +sqrt(lambda), without a fold.
-    const Branch upper =
-        trace(problem, {Vector::Constant(1, eps), Vector::Constant(1, -1), 0, 1}, window(-1, 1), {fold_monitor()});
+    const Branch upper = trace(problem, {Vector::Constant(1, eps), Vector::Constant(1, -1), 0, 1},
+                               window(-1, 1), {fold_monitor()});
     CHECK(upper.stop.reason == StopReason::boundary);
     CHECK(upper.points.back().parameter == 1);
     CHECK(upper.points.back().u[0] == Approx(1).margin(eps));
     CHECK(upper.events.empty());
-    // From the lower right, u ~ -sqrt(lambda): a fold at lambda = 3 (eps/2)^(2/3), and back along u ~ -eps/lambda.
-    const Branch lower = trace(problem, {Vector::Constant(1, -1), Vector::Constant(1, 1), 0, -1}, window(-1, 1),
-                               {fold_monitor()});
+    // From the lower right, u ~ -sqrt(lambda): a fold at lambda = 3 (eps/2)^(2/3), and back along u ~
+    // -eps/lambda.
+    const Branch lower = trace(problem, {Vector::Constant(1, -1), Vector::Constant(1, 1), 0, -1},
+                               window(-1, 1), {fold_monitor()});
     CHECK(lower.stop.reason == StopReason::boundary);
     CHECK(lower.points.back().parameter == 1);
     CHECK(lower.points.back().u[0] == Approx(-eps).margin(2 * eps * eps));

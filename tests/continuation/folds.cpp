@@ -52,7 +52,8 @@ TEST_CASE("a smooth branch costs less than 3.5 factorizations a point") {
        {std::tuple{chan(100), Vector(Vector::Zero(100)), Vector(Vector::Zero(1)), window(0, 5)},
         std::tuple{freudenstein_roth(), Vector{{15.0, -2.0}}, Vector(Vector::Zero(1)), window(-1, 1.5)}}) {
     const Branch branch = trace(problem, {start, p, 0, 1}, w, {fold_monitor()});
-    CHECK(static_cast<double>(branch.counts.factorizations) < 3.5 * static_cast<double>(branch.counts.points));
+    CHECK(static_cast<double>(branch.counts.factorizations) <
+          3.5 * static_cast<double>(branch.counts.points));
   }
 }
 

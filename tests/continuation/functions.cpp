@@ -25,8 +25,8 @@ TEST_CASE("derivatives that are not given are central differences, good to 1e-9"
 }
 
 TEST_CASE("a NaN of the residual is outside the domain") {
-  const auto problem = from_functions(1, {{"p", "", 0, 1, -1e300, 1e300}},
-                                      [](In u, In, Out F) { F[0] = std::sqrt(u[0]); });
+  const auto problem =
+      from_functions(1, {{"p", "", 0, 1, -1e300, 1e300}}, [](In u, In, Out F) { F[0] = std::sqrt(u[0]); });
   const auto at = problem->evaluator();
   CHECK(at->move_to(Vector::Constant(1, -1), Vector::Zero(1), Needs::residual) == Evaluated::outside_domain);
 }

@@ -29,10 +29,13 @@ inline std::shared_ptr<const Problem> cusp() {
 
 /// PITCON test_con 1; the free parameter is x3.
 inline std::shared_ptr<const Problem> freudenstein_roth() {
-  return from_functions(2, {parameter("x3", 0)}, [](In u, In p, Out F) {
-    F[0] = u[0] - std::pow(u[1], 3) + 5 * u[1] * u[1] - 2 * u[1] - 13 + 34 * (p[0] - 1);
-    F[1] = u[0] + std::pow(u[1], 3) + u[1] * u[1] - 14 * u[1] - 29 + 10 * (p[0] - 1);
-  }, {}, {}, Vector::Constant(2, 10));
+  return from_functions(
+      2, {parameter("x3", 0)},
+      [](In u, In p, Out F) {
+        F[0] = u[0] - std::pow(u[1], 3) + 5 * u[1] * u[1] - 2 * u[1] - 13 + 34 * (p[0] - 1);
+        F[1] = u[0] + std::pow(u[1], 3) + u[1] * u[1] - 14 * u[1] - 29 + 10 * (p[0] - 1);
+      },
+      {}, {}, Vector::Constant(2, 10));
 }
 
 /// LOCA ChanProblem, n nodes, beta = 0.

@@ -10,14 +10,19 @@ using namespace problems;
 
 namespace {
 
-Start at(double u, double p) { return {Vector::Constant(1, u), Vector::Constant(1, p), 0, 1}; }
+Start at(double u, double p) {
+  return {Vector::Constant(1, u), Vector::Constant(1, p), 0, 1};
+}
 
-std::shared_ptr<const Problem> scalar(ResidualFunction f) { return from_functions(1, {parameter("p", 0)}, f); }
+std::shared_ptr<const Problem> scalar(ResidualFunction f) {
+  return from_functions(1, {parameter("p", 0)}, f);
+}
 
 }  // namespace
 
 TEST_CASE("boundary: a branch that reaches the window's end stops exactly there") {
-  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0] * p[0]; }), at(0, 0), window(0, 2));
+  const Branch branch =
+      trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0] * p[0]; }), at(0, 0), window(0, 2));
   CHECK(branch.stop.reason == StopReason::boundary);
   CHECK(branch.points.back().parameter == 2);
   CHECK(std::abs(branch.points.back().u[0] - 4) < 1e-14);
@@ -50,7 +55,8 @@ TEST_CASE("step_too_small: a wrong Jacobian ends the branch and keeps what there
 TEST_CASE("state_too_large: a pole is followed to the limit of the state and no further") {
   Options options = window(0, 2);
   options.largest_state = 1e9;
-  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] * (1 - p[0]) - 1; }), at(1, 0), options);
+  const Branch branch =
+      trace(scalar([](In u, In p, Out F) { F[0] = u[0] * (1 - p[0]) - 1; }), at(1, 0), options);
   CHECK(branch.stop.reason == StopReason::state_too_large);
   CHECK(branch.stop.value > 1e9);
   CHECK(std::abs(branch.points.back().parameter - 1) < 1e-8);
@@ -67,8 +73,8 @@ TEST_CASE("point_limit: as many points as asked for") {
 
 TEST_CASE("user: the observer stops the branch, at a point or at an event") {
   int calls = 0;
-  const Branch at_point = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), window(0, 2), {},
-                                [&](const Accepted&, const Event*) { return ++calls < 5; });
+  const Branch at_point = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), window(0, 2),
+                                {}, [&](const Accepted&, const Event*) { return ++calls < 5; });
   CHECK(at_point.stop.reason == StopReason::user);
   CHECK(at_point.points.size() == 5);
   const Branch at_event = trace(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1),
@@ -78,9 +84,10 @@ TEST_CASE("user: the observer stops the branch, at a point or at an event") {
 }
 
 TEST_CASE("not_evaluated: a residual that cannot be evaluated ahead ends the branch where it can") {
-  const Branch branch = trace(
-      scalar([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); }), at(std::sqrt(0.7), 0), window(0, 2));
-  CHECK((branch.stop.reason == StopReason::not_evaluated || branch.stop.reason == StopReason::step_too_small));
+  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); }),
+                              at(std::sqrt(0.7), 0), window(0, 2));
+  CHECK(
+      (branch.stop.reason == StopReason::not_evaluated || branch.stop.reason == StopReason::step_too_small));
   CHECK(branch.points.size() > 10);
   CHECK(branch.points.back().parameter <= 0.7);
   CHECK(std::abs(branch.points.back().parameter - 0.7) < 1e-3);

@@ -23,7 +23,8 @@ TEST_CASE("the cube of a cosine has the coefficients 3/4 and 1/4") {
   }
 }
 
-TEST_CASE("the cubic spring's Jacobian is exact: F is homogeneous of degree 3, J u = 3 F, and J is symmetric") {
+TEST_CASE(
+    "the cubic spring's Jacobian is exact: F is homogeneous of degree 3, J u = 3 F, and J is symmetric") {
   for (bool odd : {true, false})
     for (int order : {1, 2, 7, 20}) {
       const Harmonics h{order, odd};

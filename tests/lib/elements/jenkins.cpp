@@ -17,7 +17,8 @@ Eigen::VectorXd motion(const Harmonics& h, double amplitude, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> number(-1, 1);
   Eigen::VectorXd u(h.size());
-  for (int i = 0; i < h.cosines(); ++i) u[i] = number(random) / std::max(1, h.cosine_order(i) * h.cosine_order(i));
+  for (int i = 0; i < h.cosines(); ++i)
+    u[i] = number(random) / std::max(1, h.cosine_order(i) * h.cosine_order(i));
   for (int j = 0; j < h.sines(); ++j)
     u[h.cosines() + j] = number(random) / (h.sine_order(j) * h.sine_order(j));
   return amplitude * u / u.cwiseAbs().maxCoeff();
@@ -28,8 +29,8 @@ using Fields = std::array<double, 3>;  // stiffness, friction coefficient, norma
 }  // namespace
 
 TEST_CASE("with one harmonic the force has the describing function of the Jenkins element") {
-  // Full slip from the turn at A: theta* = arccos(1 - 2 x_s/A); F_c = (k_d A/pi)(theta* - sin theta* cos theta*),
-  // F_s = -(4 p/pi)(1 - x_s/A) against x = A cos theta.
+  // Full slip from the turn at A: theta* = arccos(1 - 2 x_s/A); F_c = (k_d A/pi)(theta* - sin theta* cos
+  // theta*), F_s = -(4 p/pi)(1 - x_s/A) against x = A cos theta.
   const auto element = make_jenkins({1, true});
   const double kd = 3500, mu = 0.5;
   for (double A : {1.0001, 1.5, 2.0, 5.0, 1e3, 1e6})
@@ -39,7 +40,8 @@ TEST_CASE("with one harmonic the force has the describing function of the Jenkin
       const double onset = 2 * std::asin(std::sqrt(1 / A));
       const double digits = 1e-11 + 1e-15 * A;  // k_d a is A times the force
       CAPTURE(A, Fn);
-      CHECK(element->force()[0] == Approx(kd * a / pi * (onset - std::sin(onset) * std::cos(onset))).epsilon(digits));
+      CHECK(element->force()[0] ==
+            Approx(kd * a / pi * (onset - std::sin(onset) * std::cos(onset))).epsilon(digits));
       CHECK(element->force()[1] == Approx(-4 * p / pi * (1 - 1 / A)).epsilon(digits));
       FrictionState state;
       REQUIRE(element->friction(state));
@@ -50,7 +52,9 @@ TEST_CASE("with one harmonic the force has the describing function of the Jenkin
     }
 }
 
-TEST_CASE("the Jacobian is that of central differences, over decades of amplitude and load, for all kinds of motion") {
+TEST_CASE(
+    "the Jacobian is that of central differences, over decades of amplitude and load, for all kinds of "
+    "motion") {
   for (bool odd : {true, false})
     for (int order : {1, 2, 3, 7, 15})
       for (double amplitude : {1e-6, 1e-3, 1.0, 1e3})
@@ -75,10 +79,12 @@ TEST_CASE("the Jacobian is that of central differences, over decades of amplitud
               v[i] -= 2 * step;
               element->move_to(v, fields, false);
               across_a_kink = across_a_kink || element->piece() != piece;
-              worst = std::max(worst, (J.col(i) - (plus - element->force()) / (2 * step)).cwiseAbs().maxCoeff());
+              worst =
+                  std::max(worst, (J.col(i) - (plus - element->force()) / (2 * step)).cwiseAbs().maxCoeff());
             }
             CAPTURE(odd, order, amplitude, load, seed);
-            if (!across_a_kink) CHECK(worst < 1e-6);  // of k_d = 2; the differences' own error at order 15 is 2.5e-7
+            if (!across_a_kink)
+              CHECK(worst < 1e-6);  // of k_d = 2; the differences' own error at order 15 is 2.5e-7
           }
 }
 
@@ -199,8 +205,9 @@ TEST_CASE("without load or without motion the force is what it must be") {
       CHECK(element->jacobian().norm() == 0);
       element->move_to(0 * u, Fields{2.0, 0.5, 1.0}, true);
       CHECK(element->force().norm() == 0);
-      CHECK(element->jacobian().bottomRightCorner(5 - 2 * odd, 5 - 2 * odd).isApprox(
-          2.0 * Eigen::MatrixXd::Identity(5 - 2 * odd, 5 - 2 * odd)));
+      CHECK(element->jacobian()
+                .bottomRightCorner(5 - 2 * odd, 5 - 2 * odd)
+                .isApprox(2.0 * Eigen::MatrixXd::Identity(5 - 2 * odd, 5 - 2 * odd)));
     }
   }
 }

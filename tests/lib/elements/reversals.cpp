@@ -8,7 +8,8 @@
 using namespace arcslip::elements;
 
 TEST_CASE("cos theta + a cos 3 theta has the reversals that calculus gives") {
-  // x' = -sin theta (1 + 9 a - 12 a sin^2 theta): besides 0 where cos^2 theta = (3 a - 1)/(12 a), if that is in (0, 1).
+  // x' = -sin theta (1 + 9 a - 12 a sin^2 theta): besides 0 where cos^2 theta = (3 a - 1)/(12 a), if that is
+  // in (0, 1).
   const Harmonics h{3, true};
   for (double a : {0.2, 0.34, 0.5, 2.0, -0.1, -0.12, -1.0}) {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(h.size());
@@ -30,7 +31,8 @@ TEST_CASE("cos theta + a cos 3 theta has the reversals that calculus gives") {
 
 TEST_CASE("a pair of reversals is found on either side of its birth, 1e-4 rad apart") {
   const Harmonics h{3, true};
-  for (double offset : {1e-3, 1e-5, 1e-7, 1e-9, -1e-9, -1e-7, -1e-5, -1e-3}) {  // cos + a cos 3 at a = -1/9: a flat top
+  for (double offset :
+       {1e-3, 1e-5, 1e-7, 1e-9, -1e-9, -1e-7, -1e-5, -1e-3}) {  // cos + a cos 3 at a = -1/9: a flat top
     Eigen::VectorXd u = Eigen::VectorXd::Zero(h.size());
     u[0] = std::cos(0.7);
     u[h.sine_index(1)] = std::sin(0.7);

@@ -52,7 +52,8 @@ TEST_CASE("the powers of exp(i theta) keep their digits up to the 2000th") {
 
 TEST_CASE("the Gram matrix from moments is the integral of products of the basis") {
   // Gauss-Legendre with 5 nodes on short pieces, exact to rounding.
-  const double nodes[] = {0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640, -0.9061798459386640};
+  const double nodes[] = {0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
+                          -0.9061798459386640};
   const double weights[] = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891,
                             0.2369268850561891};
   for (bool odd : {false, true})

@@ -31,7 +31,8 @@ TEST_CASE("condensed, with its response, a linear structure answers as the full 
     const hbm::Coordinates coordinates = hbm::coordinates(model);
     hbm::DynamicStiffness stiffness(model, coordinates, model.harmonics);
     Vector p(model.parameters.size());
-    for (std::size_t k = 0; k < model.parameters.size(); ++k) p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+    for (std::size_t k = 0; k < model.parameters.size(); ++k)
+      p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
     for (double omega : {0.05, 0.9, 1.3, 7.0}) {
       p[model::frequency] = omega;
       REQUIRE(stiffness.move_to(p));
@@ -51,7 +52,8 @@ TEST_CASE("condensed, with its response, a linear structure answers as the full 
         if (n != 1) f[1] = 0.2;
         const Eigen::VectorXcd X = Z.partialPivLu().solve(f);
         const auto& h = model.harmonics;
-        CHECK(std::abs(X[2] - std::complex<double>(x[h.cosine_index(n)], -x[h.sine_index(n)])) < 1e-13 * X.norm());
+        CHECK(std::abs(X[2] - std::complex<double>(x[h.cosine_index(n)], -x[h.sine_index(n)])) <
+              1e-13 * X.norm());
       }
       // R of that solution, and its energy: what the dampers take is the work of the force.
       Vector R(2 * c);
@@ -65,7 +67,8 @@ TEST_CASE("the response's gradient and its change with frequency are those of di
   const model::Model model = model::build(scenes::chain(4, true));
   hbm::DynamicStiffness stiffness(model, hbm::coordinates(model), model.harmonics);
   Vector p(model.parameters.size());
-  for (std::size_t k = 0; k < model.parameters.size(); ++k) p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+  for (std::size_t k = 0; k < model.parameters.size(); ++k)
+    p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
   const int c = model.harmonics.size();
   const Vector u = Vector::Random(2 * c), v = Vector::Random(2 * c), a = Vector::Random(c);
   Vector x(c), g(2 * c), plus(c), minus(c), dx(c);
@@ -94,7 +97,8 @@ TEST_CASE("a resonance of the condensed part alone, undamped, is no place to eva
   const model::Model model = model::build(s);
   hbm::DynamicStiffness stiffness(model, hbm::coordinates(model), model.harmonics);
   Vector p(model.parameters.size());
-  for (std::size_t k = 0; k < model.parameters.size(); ++k) p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+  for (std::size_t k = 0; k < model.parameters.size(); ++k)
+    p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
   p[model::frequency] = 2;
   CHECK_FALSE(stiffness.move_to(p));
   p[model::frequency] = 2.0000001;

@@ -16,7 +16,8 @@ struct Worst {
 };
 
 // Largest difference from central differences, relative to the row sums of |J| (|dR/dp|), off kinks.
-Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequency, double load, unsigned seed) {
+Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequency, double load,
+                       unsigned seed) {
   scene::Scene s = scene;
   for (const auto& element : s.elements)
     if (element.type == &scene::jenkins_type) scene::set(s, element.name + ".normal_load", load);
@@ -30,7 +31,8 @@ Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequ
   const int c = problem.harmonics().size();
   for (int i = 0; i < u.size(); ++i) {
     const int k = i % c, cosines = problem.harmonics().cosines();
-    const int n = k < cosines ? problem.harmonics().cosine_order(k) : problem.harmonics().sine_order(k - cosines);
+    const int n =
+        k < cosines ? problem.harmonics().cosine_order(k) : problem.harmonics().sine_order(k - cosines);
     u[i] /= std::max(1, n * n);
   }
   const Vector p = hbm::parameters_at(problem, frequency);
@@ -38,8 +40,8 @@ Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequ
   REQUIRE(at->move_to(u, p, Needs::jacobian) == continuation::Evaluated::ok);
   const Eigen::MatrixXd J = at->jacobian();
   const auto piece = at->piece();
-  const auto differ = [&](Vector v, Vector q, Vector w, Vector r, double width, const Vector& derivative, double size,
-                          double& result) {
+  const auto differ = [&](Vector v, Vector q, Vector w, Vector r, double width, const Vector& derivative,
+                          double size, double& result) {
     at->move_to(v, q, Needs::residual);
     const Vector plus = at->residual();
     const bool kink = at->piece() != piece;
@@ -78,7 +80,8 @@ TEST_CASE("dR/du and dR/dp of every named parameter are those of central differe
     for (double amplitude : {1e-6, 1e-3, 1.0, 1e2})
       for (double frequency : {1e-2, 0.3, 1.1, 20.0})
         for (double load : {0.3, 1.0, 30.0}) {
-          const Worst worst = worst_derivative(scenes::chain(5, even), amplitude, frequency, load * amplitude, 3);
+          const Worst worst =
+              worst_derivative(scenes::chain(5, even), amplitude, frequency, load * amplitude, 3);
           CAPTURE(even, amplitude, frequency, load, worst.checked);
           CHECK(worst.checked > 10);
           CHECK(worst.jacobian < 1e-6);

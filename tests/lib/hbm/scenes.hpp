@@ -28,8 +28,8 @@ inline scene::Scene paper(int order, double load = 3) {
   return s;
 }
 
-/// Three masses, one of them seen by no element, friction to ground and between masses, a cubic spring along a general
-/// direction, forces in two harmonics and, if `even`, in the second.
+/// Three masses, one of them seen by no element, friction to ground and between masses, a cubic spring along
+/// a general direction, forces in two harmonics and, if `even`, in the second.
 inline scene::Scene chain(int order, bool even) {
   return parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["a", "b", "c"],
@@ -44,8 +44,10 @@ inline scene::Scene chain(int order, bool even) {
        "normal_load": 0.5},
       {"name": "s", "type": "cubic_spring", "direction": {"a": 0.5, "b": -1}, "stiffness": 0.2}],
     "excitation": [{"name": "f", "at": "c", "cosine": 1, "sine": 0.3},
-                   {"name": "g", "at": "b", "harmonic": )" + std::string(even ? "2" : "3") + R"(, "cosine": 0.2}],
-    "harmonics": {"order": )" + std::to_string(order) + R"(},
+                   {"name": "g", "at": "b", "harmonic": )" +
+               std::string(even ? "2" : "3") + R"(, "cosine": 0.2}],
+    "harmonics": {"order": )" +
+               std::to_string(order) + R"(},
     "response": {"at": "c"},
     "studies": [{"kind": "frf", "from": 0.3, "to": 2.2}]})");
 }

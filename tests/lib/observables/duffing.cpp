@@ -40,7 +40,9 @@ TEST_CASE("both folds of the Duffing oscillator of NLvib example 01 are found to
   for (const auto& fold : found) CHECK_FALSE(fold.nonsmooth);
 }
 
-TEST_CASE("with one harmonic the folds are those of the closed form, with many those of the differential equation") {
+TEST_CASE(
+    "with one harmonic the folds are those of the closed form, with many those of the differential "
+    "equation") {
   const auto one = folds([] {
     const scene::Scene s = duffing(0.1, 1, 0.1, 1, 2);
     return observables::frequency_response(s, s.studies.front()).front();

@@ -10,14 +10,14 @@
 namespace extremes {
 
 struct Extreme {
-  std::string name;                                  // what is extreme
+  std::string name;  // what is extreme
   std::function<void(arcslip::scene::Scene&)> change;
-  std::vector<std::string> reasons;                  // of the stops of its branches, in order
-  int peaks;                                         // finite ones
-  double amplitude;                                  // of the highest finite peak, m; 0: not tested
-  double tolerance;                                  // relative
-  bool flagged;                                      // truncation is flagged at the highest peak (or the first point)
-  std::string outcome;                               // for people
+  std::vector<std::string> reasons;  // of the stops of its branches, in order
+  int peaks;                         // finite ones
+  double amplitude;                  // of the highest finite peak, m; 0: not tested
+  double tolerance;                  // relative
+  bool flagged;                      // truncation is flagged at the highest peak (or the first point)
+  std::string outcome;               // for people
 };
 
 const std::vector<Extreme>& all();

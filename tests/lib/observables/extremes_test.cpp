@@ -70,7 +70,8 @@ TEST_CASE("f0 and Fn scaled together scale the response and nothing else") {
   }
 }
 
-TEST_CASE("a bounded response beyond what doubles resolve is said to be bounded, and the branch so far is kept") {
+TEST_CASE(
+    "a bounded response beyond what doubles resolve is said to be bounded, and the branch so far is kept") {
   scene::Scene s = scenes::paper(15, 1e9);
   scene::set(s, "c.value", 0);
   const auto branches = observables::frequency_response(s, s.studies.front());

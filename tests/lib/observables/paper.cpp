@@ -44,7 +44,9 @@ TEST_CASE("responses at fixed frequency are exact to 5e-8 with 55 harmonics") {
   }
 }
 
-TEST_CASE("one harmonic, no damping: the peak at Fn = pi N is p/(1 - pi f0/(4 p))/kd, in half stick and half slip") {
+TEST_CASE(
+    "one harmonic, no damping: the peak at Fn = pi N is p/(1 - pi f0/(4 p))/kd, in half stick and half "
+    "slip") {
   scene::Scene s = scenes::paper(1, pi);
   scene::set(s, "c.value", 0);
   const auto branches = observables::frequency_response(s, s.studies.front());

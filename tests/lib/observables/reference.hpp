@@ -12,8 +12,12 @@ inline nlohmann::json read(const std::string& file) {
   return nlohmann::json::parse(in);
 }
 
-inline nlohmann::json exact() { return read("exact_1dof.json"); }
+inline nlohmann::json exact() {
+  return read("exact_1dof.json");
+}
 
-inline double error(double value, double exact) { return std::abs(value / exact - 1); }
+inline double error(double value, double exact) {
+  return std::abs(value / exact - 1);
+}
 
 }  // namespace reference

@@ -11,7 +11,9 @@ using namespace arcslip;
 
 namespace {
 
-bool full() { return std::getenv("ARCSLIP_FULL") != nullptr; }
+bool full() {
+  return std::getenv("ARCSLIP_FULL") != nullptr;
+}
 
 }  // namespace
 
