@@ -24,6 +24,7 @@ struct Event {
   Point point;
   double value = 0;        // of the monitor, at the point
   bool nonsmooth = false;  // the monitor jumps here across zero
+  bool located = true;     // false: the corrector failed between the points; `point` is the nearer one
   std::size_t after = 0;   // index of the branch point before it
 };
 

@@ -24,8 +24,8 @@ struct StepOptions {
 
 struct Options {
   double lower = 0, upper = 0;  // window of the free parameter, lower < upper
-  NewtonOptions newton;
-  StepOptions step;
+  NewtonOptions newton{};
+  StepOptions step{};
   long points = 100000;            // at most
   double largest_state = 1e12;     // |u| in scales
   double event_tolerance = 1e-12;  // relative, of the free parameter at an event

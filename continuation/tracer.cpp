@@ -14,8 +14,8 @@ namespace {
 constexpr double first_share_of_window = 0.01;   // |dp| of a step where the user names none
 constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, at most
 constexpr double rejection = 0.25;               // of the step after a rejection
-constexpr double kink_step = 0.25,
-                 kink_turn = 0.7;  // a turn that keeps so much of itself over so short a step is a kink
+// A turn that keeps so much of itself over so much shorter a step is a kink.
+constexpr double kink_step = 0.25, kink_turn = 0.7;
 constexpr int rejections_before_a_corner = 3;
 constexpr double branch_point_step = 1e-7;   // relative to 1 + |u|: no shorter step tells two branches apart
 constexpr double parameter_rounding = 1e-9;  // relative changes of p below tell no direction
@@ -221,11 +221,11 @@ Tracer::Attempt Tracer::attempt() {
     }
   } else if (next_.orientation != here_.orientation && next_.piece == here_.piece &&
              ds_ > branch_point_step * (1 + main_.norm_u(here_.v))) {
-    return Attempt::rejected;  // a jump to a branch near by, unless it stays however short the step: a branch
-                               // point
+    // A jump to a branch near by, unless it stays however short the step: a branch point.
+    return Attempt::rejected;
   }
   const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
-  return take(length, next_ds, kink, correction) ? Attempt::accepted : Attempt::ended;
+  return take(length, next_ds, kink, correction);
 }
 
 // Where the branch turns by any angle at a kink just ahead: linearizes beyond it, and steps along the tangent
@@ -251,39 +251,38 @@ bool Tracer::corner() {
       angle_between(main_.dot(next_.tangent, beyond)) > options_.step.largest_angle ||
       angle_between(main_.dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
-  take(length, ds_, true, correction);
-  return true;
+  return take(length, ds_, true, correction) != Attempt::rejected;
 }
 
 // Accepts next_, or, beyond the window, ends the branch at its bound.
-bool Tracer::take(double length, double next_ds, bool kink, const Correction& correction) {
+Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Correction& correction) {
   next_.arclength = here_.arclength + length;
   const double p = next_.v[n_], bound = std::clamp(p, options_.lower, options_.upper);
   if (p != bound) {
-    if (!to_boundary(next_, bound)) {
-      ds_ *= rejection;
-      factors_fit_ = false;
-      return true;
-    }
+    if (!to_boundary(next_, bound)) return Attempt::rejected;
     if (accept(std::move(next_), correction))
       end(StopReason::boundary, bound, bound, "reached the end of the window at " + text(bound));
-    return false;
+    return Attempt::ended;
   }
   last_ds_ = length;
   has_before_ = !kink;
   factors_fit_ = !kink;
   rejections_ = 0;
-  if (!accept(std::move(next_), correction)) return false;
+  if (!accept(std::move(next_), correction)) return Attempt::ended;
   ds_ = limited(next_ds);
   const double state = main_.norm_u(here_.v);
-  if (state > options_.largest_state)
-    return end(StopReason::state_too_large, state, options_.largest_state,
-               "the solution grows without bound near " + text(here_.v[n_]));
-  if (branch_.counts.points >= options_.points)
-    return end(StopReason::point_limit, static_cast<double>(branch_.counts.points),
-               static_cast<double>(options_.points),
-               "reached the largest number of points, " + std::to_string(options_.points));
-  return true;
+  if (state > options_.largest_state) {
+    end(StopReason::state_too_large, state, options_.largest_state,
+        "the solution grows without bound near " + text(here_.v[n_]));
+    return Attempt::ended;
+  }
+  if (branch_.counts.points >= options_.points) {
+    end(StopReason::point_limit, static_cast<double>(branch_.counts.points),
+        static_cast<double>(options_.points),
+        "reached the largest number of points, " + std::to_string(options_.points));
+    return Attempt::ended;
+  }
+  return Attempt::accepted;
 }
 
 double Tracer::choose_step(double angle, const Correction& correction) const {
@@ -340,10 +339,9 @@ bool Tracer::locate_events(const Place& from, const Place& to) {
     const Crossing wanted = monitors_[m].crossing;
     if (!(falling && wanted != Crossing::rising) && !(rising && wanted != Crossing::falling)) continue;
     Place place;
-    if (auto event = locate(m, from, to, place)) {
-      const Vector row = place.tangent.cwiseProduct(main_.weights());
-      found.push_back({std::move(*event), std::move(place), row});
-    }
+    Event event = locate(m, from, to, place);
+    const Vector row = place.tangent.cwiseProduct(main_.weights());
+    found.push_back({std::move(event), std::move(place), row});
   }
   std::sort(found.begin(), found.end(),
             [](const Found& x, const Found& y) { return x.event.point.arclength < y.event.point.arclength; });
@@ -381,7 +379,7 @@ bool Tracer::locate_kink(const Place& from, double length, Place& kink, Correcti
 }
 
 // The zero of a monitor between two points, on the cubic between them and then on the branch.
-std::optional<Event> Tracer::locate(std::size_t monitor, const Place& from, const Place& to, Place& found) {
+Event Tracer::locate(std::size_t monitor, const Place& from, const Place& to, Place& found) {
   if (!probe_) {
     NewtonOptions newton = options_.newton;
     newton.tolerance *= event_newton;
@@ -389,8 +387,17 @@ std::optional<Event> Tracer::locate(std::size_t monitor, const Place& from, cons
   }
   const double length = to.arclength - from.arclength;
   Correction correction;
+  const auto near_end = [&] {  // where the corrector fails between the points, the nearer one stands for the event
+    found = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
+    Event event;
+    event.monitor = monitors_[monitor].name;
+    event.value = found.monitors[monitor];
+    event.located = false;
+    event.point = point(found, {});
+    return event;
+  };
   if (to.piece != from.piece && main_.dot(to.tangent, from.tangent) < std::cos(options_.step.largest_angle)) {
-    if (!locate_kink(from, length, found, correction)) return std::nullopt;
+    if (!locate_kink(from, length, found, correction)) return near_end();
     Event event;
     event.monitor = monitors_[monitor].name;
     event.value = from.monitors[monitor];
@@ -422,9 +429,9 @@ std::optional<Event> Tracer::locate(std::size_t monitor, const Place& from, cons
   const double tolerance = std::clamp(std::min(in_p, in_u), 1e-13, 1e-3);
   const double a = from.monitors[monitor], b = to.monitors[monitor];
   const Root root = find_root(value, 0, a, 1, b, tolerance);
-  if (failed) return std::nullopt;
+  if (failed) return near_end();
   const double left = value(root.x);
-  if (failed) return std::nullopt;
+  if (failed) return near_end();
 
   Event event;
   event.monitor = monitors_[monitor].name;

@@ -14,7 +14,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -55,7 +54,7 @@ class Tracer {
   bool begin();
   Attempt attempt();
   bool corner();
-  bool take(double length, double next_ds, bool kink, const Correction& correction);
+  Attempt take(double length, double next_ds, bool kink, const Correction& correction);
   void predict(Vector& v) const;
   bool settle(Corrector& at, Place& place) const;
   bool went_back(const Place& next) const;
@@ -63,7 +62,7 @@ class Tracer {
   bool accept(Place&& place, const Correction& correction);
   bool locate_events(const Place& from, const Place& to);
   bool locate_kink(const Place& from, double length, Place& kink, Correction& correction);
-  std::optional<Event> locate(std::size_t monitor, const Place& from, const Place& to, Place& found);
+  Event locate(std::size_t monitor, const Place& from, const Place& to, Place& found);
   double choose_step(double angle, const Correction& correction) const;
   double limited(double ds) const;
   bool to_boundary(Place& place, double bound);

@@ -83,7 +83,7 @@ class Sweep {
     const auto record = [&](Observer& observer, const continuation::Accepted& now,
                             const continuation::Event* event) {
       if (event) {
-        result.events.push_back({event->monitor, event->nonsmooth, observer.observe(now)});
+        result.events.push_back({event->monitor, event->nonsmooth, event->located, observer.observe(now)});
         return true;
       }
       const double omega = now.p[model::frequency];

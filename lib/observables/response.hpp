@@ -36,6 +36,7 @@ struct ResponsePoint {
 struct ResponseEvent {
   std::string kind;        // "peak", "fold"
   bool nonsmooth = false;  // at a kink of the branch
+  bool located = true;     // false: the corrector failed at it; the point is the nearest one of the branch
   ResponsePoint point;
 };
 

@@ -22,6 +22,11 @@ BadInput line(std::string name, std::vector<std::string> arguments, std::string 
   return {std::move(name), std::move(arguments), 1, std::move(message), "", {}};
 }
 
+BadInput printed_on(std::string output, std::string name, std::vector<std::string> arguments,
+                    std::string message) {
+  return {std::move(name), std::move(arguments), 1, std::move(message), "", {}, std::move(output)};
+}
+
 BadInput scene(std::string name, std::string message, std::function<std::string()> content) {
   return {std::move(name), {"run", "bad.json"}, 2, std::move(message), "bad.json", std::move(content)};
 }
@@ -32,7 +37,8 @@ std::vector<BadInput> make() {
       line("no verb", {}, "Give a verb and a scene"),
       line("an unknown verb", {"fry", "scene.json"}, "unknown verb \"fry\", must be run, frf or check"),
       line("no scene", {"run"}, "SCENE is required"),
-      line("an unknown option", {"frf", "scene.json", "--harmonic", "3"}, "--harmonic"),
+      line("an unknown option", {"frf", "scene.json", "--harmonic", "3"},
+           "The following arguments were not expected: 3 --harmonic"),
       line("--set without a value", {"frf", "scene.json", "--set", "damper.normal_load"},
            "give it as name.field=value"),
       line("--set with what is no number", {"frf", "scene.json", "--set", "damper.normal_load=3N"},
@@ -46,7 +52,8 @@ std::vector<BadInput> make() {
       line("--set out of bounds", {"frf", "scene.json", "--set", "damper.normal_load=-3"},
            "found -3, must be at least 0 N"),
       line("--set of all stiffness to zero",
-           {"frf", "scene.json", "--set", "k.value=0", "--set", "damper.stiffness=0"}, "stiffness"),
+           {"frf", "scene.json", "--set", "k.value=0", "--set", "damper.stiffness=0"},
+           "parameter \"damper.stiffness\": found 0, must be above 0 N/m"),
       line("--harmonics 0", {"frf", "scene.json", "--harmonics", "0"},
            "found 0, must be an integer from 1 to 2000"),
       line("--harmonics 1e6", {"frf", "scene.json", "--harmonics", "1000000"},
@@ -76,7 +83,7 @@ std::vector<BadInput> make() {
        [] { return scene_with(structure("1", "100"), ""); }},
       // places
       line("a scene that is not there", {"run", "nothing.json"}, "nothing.json: No such file or directory"),
-      line("a folder as the scene", {"run", "."}, "is a directory"),
+      line("a folder as the scene", {"run", "."}, ". is a directory, must be a scene file"),
       line("results into a folder that is not there", {"frf", "scene.json", "--json", "nowhere/frf.json"},
            "cannot write nowhere/frf.json: No such file or directory (make the folder first, or check its "
            "name)"),
@@ -94,14 +101,46 @@ std::vector<BadInput> make() {
       line(
           "a full disk", {"frf", "scene.json", "--set", "damper.normal_load=3", "--json", "/dev/full"},
           "cannot write /dev/full: No space left on device (free some space there or write to another disk)"),
+      line("a full disk for the table",
+           {"frf", "scene.json", "--set", "damper.normal_load=3", "--csv", "/dev/full"},
+           "cannot write /dev/full: No space left on device"),
+      printed_on("/dev/full", "a full disk below standard output",
+                 {"frf", "scene.json", "--set", "damper.normal_load=3", "--json", "-"},
+                 "cannot write standard output: No space left on device"),
+      printed_on("/dev/full", "a full disk below the resolved scene", {"check", "scene.json"},
+                 "cannot write standard output: No space left on device"),
+      printed_on("/dev/full", "a full disk below the help", {"--help"},
+                 "cannot write standard output: No space left on device"),
       // scenes
       scene("an empty scene", "the file is empty", [] { return ""; }),
-      scene("a truncated scene", "bad.json: line ", [] { return R"({"format": "arcslip-scene-1", "struc)"; }),
+      scene("a truncated scene", "bad.json: line 1, column 37: the file ends too early",
+            [] { return R"({"format": "arcslip-scene-1", "struc)"; }),
       scene("nesting 100 000 deep", "nested deeper than 64", [] { return std::string(100'000, '['); }),
+      scene("a number of more than 64 MB", "found a file of 67108866 bytes, a scene must be at most 64 MB",
+            [] { return "[" + std::string((64u << 20) + 1, '1'); }),
+      scene("a number of 60 MB", "a number that is too large",
+            [] { return "[" + std::string(60'000'000, '1') + "]"; }),
       scene("a negative mass", "bad.json: /structure/masses/0/value: found -1.24",
             [] { return scene_with(structure("-1.24", "100"), study("1", "2")); }),
-      scene("NaN", "bad.json: line ", [] { return scene_with(structure("NaN", "100"), study("1", "2")); }),
-      scene("no stiffness at all", "stiffness",
+      scene("NaN", "a number must be finite (JSON has no NaN and no Infinity)",
+            [] { return scene_with(structure("NaN", "100"), study("1", "2")); }),
+      scene(
+          "two parts of one name", "bad.json: /structure/springs/0/name: found the name \"m\" again",
+          [] {
+            return scene_with(
+                R"({"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}], "springs": [{"name": "m", "at": "x", "value": 100}]})",
+                study("1", "2"));
+          }),
+      scene(
+          "a degree of freedom that is not there",
+          "bad.json: /structure/springs/0/at: found \"y\", must be one of the degrees of freedom",
+          [] {
+            return scene_with(
+                R"({"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}], "springs": [{"name": "k", "at": "y", "value": 100}]})",
+                study("1", "2"));
+          }),
+      scene("no stiffness at all",
+            "bad.json: /structure/springs: found no stiffness, must have at least one spring",
             [] { return scene_with(structure("1", "0"), study("1", "2")); }),
       scene("a study that ends before it begins", "bad.json: /studies/0/to: found 1, must be above \"from\"",
             [] { return scene_with(structure("1", "100"), study("2", "1")); }),

@@ -14,6 +14,7 @@ struct BadInput {
   std::string message;  // part of what stands on standard error
   std::string file;     // a file of the folder, besides scene.json, and what is in it
   std::function<std::string()> content;
+  std::string output = {};  // where standard output goes, a file of the test if empty
 };
 
 const std::vector<BadInput>& bad_inputs();

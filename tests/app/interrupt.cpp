@@ -1,10 +1,11 @@
 #include "catch.hpp"
+#include "interruptions.hpp"
 #include "program.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <thread>
 
 using namespace app_test;
@@ -23,62 +24,47 @@ void write_long_scene(const Workplace& place) {
   place.write("long.json", scene.dump());
 }
 
-void wait_a_moment() {
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+/// Partial results, which say so.
+void check_stopped(const std::string& text) {
+  const Json branches = Json::parse(text)["branches"];
+  REQUIRE(!branches.empty());
+  CHECK(branches.size() < 20'000);
+  CHECK(branches.back()["status"] == "stopped");
+  CHECK(branches.back()["stop"]["reason"] == "user");
+}
+
+bool is_result(const std::string& file) {
+  return file.ends_with(".json") && !file.ends_with("scene.json");
 }
 
 }  // namespace
 
-TEST_CASE("Ctrl-C ends a run with exit code 3, partial results in whole files, and nothing half-written") {
-  for (const int signal : {SIGINT, SIGTERM}) {
+TEST_CASE(
+    "each interruption ends with its exit code, partial results in whole files, and nothing half-written") {
+  for (const Interruption& interruption : interruptions()) {
+    CAPTURE(interruption.name);
     const Workplace place;
     write_long_scene(place);
-    Program program(place, {"run", "long.json", "--out", "results"}, {{"PATH", "/nonexistent"}});
-    wait_a_moment();
-    program.send(signal);
+    auto expected = place.files();
+    expected.insert(expected.end(), interruption.files.begin(), interruption.files.end());
+    std::sort(expected.begin(), expected.end());
+    // Without gnuplot: figures take their time.
+    Program program(place, interruption.arguments, {{"PATH", "/nonexistent"}});
+    auto pause = std::chrono::milliseconds(1500);
+    for (const int signal : interruption.signals) {
+      std::this_thread::sleep_for(pause);
+      program.send(signal);
+      pause = std::chrono::milliseconds(50);
+    }
     const Ended ended = program.wait();
     CAPTURE(ended.err);
-    CHECK(ended.exit_code == 3);
-    CHECK(ended.err.find("what is computed so far will be written") != std::string::npos);
-    CHECK(place.files() == std::vector<std::string>{"long.json", "results", "results/frf.csv",
-                                                    "results/frf.dat", "results/frf.gp", "results/frf.json",
-                                                    "results/frf.scene.json", "scene.json"});
-    const Json json = Json::parse(place.read("results/frf.json"));
-    REQUIRE(!json["branches"].empty());
-    CHECK(json["branches"].back()["status"] == "stopped");
-    CHECK(json["branches"].back()["stop"]["reason"] == "user");
-    CHECK(json["branches"].size() < 20'000);
+    CHECK(ended.exit_code == interruption.exit_code);
+    CHECK(ended.signal == (interruption.exit_code < 0 ? interruption.signals.back() : 0));
+    CHECK(ended.err.find(interruption.message) != std::string::npos);
+    CHECK(place.files() == expected);
+    for (const std::string& file : interruption.files) {
+      if (is_result(file)) check_stopped(place.read(file));
+    }
+    if (!ended.out.empty() && ended.out.front() == '{') check_stopped(ended.out);
   }
-}
-
-TEST_CASE("JSON on standard output is whole after Ctrl-C") {
-  const Workplace place;
-  write_long_scene(place);
-  Program program(place, {"frf", "long.json", "--json", "-"});
-  wait_a_moment();
-  program.send(SIGINT);
-  const Ended ended = program.wait();
-  CHECK(ended.exit_code == 3);
-  CHECK(Json::parse(ended.out)["branches"].back()["status"] == "stopped");
-}
-
-TEST_CASE("a killed run leaves no file") {
-  const Workplace place;
-  write_long_scene(place);
-  Program program(place, {"frf", "long.json", "--json", "a.json", "--csv", "a.csv"});
-  wait_a_moment();
-  program.send(SIGKILL);
-  CHECK(program.wait().signal == SIGKILL);
-  CHECK(place.files() == std::vector<std::string>{"long.json", "scene.json"});
-}
-
-TEST_CASE("a second Ctrl-C ends the program at once") {
-  const Workplace place;
-  Program program(place, {"frf", "scene.json", "--harmonics", "2000", "--json", "a.json"});
-  wait_a_moment();
-  program.send(SIGINT);
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  program.send(SIGINT);
-  CHECK(program.wait().signal == SIGINT);
-  CHECK(place.files() == std::vector<std::string>{"scene.json"});
 }

@@ -18,6 +18,8 @@ struct Extreme {
   double tolerance;                  // relative
   bool flagged;                      // truncation is flagged at the highest peak (or the first point)
   std::string outcome;               // for people
+  std::string message = {};          // part of the last stop's
+  bool takes_long = false;           // seconds: among the long tests
 };
 
 const std::vector<Extreme>& all();

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/observables/extremes_check.hpp"
 #include "lib/observables/reference.hpp"
 
 #include <cstdlib>
@@ -40,12 +41,9 @@ TEST_CASE("responses at fixed frequency are exact to 5e-9 with 101 harmonics") {
   }
 }
 
-TEST_CASE("500 harmonics: the whole response, to the digits of the reference") {
-  scene::Scene s = scenes::paper(full() ? 501 : 251, 3);
-  const auto branches = observables::frequency_response(s, s.studies.front());
-  CHECK(branches[0].status == observables::Status::complete);
-  REQUIRE(branches[0].events.size() == 1);
-  CHECK(reference::error(branches[0].events[0].point.amplitude, 0.000884970009333055) < 2e-11);
+TEST_CASE("every extreme that takes long ends as it should") {
+  for (const auto& extreme : extremes::all())
+    if (extreme.takes_long) check(extreme);
 }
 
 TEST_CASE("low frequencies with many slip phases: 0.1 Hz to 1 Hz at 0.1 N, order past the resonance") {

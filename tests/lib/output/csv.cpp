@@ -77,9 +77,9 @@ TEST_CASE("a fold stands between the points around it, beyond both in frequency"
   branch.points = {support::point(1, 0.1),    support::point(1.5, 0.5),  support::point(1.9, 0.9),
                    support::point(1.95, 0.8), support::point(1.5, 0.35), support::point(1.55, 0.2),
                    support::point(2, 0.05)};
-  branch.events = {{"peak", false, support::point(1.94, 0.92)},
-                   {"fold", false, support::point(1.97, 0.86)},
-                   {"fold", false, support::point(1.45, 0.28)}};
+  branch.events = {{"peak", false, true, support::point(1.94, 0.92)},
+                   {"fold", false, true, support::point(1.97, 0.86)},
+                   {"fold", false, true, support::point(1.45, 0.28)}};
   CHECK(output::points_before_events(branch) == std::vector<std::size_t>{3, 3, 5});
 }
 

@@ -81,7 +81,7 @@ inline arcslip::observables::ResponseBranch branch(double normal_load = 3) {
   branch.harmonics = {1, 3};
   branch.points = {point(1, 0.01, 100), point(1.4, 0.05), point(1.6, 0.05), point(1.8, 0.02),
                    point(2, 0.005)};
-  branch.events = {{"peak", false, point(1.5, 0.1, 40)}};
+  branch.events = {{"peak", false, true, point(1.5, 0.1, 40)}};
   branch.solver = {"dense LU", 4, 5, 1, 20, 18, 9, 30, 0.001};
   return branch;
 }

@@ -180,7 +180,7 @@ void add_places(std::vector<BadScene>& rows) {
 void add_parts(std::vector<BadScene>& rows) {
   const std::string mass = "\"name\": \"m\"";
   rows.push_back(
-      {"masses that are no list",
+      {"dampers that are no list",
        good_scene_with("\"dampers\": [{\"name\": \"c\", \"at\": \"a\", \"value\": 0.1}]", "\"dampers\": {}"),
        "/structure/dampers", "found an object, must be a list of objects"});
   rows.push_back({"part that is no object", good_scene_with("\"dampers\": [", "\"dampers\": [false, "),

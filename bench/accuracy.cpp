@@ -1,0 +1,81 @@
+// How the error falls with the harmonics, and what it costs: friction integrated exactly and sampled in time.
+//
+//   peak_error/exact/H:N/load:L             resonance peak of the paper's oscillator at Fn = L N
+//   peak_error/sampled/H:N/load:L/samples:S
+//
+// Counters: amplitude_error and frequency_error, relative to the closed-form solution (tests/reference), and
+// estimated_error, the truncation estimate at the peak. The time is that of the whole branch, 18 to 22 Hz.
+
+#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace arcslip;
+
+struct Peak {
+  double amplitude, hertz;
+};
+
+// tests/reference/exact_1dof.json
+Peak exact_peak(std::int64_t load) {
+  return load == 1 ? Peak{0.022821958614055, 19.1183216190022} : Peak{0.000884970009333055, 19.9952846841786};
+}
+
+void peak_error(benchmark::State& state, bool sampled) {
+  scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  scene.harmonics.order = static_cast<int>(state.range(0));
+  scene::set(scene, "damper.normal_load", static_cast<double>(state.range(1)));
+  if (sampled) {
+    scene.harmonics.friction = scene::Friction::sampled;
+    scene.harmonics.samples = static_cast<int>(state.range(2));
+  }
+  const auto model = std::make_shared<const model::Model>(model::build(scene));
+  const double hertz = 2 * std::numbers::pi;
+  const Peak exact = exact_peak(state.range(1));
+  double amplitude_error = 1, frequency_error = 1, estimate = 0;
+  for (auto _ : state) {
+    amplitude_error = frequency_error = 1;
+    observables::frequency_branch(
+        model, {18 * hertz, 22 * hertz}, 18 * hertz,
+        [&](observables::Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
+          if (!event || event->monitor != "peak") return true;
+          const auto point = observer.observe(now);
+          const double error = std::abs(point.amplitude / exact.amplitude - 1);
+          if (error < amplitude_error) {
+            amplitude_error = error;
+            frequency_error = std::abs(point.omega / hertz / exact.hertz - 1);
+            estimate = point.truncation_estimate / point.amplitude;
+          }
+          return true;
+        });
+  }
+  state.counters["amplitude_error"] = amplitude_error;
+  state.counters["frequency_error"] = frequency_error;
+  state.counters["estimated_error"] = estimate;
+}
+
+void orders(benchmark::internal::Benchmark* b) {
+  for (std::int64_t load : {1, 3})
+    for (std::int64_t order : {1, 3, 7, 15, 27, 55, 101, 201}) b->Args({order, load});
+}
+
+void orders_and_samples(benchmark::internal::Benchmark* b) {
+  for (std::int64_t load : {1, 3})
+    for (std::int64_t samples : {512, 4096})
+      for (std::int64_t order : {1, 3, 7, 15, 27, 55, 101}) b->Args({order, load, samples});
+}
+
+BENCHMARK_CAPTURE(peak_error, exact, false)->ArgNames({"H", "load"})->Apply(orders)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(peak_error, sampled, true)
+    ->ArgNames({"H", "load", "samples"})
+    ->Apply(orders_and_samples)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
+
+}  // namespace

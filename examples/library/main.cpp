@@ -1,0 +1,25 @@
+// The folds of mu + lambda x - x^3 = 0 in mu at lambda = 1; then, of a scene file, the peak of every response.
+#include <arcslip/continuation/functions.hpp>
+#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/observables/frequency_response.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+int main(int argc, char** argv) {
+  using namespace arcslip::continuation;
+  const auto cusp = from_functions(1, {{"mu", "", -1}, {"lambda", "", 1}}, [](In u, In p, Out F) {
+    F[0] = p[0] + p[1] * u[0] - std::pow(u[0], 3);
+  });
+  const Start start{.u = Vector::Constant(1, -1.3), .p = parameter_values(*cusp), .free = 0};
+  const Branch branch = trace(cusp, start, {.lower = -1, .upper = 1}, {fold_monitor()});
+  for (const Event& fold : branch.events)
+    std::printf("%s at mu = %.12f, x = %.9f\n", fold.monitor.c_str(), fold.point.parameter, fold.point.u[0]);
+  std::printf("%zu points; %s\n", branch.points.size(), branch.stop.message.c_str());
+
+  if (argc < 2) return 0;
+  const auto scene = arcslip::scene::read_file(argv[1]);
+  for (const auto& response : arcslip::observables::frequency_response(scene, scene.studies.at(0)))
+    for (const auto& event : response.events)
+      std::printf("%s at %.6f rad/s: %.8e m\n", event.kind.c_str(), event.point.omega, event.point.amplitude);
+}

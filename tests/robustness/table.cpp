@@ -1,0 +1,181 @@
+// Prints docs/robustness.md, made from the tables that the tests run through:
+// robustness_table > docs/robustness.md
+
+#include "app/bad_inputs.hpp"
+#include "app/interruptions.hpp"
+#include "lib/observables/extremes.hpp"
+#include "lib/scene/bad_scenes.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr std::size_t widest = 110;  // characters of a cell
+
+std::string shortened(const std::string& text) {
+  if (text.size() <= widest) return text;
+  std::size_t end = text.rfind(' ', widest);
+  if (end == std::string::npos || end < widest / 2) end = widest;
+  return text.substr(0, end) + " ...";
+}
+
+// Plain text of a cell, with what Markdown would take for its own marked.
+std::string plain(const std::string& text) {
+  std::string cell;
+  for (const char c : shortened(text)) {
+    if (std::string("|\\`*_<[").find(c) != std::string::npos) cell += '\\';
+    cell += c;
+  }
+  return cell;
+}
+
+// Literal text of a cell. Inside a code span only '|' is taken for something else.
+std::string literal(const std::string& text) {
+  if (text.empty()) return "";
+  std::string cell;
+  for (const char c : shortened(text)) {
+    if (c == '|') cell += '\\';
+    cell += c;
+  }
+  const std::string fence = text.find('`') == std::string::npos ? "`" : "``";
+  return fence + cell + fence;
+}
+
+std::string number(double value, const char* format) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+void print_row(const std::vector<std::string>& cells) {
+  std::cout << "| " << joined(cells, " | ") << " |\n";
+}
+
+void print_head(const std::vector<std::string>& titles) {
+  print_row(titles);
+  print_row(std::vector<std::string>(titles.size(), "---"));
+}
+
+std::string command_line(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"arcslip"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return joined(words, " ");
+}
+
+void print_introduction() {
+  std::cout << R"(# Robustness
+
+What Arcslip promises at the limits of its input: either the right answer of the harmonic balance equations of the
+order that was asked for, with `truncation_flagged` where that order is too low to be trusted, or a clear stop with its
+reason. Never a hang, a NaN or a silent wrong branch. What cannot be computed at all is an error that says what was
+found, where, what is allowed and what to do, with the exit code 1 (command line, files) or 2 (scene), and no file
+half-written.
+
+Each row below is a row of a test. This page is printed by `tests/robustness/table.cpp` from the very tables that the
+tests run through, and a test fails when they differ.
+)";
+}
+
+void print_extremes() {
+  std::cout << R"(
+## Extremes
+
+The oscillator of Al Sayed et al. (2011), `examples/al_sayed_2011/scene.json`, from 18 Hz to 22 Hz with Fn = 3 N and
+N = 15 unless the row says otherwise. On every row, every point is finite, the frequency only grows (none of these
+branches has a fold), and the energy from the force is what friction and dampers take. "Ends with" is the reason of each
+branch's stop: `boundary` is the end of the window; `unbounded` is a resonance that neither friction nor dampers limit,
+where the branch is cut and goes on beyond. The amplitude is that of the highest finite peak, from a closed form or the
+reference, with the relative tolerance of the test.
+
+)";
+  print_head(
+      {"what", "ends with", "finite peaks", "amplitude (m)", "tolerance", "truncation flagged", "outcome"});
+  for (const auto& row : extremes::all()) {
+    std::vector<std::string> reasons;
+    for (const auto& reason : row.reasons) reasons.push_back(literal(reason));
+    const bool tested = row.amplitude > 0;
+    print_row({plain(row.name), joined(reasons, ", "), row.peaks < 0 ? "several" : std::to_string(row.peaks),
+               tested ? number(row.amplitude, "%.6g") : "", tested ? number(row.tolerance, "%.0e") : "",
+               row.flagged ? "yes" : "no", plain(row.outcome)});
+  }
+  std::cout << R"(
+The row of N = 501 is among the long tests (ctest label `long`). So are the sweeps of
+`tests/lib/observables/sweeps.cpp`, which hold the peaks of every load against the exact solution with N = 101, and many
+slip phases at low frequency with an order past the resonance; they run in reduced size, and in full with
+`ARCSLIP_FULL=1 tests/run -L long`.
+)";
+}
+
+void print_bad_inputs() {
+  std::cout << R"(
+## Bad input of the command
+
+Run in a folder that holds the paper's scene as `scene.json`; `bad.json` and `bare.json` hold what the first column
+says. "Says" is part of what stands on standard error. The test also holds that no file was left and none was changed.
+
+)";
+  print_head({"what", "command", "exit code", "says"});
+  for (const auto& row : app_test::bad_inputs()) {
+    std::string line = command_line(row.arguments);
+    if (!row.output.empty()) line += " > " + row.output;
+    print_row({plain(row.name), literal(line), std::to_string(row.exit_code), literal(row.message)});
+  }
+}
+
+void print_interruptions() {
+  std::cout << R"(
+## Interruptions
+
+A run that takes minutes, `long.json`, is sent a signal in the middle. Every file that is left is whole.
+
+)";
+  print_head({"what", "command", "exit code", "says", "files left"});
+  for (const auto& row : app_test::interruptions()) {
+    std::vector<std::string> files;
+    for (const auto& file : row.files) files.push_back(literal(file));
+    print_row({plain(row.name), literal(command_line(row.arguments)),
+               row.exit_code < 0 ? "none, ended by the signal" : std::to_string(row.exit_code),
+               literal(row.message), files.empty() ? "none" : joined(files, ", ")});
+  }
+}
+
+void print_bad_scenes() {
+  std::cout << R"(
+## Faults of a scene file
+
+Each is one fault in a sound scene; the command ends with exit code 2. All faults of a file are told in one go, each
+with the JSON pointer of its place. Without a pointer the file is no JSON, and the message tells line and column where
+it can.
+
+)";
+  print_head({"what", "pointer", "says"});
+  for (const auto& row : arcslip::scene::test::bad_scenes()) {
+    print_row({plain(row.name), literal(row.pointer), literal(row.message_part)});
+  }
+}
+
+}  // namespace
+
+int main() try {
+  print_introduction();
+  print_extremes();
+  print_bad_inputs();
+  print_interruptions();
+  print_bad_scenes();
+  std::cout.flush();
+  return std::cout ? EXIT_SUCCESS : EXIT_FAILURE;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return EXIT_FAILURE;
+}
