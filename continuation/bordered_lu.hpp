@@ -17,12 +17,11 @@ class BorderedLU {
  public:
   explicit BorderedLU(int n);
 
-  /// row: n + 1. The row is rescaled to the magnitude of J, which changes the meaning of g: see solve().
+  /// row: n + 1.
   /// Returns false where the matrix is singular or not finite; the factors are then not usable.
   bool factorize(const Jacobian& J, In F_p, In row);
 
-  /// x: n + 1 on entry the right-hand side (f, g), on return the solution; g is in the units of the row
-  /// given.
+  /// x: n + 1 on entry the right-hand side (f, g), on return the solution.
   void solve(Out x) const;
   /// The same with the transposed matrix.
   void solve_transposed(Out x) const;

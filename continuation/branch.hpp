@@ -28,17 +28,18 @@ struct Event {
   std::size_t after = 0;   // index of the branch point before it
 };
 
+// clang-format off
 /// Why a branch ended.
-///   boundary         the free parameter reached a bound of the window: p = lower or p = upper. The usual
-///   end. start_failed     Newton's method at the start did not converge: |correction| > tolerance after all
-///   attempts.
-///                    Causes: a start far from a solution, a wrong Jacobian, no solution there.
+///   boundary         the free parameter reached a bound of the window: p = lower or p = upper. The usual end.
+///   start_failed     Newton's method at the start did not converge: |correction| > tolerance. Causes: a start
+///                    far from a solution, a wrong Jacobian, no solution there.
 ///   step_too_small   |ds| < smallest step, after rejections. Causes: a wrong Jacobian, an end of the branch,
-///   a
-///                    tolerance below rounding.
-///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, as an undamped
-///   resonance does. point_limit      as many points as asked for. user             the callback said stop.
-///   not_evaluated    the problem answered `failed` at every attempt, or gave numbers that are not finite.
+///                    a tolerance below rounding.
+///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, as an undamped resonance.
+///   point_limit      as many points as asked for.
+///   user             the callback said stop.
+///   not_evaluated    the problem could not be evaluated at any attempt, or gave numbers that are not finite.
+// clang-format on
 enum class StopReason {
   boundary,
   start_failed,

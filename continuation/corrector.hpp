@@ -9,7 +9,7 @@
 // predicted costs one factorization.
 //
 // Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004,
-// chapter 3): |B^-1 F(v + lambda dv)| must fall below |dv|. It is invariant under scaling of the equations
+// chapter 3): |B^-1 F(v + lambda dv)| must fall below (1 - lambda/4) |dv|. It is invariant under scaling of the equations
 // and never compares Jacobians across a kink: so it serves piecewise smooth F as a semismooth Newton method
 // with a safeguard.
 
@@ -49,7 +49,7 @@ class Corrector {
   bool move_to(const Vector& v) { return evaluate(v, Needs::residual); }
 
   /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in
-  /// scales. False where the row is (nearly) orthogonal to it.
+  /// scales. False where it is not finite.
   bool tangent(Vector& t) const;
 
   double size(const Vector& dv, const Vector& v) const;  // of a correction, relative

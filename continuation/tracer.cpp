@@ -20,7 +20,8 @@ constexpr int rejections_before_a_corner = 3;
 constexpr double branch_point_step = 1e-7;   // relative to 1 + |u|: no shorter step tells two branches apart
 constexpr double parameter_rounding = 1e-9;  // relative changes of p below tell no direction
 constexpr double largest_extrapolation = 2.5;  // in last steps, for the cubic predictor
-constexpr int kink_bisections = 50;
+constexpr int kink_bisections = 40;
+constexpr double corner_step = 1e-3;             // beyond a kink, of the step, to linearize there
 constexpr double nonsmooth_share = 1e-4;         // of a monitor's change over a step, left at its zero
 constexpr double event_newton = 1e-2;            // the corrector's tolerance at events, of that on the branch
 constexpr double event_state_tolerance = 1e-10;  // relative, of u at an event
@@ -194,8 +195,12 @@ bool Tracer::went_back(const Place& next) const {
 // is not passed.
 bool Tracer::is_kink(double turn, const Place& next) {
   if (next.piece == here_.piece) return false;
-  if (here_.arclength > turn_.end) turn_ = {turn, ds_, here_.arclength + 2 * ds_};
-  return ds_ <= kink_step * turn_.step && turn >= kink_turn * turn_.angle;
+  const Turn now{turn, ds_, here_.arclength + 2 * ds_};
+  if (here_.arclength > turn_.end) turn_ = now;
+  if (ds_ > kink_step * turn_.step) return false;
+  if (turn >= kink_turn * turn_.angle) return true;
+  turn_ = now;  // it shrank, but may stay from here on
+  return false;
 }
 
 Tracer::Attempt Tracer::attempt() {
@@ -219,7 +224,7 @@ Tracer::Attempt Tracer::attempt() {
       next_.tangent = -next_.tangent;
       next_.orientation = here_.orientation;
     }
-  } else if (next_.orientation != here_.orientation && next_.piece == here_.piece &&
+  } else if (next_.orientation != here_.orientation &&
              ds_ > branch_point_step * (1 + main_.norm_u(here_.v))) {
     // A jump to a branch near by, unless it stays however short the step: a branch point.
     return Attempt::rejected;
@@ -228,10 +233,13 @@ Tracer::Attempt Tracer::attempt() {
   return take(length, next_ds, kink, correction);
 }
 
-// Where the branch turns by any angle at a kink just ahead: linearizes beyond it, and steps along the tangent
-// there, whose direction the sign of the determinant tells.
+// Where the branch turns by any angle at a kink just ahead: goes to the kink, linearizes beyond it, and steps along
+// the tangent there, whose direction the sign of the determinant tells.
 bool Tracer::corner() {
-  next_.v = here_.v + ds_ * here_.tangent;
+  Place kink;
+  Correction correction;
+  if (!locate_kink(main_, here_, ds_, kink, correction)) return false;
+  next_.v = kink.v + corner_step * ds_ * here_.tangent;
   row_ = here_.tangent.cwiseProduct(main_.weights());
   if (!main_.linearize(next_.v, row_) || !settle(main_, next_)) {  // at a right angle, a row that is neither
     row_.setZero();
@@ -241,17 +249,17 @@ bool Tracer::corner() {
   if (next_.piece == here_.piece) return false;
   if (next_.orientation != here_.orientation) next_.tangent = -next_.tangent;
   const Vector beyond = next_.tangent;
-  next_.v = here_.v + ds_ * beyond;
+  next_.v = kink.v + ds_ * beyond;
   row_ = beyond.cwiseProduct(main_.weights());
-  const Correction correction = main_.correct(next_.v, row_, false);
+  correction = main_.correct(next_.v, row_, false);
   if (!correction.converged || !settle(main_, next_)) return false;
-  v_ = next_.v - here_.v;
+  v_ = next_.v - kink.v;
   const double length = std::sqrt(main_.dot(v_, v_));
   if (next_.piece == here_.piece || next_.orientation != here_.orientation || !(length > 0) ||
       angle_between(main_.dot(next_.tangent, beyond)) > options_.step.largest_angle ||
       angle_between(main_.dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
-  return take(length, ds_, true, correction) != Attempt::rejected;
+  return take(kink.arclength - here_.arclength + length, ds_, true, correction) != Attempt::rejected;
 }
 
 // Accepts next_, or, beyond the window, ends the branch at its bound.
@@ -356,7 +364,7 @@ bool Tracer::locate_events(const Place& from, const Place& to) {
 }
 
 // Where the smooth piece of `from` ends, along its tangent: the kink, seen from this side.
-bool Tracer::locate_kink(const Place& from, double length, Place& kink, Correction& correction) {
+bool Tracer::locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& correction) {
   const Vector row = from.tangent.cwiseProduct(main_.weights());
   double lower = 0, upper = length;
   kink = from;
@@ -364,8 +372,8 @@ bool Tracer::locate_kink(const Place& from, double length, Place& kink, Correcti
   for (int k = 0; k < kink_bisections; ++k) {
     const double middle = 0.5 * (lower + upper);
     v = from.v + middle * from.tangent;
-    const Correction at = probe_->correct(v, row, false);
-    if (!at.converged || probe_->evaluator().piece() != from.piece) {
+    const Correction at = with.correct(v, row, false);
+    if (!at.converged || with.evaluator().piece() != from.piece) {
       upper = middle;
       continue;
     }
@@ -373,7 +381,7 @@ bool Tracer::locate_kink(const Place& from, double length, Place& kink, Correcti
     kink.v = v;
     kink.arclength = from.arclength + middle;
     correction = at;
-    if (!settle(*probe_, kink)) return false;
+    if (!settle(with, kink)) return false;
   }
   return true;
 }
@@ -397,7 +405,7 @@ Event Tracer::locate(std::size_t monitor, const Place& from, const Place& to, Pl
     return event;
   };
   if (to.piece != from.piece && main_.dot(to.tangent, from.tangent) < std::cos(options_.step.largest_angle)) {
-    if (!locate_kink(from, length, found, correction)) return near_end();
+    if (!locate_kink(*probe_, from, length, found, correction)) return near_end();
     Event event;
     event.monitor = monitors_[monitor].name;
     event.value = from.monitors[monitor];

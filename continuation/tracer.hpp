@@ -61,7 +61,7 @@ class Tracer {
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
   bool locate_events(const Place& from, const Place& to);
-  bool locate_kink(const Place& from, double length, Place& kink, Correction& correction);
+  bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& correction);
   Event locate(std::size_t monitor, const Place& from, const Place& to, Place& found);
   double choose_step(double angle, const Correction& correction) const;
   double limited(double ds) const;

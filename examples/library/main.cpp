@@ -1,4 +1,4 @@
-// The folds of mu + lambda x - x^3 = 0 in mu at lambda = 1; then, of a scene file, the peak of every response.
+// The folds of mu + x - x^3 = 0 in mu; then, of a scene file, the peak of every response.
 #include <arcslip/continuation/functions.hpp>
 #include <arcslip/continuation/tracer.hpp>
 #include <arcslip/observables/frequency_response.hpp>
@@ -8,9 +8,8 @@
 
 int main(int argc, char** argv) {
   using namespace arcslip::continuation;
-  const auto cusp = from_functions(1, {{"mu", "", -1}, {"lambda", "", 1}}, [](In u, In p, Out F) {
-    F[0] = p[0] + p[1] * u[0] - std::pow(u[0], 3);
-  });
+  const auto cusp = from_functions(1, {{"mu", "", -1}, {"lambda", "", 1}},
+                                   [](In u, In p, Out F) { F[0] = p[0] + p[1] * u[0] - std::pow(u[0], 3); });
   const Start start{.u = Vector::Constant(1, -1.3), .p = parameter_values(*cusp), .free = 0};
   const Branch branch = trace(cusp, start, {.lower = -1, .upper = 1}, {fold_monitor()});
   for (const Event& fold : branch.events)

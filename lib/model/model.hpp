@@ -1,7 +1,7 @@
 #pragma once
 // The model of a scene: which part acts where, with every number replaced by the index of its parameter.
-// Immutable. The parameter vector p holds the values, so that sweeps and studies never rebuild the model; the
-// model keeps the defaults.
+// Immutable. The parameter vector p holds the values, so that other values need no other model; the model
+// keeps the defaults.
 
 #include <arcslip/continuation/problem.hpp>
 #include <arcslip/elements/element.hpp>

@@ -23,7 +23,7 @@ struct FrequencyBranch {
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
 
-/// Traces upwards from omega = `from` in the window. At least 150 points from end to end.
+/// Traces upwards from omega = `from` in the window. No step is longer than about 1/150 of the window.
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record = {});
 

@@ -44,11 +44,15 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
   continuation::Vector f(u.size());
   evaluator->stiffness().force(f);
   // At resonance the motion is in quadrature to the force: the work of harmonic n is n |F_n| |X_n|.
-  for (int i = 0; i < problem.coordinates().unknowns; ++i)
-    for (int j = 0; j < h.sines(); ++j) {
-      const int n = h.sine_order(j), c = i * h.size() + h.cosine_index(n), s = i * h.size() + h.sine_index(n);
-      result.input += n * std::hypot(f[c], f[s]) * std::hypot(u[c], u[s]);
+  for (int j = 0; j < h.sines(); ++j) {
+    const int n = h.sine_order(j);
+    std::complex<double> work = 0;
+    for (int i = 0; i < problem.coordinates().unknowns; ++i) {
+      const int c = i * h.size() + h.cosine_index(n), s = i * h.size() + h.sine_index(n);
+      work += std::complex<double>(f[c], -f[s]) * std::complex<double>(u[c], u[s]);
     }
+    result.input += n * std::abs(work);
+  }
   result.input /= amplitude;
   result.dissipation = sliders / amplitude;
   const bool damped = viscous > negligible * result.input * amplitude;

@@ -106,7 +106,7 @@ reference, with the relative tolerance of the test.
     for (const auto& reason : row.reasons) reasons.push_back(literal(reason));
     const bool tested = row.amplitude > 0;
     print_row({plain(row.name), joined(reasons, ", "), row.peaks < 0 ? "several" : std::to_string(row.peaks),
-               tested ? number(row.amplitude, "%.6g") : "", tested ? number(row.tolerance, "%.0e") : "",
+               tested ? number(row.amplitude, "%.10g") : "", tested ? number(row.tolerance, "%.0e") : "",
                row.flagged ? "yes" : "no", plain(row.outcome)});
   }
   std::cout << R"(
