@@ -16,7 +16,7 @@ constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, at most
 constexpr double rejection = 0.25;               // of the step after a rejection
 // A turn that keeps so much of itself over so much shorter a step is a kink.
 constexpr double kink_step = 0.25, kink_turn = 0.7;
-constexpr int rejections_before_a_corner = 3;
+constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
 constexpr double branch_point_step = 1e-7;   // relative to 1 + |u|: no shorter step tells two branches apart
 constexpr double parameter_rounding = 1e-9;  // relative changes of p below tell no direction
 constexpr double largest_extrapolation = 2.5;  // in last steps, for the cubic predictor
@@ -176,6 +176,10 @@ bool Tracer::step() {
         ++branch_.counts.rejected_steps;
         factors_fit_ = false;
         has_before_ = false;
+        if (here_.arclength > trouble_end_) {
+          trouble_end_ = here_.arclength + ds_;
+          rejections_ = 0;
+        }
         if (++rejections_ >= rejections_before_a_corner && corner()) return !ended_;
         factors_fit_ = false;
         ds_ *= rejection;
@@ -236,6 +240,8 @@ Tracer::Attempt Tracer::attempt() {
 // Where the branch turns by any angle at a kink just ahead: goes to the kink, linearizes beyond it, and steps along
 // the tangent there, whose direction the sign of the determinant tells.
 bool Tracer::corner() {
+  v_ = here_.v + ds_ * here_.tangent;
+  if (!main_.move_to(v_) || main_.evaluator().piece() == here_.piece) return false;
   Place kink;
   Correction correction;
   if (!locate_kink(main_, here_, ds_, kink, correction)) return false;
@@ -275,7 +281,6 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   last_ds_ = length;
   has_before_ = !kink;
   factors_fit_ = !kink;
-  rejections_ = 0;
   if (!accept(std::move(next_), correction)) return Attempt::ended;
   ds_ = limited(next_ds);
   const double state = main_.norm_u(here_.v);
