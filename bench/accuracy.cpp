@@ -41,19 +41,19 @@ void peak_error(benchmark::State& state, bool sampled) {
   double amplitude_error = 1, frequency_error = 1, estimate = 0;
   for (auto _ : state) {
     amplitude_error = frequency_error = 1;
-    observables::frequency_branch(
-        model, {18 * hertz, 22 * hertz}, 18 * hertz,
-        [&](observables::Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
-          if (!event || event->monitor != "peak") return true;
-          const auto point = observer.observe(now);
-          const double error = std::abs(point.amplitude / exact.amplitude - 1);
-          if (error < amplitude_error) {
-            amplitude_error = error;
-            frequency_error = std::abs(point.omega / hertz / exact.hertz - 1);
-            estimate = point.truncation_estimate / point.amplitude;
-          }
-          return true;
-        });
+    observables::frequency_branch(model, {18 * hertz, 22 * hertz}, 18 * hertz,
+                                  [&](observables::Observer& observer, const continuation::Accepted& now,
+                                      const continuation::Event* event) {
+                                    if (!event || event->monitor != "peak") return true;
+                                    const auto point = observer.observe(now);
+                                    const double error = std::abs(point.amplitude / exact.amplitude - 1);
+                                    if (error < amplitude_error) {
+                                      amplitude_error = error;
+                                      frequency_error = std::abs(point.omega / hertz / exact.hertz - 1);
+                                      estimate = point.truncation_estimate / point.amplitude;
+                                    }
+                                    return true;
+                                  });
   }
   state.counters["amplitude_error"] = amplitude_error;
   state.counters["frequency_error"] = frequency_error;
@@ -71,7 +71,10 @@ void orders_and_samples(benchmark::internal::Benchmark* b) {
       for (std::int64_t order : {1, 3, 7, 15, 27, 55, 101}) b->Args({order, load, samples});
 }
 
-BENCHMARK_CAPTURE(peak_error, exact, false)->ArgNames({"H", "load"})->Apply(orders)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(peak_error, exact, false)
+    ->ArgNames({"H", "load"})
+    ->Apply(orders)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(peak_error, sampled, true)
     ->ArgNames({"H", "load", "samples"})
     ->Apply(orders_and_samples)

@@ -9,9 +9,9 @@
 // predicted costs one factorization.
 //
 // Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004,
-// chapter 3): |B^-1 F(v + lambda dv)| must fall below (1 - lambda/4) |dv|. It is invariant under scaling of the equations
-// and never compares Jacobians across a kink: so it serves piecewise smooth F as a semismooth Newton method
-// with a safeguard.
+// chapter 3): |B^-1 F(v + lambda dv)| must fall below (1 - lambda/4) |dv|. It is invariant under scaling of
+// the equations and never compares Jacobians across a kink: so it serves piecewise smooth F as a semismooth
+// Newton method with a safeguard.
 
 #include <arcslip/continuation/bordered_lu.hpp>
 #include <arcslip/continuation/branch.hpp>

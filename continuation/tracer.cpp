@@ -237,8 +237,8 @@ Tracer::Attempt Tracer::attempt() {
   return take(length, next_ds, kink, correction);
 }
 
-// Where the branch turns by any angle at a kink just ahead: goes to the kink, linearizes beyond it, and steps along
-// the tangent there, whose direction the sign of the determinant tells.
+// Where the branch turns by any angle at a kink just ahead: goes to the kink, linearizes beyond it, and steps
+// along the tangent there, whose direction the sign of the determinant tells.
 bool Tracer::corner() {
   v_ = here_.v + ds_ * here_.tangent;
   if (!main_.move_to(v_) || main_.evaluator().piece() == here_.piece) return false;
@@ -369,7 +369,8 @@ bool Tracer::locate_events(const Place& from, const Place& to) {
 }
 
 // Where the smooth piece of `from` ends, along its tangent: the kink, seen from this side.
-bool Tracer::locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& correction) {
+bool Tracer::locate_kink(Corrector& with, const Place& from, double length, Place& kink,
+                         Correction& correction) {
   const Vector row = from.tangent.cwiseProduct(main_.weights());
   double lower = 0, upper = length;
   kink = from;
@@ -400,15 +401,16 @@ Event Tracer::locate(std::size_t monitor, const Place& from, const Place& to, Pl
   }
   const double length = to.arclength - from.arclength;
   Correction correction;
-  const auto near_end = [&] {  // where the corrector fails between the points, the nearer one stands for the event
-    found = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
-    Event event;
-    event.monitor = monitors_[monitor].name;
-    event.value = found.monitors[monitor];
-    event.located = false;
-    event.point = point(found, {});
-    return event;
-  };
+  const auto near_end =
+      [&] {  // where the corrector fails between the points, the nearer one stands for the event
+        found = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
+        Event event;
+        event.monitor = monitors_[monitor].name;
+        event.value = found.monitors[monitor];
+        event.located = false;
+        event.point = point(found, {});
+        return event;
+      };
   if (to.piece != from.piece && main_.dot(to.tangent, from.tangent) < std::cos(options_.step.largest_angle)) {
     if (!locate_kink(*probe_, from, length, found, correction)) return near_end();
     Event event;

@@ -83,7 +83,7 @@ class Tracer {
   bool has_before_ = false, factors_fit_ = false, ended_ = false, begun_ = false;
   bool evaluated_ = true;  // the last rejection came from the corrector, not from the problem
   double ds_ = 0, last_ds_ = 0;
-  int rejections_ = 0;       // since here_.arclength passed trouble_end_
+  int rejections_ = 0;  // since here_.arclength passed trouble_end_
   double trouble_end_ = -1;
   struct Turn {  // a turn of the tangent that was rejected: how much, over which step, and where it is passed
     double angle = 0, step = 0, end = -1;

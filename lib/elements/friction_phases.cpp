@@ -40,10 +40,12 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
     path_.push_back({turns[index].theta + shift + (wrapped ? span : 0), sign * turned * turns[index].x});
   }
   highest_ = path_.front();
-  lowest_ = harmonics_.odd
-                ? Reversal{path_.back()}
-                : *std::min_element(path_.begin(), path_.end(),
-                                    [](const Reversal& a, const Reversal& b) { return a.x < b.x; });
+  std::size_t bottom = path_.size() - 1;
+  if (!harmonics_.odd)
+    for (std::size_t k = 0; k < path_.size(); ++k)
+      if (path_[k].x < path_[bottom].x) bottom = k;
+  lowest_ = path_[bottom];
+  extremes_ = top * turns.size() + (top + bottom) % turns.size();
   if (highest_.x - lowest_.x <= 2 * slip_displacement) return phases_;
 
   Reversal anchor = path_.front();

@@ -4,6 +4,8 @@
 
 #include <arcslip/elements/reversals.hpp>
 
+#include <cstdint>
+
 namespace arcslip::elements {
 
 /// Sticking from the anchor (begin, x), where f = sign p, to `end`; then slipping with -1 or +1 to
@@ -25,6 +27,9 @@ class FrictionPhases {
   /// Largest and smallest x of the last search; the angles where they are.
   Reversal highest() const { return highest_; }
   Reversal lowest() const { return lowest_; }
+  /// Which of the reversals those are: another number where another reversal becomes the highest or the
+  /// lowest.
+  std::uint64_t extremes() const { return extremes_; }
 
  private:
   Harmonics harmonics_;
@@ -32,6 +37,7 @@ class FrictionPhases {
   std::vector<Reversal> path_;
   std::vector<FrictionPhase> phases_;
   Reversal highest_{}, lowest_{};
+  std::uint64_t extremes_ = 0;
 };
 
 }  // namespace arcslip::elements

@@ -80,7 +80,8 @@ class Jenkins final : public Element {
   }
 
   std::uint64_t piece() const override {
-    if (!sliding_) return frictionless_ ? 0 : 1;
+    if (frictionless_) return 0;
+    if (!sliding_) return h_.odd ? 1 : 2 + phases_.extremes();  // the centre follows both extremes
     std::uint64_t hash = 1469598103934665603ull;
     for (const FrictionPhase& phase : *sliding_) {
       hash = (hash ^ static_cast<std::uint64_t>(2 + phase.sign)) * 1099511628211ull;

@@ -121,7 +121,8 @@ void write_branch(std::ostream& out, const scene::Scene& scene, const ResponseBr
              [&](const ResponsePoint& point) { return with_point(Json::object(), scene, point, options); });
   out << ",\n\"events\": ";
   write_list(out, branch.events, [&](const ResponseEvent& event) {
-    return with_point({{"kind", event.kind}, {"nonsmooth", event.nonsmooth}, {"located", event.located}}, scene, event.point, options);
+    return with_point({{"kind", event.kind}, {"nonsmooth", event.nonsmooth}, {"located", event.located}},
+                      scene, event.point, options);
   });
   out << ",\n\"solver\": " << text(solver(branch.solver)) << '}';
 }
