@@ -9,7 +9,8 @@ namespace {
 
 using continuation::Vector;
 
-constexpr double points_in_window = 150;        // at least, from end to end
+constexpr double points_in_window = 150;  // at least, from end to end
+constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
 
 }  // namespace
@@ -38,6 +39,7 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   options.upper = window.upper;
   options.step.largest_parameter = width / points_in_window;
   options.step.relative_parameter = largest_relative_step;
+  options.largest_state = resolvable;
   const auto observer = std::make_shared<Observer>(problem);
   continuation::Observer each;
   if (record)

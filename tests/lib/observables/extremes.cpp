@@ -140,7 +140,7 @@ const std::vector<Extreme>& all() {
        "bounded by slip alone, A_max = 0.0716537 m"},
       {"c = 0, Fn = 1e9 N",
        set({{"c.value", 0}, {"damper.normal_load", 1e9}}),
-       {"step_too_small"},
+       {"state_too_large"},
        0,
        0,
        0,
