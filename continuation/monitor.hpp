@@ -28,6 +28,11 @@ struct Monitor {
   std::string name;
   std::function<double(const Accepted&)> value;
   Crossing crossing = Crossing::any;
+
+  /// Where value() is the slope dq/ds of a quantity: q at the place of the last call of value(). Steps are
+  /// then kept short enough that q between two points is told by its slopes there, so that no pair of
+  /// extremes hides in one.
+  std::function<double()> quantity = {};
 };
 
 /// dp/ds = 0: a fold in the free parameter; at a nonsmooth fold dp/ds jumps.

@@ -20,6 +20,10 @@ constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
 constexpr double branch_point_step = 1e-7;   // relative to 1 + |u|: no shorter step tells two branches apart
 constexpr double parameter_rounding = 1e-9;  // relative changes of p below tell no direction
 constexpr double largest_extrapolation = 2.5;  // in last steps, for the cubic predictor
+constexpr double unresolved_rejection = 0.5;   // of the step where a quantity is not told by its slopes
+constexpr double unresolved_change = 0.5;      // of a quantity, against its slopes
+constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
+constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
 constexpr int kink_bisections = 40;
 constexpr double corner_step = 1e-3;             // beyond a kink, of the step, to linearize there
 constexpr double nonsmooth_share = 1e-4;         // of a monitor's change over a step, left at its zero
@@ -131,7 +135,7 @@ bool Tracer::begin() {
                                   : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
   ds_ = limited(ds_);
   const Accepted now = accepted(main_, here_);
-  for (const Monitor& m : monitors_) here_.monitors.push_back(m.value(now));
+  evaluate_monitors(main_, here_);
   branch_.points.push_back(point(here_, correction));
   ++branch_.counts.points;
   factors_fit_ = false;  // their border row is that of the start
@@ -172,6 +176,11 @@ bool Tracer::step() {
         return !ended_;
       case Attempt::ended:
         return false;
+      case Attempt::unresolved:
+        ++branch_.counts.rejected_steps;
+        factors_fit_ = false;
+        ds_ *= unresolved_rejection;
+        break;
       case Attempt::rejected:
         ++branch_.counts.rejected_steps;
         factors_fit_ = false;
@@ -192,6 +201,38 @@ bool Tracer::step() {
 bool Tracer::went_back(const Place& next) const {
   const double a = here_.tangent[n_], b = next.tangent[n_], dp = next.v[n_] - here_.v[n_];
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(here_.v[n_]);
+}
+
+void Tracer::evaluate_monitors(Corrector& at, Place& place) {
+  const Accepted now = accepted(at, place);
+  place.monitors.resize(monitors_.size());
+  place.quantities.resize(monitors_.size());
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    place.monitors[m] = monitors_[m].value(now);
+    place.quantities[m] = monitors_[m].quantity ? monitors_[m].quantity() : 0;
+  }
+}
+
+// Whether the change of each monitored quantity is that of its slopes at both ends, by the trapezoid. Beside
+// a kink it is not, however short the step: in one stretch the step is shortened no further than to a part of
+// the first one.
+bool Tracer::resolved(const Place& next, double length) {
+  if (here_.arclength <= unresolved_end_ && ds_ <= unresolved_share * unresolved_step_) return true;
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (!monitors_[m].quantity) continue;
+    const double a = here_.monitors[m] * length, b = next.monitors[m] * length;
+    const double change = next.quantities[m] - here_.quantities[m];
+    const double size = std::max(std::abs(a), std::abs(b));
+    if (std::abs(change - 0.5 * (a + b)) <= unresolved_change * size ||
+        size <= quantity_rounding * std::abs(next.quantities[m]))
+      continue;
+    if (here_.arclength > unresolved_end_) {
+      unresolved_end_ = here_.arclength + length;
+      unresolved_step_ = ds_;
+    }
+    return false;
+  }
+  return true;
 }
 
 // Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink
@@ -233,6 +274,8 @@ Tracer::Attempt Tracer::attempt() {
     // A jump to a branch near by, unless it stays however short the step: a branch point.
     return Attempt::rejected;
   }
+  evaluate_monitors(main_, next_);
+  if (!resolved(next_, length)) return Attempt::unresolved;
   const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);
 }
@@ -265,6 +308,7 @@ bool Tracer::corner() {
       angle_between(main_.dot(next_.tangent, beyond)) > options_.step.largest_angle ||
       angle_between(main_.dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
+  evaluate_monitors(main_, next_);
   return take(kink.arclength - here_.arclength + length, ds_, true, correction) != Attempt::rejected;
 }
 
@@ -322,13 +366,11 @@ bool Tracer::to_boundary(Place& place, double bound) {
   }
   v_ = place.v - here_.v;
   place.arclength = here_.arclength + std::sqrt(main_.dot(v_, v_));
+  evaluate_monitors(main_, place);
   return true;
 }
 
 bool Tracer::accept(Place&& place, const Correction& correction) {
-  const Accepted now = accepted(main_, place);
-  place.monitors.resize(monitors_.size());
-  for (std::size_t m = 0; m < monitors_.size(); ++m) place.monitors[m] = monitors_[m].value(now);
   const bool events_go_on = locate_events(here_, place);
   branch_.points.push_back(point(place, correction));
   ++branch_.counts.points;

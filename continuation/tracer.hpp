@@ -47,9 +47,9 @@ class Tracer {
     double arclength = 0;
     int orientation = 1;  // sign of det [J F_p; t^T]
     std::uint64_t piece = 0;
-    std::vector<double> monitors;
+    std::vector<double> monitors, quantities;
   };
-  enum class Attempt { accepted, rejected, ended };
+  enum class Attempt { accepted, rejected, unresolved, ended };
 
   bool begin();
   Attempt attempt();
@@ -58,6 +58,8 @@ class Tracer {
   void predict(Vector& v) const;
   bool settle(Corrector& at, Place& place) const;
   bool went_back(const Place& next) const;
+  void evaluate_monitors(Corrector& at, Place& place);
+  bool resolved(const Place& next, double length);
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
   bool locate_events(const Place& from, const Place& to);
@@ -85,6 +87,7 @@ class Tracer {
   double ds_ = 0, last_ds_ = 0;
   int rejections_ = 0;  // since here_.arclength passed trouble_end_
   double trouble_end_ = -1;
+  double unresolved_end_ = -1, unresolved_step_ = 0;  // a stretch whose slopes did not tell its quantities
   struct Turn {  // a turn of the tangent that was rejected: how much, over which step, and where it is passed
     double angle = 0, step = 0, end = -1;
   } turn_;

@@ -34,7 +34,9 @@ Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem)
 Extreme Observer::extreme(const continuation::Accepted& now) {
   const auto& at = evaluator_of(now);
   at.stiffness().response(now.u, at.force_factor(), x_);
-  return amplitude_.of(x_);
+  const Extreme found = amplitude_.of(x_);
+  last_amplitude_ = found.amplitude;
+  return found;
 }
 
 double Observer::amplitude_slope(const continuation::Accepted& now) {
@@ -100,7 +102,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now) {
 
 continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
   return {"peak", [observer](const continuation::Accepted& now) { return observer->amplitude_slope(now); },
-          continuation::Crossing::falling};
+          continuation::Crossing::falling, [observer] { return observer->last_amplitude(); }};
 }
 
 }  // namespace arcslip::observables

@@ -25,6 +25,9 @@ class Observer {
   /// Largest |x| of the observed coordinate.
   Extreme extreme(const continuation::Accepted& now);
 
+  /// A at the last call of any of these.
+  double last_amplitude() const { return last_amplitude_; }
+
   /// dA/ds along the branch.
   double amplitude_slope(const continuation::Accepted& now);
 
@@ -35,6 +38,7 @@ class Observer {
   Amplitude amplitude_;
   std::unique_ptr<Truncation> truncation_;  // made at the first observe()
   continuation::Vector x_, dx_, by_frequency_;
+  double last_amplitude_ = 0;
 };
 
 /// Peaks: dA/ds falls through zero. There is no pole at folds, as dA/domega has.
