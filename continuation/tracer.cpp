@@ -454,10 +454,26 @@ Event Tracer::locate(std::size_t monitor, const Place& from, const Place& to, Pl
         return event;
       };
   if (to.piece != from.piece && main_.dot(to.tangent, from.tangent) < std::cos(options_.step.largest_angle)) {
-    if (!locate_kink(*probe_, from, length, found, correction)) return near_end();
+    // The step has a kink: is the zero before it, at it, or beyond it?
+    Place kink;
+    if (!locate_kink(*probe_, from, length, kink, correction)) return near_end();
+    Place beyond = to;
+    beyond.v = kink.v + corner_step * (to.arclength - kink.arclength) * to.tangent;
+    const Vector row = to.tangent.cwiseProduct(main_.weights());
+    if (!probe_->correct(beyond.v, row, false).converged || !settle(*probe_, beyond)) return near_end();
+    beyond.arclength = kink.arclength + corner_step * (to.arclength - kink.arclength);
+    if (main_.dot(beyond.tangent, to.tangent) < 0) beyond.tangent = -beyond.tangent;
+    evaluate_monitors(*probe_, beyond);
+    const bool positive = from.monitors[monitor] > 0;
+    if (beyond.piece == to.piece && (beyond.monitors[monitor] > 0) == positive)
+      return locate(monitor, beyond, to, found);
+    if (!probe_->linearize(kink.v, from.tangent.cwiseProduct(main_.weights()))) return near_end();
+    evaluate_monitors(*probe_, kink);
+    if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink, found);
+    found = kink;
     Event event;
     event.monitor = monitors_[monitor].name;
-    event.value = from.monitors[monitor];
+    event.value = kink.monitors[monitor];
     event.nonsmooth = true;
     event.point = point(found, correction);
     return event;
