@@ -12,8 +12,8 @@ inline nlohmann::json read(const std::string& file) {
   return nlohmann::json::parse(in);
 }
 
-inline nlohmann::json exact() {
-  return read("exact_1dof.json");
+inline nlohmann::json exact(const std::string& list) {
+  return read("exact_1dof.json")[list];
 }
 
 inline double error(double value, double exact) {
