@@ -7,7 +7,6 @@
 // time that so many bare factorizations and solves of that size take; over_lu, the time over that of the
 // factorizations alone. Bare costs are measured in the same run.
 
-#include <arcslip/continuation/bordered_lu.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/scene/scene.hpp>

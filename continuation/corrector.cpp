@@ -18,37 +18,56 @@ constexpr double undamped = 1e-2;  // corrections below are taken whole, and tes
 constexpr double divergence = 2;   // of such corrections, from one to the next
 constexpr int longest_chord = 5;   // chord steps before new factors
 constexpr double smallest_relevant_state = 1e-6;  // in scales: below, corrections are measured absolutely
+constexpr double smallest_relevant_parameter = 1e-3;
 
 }  // namespace
 
-Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts)
-    : options_(options),
+Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts,
+                     const MakeLinearSolver& make_solver)
+    : problem_(problem),
+      options_(options),
       counts_(counts),
       evaluator_(problem.evaluator()),
-      lu_(problem.size()),
+      solver_(make_solver ? make_solver() : problem.linear_solver()),
+      borders_(problem.size(), 1),
       p_(std::move(p)),
       weights_(problem.size() + 1),
       F_p_(problem.size()),
       dv_(problem.size() + 1),
       next_(problem.size() + 1),
       trial_(problem.size() + 1),
+      metric_(problem.size()),
       free_(free),
-      chord_safety_(chord_safety(problem.size())) {
-  const double parameter_scale = problem.parameters()[static_cast<std::size_t>(free)].scale;
+      chord_safety_(chord_safety(problem.size())),
+      parameter_scale_(problem.parameters()[static_cast<std::size_t>(free)].scale) {
   weights_.head(problem.size()) = problem.scales().cwiseAbs2().cwiseInverse();
-  weights_[problem.size()] = 1 / (parameter_scale * parameter_scale);
-  parameter_floor_ = 1e-3 * parameter_scale;
+  weights_[problem.size()] = 1 / (parameter_scale_ * parameter_scale_);
+  has_metric_ = problem.metric(dv_.head(problem.size()).setZero(), metric_);
+}
+
+double Corrector::dot(const Vector& a, const Vector& b) const {
+  if (!has_metric_) return (a.array() * b.array() * weights_.array()).sum();
+  const Eigen::Index n = metric_.size();
+  problem_.metric(b.head(n), metric_);
+  return a.head(n).dot(metric_) + a[n] * b[n] * weights_[n];
+}
+
+void Corrector::border_row(const Vector& t, Vector& row) const {
+  row = t.cwiseProduct(weights_);
+  if (has_metric_) problem_.metric(t.head(metric_.size()), row.head(metric_.size()));
 }
 
 double Corrector::norm_u(const Vector& v) const {
   const Eigen::Index n = v.size() - 1;
-  return std::sqrt((v.head(n).array().square() * weights_.head(n).array()).sum());
+  if (!has_metric_) return std::sqrt((v.head(n).array().square() * weights_.head(n).array()).sum());
+  problem_.metric(v.head(n), metric_);
+  return std::sqrt(std::max(v.head(n).dot(metric_), 0.0));
 }
 
 double Corrector::size(const Vector& dv, const Vector& v) const {
   const Eigen::Index n = v.size() - 1;
   const double u = norm_u(dv) / std::max(norm_u(v), smallest_relevant_state);
-  const double p = std::abs(dv[n]) / std::max(std::abs(v[n]), parameter_floor_);
+  const double p = std::abs(dv[n]) / std::max(std::abs(v[n]), smallest_relevant_parameter * parameter_scale_);
   return std::max(u, p);
 }
 
@@ -61,9 +80,15 @@ bool Corrector::evaluate(const Vector& v, Needs needs) {
 }
 
 bool Corrector::factorize(const Vector& row) {
+  const Eigen::Index n = F_p_.size();
   evaluator_->parameter_derivative(free_, F_p_);
+  if (!F_p_.allFinite()) return false;
+  if (!solver_) solver_ = suitable_solver(evaluator_->jacobian());
+  borders_.columns.col(0) = F_p_;
+  borders_.rows.col(0) = row.head(n);
+  borders_.corner(0, 0) = row[n];
   ++counts_.factorizations;
-  return F_p_.allFinite() && lu_.factorize(evaluator_->jacobian(), F_p_, row);
+  return solver_->factorize(evaluator_->jacobian(), borders_);
 }
 
 void Corrector::solve(Vector& dv) const {
@@ -71,7 +96,7 @@ void Corrector::solve(Vector& dv) const {
   dv.head(n) = -evaluator_->residual();
   dv[n] = 0;
   ++counts_.solves;
-  lu_.solve(dv);
+  solver_->solve(dv);
 }
 
 bool Corrector::linearize(const Vector& v, const Vector& row) {
@@ -82,7 +107,7 @@ bool Corrector::tangent(Vector& t) const {
   t.setZero();
   t[t.size() - 1] = 1;
   ++counts_.solves;
-  lu_.solve(t);
+  solver_->solve(t);
   const double length = std::sqrt(dot(t, t));
   if (!std::isfinite(length) || length == 0) return false;
   t /= length;

@@ -13,8 +13,8 @@
 // the equations and never compares Jacobians across a kink: so it serves piecewise smooth F as a semismooth
 // Newton method with a safeguard.
 
-#include <arcslip/continuation/bordered_lu.hpp>
 #include <arcslip/continuation/branch.hpp>
+#include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/options.hpp>
 #include <arcslip/continuation/problem.hpp>
 
@@ -34,8 +34,11 @@ struct Correction {
 /// One place to work in: an evaluator, factors and buffers. Nothing in correct() or linearize() allocates.
 class Corrector {
  public:
-  /// counts: where the work is added up; outlives the corrector.
-  Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts);
+  /// counts: where the work is added up; outlives the corrector. make_solver: if none, the problem's own, or
+  /// what suits the kind of Jacobian. Throws std::invalid_argument where the Jacobian is an operator and
+  /// nobody names a solver.
+  Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts,
+            const MakeLinearSolver& make_solver = {});
 
   /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1.
   /// keep_factors: the factors that are there are those of a nearby place with a similar row, and are tried
@@ -54,13 +57,15 @@ class Corrector {
 
   double size(const Vector& dv, const Vector& v) const;  // of a correction, relative
   double norm_u(const Vector& v) const;                  // |u| in scales
-  double dot(const Vector& a, const Vector& b) const {
-    return (a.array() * b.array() * weights_.array()).sum();
-  }
+  /// <a, b> of vectors of n + 1, in the problem's metric and the scale of the free parameter.
+  double dot(const Vector& a, const Vector& b) const;
+  /// row . x = <t, x> for all x.
+  void border_row(const Vector& t, Vector& row) const;
+  double parameter_scale() const { return parameter_scale_; }
   const Vector& weights() const { return weights_; }  // 1 / scale^2, n + 1
   const Vector& parameters() const { return p_; }
   Evaluator& evaluator() { return *evaluator_; }
-  const BorderedLU& factors() const { return lu_; }
+  const LinearSolver& factors() const { return *solver_; }  // once there was a linearization
 
  private:
   bool evaluate(const Vector& v, Needs needs);
@@ -68,14 +73,18 @@ class Corrector {
   void solve(Vector& dv) const;  // dv = -B^-1 (F, 0)
   bool chord(Vector& v, Correction& result);
 
+  const Problem& problem_;
   NewtonOptions options_;
   Counts& counts_;
   std::unique_ptr<Evaluator> evaluator_;
-  BorderedLU lu_;
+  std::unique_ptr<LinearSolver> solver_;
+  Borders borders_;
   Vector p_, weights_, F_p_, dv_, next_, trial_;
+  mutable Vector metric_;  // M x of the last product
+  bool has_metric_;
   int free_;
   double chord_safety_;
-  double parameter_floor_;
+  double parameter_scale_;
   double contraction_ = 1;  // of the last chord step
 };
 

@@ -7,20 +7,15 @@
 namespace arcslip::continuation {
 namespace {
 
-struct Functions {
-  int size;
-  std::vector<Parameter> parameters;
-  ResidualFunction residual;
-  JacobianFunction jacobian;
-  ParameterFunction derivative;
-  Vector scales;
-};
-
 double difference_step(double x, double scale) {
   return std::cbrt(2.2e-16) * std::max(std::abs(x), scale);
 }
 
-class FunctionEvaluator final : public Evaluator {
+bool finite(const SparseMatrix& J) {
+  return J.nonZeros() == 0 || Eigen::Map<const Vector>(J.valuePtr(), J.nonZeros()).allFinite();
+}
+
+class FunctionEvaluator final : public Evaluator, private Operator {
  public:
   explicit FunctionEvaluator(std::shared_ptr<const Functions> f)
       : f_(std::move(f)),
@@ -28,21 +23,36 @@ class FunctionEvaluator final : public Evaluator {
         p_(f_->parameters.size()),
         F_(f_->size),
         plus_(f_->size),
-        minus_(f_->size),
-        J_(f_->size, f_->size) {}
+        minus_(f_->size) {
+    if (f_->sparse_jacobian)
+      J_ = SparseMatrix(f_->size, f_->size);
+    else if (f_->apply_jacobian)
+      J_ = static_cast<const Operator*>(this);
+    else
+      J_ = Matrix(f_->size, f_->size);
+  }
 
   Evaluated move_to(In u, In p, Needs needs) override {
     u_ = u;
     p_ = p;
     f_->residual(u_, p_, F_);
+    if (F_.size() != f_->size) return Evaluated::failed;
     if (!F_.allFinite()) return Evaluated::outside_domain;
     if (needs == Needs::residual) return Evaluated::ok;
-    if (f_->jacobian) {
-      f_->jacobian(u_, p_, J_);
-    } else {
-      for (Eigen::Index i = 0; i < u_.size(); ++i) difference(u_[i], f_->scales[i], J_.col(i));
+    if (auto* sparse = std::get_if<SparseMatrix>(&J_)) {
+      f_->sparse_jacobian(u_, p_, *sparse);
+      if (sparse->rows() != f_->size || sparse->cols() != f_->size) return Evaluated::failed;
+      if (!sparse->isCompressed()) sparse->makeCompressed();
+      return finite(*sparse) ? Evaluated::ok : Evaluated::outside_domain;
     }
-    return J_.allFinite() ? Evaluated::ok : Evaluated::outside_domain;
+    auto* J = std::get_if<Matrix>(&J_);
+    if (!J) return Evaluated::ok;
+    if (f_->jacobian) {
+      f_->jacobian(u_, p_, *J);
+    } else {
+      for (Eigen::Index i = 0; i < u_.size(); ++i) difference(u_[i], f_->scales[i], J->col(i));
+    }
+    return J->allFinite() ? Evaluated::ok : Evaluated::outside_domain;
   }
 
   const Vector& residual() const override { return F_; }
@@ -55,7 +65,20 @@ class FunctionEvaluator final : public Evaluator {
       difference(p_[k], f_->parameters[static_cast<std::size_t>(k)].scale, dF);
   }
 
+  bool second_derivative(In w, In v, Out du) const override {
+    if (f_->second) f_->second(u_, p_, w, v, du);
+    return static_cast<bool>(f_->second);
+  }
+
+  std::uint64_t piece() const override { return f_->piece ? f_->piece(u_, p_) : 0; }
+
  private:
+  void apply(In x, Out y) const override { f_->apply_jacobian(u_, p_, x, y); }
+  bool apply_transposed(In x, Out y) const override {
+    if (f_->apply_transposed_jacobian) f_->apply_transposed_jacobian(u_, p_, x, y);
+    return static_cast<bool>(f_->apply_transposed_jacobian);
+  }
+
   // d F / d x by central differences, where x is one of the entries of u_ or p_.
   void difference(double& x, double scale, Out dF) const {
     const double at = x, h = difference_step(at, scale);
@@ -81,6 +104,9 @@ class FunctionProblem final : public Problem {
   std::span<const Parameter> parameters() const override { return f_->parameters; }
   Vector scales() const override { return f_->scales; }
   std::unique_ptr<Evaluator> evaluator() const override { return std::make_unique<FunctionEvaluator>(f_); }
+  std::unique_ptr<LinearSolver> linear_solver() const override {
+    return f_->linear_solver ? f_->linear_solver() : nullptr;
+  }
 
  private:
   std::shared_ptr<const Functions> f_;
@@ -88,18 +114,34 @@ class FunctionProblem final : public Problem {
 
 }  // namespace
 
+std::shared_ptr<const Problem> from_functions(Functions f) {
+  if (f.size < 1)
+    throw std::invalid_argument("a problem has at least 1 unknown, not " + std::to_string(f.size));
+  if (!f.residual) throw std::invalid_argument("a problem needs a residual function");
+  if (!!f.jacobian + !!f.sparse_jacobian + !!f.apply_jacobian > 1)
+    throw std::invalid_argument("a problem has one Jacobian: dense, sparse or applied");
+  if (f.apply_transposed_jacobian && !f.apply_jacobian)
+    throw std::invalid_argument("apply_transposed_jacobian needs apply_jacobian beside it");
+  if (f.scales.size() == 0) f.scales = Vector::Ones(f.size);
+  if (f.scales.size() != f.size)
+    throw std::invalid_argument(std::to_string(f.scales.size()) + " scales for " + std::to_string(f.size) +
+                                " unknowns");
+  if (!(f.scales.minCoeff() > 0) || !f.scales.allFinite())
+    throw std::invalid_argument("scales must be positive and finite");
+  return std::make_shared<FunctionProblem>(std::move(f));
+}
+
 std::shared_ptr<const Problem> from_functions(int size, std::vector<Parameter> parameters,
                                               ResidualFunction residual, JacobianFunction jacobian,
                                               ParameterFunction derivative, Vector scales) {
-  if (size < 1) throw std::invalid_argument("a problem has at least 1 unknown, not " + std::to_string(size));
-  if (!residual) throw std::invalid_argument("a problem needs a residual function");
-  if (scales.size() == 0) scales = Vector::Ones(size);
-  if (scales.size() != size)
-    throw std::invalid_argument(std::to_string(scales.size()) + " scales for " + std::to_string(size) +
-                                " unknowns");
-  return std::make_shared<FunctionProblem>(Functions{size, std::move(parameters), std::move(residual),
-                                                     std::move(jacobian), std::move(derivative),
-                                                     std::move(scales)});
+  Functions f;
+  f.size = size;
+  f.parameters = std::move(parameters);
+  f.residual = std::move(residual);
+  f.jacobian = std::move(jacobian);
+  f.derivative = std::move(derivative);
+  f.scales = std::move(scales);
+  return from_functions(std::move(f));
 }
 
 }  // namespace arcslip::continuation

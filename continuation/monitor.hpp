@@ -1,7 +1,7 @@
 #pragma once
 // Monitors: scalar functions on a branch whose zeros are its events.
 
-#include <arcslip/continuation/bordered_lu.hpp>
+#include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/problem.hpp>
 
 #include <functional>
@@ -18,7 +18,7 @@ struct Accepted {
   In tangent;  // n + 1: du/ds, dp/ds of the free parameter
   double arclength;
   Evaluator& at;
-  const BorderedLU& bordered;
+  const LinearSolver& bordered;
 };
 
 /// Which changes of sign count, along the branch in the direction of travel.

@@ -1,8 +1,14 @@
 #include <arcslip/continuation/problem.hpp>
 
+#include <arcslip/continuation/linear_solver.hpp>
+
 #include <stdexcept>
 
 namespace arcslip::continuation {
+
+std::unique_ptr<LinearSolver> Problem::linear_solver() const {
+  return nullptr;
+}
 
 int parameter_index(const Problem& problem, const std::string& name) {
   const auto all = problem.parameters();

@@ -2,18 +2,35 @@
 // The user's problem F(u, p) = 0: n equations, n unknowns u, and a vector p of named parameters.
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <variant>
 
 namespace arcslip::continuation {
 
 using Vector = Eigen::VectorXd;
-using Jacobian = Eigen::MatrixXd;
+using Matrix = Eigen::MatrixXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
 using In = Eigen::Ref<const Vector>;
 using Out = Eigen::Ref<Vector>;
+
+/// A Jacobian that is only applied, never seen. Its linear solver is the user's (linear_solver.hpp).
+class Operator {
+ public:
+  virtual ~Operator() = default;
+  virtual void apply(In x, Out y) const = 0;  // y = J x
+  /// y = J^T x. False: there is no transpose.
+  virtual bool apply_transposed(In x, Out y) const {
+    static_cast<void>(x), static_cast<void>(y);
+    return false;
+  }
+};
+
+using Jacobian = std::variant<Matrix, SparseMatrix, const Operator*>;
 
 /// What became of an evaluation: `outside_domain` makes the step shorter, `failed` too, and is told apart in
 /// the stop.
@@ -39,15 +56,26 @@ class Evaluator {
   /// Moves to (u, p) in one pass: F, and J = dF/du where it is needed. u: n, p: as many as parameters().
   virtual Evaluated move_to(In u, In p, Needs needs) = 0;
 
-  virtual const Vector& residual() const = 0;    // F, n
-  virtual const Jacobian& jacobian() const = 0;  // J, n x n; as of the last move with Needs::jacobian
+  virtual const Vector& residual() const = 0;  // F, n
+
+  /// J, n x n, as of the last move with Needs::jacobian. Its kind, size and pattern never change.
+  virtual const Jacobian& jacobian() const = 0;
 
   /// dF/dp_k at the place of the last move, n.
   virtual void parameter_derivative(int k, Out dF) const = 0;
 
+  /// du = d(w . J v)/du, n: second derivatives of F against two directions, at the place of the last move.
+  /// False: not given, and taken from differences of J.
+  virtual bool second_derivative(In w, In v, Out du) const {
+    static_cast<void>(w), static_cast<void>(v), static_cast<void>(du);
+    return false;
+  }
+
   /// Which smooth piece of a piecewise smooth F the last move came to; equal numbers mean the same piece.
   virtual std::uint64_t piece() const { return 0; }
 };
+
+class LinearSolver;  // linear_solver.hpp
 
 /// The problem itself. Immutable, shared by threads.
 class Problem {
@@ -56,10 +84,20 @@ class Problem {
   virtual int size() const = 0;
   virtual std::span<const Parameter> parameters() const = 0;
 
-  /// Typical magnitude of each unknown, > 0: distances on a branch are sums of (du_i / scale_i)^2.
+  /// Typical magnitude of each unknown, > 0, n.
   virtual Vector scales() const = 0;
 
+  /// Mv = M v, where M is the symmetric positive definite matrix of the inner product <a, b> = a . M b, in
+  /// which distances on a branch are measured: 1 is a large one. False: the sum of a_i b_i / scale_i^2.
+  virtual bool metric(In v, Out Mv) const {
+    static_cast<void>(v), static_cast<void>(Mv);
+    return false;
+  }
+
   virtual std::unique_ptr<Evaluator> evaluator() const = 0;
+
+  /// The solver that fits the problem best. Null: what suits the kind of its Jacobian.
+  virtual std::unique_ptr<LinearSolver> linear_solver() const;
 };
 
 /// Index of the parameter called `name`. Throws std::out_of_range naming what there is.

@@ -107,7 +107,7 @@ Accepted Tracer::accepted(Corrector& at, const Place& place) {
 // The tangent at the solution place.v of the last correction, on the side of its border row: row . t > 0.
 bool Tracer::settle(Corrector& at, Place& place) const {
   if (!at.tangent(place.tangent)) return false;
-  place.orientation = at.factors().determinant_sign();
+  place.orientation = at.factors().determinant_sign().value_or(0);
   place.piece = at.evaluator().piece();
   return true;
 }

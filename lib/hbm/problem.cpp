@@ -18,7 +18,7 @@ HbmEvaluator::HbmEvaluator(std::shared_ptr<const model::Model> model, const Coor
       u_(r_ * harmonics.size()),
       R_(u_.size()),
       derivative_(harmonics.size()),
-      J_(u_.size(), u_.size()) {
+      jacobian_(Eigen::MatrixXd(u_.size(), u_.size())) {
   for (const auto& element : model_->elements) {
     Part part;
     part.element = model::make_element(*model_, element, harmonics);
@@ -39,9 +39,10 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
   force_factor_ = p[p.size() - 1];
   if (!stiffness_.move_to(p)) return Evaluated::outside_domain;
   const bool jacobian = needs == Needs::jacobian;
+  auto& J = std::get<Eigen::MatrixXd>(jacobian_);
   const int c = harmonics_.size();
   stiffness_.residual(u_, force_factor_, R_);
-  if (jacobian) J_.setZero();
+  if (jacobian) J.setZero();
   for (Part& part : parts_) {
     for (std::size_t k = 0; k < part.fields.size(); ++k) part.fields[k] = p[part.parameters[k]];
     part.motion.setZero();
@@ -51,9 +52,9 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
     if (!jacobian) continue;
     for (const auto& [j, wj] : part.direction)
       for (const auto& [i, wi] : part.direction)
-        J_.block(i * c, j * c, c, c) += (wi * wj) * part.element->jacobian();
+        J.block(i * c, j * c, c, c) += (wi * wj) * part.element->jacobian();
   }
-  if (jacobian) stiffness_.add_to(J_);
+  if (jacobian) stiffness_.add_to(J);
   return R_.allFinite() ? Evaluated::ok : Evaluated::failed;
 }
 

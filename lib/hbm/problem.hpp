@@ -21,7 +21,7 @@ class HbmEvaluator final : public continuation::Evaluator {
 
   continuation::Evaluated move_to(continuation::In u, continuation::In p, continuation::Needs needs) override;
   const Vector& residual() const override { return R_; }
-  const continuation::Jacobian& jacobian() const override { return J_; }
+  const continuation::Jacobian& jacobian() const override { return jacobian_; }
   void parameter_derivative(int k, continuation::Out dR) const override;
   std::uint64_t piece() const override;
 
@@ -49,7 +49,7 @@ class HbmEvaluator final : public continuation::Evaluator {
   std::vector<Part> parts_;
   Vector u_, R_;
   mutable Vector derivative_;
-  continuation::Jacobian J_;
+  continuation::Jacobian jacobian_;
   double force_factor_ = 1;
 };
 

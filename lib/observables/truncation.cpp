@@ -97,7 +97,7 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
 
   evaluator_->stiffness().solve(tail_);
   tail_ = -tail_;
-  effect_.noalias() = evaluator_->jacobian() * tail_;
+  continuation::apply(evaluator_->jacobian(), tail_, effect_);
   restrict_to_kept(effect_, change_.head(n));
   change_.head(n) = -change_.head(n) - residual_;
   change_[n] = 0;

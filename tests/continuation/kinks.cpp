@@ -7,42 +7,18 @@ using namespace problems;
 namespace {
 
 // a(u) - p = 0 with a piecewise linear of slope `below` for u < 0 and `above` for u > 0.
-class Broken final : public Problem {
- public:
-  Broken(double below, double above) : below_(below), above_(above), parameters_{parameter("p", 0)} {}
-  int size() const override { return 1; }
-  std::span<const Parameter> parameters() const override { return parameters_; }
-  Vector scales() const override { return Vector::Ones(1); }
-  std::unique_ptr<Evaluator> evaluator() const override { return std::make_unique<At>(below_, above_); }
-
- private:
-  class At final : public Evaluator {
-   public:
-    At(double below, double above) : below_(below), above_(above) {}
-    Evaluated move_to(In u, In p, Needs) override {
-      const double slope = u[0] < 0 ? below_ : above_;
-      F_[0] = slope * u[0] - p[0];
-      J_(0, 0) = slope;
-      piece_ = u[0] < 0 ? 1 : 2;
-      return Evaluated::ok;
-    }
-    const Vector& residual() const override { return F_; }
-    const Jacobian& jacobian() const override { return J_; }
-    void parameter_derivative(int, Out dF) const override { dF[0] = -1; }
-    std::uint64_t piece() const override { return piece_; }
-
-   private:
-    double below_, above_;
-    Vector F_ = Vector::Zero(1);
-    Jacobian J_ = Jacobian::Zero(1, 1);
-    std::uint64_t piece_ = 0;
-  };
-  double below_, above_;
-  std::vector<Parameter> parameters_;
-};
+std::shared_ptr<const Problem> broken(double below, double above) {
+  const auto slope = [=](double u) { return u < 0 ? below : above; };
+  return from_functions({.size = 1,
+                         .parameters = {parameter("p", 0)},
+                         .residual = [=](In u, In p, Out F) { F[0] = slope(u[0]) * u[0] - p[0]; },
+                         .jacobian = [=](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = slope(u[0]); },
+                         .derivative = [](In, In, int, Out dF) { dF[0] = -1; },
+                         .piece = [](In u, In) { return u[0] < 0 ? 1 : 2; }});
+}
 
 Branch through(double below, double above, double from) {
-  const auto problem = std::make_shared<Broken>(below, above);
+  const auto problem = broken(below, above);
   return trace(problem, {Vector::Constant(1, from / below), Vector::Constant(1, from), 0, 1}, window(-1, 1),
                {fold_monitor()});
 }

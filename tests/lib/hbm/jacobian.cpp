@@ -38,7 +38,7 @@ Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequ
   const Vector p = hbm::parameters_at(problem, frequency);
   Worst worst;
   REQUIRE(at->move_to(u, p, Needs::jacobian) == continuation::Evaluated::ok);
-  const Eigen::MatrixXd J = at->jacobian();
+  const auto J = std::get<Eigen::MatrixXd>(at->jacobian());
   const auto piece = at->piece();
   const auto differ = [&](Vector v, Vector q, Vector w, Vector r, double width, const Vector& derivative,
                           double size, double& result) {

@@ -1,0 +1,80 @@
+#include "catch.hpp"
+
+#include <arcslip/continuation/linear_solver.hpp>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+using namespace arcslip::continuation;
+
+namespace {
+
+Borders random_borders(int n, int m) {
+  Borders borders(n, m);
+  borders.columns.setRandom();
+  borders.rows.setRandom();
+  borders.corner.setRandom();
+  return borders;
+}
+
+Matrix bordered(const Matrix& J, const Borders& borders) {
+  const Eigen::Index n = J.rows(), m = borders.width();
+  Matrix B(n + m, n + m);
+  B << J, borders.columns, borders.rows.transpose(), borders.corner;
+  return B;
+}
+
+}  // namespace
+
+TEST_CASE("bordered solves and transposed solves leave residuals at rounding level") {
+  for (int n : {1, 2, 7, 40, 150})
+    for (int m : {0, 1, 2, 3}) {
+      const Matrix J = Matrix::Random(n, n);
+      const Borders borders = random_borders(n, m);
+      const Matrix B = bordered(J, borders);
+      const Vector b = Vector::Random(n + m);
+      const auto lu = dense_lu();
+      REQUIRE(lu->factorize(J, borders));
+      Vector x = b;
+      lu->solve(x);
+      CHECK((B * x - b).norm() < 1e-13 * n * B.norm() * x.norm());
+      Vector y = b;
+      REQUIRE(lu->solve_transposed(y));
+      CHECK((B.transpose() * y - b).norm() < 1e-13 * n * B.norm() * y.norm());
+      CHECK(lu->determinant_sign() == (B.determinant() > 0 ? 1 : -1));
+    }
+}
+
+TEST_CASE("the bordered system of a singular J is solved to rounding, whatever the scale of its rows") {
+  const int n = 12;
+  Matrix J = Matrix::Random(n, n);
+  J.row(3) = J.row(5) + 1e-16 * J.row(7);  // singular to rounding, as at a fold
+  const Borders unscaled = random_borders(n, 1);
+  const Vector b = Vector::Random(n + 1);
+  for (double scale : {1e-12, 1.0, 1e12}) {
+    Borders borders = unscaled;
+    borders.columns *= scale;
+    const auto lu = dense_lu();
+    REQUIRE(lu->factorize(Matrix(scale * J), borders));
+    Vector x = b;
+    x.head(n) *= scale;
+    const Vector right = x;
+    lu->solve(x);
+    const Matrix B = bordered(scale * J, borders);
+    CHECK((B * x - right).head(n).norm() < 1e-13 * scale * x.norm() * J.norm());
+    CHECK(std::abs((B * x - right)[n]) < 1e-13 * x.norm() * borders.rows.norm());
+  }
+}
+
+TEST_CASE("a singular or non-finite bordered matrix is refused") {
+  const auto lu = dense_lu();
+  Borders borders(2, 1);
+  borders.columns.setZero();
+  borders.rows << 1, 0;
+  borders.corner.setZero();
+  CHECK_FALSE(lu->factorize(Matrix(Matrix::Zero(2, 2)), borders));
+  Matrix J = Matrix::Identity(2, 2);
+  J(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(lu->factorize(J, borders));
+}
