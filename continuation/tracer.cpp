@@ -1,7 +1,5 @@
 #include <arcslip/continuation/tracer.hpp>
 
-#include <arcslip/continuation/root.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -24,11 +22,7 @@ constexpr double unresolved_rejection = 0.5;   // of the step where a quantity i
 constexpr double unresolved_change = 0.5;      // of a quantity, against its slopes
 constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
 constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
-constexpr int kink_bisections = 40;
-constexpr double corner_step = 1e-3;             // beyond a kink, of the step, to linearize there
-constexpr double nonsmooth_share = 1e-4;         // of a monitor's change over a step, left at its zero
-constexpr double event_newton = 1e-2;            // the corrector's tolerance at events, of that on the branch
-constexpr double event_state_tolerance = 1e-10;  // relative, of u at an event
+constexpr double corner_step = 1e-3;           // beyond a kink, of the step, to linearize there
 
 double angle_between(double cosine) {
   return std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -41,26 +35,18 @@ std::string text(double x) {
   return s.str();
 }
 
-// The point at share s in [0, 1] (or beyond) of the cubic through two points with their tangents.
-void hermite(const Vector& v0, const Vector& t0, const Vector& v1, const Vector& t1, double length, double s,
-             Vector& v) {
-  const double s2 = s * s, s3 = s2 * s;
-  v = (2 * s3 - 3 * s2 + 1) * v0 + (3 * s2 - 2 * s3) * v1 +
-      length * ((s3 - 2 * s2 + s) * t0 + (s3 - s2) * t1);
-}
-
 }  // namespace
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                std::vector<Monitor> monitors, Observer observer)
     : problem_(std::move(problem)),
       options_(options),
-      monitors_(std::move(monitors)),
       observer_(std::move(observer)),
       n_(problem_->size()),
       free_(start.free),
       direction_(start.direction < 0 ? -1 : 1),
-      main_(*problem_, start.p, start.free, options.newton, branch_.counts) {
+      main_(*problem_, start.p, start.free, options.newton, branch_.counts),
+      events_(problem_, start.p, start.free, options, std::move(monitors), branch_.counts) {
   check(options);
   const auto parameters = problem_->parameters();
   if (start.u.size() != n_)
@@ -89,27 +75,11 @@ bool Tracer::end(StopReason reason, double value, double limit, std::string mess
   return false;
 }
 
-Point Tracer::point(const Place& place, const Correction& correction) const {
-  return {place.v.head(n_), place.v[n_],           place.tangent,
-          place.arclength,  correction.iterations, correction.last};
-}
-
 // For the user's eyes, the evaluator moves the last correction further, onto the point itself.
-Accepted Tracer::observed(Corrector& at, const Place& place) {
-  at.move_to(place.v);
-  return accepted(at, place);
-}
-
-Accepted Tracer::accepted(Corrector& at, const Place& place) {
-  return {place.v.head(n_), at.parameters(), place.tangent, place.arclength, at.evaluator(), at.factors()};
-}
-
-// The tangent at the solution place.v of the last correction, on the side of its border row: row . t > 0.
-bool Tracer::settle(Corrector& at, Place& place) const {
-  if (!at.tangent(place.tangent)) return false;
-  place.orientation = at.factors().determinant_sign().value_or(0);
-  place.piece = at.evaluator().piece();
-  return true;
+bool Tracer::notify() {
+  if (!observer_) return true;
+  main_.move_to(here_.v);
+  return observer_(accepted(main_, here_), nullptr);
 }
 
 bool Tracer::begin() {
@@ -125,22 +95,17 @@ bool Tracer::begin() {
                                     : "the problem could not be evaluated at the start");
   if (!settle(main_, here_))
     return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
-  if (direction_ < 0) {
-    here_.tangent = -here_.tangent;
-    here_.orientation = -here_.orientation;
-  }
+  if (direction_ < 0) here_.reverse();
   const double to_scale = std::sqrt(main_.weights()[n_]);
   const double along = to_scale * std::abs(here_.tangent[n_]);
   ds_ = options_.step.initial > 0 ? options_.step.initial
                                   : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
   ds_ = limited(ds_);
-  const Accepted now = accepted(main_, here_);
-  evaluate_monitors(main_, here_);
+  evaluate(events_.monitors(), main_, here_);
   branch_.points.push_back(point(here_, correction));
   ++branch_.counts.points;
   factors_fit_ = false;  // their border row is that of the start
-  if (observer_ && !observer_(observed(main_, here_), nullptr))
-    return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (!notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }
 
@@ -203,23 +168,13 @@ bool Tracer::went_back(const Place& next) const {
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(here_.v[n_]);
 }
 
-void Tracer::evaluate_monitors(Corrector& at, Place& place) {
-  const Accepted now = accepted(at, place);
-  place.monitors.resize(monitors_.size());
-  place.quantities.resize(monitors_.size());
-  for (std::size_t m = 0; m < monitors_.size(); ++m) {
-    place.monitors[m] = monitors_[m].value(now);
-    place.quantities[m] = monitors_[m].quantity ? monitors_[m].quantity() : 0;
-  }
-}
-
 // Whether the change of each monitored quantity is that of its slopes at both ends, by the trapezoid. Beside
 // a kink it is not, however short the step: in one stretch the step is shortened no further than to a part of
 // the first one.
 bool Tracer::resolved(const Place& next, double length) {
   if (here_.arclength <= unresolved_end_ && ds_ <= unresolved_share * unresolved_step_) return true;
-  for (std::size_t m = 0; m < monitors_.size(); ++m) {
-    if (!monitors_[m].quantity) continue;
+  for (std::size_t m = 0; m < events_.monitors().size(); ++m) {
+    if (!events_.monitors()[m].quantity) continue;
     const double a = here_.monitors[m] * length, b = next.monitors[m] * length;
     const double change = next.quantities[m] - here_.quantities[m];
     const double size = std::max(std::abs(a), std::abs(b));
@@ -265,16 +220,13 @@ Tracer::Attempt Tracer::attempt() {
   if (turn > options_.step.largest_angle) {
     kink = is_kink(turn, next_);
     if (!kink) return Attempt::rejected;
-    if (next_.orientation != here_.orientation) {
-      next_.tangent = -next_.tangent;
-      next_.orientation = here_.orientation;
-    }
+    if (next_.orientation != here_.orientation) next_.reverse();
   } else if (next_.orientation != here_.orientation &&
              ds_ > branch_point_step * (1 + main_.norm_u(here_.v))) {
     // A jump to a branch near by, unless it stays however short the step: a branch point.
     return Attempt::rejected;
   }
-  evaluate_monitors(main_, next_);
+  evaluate(events_.monitors(), main_, next_);
   if (!resolved(next_, length)) return Attempt::unresolved;
   const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);
@@ -308,7 +260,7 @@ bool Tracer::corner() {
       angle_between(main_.dot(next_.tangent, beyond)) > options_.step.largest_angle ||
       angle_between(main_.dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
-  evaluate_monitors(main_, next_);
+  evaluate(events_.monitors(), main_, next_);
   return take(kink.arclength - here_.arclength + length, ds_, true, correction) != Attempt::rejected;
 }
 
@@ -360,160 +312,26 @@ bool Tracer::to_boundary(Place& place, double bound) {
   if (!main_.correct(place.v, v_, false).converged) return false;
   place.v[n_] = bound;
   if (!settle(main_, place)) return false;
-  if (main_.dot(place.tangent, here_.tangent) < 0) {
-    place.tangent = -place.tangent;
-    place.orientation = -place.orientation;
-  }
-  v_ = place.v - here_.v;
-  place.arclength = here_.arclength + std::sqrt(main_.dot(v_, v_));
-  evaluate_monitors(main_, place);
+  if (main_.dot(place.tangent, here_.tangent) < 0) place.reverse();
+  place.arclength = here_.arclength + distance(main_, here_.v, place.v);
+  evaluate(events_.monitors(), main_, place);
   return true;
 }
 
 bool Tracer::accept(Place&& place, const Correction& correction) {
-  const bool events_go_on = locate_events(here_, place);
+  bool go_on = true;
+  for (LocatedEvent& found : events_.between(here_, place)) {
+    found.event.after = branch_.points.size() - 1;
+    branch_.events.push_back(std::move(found.event));
+    if (!observer_ || !go_on) continue;
+    if (const auto now = events_.look_at(found.place)) go_on = observer_(*now, &branch_.events.back());
+  }
   branch_.points.push_back(point(place, correction));
   ++branch_.counts.points;
   std::swap(before_, here_);
   std::swap(here_, place);
-  if (!events_go_on || (observer_ && !observer_(observed(main_, here_), nullptr)))
-    return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (!go_on || !notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
-}
-
-bool Tracer::locate_events(const Place& from, const Place& to) {
-  struct Found {
-    Event event;
-    Place place;
-    Vector row;
-  };
-  std::vector<Found> found;
-  for (std::size_t m = 0; m < monitors_.size(); ++m) {
-    const double a = from.monitors[m], b = to.monitors[m];
-    const bool falling = a > 0 && b <= 0, rising = a < 0 && b >= 0;
-    const Crossing wanted = monitors_[m].crossing;
-    if (!(falling && wanted != Crossing::rising) && !(rising && wanted != Crossing::falling)) continue;
-    Place place;
-    Event event = locate(m, from, to, place);
-    const Vector row = place.tangent.cwiseProduct(main_.weights());
-    found.push_back({std::move(event), std::move(place), row});
-  }
-  std::sort(found.begin(), found.end(),
-            [](const Found& x, const Found& y) { return x.event.point.arclength < y.event.point.arclength; });
-  bool go_on = true;
-  for (Found& f : found) {
-    f.event.after = branch_.points.size() - 1;
-    branch_.events.push_back(std::move(f.event));
-    if (observer_ && go_on && probe_->linearize(f.place.v, f.row))
-      go_on = observer_(observed(*probe_, f.place), &branch_.events.back());
-  }
-  return go_on;
-}
-
-// Where the smooth piece of `from` ends, along its tangent: the kink, seen from this side.
-bool Tracer::locate_kink(Corrector& with, const Place& from, double length, Place& kink,
-                         Correction& correction) {
-  const Vector row = from.tangent.cwiseProduct(main_.weights());
-  double lower = 0, upper = length;
-  kink = from;
-  Vector v = from.v;
-  for (int k = 0; k < kink_bisections; ++k) {
-    const double middle = 0.5 * (lower + upper);
-    v = from.v + middle * from.tangent;
-    const Correction at = with.correct(v, row, false);
-    if (!at.converged || with.evaluator().piece() != from.piece) {
-      upper = middle;
-      continue;
-    }
-    lower = middle;
-    kink.v = v;
-    kink.arclength = from.arclength + middle;
-    correction = at;
-    if (!settle(with, kink)) return false;
-  }
-  return true;
-}
-
-// The zero of a monitor between two points, on the cubic between them and then on the branch.
-Event Tracer::locate(std::size_t monitor, const Place& from, const Place& to, Place& found) {
-  if (!probe_) {
-    NewtonOptions newton = options_.newton;
-    newton.tolerance *= event_newton;
-    probe_ = std::make_unique<Corrector>(*problem_, main_.parameters(), free_, newton, branch_.counts);
-  }
-  const double length = to.arclength - from.arclength;
-  Correction correction;
-  const auto near_end =
-      [&] {  // where the corrector fails between the points, the nearer one stands for the event
-        found = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
-        Event event;
-        event.monitor = monitors_[monitor].name;
-        event.value = found.monitors[monitor];
-        event.located = false;
-        event.point = point(found, {});
-        return event;
-      };
-  if (to.piece != from.piece && main_.dot(to.tangent, from.tangent) < std::cos(options_.step.largest_angle)) {
-    // The step has a kink: is the zero before it, at it, or beyond it?
-    Place kink;
-    if (!locate_kink(*probe_, from, length, kink, correction)) return near_end();
-    Place beyond = to;
-    beyond.v = kink.v + corner_step * (to.arclength - kink.arclength) * to.tangent;
-    const Vector row = to.tangent.cwiseProduct(main_.weights());
-    if (!probe_->correct(beyond.v, row, false).converged || !settle(*probe_, beyond)) return near_end();
-    beyond.arclength = kink.arclength + corner_step * (to.arclength - kink.arclength);
-    if (main_.dot(beyond.tangent, to.tangent) < 0) beyond.tangent = -beyond.tangent;
-    evaluate_monitors(*probe_, beyond);
-    const bool positive = from.monitors[monitor] > 0;
-    if (beyond.piece == to.piece && (beyond.monitors[monitor] > 0) == positive)
-      return locate(monitor, beyond, to, found);
-    if (!probe_->linearize(kink.v, from.tangent.cwiseProduct(main_.weights()))) return near_end();
-    evaluate_monitors(*probe_, kink);
-    if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink, found);
-    found = kink;
-    Event event;
-    event.monitor = monitors_[monitor].name;
-    event.value = kink.monitors[monitor];
-    event.nonsmooth = true;
-    event.point = point(found, correction);
-    return event;
-  }
-  Vector chord = to.v - from.v;
-  const Vector row = (chord / length).cwiseProduct(main_.weights());
-  Place place = to;
-  bool factors = false, failed = false;
-  const auto value = [&](double s) {
-    hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
-    correction = probe_->correct(place.v, row, factors);
-    if (!correction.converged) correction = probe_->correct(place.v, row, false);
-    if (!correction.converged || !settle(*probe_, place)) {
-      failed = true;
-      return 0.0;
-    }
-    factors = true;
-    v_ = place.v - from.v;
-    place.arclength = from.arclength + std::sqrt(main_.dot(v_, v_));
-    return monitors_[monitor].value(accepted(*probe_, place));
-  };
-  const double p_size = std::max(std::abs(to.v[n_]), 1e-300);
-  const double u_size = std::max(main_.norm_u(to.v), 1e-300);
-  const double in_p = options_.event_tolerance * p_size / std::max(std::abs(chord[n_]), 1e-300);
-  const double in_u = event_state_tolerance * u_size / std::max(main_.norm_u(chord), 1e-300);
-  const double tolerance = std::clamp(std::min(in_p, in_u), 1e-13, 1e-3);
-  const double a = from.monitors[monitor], b = to.monitors[monitor];
-  const Root root = find_root(value, 0, a, 1, b, tolerance);
-  if (failed) return near_end();
-  const double left = value(root.x);
-  if (failed) return near_end();
-
-  Event event;
-  event.monitor = monitors_[monitor].name;
-  event.value = left;
-  event.nonsmooth =
-      std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
-  event.point = point(place, correction);
-  found = place;
-  return event;
 }
 
 Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,

@@ -9,8 +9,10 @@
 
 #include <arcslip/continuation/branch.hpp>
 #include <arcslip/continuation/corrector.hpp>
+#include <arcslip/continuation/event_locator.hpp>
 #include <arcslip/continuation/monitor.hpp>
 #include <arcslip/continuation/options.hpp>
+#include <arcslip/continuation/place.hpp>
 
 #include <functional>
 #include <memory>
@@ -42,13 +44,6 @@ class Tracer {
   Branch take() { return std::move(branch_); }
 
  private:
-  struct Place {  // a solution, with its orientation
-    Vector v, tangent;
-    double arclength = 0;
-    int orientation = 1;  // sign of det [J F_p; t^T]
-    std::uint64_t piece = 0;
-    std::vector<double> monitors, quantities;
-  };
   enum class Attempt { accepted, rejected, unresolved, ended };
 
   bool begin();
@@ -56,31 +51,23 @@ class Tracer {
   bool corner();
   Attempt take(double length, double next_ds, bool kink, const Correction& correction);
   void predict(Vector& v) const;
-  bool settle(Corrector& at, Place& place) const;
   bool went_back(const Place& next) const;
-  void evaluate_monitors(Corrector& at, Place& place);
   bool resolved(const Place& next, double length);
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
-  bool locate_events(const Place& from, const Place& to);
-  bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& correction);
-  Event locate(std::size_t monitor, const Place& from, const Place& to, Place& found);
+  bool notify();
   double choose_step(double angle, const Correction& correction) const;
   double limited(double ds) const;
   bool to_boundary(Place& place, double bound);
-  Point point(const Place& place, const Correction& correction) const;
-  Accepted accepted(Corrector& at, const Place& place);
-  Accepted observed(Corrector& at, const Place& place);
   bool end(StopReason reason, double value, double limit, std::string message);
 
   std::shared_ptr<const Problem> problem_;
   Options options_;
-  std::vector<Monitor> monitors_;
   Observer observer_;
   Branch branch_;
   int n_, free_, direction_;
   Corrector main_;
-  std::unique_ptr<Corrector> probe_;  // for events; made when the first one is met
+  EventLocator events_;
   Place here_, next_, before_;
   bool has_before_ = false, factors_fit_ = false, ended_ = false, begun_ = false;
   bool evaluated_ = true;  // the last rejection came from the corrector, not from the problem

@@ -1,0 +1,149 @@
+#include <arcslip/continuation/event_locator.hpp>
+
+#include <arcslip/continuation/root.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double nonsmooth_share = 1e-4;   // of a monitor's change over a step, left at its zero
+constexpr double beyond_kink = 1e-3;       // of the way from the kink to the next point, to look at that side
+constexpr double newton_share = 1e-2;      // the corrector's tolerance, of that on the branch
+constexpr double state_tolerance = 1e-10;  // relative, of u at an event
+constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
+
+}  // namespace
+
+EventLocator::EventLocator(std::shared_ptr<const Problem> problem, Vector p, int free, const Options& options,
+                           std::vector<Monitor> monitors, Counts& counts)
+    : problem_(std::move(problem)),
+      p_(std::move(p)),
+      free_(free),
+      options_(options),
+      monitors_(std::move(monitors)),
+      counts_(counts) {}
+
+Corrector& EventLocator::probe() {
+  if (!probe_) {
+    NewtonOptions newton = options_.newton;
+    newton.tolerance *= newton_share;
+    probe_ = std::make_unique<Corrector>(*problem_, p_, free_, newton, counts_);
+  }
+  return *probe_;
+}
+
+std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
+  std::vector<LocatedEvent> found;
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (!changes(m, from, to)) continue;
+    found.push_back(turns(from, to) ? locate_beside_kink(m, from, to) : locate(m, from, to));
+  }
+  std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
+    return x.event.point.arclength < y.event.point.arclength;
+  });
+  return found;
+}
+
+std::optional<Accepted> EventLocator::look_at(const Place& event) {
+  if (!probe().linearize(event.v, event.tangent.cwiseProduct(probe().weights()))) return std::nullopt;
+  probe().move_to(event.v);
+  return accepted(probe(), event);
+}
+
+bool EventLocator::changes(std::size_t monitor, const Place& from, const Place& to) const {
+  const double a = from.monitors[monitor], b = to.monitors[monitor];
+  const bool falling = a > 0 && b <= 0, rising = a < 0 && b >= 0;
+  const Crossing wanted = monitors_[monitor].crossing;
+  return (falling && wanted != Crossing::rising) || (rising && wanted != Crossing::falling);
+}
+
+bool EventLocator::turns(const Place& from, const Place& to) {
+  return to.piece != from.piece &&
+         probe().dot(to.tangent, from.tangent) < std::cos(options_.step.largest_angle);
+}
+
+Event EventLocator::event(std::size_t monitor, const Place& place, double value,
+                          const Correction& correction) const {
+  Event result;
+  result.monitor = monitors_[monitor].name;
+  result.value = value;
+  result.point = point(place, correction);
+  return result;
+}
+
+// Where the corrector fails between the points, the one whose monitor is nearer to zero stands for the event.
+LocatedEvent EventLocator::nearer_end(std::size_t monitor, const Place& from, const Place& to) const {
+  const Place& end = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
+  Event found = event(monitor, end, end.monitors[monitor], {});
+  found.located = false;
+  return {std::move(found), end};
+}
+
+LocatedEvent EventLocator::locate_beside_kink(std::size_t monitor, const Place& from, const Place& to) {
+  Corrector& probe = this->probe();
+  Place kink;
+  Correction correction;
+  if (!locate_kink(probe, from, to.arclength - from.arclength, kink, correction))
+    return nearer_end(monitor, from, to);
+  const double ahead = beyond_kink * (to.arclength - kink.arclength);
+  Place beyond = to;
+  beyond.v = kink.v + ahead * to.tangent;
+  if (!probe.correct(beyond.v, to.tangent.cwiseProduct(probe.weights()), false).converged ||
+      !settle(probe, beyond))
+    return nearer_end(monitor, from, to);
+  beyond.arclength = kink.arclength + ahead;
+  if (probe.dot(beyond.tangent, to.tangent) < 0) beyond.reverse();
+  evaluate(monitors_, probe, beyond);
+  const bool positive = from.monitors[monitor] > 0;
+  if (beyond.piece == to.piece && (beyond.monitors[monitor] > 0) == positive)
+    return locate(monitor, beyond, to);
+  if (!probe.linearize(kink.v, from.tangent.cwiseProduct(probe.weights())))
+    return nearer_end(monitor, from, to);
+  evaluate(monitors_, probe, kink);
+  if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink);
+  Event found = event(monitor, kink, kink.monitors[monitor], correction);
+  found.nonsmooth = true;
+  return {std::move(found), std::move(kink)};
+}
+
+LocatedEvent EventLocator::locate(std::size_t monitor, const Place& from, const Place& to) {
+  Corrector& probe = this->probe();
+  const double length = to.arclength - from.arclength;
+  const Vector chord = to.v - from.v;
+  const Vector row = (chord / length).cwiseProduct(probe.weights());
+  Place place = to;
+  Correction correction;
+  bool factors = false, failed = false;
+  const auto value = [&](double s) {
+    hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
+    correction = probe.correct(place.v, row, factors);
+    if (!correction.converged) correction = probe.correct(place.v, row, false);
+    if (!correction.converged || !settle(probe, place)) {
+      failed = true;
+      return 0.0;
+    }
+    factors = true;
+    place.arclength = from.arclength + distance(probe, from.v, place.v);
+    return monitors_[monitor].value(accepted(probe, place));
+  };
+  const Eigen::Index n = to.v.size() - 1;
+  const double p_size = std::max(std::abs(to.v[n]), 1e-300);
+  const double u_size = std::max(probe.norm_u(to.v), 1e-300);
+  const double in_p = options_.event_tolerance * p_size / std::max(std::abs(chord[n]), 1e-300);
+  const double in_u = state_tolerance * u_size / std::max(probe.norm_u(chord), 1e-300);
+  const double tolerance = std::clamp(std::min(in_p, in_u), finest_share, coarsest_share);
+  const double a = from.monitors[monitor], b = to.monitors[monitor];
+  const Root root = find_root(value, 0, a, 1, b, tolerance);
+  if (failed) return nearer_end(monitor, from, to);
+  const double left = value(root.x);
+  if (failed) return nearer_end(monitor, from, to);
+  Event found = event(monitor, place, left, correction);
+  found.nonsmooth =
+      std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
+  return {std::move(found), std::move(place)};
+}
+
+}  // namespace arcslip::continuation

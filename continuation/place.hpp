@@ -1,0 +1,52 @@
+#pragma once
+// A place on a branch: a solution with its tangent, oriented, and what the monitors say there. The tracer
+// keeps the last two; events are located between two of them.
+
+#include <arcslip/continuation/branch.hpp>
+#include <arcslip/continuation/corrector.hpp>
+#include <arcslip/continuation/monitor.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace arcslip::continuation {
+
+struct Place {
+  Vector v, tangent;  // n + 1: (u, p) and d(u, p)/ds
+  double arclength = 0;
+  int orientation = 1;  // sign of det [J F_p; t^T]: the same on both sides of a kink
+  std::uint64_t piece = 0;
+  std::vector<double> monitors, quantities;  // as many as monitors
+
+  void reverse() {
+    tangent = -tangent;
+    orientation = -orientation;
+  }
+};
+
+/// Tangent, orientation and piece at the solution place.v of the last correction, on the side of its border
+/// row: row . t > 0. False where the tangent is not finite.
+bool settle(Corrector& at, Place& place);
+
+/// Where the smooth piece of `from` ends along its tangent, by bisection of [0, length]: the kink, seen from
+/// this side. `last` is the correction that led there. False where there is no tangent on the way.
+bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last);
+
+/// What monitors and observers see of a place. The corrector's factors are those of its last linearization.
+Accepted accepted(Corrector& at, const Place& place);
+
+/// Fills place.monitors and place.quantities.
+void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place);
+
+/// What the branch keeps of a place.
+Point point(const Place& place, const Correction& correction);
+
+/// |b - a| in scales.
+double distance(const Corrector& in, const Vector& a, const Vector& b);
+
+/// The point at share s, in [0, 1] or beyond, of the cubic through two points with their tangents (Hermite);
+/// length: of the chord.
+void hermite(const Vector& v0, const Vector& t0, const Vector& v1, const Vector& t1, double length, double s,
+             Vector& v);
+
+}  // namespace arcslip::continuation
