@@ -38,8 +38,9 @@ Corrector& EventLocator::probe() {
 std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
   std::vector<LocatedEvent> found;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
-    if (!changes(m, from, to)) continue;
-    found.push_back(turns(from, to) ? locate_beside_kink(m, from, to) : locate(m, from, to));
+    if (!changes(m, from, to, monitors_[m].crossing)) continue;
+    auto event = turns(from, to) ? locate_beside_kink(m, from, to) : locate(m, from, to);
+    if (event) found.push_back(std::move(*event));
   }
   std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
     return x.event.point.arclength < y.event.point.arclength;
@@ -53,10 +54,15 @@ std::optional<Accepted> EventLocator::look_at(const Place& event) {
   return accepted(probe(), event);
 }
 
-bool EventLocator::changes(std::size_t monitor, const Place& from, const Place& to) const {
+bool EventLocator::changes_sign(const Place& from, const Place& to) const {
+  for (std::size_t m = 0; m < monitors_.size(); ++m)
+    if (changes(m, from, to, Crossing::any)) return true;
+  return false;
+}
+
+bool EventLocator::changes(std::size_t monitor, const Place& from, const Place& to, Crossing wanted) const {
   const double a = from.monitors[monitor], b = to.monitors[monitor];
   const bool falling = a > 0 && b <= 0, rising = a < 0 && b >= 0;
-  const Crossing wanted = monitors_[monitor].crossing;
   return (falling && wanted != Crossing::rising) || (rising && wanted != Crossing::falling);
 }
 
@@ -82,7 +88,8 @@ LocatedEvent EventLocator::nearer_end(std::size_t monitor, const Place& from, co
   return {std::move(found), end};
 }
 
-LocatedEvent EventLocator::locate_beside_kink(std::size_t monitor, const Place& from, const Place& to) {
+std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor, const Place& from,
+                                                             const Place& to) {
   Corrector& probe = this->probe();
   Place kink;
   Correction correction;
@@ -106,10 +113,10 @@ LocatedEvent EventLocator::locate_beside_kink(std::size_t monitor, const Place& 
   if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink);
   Event found = event(monitor, kink, kink.monitors[monitor], correction);
   found.nonsmooth = true;
-  return {std::move(found), std::move(kink)};
+  return LocatedEvent{std::move(found), std::move(kink)};
 }
 
-LocatedEvent EventLocator::locate(std::size_t monitor, const Place& from, const Place& to) {
+std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Place& from, const Place& to) {
   Corrector& probe = this->probe();
   const double length = to.arclength - from.arclength;
   const Vector chord = to.v - from.v;
@@ -117,17 +124,21 @@ LocatedEvent EventLocator::locate(std::size_t monitor, const Place& from, const 
   Place place = to;
   Correction correction;
   bool factors = false, failed = false;
+  std::uint64_t positive_piece = 0, negative_piece = 0;  // of the last value of each sign: the bracket's ends
   const auto value = [&](double s) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
     correction = probe.correct(place.v, row, factors);
     if (!correction.converged) correction = probe.correct(place.v, row, false);
-    if (!correction.converged || !settle(probe, place)) {
+    // A tangent from factors beside the solution may be off by more than what is looked for.
+    if (!correction.converged || !probe.linearize(place.v, row) || !settle(probe, place)) {
       failed = true;
       return 0.0;
     }
     factors = true;
     place.arclength = from.arclength + distance(probe, from.v, place.v);
-    return monitors_[monitor].value(accepted(probe, place));
+    const double f = monitors_[monitor].value(accepted(probe, place));
+    (f > 0 ? positive_piece : negative_piece) = place.piece;
+    return f;
   };
   const Eigen::Index n = to.v.size() - 1;
   const double p_size = std::max(std::abs(to.v[n]), 1e-300);
@@ -136,14 +147,23 @@ LocatedEvent EventLocator::locate(std::size_t monitor, const Place& from, const 
   const double in_u = state_tolerance * u_size / std::max(probe.norm_u(chord), 1e-300);
   const double tolerance = std::clamp(std::min(in_p, in_u), finest_share, coarsest_share);
   const double a = from.monitors[monitor], b = to.monitors[monitor];
-  const Root root = find_root(value, 0, a, 1, b, tolerance);
+  double begin = 0, at_begin = value(0);
+  while (!failed && (at_begin > 0) == (b > 0) && at_begin != 0) {  // the sign of `from` was one of rounding
+    if (begin <= -1) return std::nullopt;
+    begin = begin == 0 ? -0.25 : 2 * begin;
+    at_begin = value(begin);
+  }
+  if (failed) return nearer_end(monitor, from, to);
+  (b > 0 ? positive_piece : negative_piece) = to.piece;
+  const Root root = find_root(value, begin, at_begin, 1, b, tolerance);
   if (failed) return nearer_end(monitor, from, to);
   const double left = value(root.x);
   if (failed) return nearer_end(monitor, from, to);
   Event found = event(monitor, place, left, correction);
   found.nonsmooth =
+      positive_piece != negative_piece &&
       std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
-  return {std::move(found), std::move(place)};
+  return LocatedEvent{std::move(found), std::move(place)};
 }
 
 }  // namespace arcslip::continuation

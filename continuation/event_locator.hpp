@@ -27,6 +27,9 @@ class EventLocator {
 
   const std::vector<Monitor>& monitors() const { return monitors_; }
 
+  /// Whether any monitor changes its sign, in whichever direction.
+  bool changes_sign(const Place& from, const Place& to) const;
+
   /// All events of the step, in the order of arclength. `after` is left to the caller.
   std::vector<LocatedEvent> between(const Place& from, const Place& to);
 
@@ -35,10 +38,10 @@ class EventLocator {
   std::optional<Accepted> look_at(const Place& event);
 
  private:
-  bool changes(std::size_t monitor, const Place& from, const Place& to) const;
+  bool changes(std::size_t monitor, const Place& from, const Place& to, Crossing wanted) const;
   bool turns(const Place& from, const Place& to);
-  LocatedEvent locate(std::size_t monitor, const Place& from, const Place& to);
-  LocatedEvent locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
+  std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
+  std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
   LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
   Event event(std::size_t monitor, const Place& place, double value, const Correction& correction) const;
   Corrector& probe();

@@ -168,6 +168,16 @@ bool Tracer::went_back(const Place& next) const {
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(here_.v[n_]);
 }
 
+// The monitors at the solution of the last correction. Its factors, and so the tangent, are those of a place
+// within the corrector's tolerance, which near a sharp peak is enough to turn the sign of a monitor: a change
+// of sign is believed from the linearization at the solution itself.
+void Tracer::measure(Place& place) {
+  evaluate(events_.monitors(), main_, place);
+  if (!events_.changes_sign(here_, place)) return;
+  v_ = place.tangent.cwiseProduct(main_.weights());
+  if (main_.linearize(place.v, v_) && settle(main_, place)) evaluate(events_.monitors(), main_, place);
+}
+
 // Whether the change of each monitored quantity is that of its slopes at both ends, by the trapezoid. Beside
 // a kink it is not, however short the step: in one stretch the step is shortened no further than to a part of
 // the first one.
@@ -226,7 +236,7 @@ Tracer::Attempt Tracer::attempt() {
     // A jump to a branch near by, unless it stays however short the step: a branch point.
     return Attempt::rejected;
   }
-  evaluate(events_.monitors(), main_, next_);
+  measure(next_);
   if (!resolved(next_, length)) return Attempt::unresolved;
   const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);
@@ -260,7 +270,7 @@ bool Tracer::corner() {
       angle_between(main_.dot(next_.tangent, beyond)) > options_.step.largest_angle ||
       angle_between(main_.dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
-  evaluate(events_.monitors(), main_, next_);
+  measure(next_);
   return take(kink.arclength - here_.arclength + length, ds_, true, correction) != Attempt::rejected;
 }
 
@@ -314,7 +324,7 @@ bool Tracer::to_boundary(Place& place, double bound) {
   if (!settle(main_, place)) return false;
   if (main_.dot(place.tangent, here_.tangent) < 0) place.reverse();
   place.arclength = here_.arclength + distance(main_, here_.v, place.v);
-  evaluate(events_.monitors(), main_, place);
+  measure(place);
   return true;
 }
 

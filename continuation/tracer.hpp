@@ -52,6 +52,7 @@ class Tracer {
   Attempt take(double length, double next_ds, bool kink, const Correction& correction);
   void predict(Vector& v) const;
   bool went_back(const Place& next) const;
+  void measure(Place& place);
   bool resolved(const Place& next, double length);
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
