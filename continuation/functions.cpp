@@ -65,8 +65,8 @@ class FunctionEvaluator final : public Evaluator, private Operator {
       difference(p_[k], f_->parameters[static_cast<std::size_t>(k)].scale, dF);
   }
 
-  bool second_derivative(In w, In v, Out du) const override {
-    if (f_->second) f_->second(u_, p_, w, v, du);
+  bool second_derivative(In w, In v, In q, Out du, Out dp) const override {
+    if (f_->second) f_->second(u_, p_, w, v, q, du, dp);
     return static_cast<bool>(f_->second);
   }
 

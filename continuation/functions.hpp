@@ -30,8 +30,8 @@ using SparseJacobianFunction = std::function<void(In u, In p, SparseMatrix& J)>;
 using ApplyFunction = std::function<void(In u, In p, In x, Out y)>;
 /// dF/dp_k(u, p) -> n.
 using ParameterFunction = std::function<void(In u, In p, int k, Out dF)>;
-/// d(w . J(u, p) v)/du -> n.
-using SecondFunction = std::function<void(In u, In p, In w, In v, Out du)>;
+/// Second derivatives, as Evaluator::second_derivative.
+using SecondFunction = std::function<void(In u, In p, In w, In v, In q, Out du, Out dp)>;
 /// The smooth piece of F that (u, p) is in, for a piecewise smooth F.
 using PieceFunction = std::function<std::uint64_t(In u, In p)>;
 

@@ -64,10 +64,12 @@ class Evaluator {
   /// dF/dp_k at the place of the last move, n.
   virtual void parameter_derivative(int k, Out dF) const = 0;
 
-  /// du = d(w . J v)/du, n: second derivatives of F against two directions, at the place of the last move.
-  /// False: not given, and taken from differences of J.
-  virtual bool second_derivative(In w, In v, Out du) const {
-    static_cast<void>(w), static_cast<void>(v), static_cast<void>(du);
+  /// Second derivatives of F, at the place of the last move: du = dg/du (n) and dp = dg/dp (all parameters)
+  /// of g(u, p) = w . (J v + sum_k F_pk q_k). w, v: n, q: as many as parameters(). False: not given, and
+  /// taken from differences of J and F_p within one smooth piece.
+  virtual bool second_derivative(In w, In v, In q, Out du, Out dp) const {
+    static_cast<void>(w), static_cast<void>(v), static_cast<void>(q);
+    static_cast<void>(du), static_cast<void>(dp);
     return false;
   }
 
@@ -95,6 +97,9 @@ class Problem {
   }
 
   virtual std::unique_ptr<Evaluator> evaluator() const = 0;
+
+  /// Whether evaluating F alone costs much less than factorizing J, so that chord steps pay.
+  virtual bool cheap_residual() const { return true; }
 
   /// The solver that fits the problem best. Null: what suits the kind of its Jacobian.
   virtual std::unique_ptr<LinearSolver> linear_solver() const;
