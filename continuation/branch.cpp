@@ -24,7 +24,13 @@ const char* name(StopReason reason) {
 }
 
 Monitor fold_monitor() {
-  return {"fold", [](const Accepted& now) { return now.tangent[now.tangent.size() - 1]; }};
+  const auto parameter = std::make_shared<double>(0);
+  return {"fold",
+          [parameter](const Accepted& now) {
+            *parameter = now.parameter;
+            return now.tangent[now.tangent.size() - 1];
+          },
+          Crossing::any, [parameter] { return *parameter; }};
 }
 
 }  // namespace arcslip::continuation

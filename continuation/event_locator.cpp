@@ -13,6 +13,9 @@ constexpr double nonsmooth_share = 1e-4;   // of a monitor's change over a step,
 constexpr double beyond_kink = 1e-3;       // of the way from the kink to the next point, to look at that side
 constexpr double newton_share = 1e-2;      // the corrector's tolerance, of that on the branch
 constexpr double state_tolerance = 1e-10;  // relative, of u at an event
+constexpr int samples_beside = 4;          // of q on each side of an extreme, for its rounding
+constexpr double sample_share = 1e-2;      // of the step, between them
+constexpr double spreads = 2;              // of the samples: more is no rounding
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 }  // namespace
@@ -24,6 +27,7 @@ EventLocator::EventLocator(std::shared_ptr<const Problem> problem, Vector p, int
       free_(free),
       options_(options),
       monitors_(std::move(monitors)),
+      courses_(monitors_.size()),
       counts_(counts) {}
 
 Corrector& EventLocator::probe() {
@@ -38,14 +42,64 @@ Corrector& EventLocator::probe() {
 std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
   std::vector<LocatedEvent> found;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
-    if (!changes(m, from, to, monitors_[m].crossing)) continue;
-    auto event = turns(from, to) ? locate_beside_kink(m, from, to) : locate(m, from, to);
-    if (event) found.push_back(std::move(*event));
+    if (monitors_[m].quantity) {
+      follow(m, from, to, found);
+    } else if (changes(m, from, to, monitors_[m].crossing)) {
+      if (auto event = find(m, from, to)) found.push_back(std::move(*event));
+    }
   }
   std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
     return x.event.point.arclength < y.event.point.arclength;
   });
   return found;
+}
+
+// What becomes of a waiting extreme where the quantity has come to q: departed from it, it is certain; gone
+// beyond it, it is none.
+void EventLocator::judge(Course& course, double q, std::vector<LocatedEvent>& certain) {
+  if (!course.waiting) return;
+  const double departure = course.side * (course.waiting->quantity - q), rounding = course.waiting->rounding;
+  if (rounding > 0 && std::abs(departure) <= rounding) return;
+  if (rounding == 0 || departure > 0) {
+    course.last = course.waiting->quantity;
+    certain.push_back(std::move(*course.waiting));
+  }
+  course.waiting.reset();
+}
+
+void EventLocator::follow(std::size_t monitor, const Place& from, const Place& to,
+                          std::vector<LocatedEvent>& certain) {
+  Course& course = courses_[monitor];
+  const double q = from.quantities[monitor], next = to.quantities[monitor];
+  if (!course.last) course.last = q;
+  if (changes(monitor, from, to, Crossing::any)) {
+    const int side = from.monitors[monitor] > 0 ? 1 : -1;
+    const bool wanted = changes(monitor, from, to, monitors_[monitor].crossing);
+    auto event = wanted ? find(monitor, from, to) : std::nullopt;
+    const double extreme = event ? event->quantity : side * std::max(side * q, side * next);
+    judge(course, extreme, certain);
+    if (course.waiting && course.side != side) {
+      course.waiting.reset();
+    } else if (!event) {
+      if (!wanted) course.last = extreme;
+    } else if (event->rounding == 0 || side * (event->quantity - *course.last) > event->rounding) {
+      course.waiting = std::move(event);
+      course.side = side;
+    }
+  }
+  const bool went_on = course.waiting && course.waiting->rounding > 0 &&
+                       course.side * (next - course.waiting->quantity) > course.waiting->rounding;
+  if (went_on) {  // q tells more than its slope, whose sign is still that beyond the extreme: it is here
+    course.waiting->event.point = point(to, {});
+    course.waiting->event.value = to.monitors[monitor];
+    course.waiting->place = to;
+    course.waiting->quantity = next;
+  }
+  judge(course, next, certain);
+}
+
+std::optional<LocatedEvent> EventLocator::find(std::size_t monitor, const Place& from, const Place& to) {
+  return turns(from, to) ? locate_beside_kink(monitor, from, to) : locate(monitor, from, to);
 }
 
 std::optional<Accepted> EventLocator::look_at(const Place& event) {
@@ -85,7 +139,7 @@ LocatedEvent EventLocator::nearer_end(std::size_t monitor, const Place& from, co
   const Place& end = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
   Event found = event(monitor, end, end.monitors[monitor], {});
   found.located = false;
-  return {std::move(found), end};
+  return {std::move(found), end, end.quantities[monitor]};
 }
 
 std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor, const Place& from,
@@ -113,7 +167,8 @@ std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor
   if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink);
   Event found = event(monitor, kink, kink.monitors[monitor], correction);
   found.nonsmooth = true;
-  return LocatedEvent{std::move(found), std::move(kink)};
+  const double quantity = kink.quantities[monitor];
+  return LocatedEvent{std::move(found), std::move(kink), quantity};
 }
 
 std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Place& from, const Place& to) {
@@ -163,7 +218,20 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
   found.nonsmooth =
       positive_piece != negative_piece &&
       std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
-  return LocatedEvent{std::move(found), std::move(place)};
+  LocatedEvent result{std::move(found), place};
+  if (!monitors_[monitor].quantity) return result;
+  result.quantity = monitors_[monitor].quantity();
+  if (std::max(std::abs(a), std::abs(b)) * length >
+      options_.newton.rounding_level * std::abs(result.quantity))
+    return result;
+  double lowest = result.quantity, highest = lowest;
+  for (int k = -samples_beside; k <= samples_beside && !failed; ++k) {
+    value(root.x + sample_share * k);
+    lowest = std::min(lowest, monitors_[monitor].quantity());
+    highest = std::max(highest, monitors_[monitor].quantity());
+  }
+  result.rounding = spreads * (highest - lowest);
+  return result;
 }
 
 }  // namespace arcslip::continuation

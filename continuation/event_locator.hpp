@@ -4,6 +4,12 @@
 // The zero is bracketed on the cubic between the points, each trial corrected onto the branch. A step that
 // turns at a kink is two smooth sections, which end and begin there: an event lies before the kink, at it, or
 // beyond it.
+//
+// A monitor that is the slope of a quantity q has zeros from rounding where q is flat. Zeros alternate
+// between maxima and minima of q, and two neighbours q_1, q_2 with |q_1 - q_2| <= r are no events: they
+// cancel. So an extreme is certain once q has departed from it by more than r, which is in the same step
+// unless q changes so little in it that r matters; till then it waits. r is measured: the spread of q beside
+// the extreme, over a part of the step in which the change of q itself is negligible.
 
 #include <arcslip/continuation/place.hpp>
 
@@ -17,6 +23,7 @@ namespace arcslip::continuation {
 struct LocatedEvent {
   Event event;
   Place place;
+  double quantity = 0, rounding = 0;  // of what the monitor is the slope of: q and r
 };
 
 class EventLocator {
@@ -30,7 +37,8 @@ class EventLocator {
   /// Whether any monitor changes its sign, in whichever direction.
   bool changes_sign(const Place& from, const Place& to) const;
 
-  /// All events of the step, in the order of arclength. `after` is left to the caller.
+  /// The events that have become certain with this step, in the order of arclength. `after` is left to the
+  /// caller.
   std::vector<LocatedEvent> between(const Place& from, const Place& to);
 
   /// An event as monitors and observers see it: evaluator and factors are those there, until the next call.
@@ -40,17 +48,27 @@ class EventLocator {
  private:
   bool changes(std::size_t monitor, const Place& from, const Place& to, Crossing wanted) const;
   bool turns(const Place& from, const Place& to);
+  std::optional<LocatedEvent> find(std::size_t monitor, const Place& from, const Place& to);
   std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
   std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
   LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
   Event event(std::size_t monitor, const Place& place, double value, const Correction& correction) const;
   Corrector& probe();
 
+  struct Course {                // of the quantity of a monitor
+    std::optional<double> last;  // at its last certain extreme, or at the start
+    std::optional<LocatedEvent> waiting;
+    int side = 1;  // of the waiting one: +1 for a maximum, -1 for a minimum
+  };
+  void follow(std::size_t monitor, const Place& from, const Place& to, std::vector<LocatedEvent>& certain);
+  void judge(Course& course, double q, std::vector<LocatedEvent>& certain);
+
   std::shared_ptr<const Problem> problem_;
   Vector p_;
   int free_;
   Options options_;
   std::vector<Monitor> monitors_;
+  std::vector<Course> courses_;
   Counts& counts_;
   std::unique_ptr<Corrector> probe_;  // made when the first event is met
 };

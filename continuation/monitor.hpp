@@ -19,6 +19,7 @@ struct Accepted {
   double arclength;
   Evaluator& at;
   const LinearSolver& bordered;
+  double parameter;  // value of the free one
 };
 
 /// Which changes of sign count, along the branch in the direction of travel.
@@ -31,7 +32,8 @@ struct Monitor {
 
   /// Where value() is the slope dq/ds of a quantity: q at the place of the last call of value(). Steps are
   /// then kept short enough that q between two points is told by its slopes there, so that no pair of
-  /// extremes hides in one.
+  /// extremes hides in one. And a zero is an event only if q departs from it, before the next zero and from
+  /// the last one, by more than the rounding of q: see EventLocator.
   std::function<double()> quantity = {};
 };
 

@@ -40,7 +40,8 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
 
 Accepted accepted(Corrector& at, const Place& place) {
   const Eigen::Index n = place.v.size() - 1;
-  return {place.v.head(n), at.parameters(), place.tangent, place.arclength, at.evaluator(), at.factors()};
+  return {place.v.head(n), at.parameters(), place.tangent, place.arclength,
+          at.evaluator(),  at.factors(),    place.v[n]};
 }
 
 void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place) {

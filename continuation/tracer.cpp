@@ -328,13 +328,23 @@ bool Tracer::to_boundary(Place& place, double bound) {
   return true;
 }
 
+// In the order of arclength: an event may have waited for a few points until it was certain.
+const Event* Tracer::add(Event&& event) {
+  const double s = event.point.arclength;
+  const auto after = std::upper_bound(branch_.points.begin(), branch_.points.end(), s,
+                                      [](double x, const Point& y) { return x < y.arclength; });
+  event.after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - branch_.points.begin(), 1) - 1);
+  const auto place = std::upper_bound(branch_.events.begin(), branch_.events.end(), s,
+                                      [](double x, const Event& y) { return x < y.point.arclength; });
+  return &*branch_.events.insert(place, std::move(event));
+}
+
 bool Tracer::accept(Place&& place, const Correction& correction) {
   bool go_on = true;
   for (LocatedEvent& found : events_.between(here_, place)) {
-    found.event.after = branch_.points.size() - 1;
-    branch_.events.push_back(std::move(found.event));
+    const Event* event = add(std::move(found.event));
     if (!observer_ || !go_on) continue;
-    if (const auto now = events_.look_at(found.place)) go_on = observer_(*now, &branch_.events.back());
+    if (const auto now = events_.look_at(found.place)) go_on = observer_(*now, event);
   }
   branch_.points.push_back(point(place, correction));
   ++branch_.counts.points;

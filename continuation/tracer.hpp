@@ -28,7 +28,8 @@ struct Start {
   int direction = 1;  // +1: towards larger values of the free parameter, -1: smaller
 };
 
-/// Called at each accepted point and, with the event, at each event. Returns false to stop.
+/// Called at each accepted point and, with the event, at each event, as soon as it is certain. Returns false
+/// to stop.
 using Observer = std::function<bool(const Accepted&, const Event*)>;
 
 class Tracer {
@@ -56,6 +57,7 @@ class Tracer {
   bool resolved(const Place& next, double length);
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction);
+  const Event* add(Event&& event);
   bool notify();
   double choose_step(double angle, const Correction& correction) const;
   double limited(double ds) const;
