@@ -50,7 +50,7 @@ class Case:
     arcslip: str  # the branch of arcslip_branches
     ndim: int
     window: tuple
-    dsmax: float  # for about 200 points
+    dsmax: float  # for 100 to 300 points
     residual: str
     jacobian: str
     derivative: str
@@ -59,6 +59,7 @@ class Case:
     npar: int = 1
     ips: int = 0
     ntst: int = 1
+    finer: float = 0.1  # steps of the second run, of those of the first: it takes well over AUTO's start
     boundary: str = ""  # BCND, of a boundary value problem
 
     def equations(self):
@@ -74,14 +75,14 @@ class Case:
 
 
 CUSP = Case(
-    name="cusp", arcslip="cusp", ndim=1, npar=2, window=(-2, 2), dsmax=0.03,
+    name="cusp", arcslip="cusp", ndim=1, npar=2, window=(-2, 2), dsmax=0.03, finer=0.01,
     residual="  F(1) = PAR(1) + PAR(2)*U(1) - U(1)*U(1)*U(1)",
     jacobian="  DFDU(1,1) = PAR(2) - 3*U(1)*U(1)",
     derivative="  DFDP(1,1) = 1\n  DFDP(1,2) = U(1)",
     start="  PAR(1) = -2\n  PAR(2) = 1\n  U(1) = -1.5213797068045676D0")
 
 AB = Case(
-    name="ab", arcslip="ab", ndim=2, npar=3, window=(0, 0.15), dsmax=0.04,
+    name="ab", arcslip="ab", ndim=2, npar=3, window=(0, 0.15), dsmax=0.04, finer=0.01,
     declarations="  DOUBLE PRECISION E, R",
     residual="""\
   R = PAR(1)*(1 - U(1))*EXP(U(2))
@@ -104,7 +105,7 @@ AB = Case(
     start="  PAR(1:3) = (/ 0D0, 14D0, 2D0 /)\n  U(1:2) = 0")
 
 FREUDENSTEIN_ROTH = Case(
-    name="Freudenstein-Roth", arcslip="freudenstein_roth", ndim=2, window=(-1, 1.5), dsmax=0.6,
+    name="Freudenstein-Roth", arcslip="freudenstein_roth", ndim=2, window=(-1, 1.5), dsmax=0.6, finer=0.01,
     declarations="  DOUBLE PRECISION Y",
     residual="""\
   Y = U(2)
