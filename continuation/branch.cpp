@@ -1,5 +1,4 @@
 #include <arcslip/continuation/branch.hpp>
-#include <arcslip/continuation/monitor.hpp>
 
 namespace arcslip::continuation {
 
@@ -21,16 +20,6 @@ const char* name(StopReason reason) {
       return "not_evaluated";
   }
   return "unknown";
-}
-
-Monitor fold_monitor() {
-  const auto parameter = std::make_shared<double>(0);
-  return {"fold",
-          [parameter](const Accepted& now) {
-            *parameter = now.parameter;
-            return now.tangent[now.tangent.size() - 1];
-          },
-          Crossing::any, [parameter] { return *parameter; }};
 }
 
 }  // namespace arcslip::continuation

@@ -4,6 +4,7 @@
 #include <arcslip/continuation/problem.hpp>
 
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -18,6 +19,35 @@ struct Point {
   double correction = 0;  // relative size of the last correction
 };
 
+/// A smooth fold in the free parameter.
+struct Fold {
+  Vector right_null;  // J v = 0, n, |v| = 1 in scales
+  Vector left_null;   // w J = 0, n, |w| = 1; empty where the linear solver has no transposed solves
+  double curvature =
+      0;  // d2p/ds2: > 0 where the branch lies at larger parameters than the fold, < 0 at smaller
+};
+
+/// A simple branch point: J has rank n - 1 and F_p lies in its range, so that two smooth branches cross.
+struct BranchPoint {
+  enum class Type { transcritical, pitchfork };  // pitchfork: dp/ds = 0 on one of the branches
+  Type type = Type::transcritical;
+  std::vector<Vector> tangents;  // of the branches, n + 1; the first is that of the branch traced
+  Vector left_null;              // w J = 0, w . F_p = 0, n, |w| = 1
+};
+
+/// A Hopf point of u' = F(u, p): J (a + ib) = i omega (a + ib).
+struct Hopf {
+  double frequency = 0;  // omega > 0
+  Vector real, imaginary;
+};
+
+/// A kink: the branch is continuous, its tangent is not.
+struct Kink {
+  Vector before, after;  // tangents, n + 1
+};
+
+using EventData = std::variant<std::monostate, Fold, BranchPoint, Hopf, Kink>;
+
 /// A zero of a monitor.
 struct Event {
   std::string monitor;
@@ -26,6 +56,7 @@ struct Event {
   bool nonsmooth = false;  // the monitor jumps here across zero
   bool located = true;     // false: the corrector failed between the points; `point` is the nearer one
   std::size_t after = 0;   // index of the branch point before it
+  EventData data{};        // what is known of this kind of event
 };
 
 // clang-format off

@@ -51,6 +51,7 @@ std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& 
   std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
     return x.event.point.arclength < y.event.point.arclength;
   });
+  for (LocatedEvent& each : found) describe(each);
   return found;
 }
 
@@ -100,6 +101,13 @@ void EventLocator::follow(std::size_t monitor, const Place& from, const Place& t
 
 std::optional<LocatedEvent> EventLocator::find(std::size_t monitor, const Place& from, const Place& to) {
   return turns(from, to) ? locate_beside_kink(monitor, from, to) : locate(monitor, from, to);
+}
+
+void EventLocator::describe(LocatedEvent& found) {
+  const auto monitor = std::find_if(monitors_.begin(), monitors_.end(),
+                                    [&](const Monitor& m) { return m.name == found.event.monitor; });
+  if (!monitor->describe || found.event.nonsmooth || !found.event.located) return;
+  if (const auto now = look_at(found.place)) found.event.data = monitor->describe(*now);
 }
 
 std::optional<Accepted> EventLocator::look_at(const Place& event) {

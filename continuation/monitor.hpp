@@ -1,6 +1,7 @@
 #pragma once
 // Monitors: scalar functions on a branch whose zeros are its events.
 
+#include <arcslip/continuation/branch.hpp>
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/problem.hpp>
 
@@ -35,9 +36,17 @@ struct Monitor {
   /// extremes hides in one. And a zero is an event only if q departs from it, before the next zero and from
   /// the last one, by more than the rounding of q: see EventLocator.
   std::function<double()> quantity = {};
+
+  /// What is kept of an event beside its point, asked for where it is smooth. The evaluator is at the event;
+  /// it may be moved.
+  std::function<EventData(const Accepted&)> describe = {};
+
+  /// The branch ends at its first event.
+  bool terminal = false;
 };
 
-/// dp/ds = 0: a fold in the free parameter; at a nonsmooth fold dp/ds jumps.
+/// dp/ds = 0: a fold in the free parameter, described by its null vectors and its curvature; at a nonsmooth
+/// fold dp/ds jumps.
 Monitor fold_monitor();
 
 }  // namespace arcslip::continuation

@@ -77,3 +77,31 @@ TEST_CASE("unknowns and parameter in units 1e12 larger or smaller make the same 
       CHECK(std::abs(static_cast<double>(count) - static_cast<double>(points)) <= 2);
     }
 }
+
+TEST_CASE("a fold comes with its null vectors, and with the curvature d2mu/dx2 = 6x of mu = x^3 - x") {
+  const Branch branch =
+      trace(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1), {fold_monitor()});
+  REQUIRE(branch.events.size() == 2);
+  for (const Event& event : branch.events) {
+    const Fold& fold = std::get<Fold>(event.data);
+    CHECK(std::abs(fold.curvature - 6 * event.point.u[0]) < 1e-8);
+    CHECK(std::abs(std::abs(fold.right_null[0]) - 1) < 1e-12);
+    CHECK(std::abs(std::abs(fold.left_null[0]) - 1) < 1e-12);
+  }
+}
+
+TEST_CASE("the null vectors at the folds of Chan's problem are those of J, from both sides") {
+  const Branch branch =
+      trace(chan(100), {Vector::Zero(100), Vector::Zero(1), 0, 1}, window(0, 5), {fold_monitor()});
+  REQUIRE(branch.events.size() == 2);
+  const auto at = chan(100)->evaluator();
+  for (const Event& event : branch.events) {
+    const Fold& fold = std::get<Fold>(event.data);
+    at->move_to(event.point.u, Vector::Constant(1, event.point.parameter), Needs::jacobian);
+    const auto& J = std::get<Matrix>(at->jacobian());
+    CHECK((J * fold.right_null).norm() < 1e-9);
+    CHECK((J.transpose() * fold.left_null).norm() < 1e-9);
+  }
+  CHECK(std::get<Fold>(branch.events[0].data).curvature < 0);
+  CHECK(std::get<Fold>(branch.events[1].data).curvature > 0);
+}

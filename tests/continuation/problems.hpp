@@ -23,8 +23,10 @@ inline Options window(double lower, double upper) {
 
 /// mu + lambda x - x^3 = 0
 inline std::shared_ptr<const Problem> cusp() {
-  return from_functions(1, {parameter("mu", 0), parameter("lambda", 1)},
-                        [](In u, In p, Out F) { F[0] = p[0] + p[1] * u[0] - std::pow(u[0], 3); });
+  return from_functions(
+      1, {parameter("mu", 0), parameter("lambda", 1)},
+      [](In u, In p, Out F) { F[0] = p[0] + p[1] * u[0] - std::pow(u[0], 3); },
+      [](In u, In p, Eigen::Ref<Matrix> J) { J(0, 0) = p[1] - 3 * u[0] * u[0]; });
 }
 
 /// PITCON test_con 1; the free parameter is x3.
