@@ -4,18 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace arcslip::continuation {
 namespace {
 
-constexpr double nonsmooth_share = 1e-4;   // of a monitor's change over a step, left at its zero
-constexpr double beyond_kink = 1e-3;       // of the way from the kink to the next point, to look at that side
-constexpr double newton_share = 1e-2;      // the corrector's tolerance, of that on the branch
-constexpr double state_tolerance = 1e-10;  // relative, of u at an event
-constexpr int samples_beside = 4;          // of q on each side of an extreme, for its rounding
-constexpr double sample_share = 1e-2;      // of the step, between them
-constexpr double spreads = 2;              // of the samples: more is no rounding
+constexpr double nonsmooth_share = 1e-4;  // of a monitor's change over a step, left at its zero
+constexpr double beyond_kink = 1e-3;      // of the way from the kink to the next point, to look at that side
+constexpr double newton_share = 1e-2;     // the corrector's tolerance, of that on the branch
+constexpr double linearized_there = 1e-13;  // corrections below leave factors that are those of the solution
+constexpr double state_tolerance = 1e-10;   // relative, of u at an event
+constexpr int samples_beside = 4;           // of q on each side of an extreme, for its rounding
+constexpr double sample_share = 1e-2;       // of the step, between them
+constexpr double spreads = 2;               // of the samples: more is no rounding
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 }  // namespace
@@ -193,7 +195,8 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
     correction = probe.correct(place.v, row, factors);
     if (!correction.converged) correction = probe.correct(place.v, row, false);
     // A tangent from factors beside the solution may be off by more than what is looked for.
-    if (!correction.converged || !probe.linearize(place.v, row) || !settle(probe, place)) {
+    if (!correction.converged || (correction.last > linearized_there && !probe.linearize(place.v, row)) ||
+        !settle(probe, place)) {
       failed = true;
       return 0.0;
     }
@@ -238,7 +241,8 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
     lowest = std::min(lowest, monitors_[monitor].quantity());
     highest = std::max(highest, monitors_[monitor].quantity());
   }
-  result.rounding = spreads * (highest - lowest);
+  const double representable = std::numeric_limits<double>::epsilon() * std::abs(result.quantity);
+  result.rounding = spreads * std::max(highest - lowest, representable);
   return result;
 }
 
