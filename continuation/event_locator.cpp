@@ -42,12 +42,20 @@ Corrector& EventLocator::probe() {
 }
 
 std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
+  return gather(&EventLocator::find, from, to);
+}
+
+std::vector<LocatedEvent> EventLocator::across(const Place& kink, const Place& beyond) {
+  return gather(&EventLocator::at_kink, kink, beyond);
+}
+
+std::vector<LocatedEvent> EventLocator::gather(Find by, const Place& from, const Place& to) {
   std::vector<LocatedEvent> found;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (monitors_[m].quantity) {
-      follow(m, from, to, found);
+      follow(m, by, from, to, found);
     } else if (changes(m, from, to, monitors_[m].crossing)) {
-      if (auto event = find(m, from, to)) found.push_back(std::move(*event));
+      if (auto event = (this->*by)(m, from, to)) found.push_back(std::move(*event));
     }
   }
   std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
@@ -70,7 +78,7 @@ void EventLocator::judge(Course& course, double q, std::vector<LocatedEvent>& ce
   course.waiting.reset();
 }
 
-void EventLocator::follow(std::size_t monitor, const Place& from, const Place& to,
+void EventLocator::follow(std::size_t monitor, Find by, const Place& from, const Place& to,
                           std::vector<LocatedEvent>& certain) {
   Course& course = courses_[monitor];
   const double q = from.quantities[monitor], next = to.quantities[monitor];
@@ -78,7 +86,7 @@ void EventLocator::follow(std::size_t monitor, const Place& from, const Place& t
   if (changes(monitor, from, to, Crossing::any)) {
     const int side = from.monitors[monitor] > 0 ? 1 : -1;
     const bool wanted = changes(monitor, from, to, monitors_[monitor].crossing);
-    auto event = wanted ? find(monitor, from, to) : std::nullopt;
+    auto event = wanted ? (this->*by)(monitor, from, to) : std::nullopt;
     const double extreme = event ? event->quantity : side * std::max(side * q, side * next);
     judge(course, extreme, certain);
     if (course.waiting && course.side != side) {
@@ -152,6 +160,12 @@ LocatedEvent EventLocator::nearer_end(std::size_t monitor, const Place& from, co
   return {std::move(found), end, end.quantities[monitor]};
 }
 
+std::optional<LocatedEvent> EventLocator::at_kink(std::size_t monitor, const Place& kink, const Place&) {
+  Event found = event(monitor, kink, kink.monitors[monitor], {});
+  found.nonsmooth = true;
+  return LocatedEvent{std::move(found), kink, kink.quantities[monitor]};
+}
+
 std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor, const Place& from,
                                                              const Place& to) {
   Corrector& probe = this->probe();
@@ -175,10 +189,7 @@ std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor
     return nearer_end(monitor, from, to);
   evaluate(monitors_, probe, kink);
   if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink);
-  Event found = event(monitor, kink, kink.monitors[monitor], correction);
-  found.nonsmooth = true;
-  const double quantity = kink.quantities[monitor];
-  return LocatedEvent{std::move(found), std::move(kink), quantity};
+  return at_kink(monitor, kink, beyond);
 }
 
 std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Place& from, const Place& to) {

@@ -41,6 +41,9 @@ class EventLocator {
   /// caller.
   std::vector<LocatedEvent> between(const Place& from, const Place& to);
 
+  /// The same for a kink, by the places on its two sides.
+  std::vector<LocatedEvent> across(const Place& kink, const Place& beyond);
+
   /// An event as monitors and observers see it: evaluator and factors are those there, until the next call.
   /// Nothing where it cannot be linearized.
   std::optional<Accepted> look_at(const Place& event);
@@ -49,6 +52,7 @@ class EventLocator {
   bool changes(std::size_t monitor, const Place& from, const Place& to, Crossing wanted) const;
   bool turns(const Place& from, const Place& to);
   std::optional<LocatedEvent> find(std::size_t monitor, const Place& from, const Place& to);
+  std::optional<LocatedEvent> at_kink(std::size_t monitor, const Place& kink, const Place& beyond);
   std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
   std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
   LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
@@ -61,7 +65,10 @@ class EventLocator {
     std::optional<LocatedEvent> waiting;
     int side = 1;  // of the waiting one: +1 for a maximum, -1 for a minimum
   };
-  void follow(std::size_t monitor, const Place& from, const Place& to, std::vector<LocatedEvent>& certain);
+  using Find = std::optional<LocatedEvent> (EventLocator::*)(std::size_t, const Place&, const Place&);
+  std::vector<LocatedEvent> gather(Find by, const Place& from, const Place& to);
+  void follow(std::size_t monitor, Find by, const Place& from, const Place& to,
+              std::vector<LocatedEvent>& certain);
   void judge(Course& course, double q, std::vector<LocatedEvent>& certain);
 
   std::shared_ptr<const Problem> problem_;

@@ -181,15 +181,15 @@ void Tracer::measure(Place& place) {
 // Whether the change of each monitored quantity is that of its slopes at both ends, by the trapezoid. Beside
 // a kink it is not, however short the step: in one stretch the step is shortened no further than to a part of
 // the first one.
-bool Tracer::resolved(const Place& next, double length) {
+bool Tracer::resolved(const Place& from, const Place& to, double length) {
   if (here_.arclength <= unresolved_end_ && ds_ <= unresolved_share * unresolved_step_) return true;
   for (std::size_t m = 0; m < events_.monitors().size(); ++m) {
     if (!events_.monitors()[m].quantity) continue;
-    const double a = here_.monitors[m] * length, b = next.monitors[m] * length;
-    const double change = next.quantities[m] - here_.quantities[m];
+    const double a = from.monitors[m] * length, b = to.monitors[m] * length;
+    const double change = to.quantities[m] - from.quantities[m];
     const double size = std::max(std::abs(a), std::abs(b));
     if (std::abs(change - 0.5 * (a + b)) <= unresolved_change * size ||
-        size <= quantity_rounding * std::abs(next.quantities[m]))
+        size <= quantity_rounding * std::abs(to.quantities[m]))
       continue;
     if (here_.arclength > unresolved_end_) {
       unresolved_end_ = here_.arclength + length;
@@ -237,7 +237,7 @@ Tracer::Attempt Tracer::attempt() {
     return Attempt::rejected;
   }
   measure(next_);
-  if (!resolved(next_, length)) return Attempt::unresolved;
+  if (!resolved(here_, next_, length)) return Attempt::unresolved;
   const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);
 }
@@ -250,6 +250,13 @@ bool Tracer::corner() {
   Place kink;
   Correction correction;
   if (!locate_kink(main_, here_, ds_, kink, correction)) return false;
+  Corner sides;
+  const double way = kink.arclength - here_.arclength;
+  bool has_sides =
+      look_beside(kink, kink.tangent, -corner_step * way, sides.before) && sides.before.piece == here_.piece;
+  sides.before.v = kink.v;
+  sides.before.arclength = kink.arclength;
+  if (has_sides && !resolved(here_, sides.before, way)) return false;
   next_.v = kink.v + corner_step * ds_ * here_.tangent;
   row_ = here_.tangent.cwiseProduct(main_.weights());
   if (!main_.linearize(next_.v, row_) || !settle(main_, next_)) {  // at a right angle, a row that is neither
@@ -271,11 +278,27 @@ bool Tracer::corner() {
       angle_between(main_.dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
   measure(next_);
-  return take(kink.arclength - here_.arclength + length, ds_, true, correction) != Attempt::rejected;
+  has_sides = has_sides && look_beside(kink, beyond, corner_step * ds_, sides.beyond) &&
+              sides.beyond.piece != here_.piece;
+  if (has_sides && !resolved(sides.beyond, next_, length)) return false;
+  return take(way + length, ds_, true, correction, has_sides ? &sides : nullptr) != Attempt::rejected;
+}
+
+// A place shortly before (way < 0) or beyond a kink, on the branch, with its monitors.
+bool Tracer::look_beside(const Place& kink, const Vector& tangent, double way, Place& side) {
+  side.v = kink.v + way * tangent;
+  side.tangent = tangent;
+  side.arclength = kink.arclength + way;
+  v_ = tangent.cwiseProduct(main_.weights());
+  if (!main_.correct(side.v, v_, false).converged || !main_.linearize(side.v, v_) || !settle(main_, side))
+    return false;
+  evaluate(events_.monitors(), main_, side);
+  return true;
 }
 
 // Accepts next_, or, beyond the window, ends the branch at its bound.
-Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Correction& correction) {
+Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Correction& correction,
+                             const Corner* corner) {
   next_.arclength = here_.arclength + length;
   const double p = next_.v[n_], bound = std::clamp(p, options_.lower, options_.upper);
   if (p != bound) {
@@ -287,7 +310,7 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   last_ds_ = length;
   has_before_ = !kink;
   factors_fit_ = !kink;
-  if (!accept(std::move(next_), correction)) return Attempt::ended;
+  if (!accept(std::move(next_), correction, corner)) return Attempt::ended;
   ds_ = limited(next_ds);
   const double state = main_.norm_u(here_.v);
   if (state > options_.largest_state) {
@@ -339,13 +362,21 @@ const Event* Tracer::add(Event&& event) {
   return &*branch_.events.insert(place, std::move(event));
 }
 
-bool Tracer::accept(Place&& place, const Correction& correction) {
+bool Tracer::report(std::vector<LocatedEvent>&& all) {
   bool go_on = true;
-  for (LocatedEvent& found : events_.between(here_, place)) {
+  for (LocatedEvent& found : all) {
     const Event* event = add(std::move(found.event));
     if (!observer_ || !go_on) continue;
     if (const auto now = events_.look_at(found.place)) go_on = observer_(*now, event);
   }
+  return go_on;
+}
+
+bool Tracer::accept(Place&& place, const Correction& correction, const Corner* corner) {
+  const bool go_on = corner ? report(events_.between(here_, corner->before)) &&
+                                  report(events_.across(corner->before, corner->beyond)) &&
+                                  report(events_.between(corner->beyond, place))
+                            : report(events_.between(here_, place));
   branch_.points.push_back(point(place, correction));
   ++branch_.counts.points;
   std::swap(before_, here_);

@@ -50,13 +50,19 @@ class Tracer {
   bool begin();
   Attempt attempt();
   bool corner();
-  Attempt take(double length, double next_ds, bool kink, const Correction& correction);
+  struct Corner {  // both sides of a kink within the step
+    Place before, beyond;
+  };
+  bool look_beside(const Place& kink, const Vector& tangent, double way, Place& side);
+  Attempt take(double length, double next_ds, bool kink, const Correction& correction,
+               const Corner* corner = nullptr);
   void predict(Vector& v) const;
   bool went_back(const Place& next) const;
   void measure(Place& place);
-  bool resolved(const Place& next, double length);
+  bool resolved(const Place& from, const Place& to, double length);
   bool is_kink(double turn, const Place& next);
-  bool accept(Place&& place, const Correction& correction);
+  bool accept(Place&& place, const Correction& correction, const Corner* corner = nullptr);
+  bool report(std::vector<LocatedEvent>&& found);
   const Event* add(Event&& event);
   bool notify();
   double choose_step(double angle, const Correction& correction) const;

@@ -2,6 +2,8 @@
 
 #include "continuation/problems.hpp"
 
+#include <memory>
+
 using namespace problems;
 
 namespace {
@@ -50,4 +52,29 @@ TEST_CASE("a nonsmooth fold is found at its kink, and says that it is nonsmooth"
     CHECK(branch.events[0].nonsmooth);
     CHECK(std::abs(branch.events[0].point.parameter) < 1e-9);
   }
+}
+
+TEST_CASE("a maximum before a sharp corner and a minimum beyond it are found, however close") {
+  // q = u^3/3 - d^2 u: a maximum at u = -d, a minimum at u = d, and the corner between them at u = 0.
+  for (double above : {-3.0, -20.0})
+    for (double from : {-0.9137, -0.8513, -0.7331})
+      for (double d : {3e-3, 1e-3, 3e-4}) {
+        const auto q = std::make_shared<double>(0);
+        const Monitor extreme{"extreme",
+                              [=](const Accepted& now) {
+                                const double u = now.u[0];
+                                *q = u * u * u / 3 - d * d * u;
+                                return (u * u - d * d) * now.tangent[0];
+                              },
+                              Crossing::any, [q] { return *q; }};
+        const auto problem = std::make_shared<Broken>(1, above);
+        const Branch branch = trace(problem, {Vector::Constant(1, from), Vector::Constant(1, from), 0, 1},
+                                    window(-1, 1), {extreme});
+        CAPTURE(above, from, d, branch.points.size());
+        CHECK(branch.stop.reason == StopReason::boundary);
+        REQUIRE(branch.events.size() == 2);
+        CHECK(std::abs(branch.events[0].point.u[0] + d) < 1e-9);
+        CHECK(std::abs(branch.events[1].point.u[0] - d) < 1e-9);
+        CHECK(branch.counts.rejected_steps < 40);
+      }
 }
