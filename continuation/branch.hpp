@@ -53,7 +53,7 @@ struct Event {
   std::string monitor;
   Point point;
   double value = 0;        // of the monitor, at the point
-  bool nonsmooth = false;  // the monitor jumps here across zero
+  bool nonsmooth = false;  // the monitor jumps here across zero, with a change of piece
   bool located = true;     // false: the corrector failed between the points; `point` is the nearer one
   std::size_t after = 0;   // index of the branch point before it
   EventData data{};        // what is known of this kind of event

@@ -9,7 +9,9 @@
 // between maxima and minima of q, and two neighbours q_1, q_2 with |q_1 - q_2| <= r are no events: they
 // cancel. So an extreme is certain once q has departed from it by more than r, which is in the same step
 // unless q changes so little in it that r matters; till then it waits. r is measured: the spread of q beside
-// the extreme, over a part of the step in which the change of q itself is negligible.
+// the extreme, over a part of the step in which the change of q itself is negligible. Where q goes on beyond
+// a waiting extreme by more than r, while its slope has not changed its sign again, q is right: the extreme
+// moves along, from point to point.
 
 #include <arcslip/continuation/place.hpp>
 
