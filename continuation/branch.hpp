@@ -60,23 +60,32 @@ struct Event {
 };
 
 // clang-format off
-/// Why a branch ended.
-///   boundary         the free parameter reached a bound of the window: p = lower or p = upper. The usual end.
-///   start_failed     Newton's method at the start did not converge: |correction| > tolerance. Causes: a start
-///                    far from a solution, a wrong Jacobian, no solution there.
-///   step_too_small   |ds| < smallest step, after rejections. Causes: a wrong Jacobian, an end of the branch,
-///                    a tolerance below rounding.
+/// Why a branch ended: value and limit are the two numbers of its formula.
+///   boundary         p = lower or p = upper: the free parameter reached a bound of the window. The usual end.
+///   closed           |v - v_start| <= its rounding, after a way round: the branch is a loop.
+///   event            a terminal monitor has its first zero: value is the monitor's there.
+///   start_failed     |correction| > tolerance: Newton's method at the start did not converge. Causes: a start far
+///                    from a solution, a wrong Jacobian, no solution there.
+///   step_too_small   |ds| < smallest step, after rejections. Causes: a wrong Jacobian, an end of the branch, a
+///                    tolerance below rounding, a multiple branch point.
 ///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, as an undamped resonance.
-///   point_limit      as many points as asked for.
+///   point_limit      points >= limit.
+///   time_limit       seconds >= limit.
+///   memory_limit     bytes of the points kept >= limit.
 ///   user             the callback said stop.
-///   not_evaluated    the problem could not be evaluated at any attempt, or gave numbers that are not finite.
+///   not_evaluated    the problem could not be evaluated at any attempt, gave numbers that are not finite, or
+///                    threw: the message has its words. value is the step that was tried, limit the smallest.
 // clang-format on
 enum class StopReason {
   boundary,
+  closed,
+  event,
   start_failed,
   step_too_small,
   state_too_large,
   point_limit,
+  time_limit,
+  memory_limit,
   user,
   not_evaluated
 };
@@ -99,6 +108,11 @@ struct Branch {
   std::vector<Event> events;  // in the order of arclength
   Stop stop;
   Counts counts;
+  std::string linear_solver;  // the one that was used
 };
+
+/// The point at an arclength within the branch, on the cubic through its neighbours with their tangents: not
+/// corrected. Throws std::out_of_range beyond the ends, or where points keep no unknowns.
+Point interpolate(const Branch& branch, double arclength);
 
 }  // namespace arcslip::continuation

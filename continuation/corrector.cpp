@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -36,6 +37,7 @@ Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOpt
       dv_(problem.size() + 1),
       next_(problem.size() + 1),
       trial_(problem.size() + 1),
+      tangent_(problem.size() + 1),
       metric_(problem.size()),
       free_(free),
       chord_safety_(chord_safety(problem.size())),
@@ -57,6 +59,12 @@ void Corrector::border_row(const Vector& t, Vector& row) const {
   if (has_metric_) problem_.metric(t.head(metric_.size()), row.head(metric_.size()));
 }
 
+Vector Corrector::border_row(const Vector& t) const {
+  Vector row(t.size());
+  border_row(t, row);
+  return row;
+}
+
 double Corrector::norm_u(const Vector& v) const {
   const Eigen::Index n = v.size() - 1;
   if (!has_metric_) return std::sqrt((v.head(n).array().square() * weights_.head(n).array()).sum());
@@ -76,12 +84,30 @@ bool Corrector::evaluate(const Vector& v, Needs needs) {
   p_[free_] = v[n];
   ++counts_.residuals;
   if (needs == Needs::jacobian) ++counts_.jacobians;
-  return evaluator_->move_to(v.head(n), p_, needs) == Evaluated::ok && evaluator_->residual().allFinite();
+  failure_.clear();
+  try {
+    if (evaluator_->move_to(v.head(n), p_, needs) != Evaluated::ok) return false;
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
+  if (evaluator_->residual().size() != n) {
+    failure_ = "the residual has " + std::to_string(evaluator_->residual().size()) + " entries for " +
+               std::to_string(n) + " unknowns";
+    return false;
+  }
+  return evaluator_->residual().allFinite();
 }
 
 bool Corrector::factorize(const Vector& row) {
+  failure_.clear();
   const Eigen::Index n = F_p_.size();
-  evaluator_->parameter_derivative(free_, F_p_);
+  try {
+    evaluator_->parameter_derivative(free_, F_p_);
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
   if (!F_p_.allFinite()) return false;
   if (!solver_) solver_ = suitable_solver(evaluator_->jacobian());
   borders_.columns.col(0) = F_p_;
@@ -97,6 +123,11 @@ void Corrector::solve(Vector& dv) const {
   dv[n] = 0;
   ++counts_.solves;
   solver_->solve(dv);
+}
+
+// To the smallest of all corrections: dv - <dv, t> t.
+void Corrector::project(Vector& dv) {
+  if (tangent(tangent_)) dv -= dot(dv, tangent_) * tangent_;
 }
 
 bool Corrector::linearize(const Vector& v, const Vector& row) {
@@ -150,19 +181,30 @@ bool Corrector::chord(Vector& v, Correction& result) {
   return true;
 }
 
-Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
+double Corrector::distance_from_branch(const Vector& v) {
+  if (!evaluate(v, Needs::residual)) return std::numeric_limits<double>::quiet_NaN();
+  solve(dv_);
+  return std::sqrt(dot(dv_, dv_));
+}
+
+Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, CorrectorKind kind) {
   Correction result;
   double before = 0;  // size of the correction that led to v
-  if (keep_factors) {
+  if (keep_factors && options_.chord && problem_.cheap_residual()) {
     if (!chord(v, result) && !result.evaluated) return result;
     before = result.last;
   }
   for (int k = 0; k < options_.iterations; ++k, ++result.iterations) {
-    if (!linearize(v, row)) {
+    if (!evaluate(v, Needs::jacobian)) {
       result.evaluated = false;
       return result;
     }
+    if (!factorize(row)) {
+      result.singular = true;
+      return result;
+    }
     solve(dv_);
+    if (kind == CorrectorKind::moore_penrose) project(dv_);
     const double now = size(dv_, v);
     if (result.first == 0) result.first = now;
     if (result.contraction == 0 && before > 0) result.contraction = now / before;
@@ -177,7 +219,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
     }
     if (!std::isfinite(now)) return result;
     if (now < undamped) {
-      if (before > 0 && before < undamped && now > divergence * before) return result;
+      if (k > 0 && before > 0 && before < undamped && now > divergence * before) return result;
       v += dv_;
       before = now;
       continue;
@@ -188,6 +230,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
       trial_ = v + damping * dv_;
       if (!evaluate(trial_, Needs::residual)) continue;
       solve(next_);
+      if (kind == CorrectorKind::moore_penrose) project(next_);
       next = size(next_, trial_);
       if (next <= (1 - damping / 4) * now) break;
     }

@@ -19,13 +19,15 @@
 #include <arcslip/continuation/problem.hpp>
 
 #include <memory>
+#include <string>
 
 namespace arcslip::continuation {
 
 /// What became of a correction. Corrections are relative to |u| in scales (and to |p|).
 struct Correction {
   bool converged = false;
-  bool evaluated = true;  // false: the problem could not be evaluated
+  bool evaluated = true;  // false: the problem could not be evaluated; see failure()
+  bool singular = false;  // the linear solver refused the matrix, or the problem its derivatives
   int iterations = 0;
   double first = 0, last = 0;  // size of the first and of the last correction
   double contraction = 0;      // of the second over the first
@@ -42,8 +44,13 @@ class Corrector {
 
   /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1.
   /// keep_factors: the factors that are there are those of a nearby place with a similar row, and are tried
-  /// first.
-  Correction correct(Vector& v, const Vector& row, bool keep_factors);
+  /// first. kind: moore_penrose leaves the plane, to the solution nearest to the prediction.
+  Correction correct(Vector& v, const Vector& row, bool keep_factors,
+                     CorrectorKind kind = CorrectorKind::pseudo_arclength);
+
+  /// |B^-1 F(v)| in scales, with the factors that are there: how far v is from the branch, to first order.
+  /// NaN where F cannot be evaluated.
+  double distance_from_branch(const Vector& v);
 
   /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
   bool linearize(const Vector& v, const Vector& row);
@@ -61,9 +68,11 @@ class Corrector {
   double dot(const Vector& a, const Vector& b) const;
   /// row . x = <t, x> for all x.
   void border_row(const Vector& t, Vector& row) const;
+  Vector border_row(const Vector& t) const;
   double parameter_scale() const { return parameter_scale_; }
-  const Vector& weights() const { return weights_; }  // 1 / scale^2, n + 1
   const Vector& parameters() const { return p_; }
+  /// What the problem threw, or did wrong, when it could not be evaluated last. Empty: it said so itself.
+  const std::string& failure() const { return failure_; }
   Evaluator& evaluator() { return *evaluator_; }
   const LinearSolver& factors() const { return *solver_; }  // once there was a linearization
 
@@ -72,6 +81,7 @@ class Corrector {
   bool factorize(const Vector& row);
   void solve(Vector& dv) const;  // dv = -B^-1 (F, 0)
   bool chord(Vector& v, Correction& result);
+  void project(Vector& dv);
 
   const Problem& problem_;
   NewtonOptions options_;
@@ -79,9 +89,10 @@ class Corrector {
   std::unique_ptr<Evaluator> evaluator_;
   std::unique_ptr<LinearSolver> solver_;
   Borders borders_;
-  Vector p_, weights_, F_p_, dv_, next_, trial_;
+  Vector p_, weights_, F_p_, dv_, next_, trial_, tangent_;
   mutable Vector metric_;  // M x of the last product
   bool has_metric_;
+  std::string failure_;
   int free_;
   double chord_safety_;
   double parameter_scale_;

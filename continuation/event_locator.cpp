@@ -23,20 +23,22 @@ constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to 
 }  // namespace
 
 EventLocator::EventLocator(std::shared_ptr<const Problem> problem, Vector p, int free, const Options& options,
-                           std::vector<Monitor> monitors, Counts& counts)
+                           const std::vector<Monitor>& monitors, std::vector<Course>& courses, Counts& counts)
     : problem_(std::move(problem)),
       p_(std::move(p)),
       free_(free),
       options_(options),
-      monitors_(std::move(monitors)),
-      courses_(monitors_.size()),
-      counts_(counts) {}
+      monitors_(monitors),
+      courses_(courses),
+      counts_(counts) {
+  courses_.resize(monitors_.size());
+}
 
 Corrector& EventLocator::probe() {
   if (!probe_) {
     NewtonOptions newton = options_.newton;
     newton.tolerance *= newton_share;
-    probe_ = std::make_unique<Corrector>(*problem_, p_, free_, newton, counts_);
+    probe_ = std::make_unique<Corrector>(*problem_, p_, free_, newton, counts_, options_.linear_solver);
   }
   return *probe_;
 }
@@ -121,7 +123,7 @@ void EventLocator::describe(LocatedEvent& found) {
 }
 
 std::optional<Accepted> EventLocator::look_at(const Place& event) {
-  if (!probe().linearize(event.v, event.tangent.cwiseProduct(probe().weights()))) return std::nullopt;
+  if (!probe().linearize(event.v, probe().border_row(event.tangent))) return std::nullopt;
   probe().move_to(event.v);
   return accepted(probe(), event);
 }
@@ -176,8 +178,7 @@ std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor
   const double ahead = beyond_kink * (to.arclength - kink.arclength);
   Place beyond = to;
   beyond.v = kink.v + ahead * to.tangent;
-  if (!probe.correct(beyond.v, to.tangent.cwiseProduct(probe.weights()), false).converged ||
-      !settle(probe, beyond))
+  if (!probe.correct(beyond.v, probe.border_row(to.tangent), false).converged || !settle(probe, beyond))
     return nearer_end(monitor, from, to);
   beyond.arclength = kink.arclength + ahead;
   if (probe.dot(beyond.tangent, to.tangent) < 0) beyond.reverse();
@@ -185,8 +186,7 @@ std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor
   const bool positive = from.monitors[monitor] > 0;
   if (beyond.piece == to.piece && (beyond.monitors[monitor] > 0) == positive)
     return locate(monitor, beyond, to);
-  if (!probe.linearize(kink.v, from.tangent.cwiseProduct(probe.weights())))
-    return nearer_end(monitor, from, to);
+  if (!probe.linearize(kink.v, probe.border_row(from.tangent))) return nearer_end(monitor, from, to);
   evaluate(monitors_, probe, kink);
   if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink);
   return at_kink(monitor, kink, beyond);
@@ -196,7 +196,7 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
   Corrector& probe = this->probe();
   const double length = to.arclength - from.arclength;
   const Vector chord = to.v - from.v;
-  const Vector row = (chord / length).cwiseProduct(probe.weights());
+  const Vector row = probe.border_row(chord / length);
   Place place = to;
   Correction correction;
   bool factors = false, failed = false;
@@ -242,15 +242,15 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
       std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
   LocatedEvent result{std::move(found), place};
   if (!monitors_[monitor].quantity) return result;
-  result.quantity = monitors_[monitor].quantity();
+  result.quantity = monitors_[monitor].quantity(accepted(probe, place));
   if (std::max(std::abs(a), std::abs(b)) * length >
       options_.newton.rounding_level * std::abs(result.quantity))
     return result;
   double lowest = result.quantity, highest = lowest;
   for (int k = -samples_beside; k <= samples_beside && !failed; ++k) {
     value(root.x + sample_share * k);
-    lowest = std::min(lowest, monitors_[monitor].quantity());
-    highest = std::max(highest, monitors_[monitor].quantity());
+    lowest = std::min(lowest, monitors_[monitor].quantity(accepted(probe, place)));
+    highest = std::max(highest, monitors_[monitor].quantity(accepted(probe, place)));
   }
   const double representable = std::numeric_limits<double>::epsilon() * std::abs(result.quantity);
   result.rounding = spreads * std::max(highest - lowest, representable);

@@ -14,6 +14,7 @@
 // moves along, from point to point.
 
 #include <arcslip/continuation/place.hpp>
+#include <arcslip/continuation/state.hpp>
 
 #include <memory>
 #include <optional>
@@ -21,20 +22,12 @@
 
 namespace arcslip::continuation {
 
-/// An event, and the place where it is.
-struct LocatedEvent {
-  Event event;
-  Place place;
-  double quantity = 0, rounding = 0;  // of what the monitor is the slope of: q and r
-};
-
 class EventLocator {
  public:
-  /// p: all parameters; free: index of the free one. counts: where the work is added up; outlives this.
+  /// p: all parameters; free: index of the free one. courses: as many as monitors, or none yet. counts: where
+  /// the work is added up. Both outlive this.
   EventLocator(std::shared_ptr<const Problem> problem, Vector p, int free, const Options& options,
-               std::vector<Monitor> monitors, Counts& counts);
-
-  const std::vector<Monitor>& monitors() const { return monitors_; }
+               const std::vector<Monitor>& monitors, std::vector<Course>& courses, Counts& counts);
 
   /// Whether any monitor changes its sign, in whichever direction.
   bool changes_sign(const Place& from, const Place& to) const;
@@ -62,11 +55,6 @@ class EventLocator {
   Event event(std::size_t monitor, const Place& place, double value, const Correction& correction) const;
   Corrector& probe();
 
-  struct Course {                // of the quantity of a monitor
-    std::optional<double> last;  // at its last certain extreme, or at the start
-    std::optional<LocatedEvent> waiting;
-    int side = 1;  // of the waiting one: +1 for a maximum, -1 for a minimum
-  };
   using Find = std::optional<LocatedEvent> (EventLocator::*)(std::size_t, const Place&, const Place&);
   std::vector<LocatedEvent> gather(Find by, const Place& from, const Place& to);
   void follow(std::size_t monitor, Find by, const Place& from, const Place& to,
@@ -76,9 +64,9 @@ class EventLocator {
   std::shared_ptr<const Problem> problem_;
   Vector p_;
   int free_;
-  Options options_;
-  std::vector<Monitor> monitors_;
-  std::vector<Course> courses_;
+  const Options& options_;
+  const std::vector<Monitor>& monitors_;
+  std::vector<Course>& courses_;
   Counts& counts_;
   std::unique_ptr<Corrector> probe_;  // made when the first event is met
 };

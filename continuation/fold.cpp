@@ -1,7 +1,6 @@
 #include <arcslip/continuation/monitor.hpp>
 
 #include <algorithm>
-#include <memory>
 
 namespace arcslip::continuation {
 namespace {
@@ -42,14 +41,10 @@ EventData describe(const Accepted& now) {
 }  // namespace
 
 Monitor fold_monitor() {
-  const auto parameter = std::make_shared<double>(0);
   Monitor monitor;
   monitor.name = "fold";
-  monitor.value = [parameter](const Accepted& now) {
-    *parameter = now.parameter;
-    return now.tangent[now.tangent.size() - 1];
-  };
-  monitor.quantity = [parameter] { return *parameter; };
+  monitor.value = [](const Accepted& now) { return now.tangent[now.tangent.size() - 1]; };
+  monitor.quantity = [](const Accepted& now) { return now.parameter; };
   monitor.describe = describe;
   return monitor;
 }

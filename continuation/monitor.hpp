@@ -31,11 +31,11 @@ struct Monitor {
   std::function<double(const Accepted&)> value;
   Crossing crossing = Crossing::any;
 
-  /// Where value() is the slope dq/ds of a quantity: q at the place of the last call of value(). Steps are
+  /// Where value() is the slope dq/ds of a quantity: q, asked for after value() at the same place. Steps are
   /// then kept short enough that q between two points is told by its slopes there, so that no pair of
   /// extremes hides in one. And a zero is an event only if q departs from it, before the next zero and from
   /// the last one, by more than the rounding of q: see EventLocator.
-  std::function<double()> quantity = {};
+  std::function<double(const Accepted&)> quantity = {};
 
   /// What is kept of an event beside its point, asked for where it is smooth. The evaluator is at the event;
   /// it may be moved.

@@ -17,7 +17,7 @@ bool settle(Corrector& at, Place& place) {
 }
 
 bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last) {
-  const Vector row = from.tangent.cwiseProduct(with.weights());
+  const Vector row = with.border_row(from.tangent);
   double lower = 0, upper = length;
   kink = from;
   Vector v = from.v;
@@ -50,7 +50,7 @@ void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place)
   place.quantities.resize(monitors.size());
   for (std::size_t m = 0; m < monitors.size(); ++m) {
     place.monitors[m] = monitors[m].value(now);
-    place.quantities[m] = monitors[m].quantity ? monitors[m].quantity() : 0;
+    place.quantities[m] = monitors[m].quantity ? monitors[m].quantity(now) : 0;
   }
 }
 
@@ -61,7 +61,8 @@ Point point(const Place& place, const Correction& correction) {
 }
 
 double distance(const Corrector& in, const Vector& a, const Vector& b) {
-  return std::sqrt(((b - a).array().square() * in.weights().array()).sum());
+  const Vector d = b - a;
+  return std::sqrt(in.dot(d, d));
 }
 
 void hermite(const Vector& v0, const Vector& t0, const Vector& v1, const Vector& t1, double length, double s,

@@ -1,5 +1,7 @@
 #include <arcslip/continuation/tracer.hpp>
 
+#include <arcslip/continuation/jacobian_check.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -22,6 +24,10 @@ constexpr double unresolved_rejection = 0.5;   // of the step where a quantity i
 constexpr double unresolved_change = 0.5;      // of a quantity, against its slopes
 constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
 constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
+constexpr double curve_safety = 0.9;           // of the step that the curve's error allows
+constexpr double middle_share = 0.7;           // of the largest error of the curve, in the middle of a step
+constexpr double home = 1e-3;                  // of a step: a start so near to it lies on it
+constexpr int largest_to_check = 500;          // unknowns, where a failure asks for a check of the Jacobian
 constexpr double corner_step = 1e-3;           // beyond a kink, of the step, to linearize there
 
 double angle_between(double cosine) {
@@ -35,128 +41,205 @@ std::string text(double x) {
   return s.str();
 }
 
+std::string because(const std::string& failure) {
+  return failure.empty() ? failure : ": " + failure;
+}
+
+// What to say of a Jacobian that differs from the differences of F, where Newton's method failed.
+std::string doubt_of_jacobian(const Problem& problem, In u, In p) {
+  if (problem.size() > largest_to_check) return {};
+  try {
+    const std::string doubt = check_jacobian(problem, u, p).message;
+    return doubt.empty() ? doubt : "; " + doubt;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+// Of the step, where the curve's error is `error` times that allowed: it falls with the fourth power.
+double curve_factor(double error) {
+  return std::clamp(curve_safety / std::sqrt(std::sqrt(error)), shrinkage, growth);
+}
+
 }  // namespace
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                std::vector<Monitor> monitors, Observer observer)
     : problem_(std::move(problem)),
       options_(options),
+      monitors_(std::move(monitors)),
       observer_(std::move(observer)),
-      n_(problem_->size()),
-      free_(start.free),
-      direction_(start.direction < 0 ? -1 : 1),
-      main_(*problem_, start.p, start.free, options.newton, branch_.counts),
-      events_(problem_, start.p, start.free, options, std::move(monitors), branch_.counts) {
+      n_(problem_->size()) {
   check(options);
   const auto parameters = problem_->parameters();
+  if (n_ < 1) throw std::invalid_argument("the problem has no unknowns");
   if (start.u.size() != n_)
     throw std::invalid_argument("the start has " + std::to_string(start.u.size()) +
                                 " unknowns, the problem " + std::to_string(n_));
   if (start.p.size() != static_cast<Eigen::Index>(parameters.size()))
     throw std::invalid_argument("the start has " + std::to_string(start.p.size()) +
                                 " parameters, the problem " + std::to_string(parameters.size()));
-  here_.v.resize(n_ + 1);
-  here_.v << start.u, start.p[free_];
-  if (!here_.v.allFinite()) throw std::invalid_argument("the start has numbers that are not finite");
-  if (here_.v[n_] < options.lower || here_.v[n_] > options.upper)
-    throw std::invalid_argument("the start is at " + text(here_.v[n_]) + ", outside the window [" +
+  if (start.free < 0 || static_cast<std::size_t>(start.free) >= parameters.size())
+    throw std::invalid_argument("the free parameter is number " + std::to_string(start.free) + " of " +
+                                std::to_string(parameters.size()));
+  if (start.tangent.size() != 0 && (start.tangent.size() != n_ + 1 || !start.tangent.allFinite()))
+    throw std::invalid_argument("the tangent of the start needs " + std::to_string(n_ + 1) +
+                                " finite entries, not " + std::to_string(start.tangent.size()));
+  s_.free = start.free;
+  s_.direction = start.direction < 0 ? -1 : 1;
+  s_.p = start.p;
+  s_.here.v.resize(n_ + 1);
+  s_.here.v << start.u, start.p[s_.free];
+  if (!s_.here.v.allFinite()) throw std::invalid_argument("the start has numbers that are not finite");
+  if (s_.here.v[n_] < options.lower || s_.here.v[n_] > options.upper)
+    throw std::invalid_argument("the start is at " + text(s_.here.v[n_]) + ", outside the window [" +
                                 text(options.lower) + ", " + text(options.upper) + "]");
+  s_.here.tangent = start.tangent;
+  make_tools();
+}
+
+Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
+               std::vector<Monitor> monitors, Observer observer)
+    : problem_(std::move(problem)),
+      options_(options),
+      monitors_(std::move(monitors)),
+      observer_(std::move(observer)),
+      s_(std::move(state)),
+      n_(problem_->size()) {
+  check(options);
+  if (s_.here.v.size() != n_ + 1 || s_.p.size() != static_cast<Eigen::Index>(problem_->parameters().size()) ||
+      s_.courses.size() != monitors_.size())
+    throw std::invalid_argument("the state is of " + std::to_string(s_.here.v.size() - 1) + " unknowns, " +
+                                std::to_string(s_.p.size()) + " parameters and " +
+                                std::to_string(s_.courses.size()) + " monitors, the problem of " +
+                                std::to_string(n_) + ", " + std::to_string(problem_->parameters().size()) +
+                                " and " + std::to_string(monitors_.size()));
+  make_tools();
+}
+
+void Tracer::make_tools() {
   if (options_.step.largest_parameter == 0)
-    options_.step.largest_parameter = first_share_of_window * (options.upper - options.lower);
-  here_.tangent = Vector::Zero(n_ + 1);
-  next_ = before_ = here_;
+    options_.step.largest_parameter = first_share_of_window * (options_.upper - options_.lower);
+  main_ = std::make_unique<Corrector>(*problem_, s_.p, s_.free, options_.newton, s_.branch.counts,
+                                      options_.linear_solver);
+  events_ = std::make_unique<EventLocator>(problem_, s_.p, s_.free, options_, monitors_, s_.courses,
+                                           s_.branch.counts);
+  factors_fit_ = false;
+  next_ = s_.here;
+  next_.tangent.resize(n_ + 1);
   row_.resize(n_ + 1);
   v_.resize(n_ + 1);
 }
 
+State Tracer::save() {
+  make_tools();
+  return s_;
+}
+
 bool Tracer::end(StopReason reason, double value, double limit, std::string message) {
-  branch_.stop = {reason, value, limit, std::move(message)};
-  ended_ = true;
+  s_.branch.stop = {reason, value, limit, std::move(message)};
+  s_.ended = true;
   return false;
 }
 
 // For the user's eyes, the evaluator moves the last correction further, onto the point itself.
 bool Tracer::notify() {
   if (!observer_) return true;
-  main_.move_to(here_.v);
-  return observer_(accepted(main_, here_), nullptr);
+  main_->move_to(s_.here.v);
+  return observer_(accepted(*main_, s_.here), nullptr);
 }
 
 bool Tracer::begin() {
-  begun_ = true;
-  row_.setZero();
-  row_[n_] = 1;
-  const Correction correction = main_.correct(here_.v, row_, false);
+  s_.begun = true;
+  const bool given = s_.here.tangent.size() != 0;
+  if (!given) s_.here.tangent = Vector::Unit(n_ + 1, n_);
+  main_->border_row(s_.here.tangent, row_);
+  const Correction correction = main_->correct(s_.here.v, row_, false);
+  if (correction.singular)
+    return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
+               "the linearization at the start is singular" + because(main_->failure()));
   if (!correction.converged)
     return end(correction.evaluated ? StopReason::start_failed : StopReason::not_evaluated, correction.last,
                options_.newton.tolerance,
-               correction.evaluated ? "the corrector did not converge at the start (" +
-                                          std::to_string(correction.iterations) + " iterations)"
-                                    : "the problem could not be evaluated at the start");
-  if (!settle(main_, here_))
+               (correction.evaluated ? "the corrector did not converge at the start (" +
+                                           std::to_string(correction.iterations) + " iterations)" +
+                                           doubt_of_jacobian(*problem_, s_.here.v.head(n_), s_.p)
+                                     : "the problem could not be evaluated at the start") +
+                   because(main_->failure()));
+  if (!settle(*main_, s_.here))
     return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
-  if (direction_ < 0) here_.reverse();
-  const double to_scale = std::sqrt(main_.weights()[n_]);
-  const double along = to_scale * std::abs(here_.tangent[n_]);
-  ds_ = options_.step.initial > 0 ? options_.step.initial
-                                  : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
-  ds_ = limited(ds_);
-  evaluate(events_.monitors(), main_, here_);
-  branch_.points.push_back(point(here_, correction));
-  ++branch_.counts.points;
+  if (!given && s_.direction < 0) s_.here.reverse();
+  s_.branch.linear_solver = main_->factors().name();
+  const double to_scale = 1 / main_->parameter_scale();
+  const double along = to_scale * std::abs(s_.here.tangent[n_]);
+  s_.step = options_.step.initial > 0
+                ? options_.step.initial
+                : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
+  s_.step = limited(s_.step);
+  evaluate(monitors_, *main_, s_.here);
+  s_.start = s_.before = s_.here;
+  keep(s_.here, correction);
   factors_fit_ = false;  // their border row is that of the start
   if (!notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }
 
 double Tracer::limited(double ds) const {
-  ds = std::min(ds, options_.step.relative_state * (1 + main_.norm_u(here_.v)));
-  const double along = std::abs(here_.tangent[n_]);
+  ds = std::min(ds, options_.step.relative_state * (1 + main_->norm_u(s_.here.v)));
+  if (options_.step.largest > 0) ds = std::min(ds, options_.step.largest);
+  const double along = std::abs(s_.here.tangent[n_]);
   double limit = options_.step.largest_parameter;
   if (options_.step.relative_parameter > 0)
-    limit = std::min(limit, options_.step.relative_parameter * std::abs(here_.v[n_]));
+    limit = std::min(limit, options_.step.relative_parameter * std::abs(s_.here.v[n_]));
   return along * ds > limit && limit > 0 ? limit / along : ds;
 }
 
-// The cubic through the last two points, or, after a kink, at the start or far out, the tangent.
+// By the cubic or the secant of the last two points, or, after a kink, at the start or far out, the tangent.
 void Tracer::predict(Vector& v) const {
-  if (has_before_ && ds_ <= largest_extrapolation * last_ds_) {
-    hermite(before_.v, before_.tangent, here_.v, here_.tangent, last_ds_, 1 + ds_ / last_ds_, v);
+  const Predictor predictor = options_.step.predictor;
+  if (predictor != Predictor::tangent && s_.has_before && s_.step <= largest_extrapolation * s_.last_step) {
+    const double share = s_.step / s_.last_step;
+    if (predictor == Predictor::cubic)
+      hermite(s_.before.v, s_.before.tangent, s_.here.v, s_.here.tangent, s_.last_step, 1 + share, v);
+    else
+      v = s_.here.v + share * (s_.here.v - s_.before.v);
     return;
   }
-  v = here_.v + ds_ * here_.tangent;
+  v = s_.here.v + s_.step * s_.here.tangent;
 }
 
 bool Tracer::step() {
-  if (ended_) return false;
-  if (!begun_) return begin();
+  if (s_.ended) return false;
+  if (!s_.begun) return begin();
   for (;;) {
-    const double smallest = options_.step.smallest * (1 + main_.norm_u(here_.v));
-    if (ds_ < smallest)
-      return end(evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, ds_, smallest,
-                 evaluated_ ? "the step fell below its smallest size after rejections"
-                            : "the problem could not be evaluated ahead, however short the step");
+    const double smallest = options_.step.smallest * (1 + main_->norm_u(s_.here.v));
+    if (s_.step < smallest)
+      return end(evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, s_.step, smallest,
+                 evaluated_ ? "the step fell below its smallest size after rejections" +
+                                  doubt_of_jacobian(*problem_, s_.here.v.head(n_), main_->parameters())
+                            : "the problem could not be evaluated ahead, however short the step" +
+                                  because(failure_));
     switch (attempt()) {
       case Attempt::accepted:
-        return !ended_;
+        return !s_.ended;
       case Attempt::ended:
         return false;
       case Attempt::unresolved:
-        ++branch_.counts.rejected_steps;
+        ++s_.branch.counts.rejected_steps;
         factors_fit_ = false;
-        ds_ *= unresolved_rejection;
+        s_.step *= curve_error_ > 1 ? curve_factor(curve_error_) : unresolved_rejection;
         break;
       case Attempt::rejected:
-        ++branch_.counts.rejected_steps;
+        ++s_.branch.counts.rejected_steps;
         factors_fit_ = false;
-        has_before_ = false;
-        if (here_.arclength > trouble_end_) {
-          trouble_end_ = here_.arclength + ds_;
-          rejections_ = 0;
+        s_.has_before = false;
+        if (s_.here.arclength > s_.trouble_end) {
+          s_.trouble_end = s_.here.arclength + s_.step;
+          s_.rejections = 0;
         }
-        if (++rejections_ >= rejections_before_a_corner && corner()) return !ended_;
+        if (++s_.rejections >= rejections_before_a_corner && corner()) return !s_.ended;
         factors_fit_ = false;
-        ds_ *= rejection;
+        s_.step *= rejection;
         break;
     }
   }
@@ -164,36 +247,36 @@ bool Tracer::step() {
 
 // Both tangents point one way in p, and p went the other way: another branch, or two folds in one step.
 bool Tracer::went_back(const Place& next) const {
-  const double a = here_.tangent[n_], b = next.tangent[n_], dp = next.v[n_] - here_.v[n_];
-  return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(here_.v[n_]);
+  const double a = s_.here.tangent[n_], b = next.tangent[n_], dp = next.v[n_] - s_.here.v[n_];
+  return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(s_.here.v[n_]);
 }
 
 // The monitors at the solution of the last correction. Its factors, and so the tangent, are those of a place
 // within the corrector's tolerance, which near a sharp peak is enough to turn the sign of a monitor: a change
 // of sign is believed from the linearization at the solution itself.
 void Tracer::measure(Place& place) {
-  evaluate(events_.monitors(), main_, place);
-  if (!events_.changes_sign(here_, place)) return;
-  v_ = place.tangent.cwiseProduct(main_.weights());
-  if (main_.linearize(place.v, v_) && settle(main_, place)) evaluate(events_.monitors(), main_, place);
+  evaluate(monitors_, *main_, place);
+  if (!events_->changes_sign(s_.here, place)) return;
+  main_->border_row(place.tangent, v_);
+  if (main_->linearize(place.v, v_) && settle(*main_, place)) evaluate(monitors_, *main_, place);
 }
 
 // Whether the change of each monitored quantity is that of its slopes at both ends, by the trapezoid. Beside
 // a kink it is not, however short the step: in one stretch the step is shortened no further than to a part of
 // the first one.
 bool Tracer::resolved(const Place& from, const Place& to, double length) {
-  if (here_.arclength <= unresolved_end_ && ds_ <= unresolved_share * unresolved_step_) return true;
-  for (std::size_t m = 0; m < events_.monitors().size(); ++m) {
-    if (!events_.monitors()[m].quantity) continue;
+  if (s_.here.arclength <= s_.unresolved_end && s_.step <= unresolved_share * s_.unresolved_step) return true;
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (!monitors_[m].quantity) continue;
     const double a = from.monitors[m] * length, b = to.monitors[m] * length;
     const double change = to.quantities[m] - from.quantities[m];
     const double size = std::max(std::abs(a), std::abs(b));
     if (std::abs(change - 0.5 * (a + b)) <= unresolved_change * size ||
         size <= quantity_rounding * std::abs(to.quantities[m]))
       continue;
-    if (here_.arclength > unresolved_end_) {
-      unresolved_end_ = here_.arclength + length;
-      unresolved_step_ = ds_;
+    if (s_.here.arclength > s_.unresolved_end) {
+      s_.unresolved_end = s_.here.arclength + length;
+      s_.unresolved_step = s_.step;
     }
     return false;
   }
@@ -204,84 +287,88 @@ bool Tracer::resolved(const Place& from, const Place& to, double length) {
 // with the step. A turn is first met with a long step and rejected; it is the same one as long as its place
 // is not passed.
 bool Tracer::is_kink(double turn, const Place& next) {
-  if (next.piece == here_.piece) return false;
-  const Turn now{turn, ds_, here_.arclength + 2 * ds_};
-  if (here_.arclength > turn_.end) turn_ = now;
-  if (ds_ > kink_step * turn_.step) return false;
-  if (turn >= kink_turn * turn_.angle) return true;
-  turn_ = now;  // it shrank, but may stay from here on
+  if (next.piece == s_.here.piece) return false;
+  const State::Turn now{turn, s_.step, s_.here.arclength + 2 * s_.step};
+  if (s_.here.arclength > s_.turn.end) s_.turn = now;
+  if (s_.step > kink_step * s_.turn.step) return false;
+  if (turn >= kink_turn * s_.turn.angle) return true;
+  s_.turn = now;  // it shrank, but may stay from here on
   return false;
 }
 
 Tracer::Attempt Tracer::attempt() {
   predict(next_.v);
-  row_ = here_.tangent.cwiseProduct(main_.weights());
-  const Correction correction = main_.correct(next_.v, row_, factors_fit_);
-  evaluated_ = correction.evaluated;
+  main_->border_row(s_.here.tangent, row_);
+  const Correction correction = main_->correct(next_.v, row_, factors_fit_, options_.newton.corrector);
+  evaluated_ = correction.evaluated && main_->failure().empty();
+  failure_ = main_->failure();
   if (!correction.converged) return Attempt::rejected;
 
-  v_ = next_.v - here_.v;
-  const double length = std::sqrt(main_.dot(v_, v_));
-  if (!(length > 0) || !settle(main_, next_) || went_back(next_)) return Attempt::rejected;
+  v_ = next_.v - s_.here.v;
+  const double length = std::sqrt(main_->dot(v_, v_));
+  if (!(length > 0) || !settle(*main_, next_) || went_back(next_)) return Attempt::rejected;
 
-  const double turn = std::max(angle_between(main_.dot(next_.tangent, here_.tangent)),
-                               angle_between(main_.dot(v_, here_.tangent) / length));
+  const double turn = angle_between(
+      std::min(main_->dot(next_.tangent, s_.here.tangent), main_->dot(v_, s_.here.tangent) / length));
   bool kink = false;
   if (turn > options_.step.largest_angle) {
     kink = is_kink(turn, next_);
     if (!kink) return Attempt::rejected;
-    if (next_.orientation != here_.orientation) next_.reverse();
-  } else if (next_.orientation != here_.orientation &&
-             ds_ > branch_point_step * (1 + main_.norm_u(here_.v))) {
+    if (next_.orientation != s_.here.orientation) next_.reverse();
+  } else if (next_.orientation != s_.here.orientation &&
+             s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v))) {
     // A jump to a branch near by, unless it stays however short the step: a branch point.
     return Attempt::rejected;
   }
   measure(next_);
-  if (!resolved(here_, next_, length)) return Attempt::unresolved;
-  const double next_ds = kink ? turn_.step * kink_step : choose_step(turn, correction);
+  curve_error_ = curve_error(length);
+  if (curve_error_ > 1 || !resolved(s_.here, next_, length)) return Attempt::unresolved;
+  const double next_ds = kink ? s_.turn.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);
 }
 
 // Where the branch turns by any angle at a kink just ahead: goes to the kink, linearizes beyond it, and steps
 // along the tangent there, whose direction the sign of the determinant tells.
 bool Tracer::corner() {
-  v_ = here_.v + ds_ * here_.tangent;
-  if (!main_.move_to(v_) || main_.evaluator().piece() == here_.piece) return false;
+  v_ = s_.here.v + s_.step * s_.here.tangent;
+  if (!main_->move_to(v_) || main_->evaluator().piece() == s_.here.piece) return false;
   Place kink;
   Correction correction;
-  if (!locate_kink(main_, here_, ds_, kink, correction)) return false;
+  if (!locate_kink(*main_, s_.here, s_.step, kink, correction)) return false;
   Corner sides;
-  const double way = kink.arclength - here_.arclength;
-  bool has_sides =
-      look_beside(kink, kink.tangent, -corner_step * way, sides.before) && sides.before.piece == here_.piece;
+  const double way = kink.arclength - s_.here.arclength;
+  bool has_sides = look_beside(kink, kink.tangent, -corner_step * way, sides.before) &&
+                   sides.before.piece == s_.here.piece;
   sides.before.v = kink.v;
   sides.before.arclength = kink.arclength;
-  if (has_sides && !resolved(here_, sides.before, way)) return false;
-  next_.v = kink.v + corner_step * ds_ * here_.tangent;
-  row_ = here_.tangent.cwiseProduct(main_.weights());
-  if (!main_.linearize(next_.v, row_) || !settle(main_, next_)) {  // at a right angle, a row that is neither
+  curve_error_ = 0;
+  if (has_sides && !resolved(s_.here, sides.before, way)) return false;
+  next_.v = kink.v + corner_step * s_.step * s_.here.tangent;
+  main_->border_row(s_.here.tangent, row_);
+  if (!main_->linearize(next_.v, row_) ||
+      !settle(*main_, next_)) {  // at a right angle, a row that is neither
     row_.setZero();
     row_[n_] = 1;
-    if (!main_.linearize(next_.v, row_) || !settle(main_, next_)) return false;
+    if (!main_->linearize(next_.v, row_) || !settle(*main_, next_)) return false;
   }
-  if (next_.piece == here_.piece) return false;
-  if (next_.orientation != here_.orientation) next_.tangent = -next_.tangent;
+  if (next_.piece == s_.here.piece) return false;
+  if (next_.orientation != s_.here.orientation) next_.tangent = -next_.tangent;
   const Vector beyond = next_.tangent;
-  next_.v = kink.v + ds_ * beyond;
-  row_ = beyond.cwiseProduct(main_.weights());
-  correction = main_.correct(next_.v, row_, false);
-  if (!correction.converged || !settle(main_, next_)) return false;
+  next_.v = kink.v + s_.step * beyond;
+  main_->border_row(beyond, row_);
+  correction = main_->correct(next_.v, row_, false);
+  if (!correction.converged || !settle(*main_, next_)) return false;
   v_ = next_.v - kink.v;
-  const double length = std::sqrt(main_.dot(v_, v_));
-  if (next_.piece == here_.piece || next_.orientation != here_.orientation || !(length > 0) ||
-      angle_between(main_.dot(next_.tangent, beyond)) > options_.step.largest_angle ||
-      angle_between(main_.dot(v_, beyond) / length) > options_.step.largest_angle)
+  const double length = std::sqrt(main_->dot(v_, v_));
+  if (next_.piece == s_.here.piece || next_.orientation != s_.here.orientation || !(length > 0) ||
+      angle_between(main_->dot(next_.tangent, beyond)) > options_.step.largest_angle ||
+      angle_between(main_->dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
   measure(next_);
-  has_sides = has_sides && look_beside(kink, beyond, corner_step * ds_, sides.beyond) &&
-              sides.beyond.piece != here_.piece;
+  has_sides = has_sides && look_beside(kink, beyond, corner_step * s_.step, sides.beyond) &&
+              sides.beyond.piece != s_.here.piece;
   if (has_sides && !resolved(sides.beyond, next_, length)) return false;
-  return take(way + length, ds_, true, correction, has_sides ? &sides : nullptr) != Attempt::rejected;
+  return take(way + length, s_.step, true, correction, has_sides ? &sides : nullptr) != Attempt::rejected;
 }
 
 // A place shortly before (way < 0) or beyond a kink, on the branch, with its monitors.
@@ -289,17 +376,17 @@ bool Tracer::look_beside(const Place& kink, const Vector& tangent, double way, P
   side.v = kink.v + way * tangent;
   side.tangent = tangent;
   side.arclength = kink.arclength + way;
-  v_ = tangent.cwiseProduct(main_.weights());
-  if (!main_.correct(side.v, v_, false).converged || !main_.linearize(side.v, v_) || !settle(main_, side))
+  main_->border_row(tangent, v_);
+  if (!main_->correct(side.v, v_, false).converged || !main_->linearize(side.v, v_) || !settle(*main_, side))
     return false;
-  evaluate(events_.monitors(), main_, side);
+  evaluate(monitors_, *main_, side);
   return true;
 }
 
 // Accepts next_, or, beyond the window, ends the branch at its bound.
 Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Correction& correction,
                              const Corner* corner) {
-  next_.arclength = here_.arclength + length;
+  next_.arclength = s_.here.arclength + length;
   const double p = next_.v[n_], bound = std::clamp(p, options_.lower, options_.upper);
   if (p != bound) {
     if (!to_boundary(next_, bound)) return Attempt::rejected;
@@ -307,24 +394,66 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
       end(StopReason::boundary, bound, bound, "reached the end of the window at " + text(bound));
     return Attempt::ended;
   }
-  last_ds_ = length;
-  has_before_ = !kink;
+  if (!kink && comes_home(length)) {
+    const double miss = distance(*main_, next_.v, s_.start.v);
+    next_ = s_.start;
+    next_.arclength = s_.here.arclength + distance(*main_, s_.here.v, next_.v);
+    if (accept(std::move(next_), correction))
+      end(StopReason::closed, miss, length, "came back to the start: the branch is closed");
+    return Attempt::ended;
+  }
+  s_.last_step = length;
+  s_.has_before = !kink;
   factors_fit_ = !kink;
   if (!accept(std::move(next_), correction, corner)) return Attempt::ended;
-  ds_ = limited(next_ds);
-  const double state = main_.norm_u(here_.v);
-  if (state > options_.largest_state) {
-    end(StopReason::state_too_large, state, options_.largest_state,
-        "the solution grows without bound near " + text(here_.v[n_]));
-    return Attempt::ended;
+  s_.step = limited(next_ds);
+  return within_limits() ? Attempt::accepted : Attempt::ended;
+}
+
+// Whether the start lies on the step from here to next_: beside their cubic by a small part of its length.
+bool Tracer::comes_home(double length) const {
+  if (s_.here.arclength == 0) return false;
+  v_ = s_.start.v - s_.here.v;
+  const double share = main_->dot(v_, s_.here.tangent) / length;
+  if (!(share > 0 && share <= 1 + home)) return false;
+  if (main_->dot(s_.start.tangent, next_.tangent) < std::cos(options_.step.largest_angle)) return false;
+  hermite(s_.here.v, s_.here.tangent, next_.v, next_.tangent, length, share, v_);
+  return distance(*main_, v_, s_.start.v) <= home * length;
+}
+
+bool Tracer::within_limits() {
+  const double state = main_->norm_u(s_.here.v);
+  if (state > options_.largest_state)
+    return end(StopReason::state_too_large, state, options_.largest_state,
+               "the solution grows without bound near " + text(s_.here.v[n_]));
+  const auto points = s_.branch.counts.points;
+  if (points >= options_.points)
+    return end(StopReason::point_limit, static_cast<double>(points), static_cast<double>(options_.points),
+               "reached the largest number of points, " + std::to_string(options_.points));
+  if (options_.seconds > 0) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    if (seconds >= options_.seconds)
+      return end(StopReason::time_limit, seconds, options_.seconds,
+                 "reached the time limit of " + text(options_.seconds) + " s");
   }
-  if (branch_.counts.points >= options_.points) {
-    end(StopReason::point_limit, static_cast<double>(branch_.counts.points),
-        static_cast<double>(options_.points),
-        "reached the largest number of points, " + std::to_string(options_.points));
-    return Attempt::ended;
+  if (options_.memory > 0) {
+    const std::size_t each = sizeof(Point) + (options_.keep_points ? sizeof(double) * (2 * n_ + 1) : 0);
+    const std::size_t bytes = each * s_.branch.points.size();
+    if (bytes >= options_.memory)
+      return end(StopReason::memory_limit, static_cast<double>(bytes), static_cast<double>(options_.memory),
+                 "the points of the branch fill the " + std::to_string(options_.memory) + " bytes allowed");
   }
-  return Attempt::accepted;
+  return true;
+}
+
+// Of the cubic between here and next_, over that allowed: at its middle, where it is largest but for what the
+// fourth derivative changes within the step.
+double Tracer::curve_error(double length) {
+  const double allowed = middle_share * options_.step.curve_tolerance * (1 + main_->norm_u(next_.v));
+  if (!(allowed > 0)) return 0;
+  hermite(s_.here.v, s_.here.tangent, next_.v, next_.tangent, length, 0.5, v_);
+  const double error = main_->distance_from_branch(v_) / allowed;
+  return std::isfinite(error) ? error : 1 / shrinkage;
 }
 
 double Tracer::choose_step(double angle, const Correction& correction) const {
@@ -332,21 +461,22 @@ double Tracer::choose_step(double angle, const Correction& correction) const {
   const bool contraction_counts = correction.first > std::sqrt(options_.newton.tolerance);
   if (contraction_counts && correction.contraction > 0)
     factor = std::min(factor, std::sqrt(options_.step.contraction / correction.contraction));
-  return ds_ * std::clamp(factor, shrinkage, growth);
+  if (curve_error_ > 0) factor = std::min(factor, curve_factor(curve_error_));
+  return s_.step * std::clamp(factor, shrinkage, growth);
 }
 
 // From `place`, beyond the window, back to p = bound.
 bool Tracer::to_boundary(Place& place, double bound) {
-  const double share = (bound - here_.v[n_]) / (place.v[n_] - here_.v[n_]);
-  place.v = here_.v + share * (place.v - here_.v);
+  const double share = (bound - s_.here.v[n_]) / (place.v[n_] - s_.here.v[n_]);
+  place.v = s_.here.v + share * (place.v - s_.here.v);
   place.v[n_] = bound;
   v_.setZero();
   v_[n_] = 1;
-  if (!main_.correct(place.v, v_, false).converged) return false;
+  if (!main_->correct(place.v, v_, false).converged) return false;
   place.v[n_] = bound;
-  if (!settle(main_, place)) return false;
-  if (main_.dot(place.tangent, here_.tangent) < 0) place.reverse();
-  place.arclength = here_.arclength + distance(main_, here_.v, place.v);
+  if (!settle(*main_, place)) return false;
+  if (main_->dot(place.tangent, s_.here.tangent) < 0) place.reverse();
+  place.arclength = s_.here.arclength + distance(*main_, s_.here.v, place.v);
   measure(place);
   return true;
 }
@@ -354,35 +484,60 @@ bool Tracer::to_boundary(Place& place, double bound) {
 // In the order of arclength: an event may have waited for a few points until it was certain.
 const Event* Tracer::add(Event&& event) {
   const double s = event.point.arclength;
-  const auto after = std::upper_bound(branch_.points.begin(), branch_.points.end(), s,
+  const auto after = std::upper_bound(s_.branch.points.begin(), s_.branch.points.end(), s,
                                       [](double x, const Point& y) { return x < y.arclength; });
-  event.after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - branch_.points.begin(), 1) - 1);
-  const auto place = std::upper_bound(branch_.events.begin(), branch_.events.end(), s,
+  event.after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - s_.branch.points.begin(), 1) - 1);
+  const auto place = std::upper_bound(s_.branch.events.begin(), s_.branch.events.end(), s,
                                       [](double x, const Event& y) { return x < y.point.arclength; });
-  return &*branch_.events.insert(place, std::move(event));
+  return &*s_.branch.events.insert(place, std::move(event));
 }
 
 bool Tracer::report(std::vector<LocatedEvent>&& all) {
   bool go_on = true;
   for (LocatedEvent& found : all) {
     const Event* event = add(std::move(found.event));
-    if (!observer_ || !go_on) continue;
-    if (const auto now = events_.look_at(found.place)) go_on = observer_(*now, event);
+    if (observer_ && go_on)
+      if (const auto now = events_->look_at(found.place)) go_on = observer_(*now, event);
+    const bool terminal = std::any_of(monitors_.begin(), monitors_.end(), [&](const Monitor& m) {
+      return m.terminal && m.name == event->monitor;
+    });
+    if (terminal && !terminal_) terminal_ = std::move(found.place);
   }
   return go_on;
 }
 
+void Tracer::keep(const Place& place, const Correction& correction) {
+  Point kept = point(place, correction);
+  if (!options_.keep_points) kept.u = kept.tangent = {};
+  s_.branch.points.push_back(std::move(kept));
+  ++s_.branch.counts.points;
+}
+
 bool Tracer::accept(Place&& place, const Correction& correction, const Corner* corner) {
-  const bool go_on = corner ? report(events_.between(here_, corner->before)) &&
-                                  report(events_.across(corner->before, corner->beyond)) &&
-                                  report(events_.between(corner->beyond, place))
-                            : report(events_.between(here_, place));
-  branch_.points.push_back(point(place, correction));
-  ++branch_.counts.points;
-  std::swap(before_, here_);
-  std::swap(here_, place);
+  const bool go_on = corner ? report(events_->between(s_.here, corner->before)) &&
+                                  report(events_->across(corner->before, corner->beyond)) &&
+                                  report(events_->between(corner->beyond, place))
+                            : report(events_->between(s_.here, place));
+  if (terminal_) return end_at(*terminal_);
+  keep(place, correction);
+  std::swap(s_.before, s_.here);
+  std::swap(s_.here, place);
   if (!go_on || !notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
+}
+
+// The branch ends at a terminal event: what was found beyond it, while it was not certain, is dropped.
+bool Tracer::end_at(const Place& place) {
+  auto& points = s_.branch.points;
+  auto& events = s_.branch.events;
+  while (!points.empty() && points.back().arclength > place.arclength) points.pop_back();
+  while (!events.empty() && events.back().point.arclength > place.arclength) events.pop_back();
+  keep(place, {});
+  s_.before = s_.here;
+  s_.here = place;
+  const Event& last = events.back();
+  return end(StopReason::event, last.value, 0,
+             "reached the terminal event \"" + last.monitor + "\" at " + text(place.v[n_]));
 }
 
 Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,

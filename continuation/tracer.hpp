@@ -12,10 +12,12 @@
 #include <arcslip/continuation/event_locator.hpp>
 #include <arcslip/continuation/monitor.hpp>
 #include <arcslip/continuation/options.hpp>
-#include <arcslip/continuation/place.hpp>
+#include <arcslip/continuation/state.hpp>
 
+#include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -26,6 +28,8 @@ struct Start {
   Vector p;           // all parameters
   int free = 0;       // index of the free one
   int direction = 1;  // +1: towards larger values of the free parameter, -1: smaller
+  Vector tangent{};   // n + 1, or none: the way to go, in place of `direction`; the solution is then sought
+                      // across it, and not at p[free]
 };
 
 /// Called at each accepted point and, with the event, at each event, as soon as it is certain. Returns false
@@ -38,15 +42,27 @@ class Tracer {
   Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
          std::vector<Monitor> monitors = {}, Observer observer = {});
 
+  /// Goes on from where a trace of the same problem with the same options and monitors was saved.
+  Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
+         std::vector<Monitor> monitors = {}, Observer observer = {});
+
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
   /// One more point (the first call corrects the start). False once the branch has ended: see branch().stop.
   bool step();
 
-  const Branch& branch() const { return branch_; }
-  Branch take() { return std::move(branch_); }
+  /// Where the trace stands. Factors and evaluators are made anew, so that the trace that goes on and the one
+  /// that is resumed are the same bit for bit.
+  State save();
+
+  const Branch& branch() const { return s_.branch; }
+  Branch take() { return std::move(s_.branch); }
 
  private:
   enum class Attempt { accepted, rejected, unresolved, ended };
 
+  void make_tools();
   bool begin();
   Attempt attempt();
   bool corner();
@@ -61,10 +77,15 @@ class Tracer {
   void measure(Place& place);
   bool resolved(const Place& from, const Place& to, double length);
   bool is_kink(double turn, const Place& next);
+  bool comes_home(double length) const;
   bool accept(Place&& place, const Correction& correction, const Corner* corner = nullptr);
   bool report(std::vector<LocatedEvent>&& found);
   const Event* add(Event&& event);
+  void keep(const Place& place, const Correction& correction);
+  bool end_at(const Place& place);
   bool notify();
+  bool within_limits();
+  double curve_error(double length);
   double choose_step(double angle, const Correction& correction) const;
   double limited(double ds) const;
   bool to_boundary(Place& place, double bound);
@@ -72,22 +93,21 @@ class Tracer {
 
   std::shared_ptr<const Problem> problem_;
   Options options_;
+  std::vector<Monitor> monitors_;
   Observer observer_;
-  Branch branch_;
-  int n_, free_, direction_;
-  Corrector main_;
-  EventLocator events_;
-  Place here_, next_, before_;
-  bool has_before_ = false, factors_fit_ = false, ended_ = false, begun_ = false;
-  bool evaluated_ = true;  // the last rejection came from the corrector, not from the problem
-  double ds_ = 0, last_ds_ = 0;
-  int rejections_ = 0;  // since here_.arclength passed trouble_end_
-  double trouble_end_ = -1;
-  double unresolved_end_ = -1, unresolved_step_ = 0;  // a stretch whose slopes did not tell its quantities
-  struct Turn {  // a turn of the tangent that was rejected: how much, over which step, and where it is passed
-    double angle = 0, step = 0, end = -1;
-  } turn_;
-  Vector row_, v_;
+  State s_;
+  int n_;
+  std::unique_ptr<Corrector> main_;
+  std::unique_ptr<EventLocator> events_;
+  Place next_;
+  bool factors_fit_ = false;
+  bool evaluated_ = true;   // the last rejection came from the corrector, not from the problem
+  double curve_error_ = 0;  // of the curve along the last step, over that allowed
+  std::optional<Place> terminal_;
+  std::string failure_;  // of the last rejection
+  Vector row_;
+  mutable Vector v_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 /// Steps until the branch ends.

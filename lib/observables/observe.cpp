@@ -102,7 +102,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now) {
 
 continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
   return {"peak", [observer](const continuation::Accepted& now) { return observer->amplitude_slope(now); },
-          continuation::Crossing::falling, [observer] { return observer->last_amplitude(); }};
+          continuation::Crossing::falling,
+          [observer](const continuation::Accepted&) { return observer->last_amplitude(); }};
 }
 
 }  // namespace arcslip::observables

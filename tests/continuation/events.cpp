@@ -32,13 +32,8 @@ std::shared_ptr<const Problem> duffing(double damping, double width) {
 }
 
 Monitor amplitude_peak() {
-  const auto amplitude = std::make_shared<double>(0);
-  return {"peak",
-          [amplitude](const Accepted& now) {
-            *amplitude = now.u.norm();
-            return now.u.dot(now.tangent.head(2)) / *amplitude;
-          },
-          Crossing::falling, [amplitude] { return *amplitude; }};
+  return {"peak", [](const Accepted& now) { return now.u.dot(now.tangent.head(2)) / now.u.norm(); },
+          Crossing::falling, [](const Accepted& now) { return now.u.norm(); }};
 }
 
 }  // namespace
@@ -96,15 +91,14 @@ TEST_CASE("the peak of q = 1 - (p - p0)^2 is one event, however its slope errs b
   const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   for (double half : {1e-1, 1e-4, 1e-6, 3e-7, 1e-7})
     for (double error : {0.0, 1e-16, 1e-15, 1e-14}) {
-      const auto q = std::make_shared<double>(0);
+      const auto q = [=](const Accepted& now) { return 1 - (now.parameter - p0) * (now.parameter - p0); };
       const Monitor peak{"peak",
                          [=](const Accepted& now) {
-                           const double x = now.parameter - p0;
-                           *q = 1 - x * x;
-                           const double slope = -2 * x + error / half * std::sin(1e3 * now.parameter / half);
+                           const double slope = -2 * (now.parameter - p0) +
+                                                error / half * std::sin(1e3 * now.parameter / half);
                            return slope * now.tangent[1];
                          },
-                         Crossing::falling, [q] { return *q; }};
+                         Crossing::falling, q};
       const Branch branch = trace(line, {Vector{{p0 - 0.9 * half}}, Vector{{p0 - 0.9 * half}}, 0, 1},
                                   window(p0 - 0.9 * half, p0 + half), {peak});
       CAPTURE(half, error, branch.points.size());
@@ -117,7 +111,7 @@ TEST_CASE("the peak of q = 1 - (p - p0)^2 is one event, however its slope errs b
 TEST_CASE("a slope that only errs makes no events") {
   const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   const Monitor noise{"noise", [](const Accepted& now) { return 1e-12 * std::sin(1e17 * now.parameter); },
-                      Crossing::any, [] { return 1.0; }};
+                      Crossing::any, [](const Accepted&) { return 1.0; }};
   const Branch branch = trace(line, {Vector{{1.0}}, Vector{{1.0}}, 0, 1}, window(1, 1.001), {noise});
   CHECK(branch.stop.reason == StopReason::boundary);
   CHECK(branch.events.empty());

@@ -59,15 +59,11 @@ TEST_CASE("a maximum before a sharp corner and a minimum beyond it are found, ho
   for (double above : {-3.0, -20.0})
     for (double from : {-0.9137, -0.8513, -0.7331})
       for (double d : {3e-3, 1e-3, 3e-4}) {
-        const auto q = std::make_shared<double>(0);
-        const Monitor extreme{"extreme",
-                              [=](const Accepted& now) {
-                                const double u = now.u[0];
-                                *q = u * u * u / 3 - d * d * u;
-                                return (u * u - d * d) * now.tangent[0];
-                              },
-                              Crossing::any, [q] { return *q; }};
-        const auto problem = std::make_shared<Broken>(1, above);
+        const Monitor extreme{
+            "extreme", [=](const Accepted& now) { return (now.u[0] * now.u[0] - d * d) * now.tangent[0]; },
+            Crossing::any,
+            [=](const Accepted& now) { return now.u[0] * now.u[0] * now.u[0] / 3 - d * d * now.u[0]; }};
+        const auto problem = broken(1, above);
         const Branch branch = trace(problem, {Vector::Constant(1, from), Vector::Constant(1, from), 0, 1},
                                     window(-1, 1), {extreme});
         CAPTURE(above, from, d, branch.points.size());

@@ -38,7 +38,8 @@ TEST_CASE("start_failed: no solution near the start is said, and there are no po
 
 TEST_CASE("start_failed: a singular start is said") {
   const Branch branch = trace(scalar([](In u, In, Out F) { F[0] = 0 * u[0]; }), at(0.5, 0), window(0, 1));
-  CHECK((branch.stop.reason == StopReason::start_failed || branch.stop.reason == StopReason::not_evaluated));
+  CHECK(branch.stop.reason == StopReason::start_failed);
+  CHECK(branch.stop.message == "the linearization at the start is singular");
   CHECK(branch.points.empty());
 }
 
@@ -50,6 +51,9 @@ TEST_CASE("step_too_small: a wrong Jacobian ends the branch and keeps what there
   CHECK(branch.stop.reason == StopReason::step_too_small);
   CHECK(branch.stop.value < branch.stop.limit);
   CHECK(branch.points.size() > 10);
+  CHECK(branch.stop.message.find(
+            "the Jacobian is wrong: dF[0]/du[0] is given as -0.4, differences of F say 1") !=
+        std::string::npos);
 }
 
 TEST_CASE("state_too_large: a pole is followed to the limit of the state and no further") {
@@ -69,6 +73,56 @@ TEST_CASE("point_limit: as many points as asked for") {
   const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), options);
   CHECK(branch.stop.reason == StopReason::point_limit);
   CHECK(branch.points.size() == 7);
+}
+
+TEST_CASE("time_limit: a trace that takes longer stops with the points that it has") {
+  Options options = window(0, 2);
+  options.seconds = 1e-9;
+  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), options);
+  CHECK(branch.stop.reason == StopReason::time_limit);
+  CHECK(branch.stop.value >= branch.stop.limit);
+  CHECK(branch.points.size() == 2);
+}
+
+TEST_CASE("memory_limit: points fill the memory allowed, and without their unknowns ten times as many do") {
+  const auto problem = chan(100);
+  Options options = window(0, 5);
+  options.memory = 10000;
+  const Start start{Vector::Zero(100), Vector::Zero(1), 0, 1};
+  const Branch full = trace(problem, start, options);
+  CHECK(full.stop.reason == StopReason::memory_limit);
+  options.keep_points = false;
+  const Branch thin = trace(problem, start, options);
+  CHECK(thin.points.size() > 10 * full.points.size());
+  CHECK(thin.points[3].u.size() == 0);
+  CHECK(thin.points[3].parameter == full.points[3].parameter);
+}
+
+TEST_CASE("event: a terminal monitor ends the branch at its first zero") {
+  Monitor fold = fold_monitor();
+  fold.terminal = true;
+  const Monitor zero{"x = -0.9", [](const Accepted& now) { return now.u[0] + 0.9; }};
+  const Branch branch =
+      trace(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1), {zero, fold});
+  CHECK(branch.stop.reason == StopReason::event);
+  CHECK(branch.stop.message == "reached the terminal event \"fold\" at 0.3849001795");
+  REQUIRE(branch.events.size() == 2);
+  CHECK(branch.events[0].monitor == "x = -0.9");
+  CHECK(branch.points.back().parameter == branch.events[1].point.parameter);
+}
+
+TEST_CASE("not_evaluated: what a residual throws ends the branch, which keeps its points, and is said") {
+  const auto problem = scalar([](In u, In p, Out F) {
+    if (p[0] > 0.5) throw std::runtime_error("no material beyond 0.5");
+    F[0] = u[0] - p[0];
+  });
+  const Branch branch = trace(problem, at(0, 0), window(0, 2));
+  CHECK(branch.stop.reason == StopReason::not_evaluated);
+  CHECK(branch.points.size() > 10);
+  CHECK(branch.stop.message ==
+        "the problem could not be evaluated ahead, however short the step: no material beyond 0.5");
+  const Branch nothing = trace(problem, at(0.7, 0.7), window(0, 2));
+  CHECK(nothing.stop.message == "the problem could not be evaluated at the start: no material beyond 0.5");
 }
 
 TEST_CASE("user: the observer stops the branch, at a point or at an event") {
@@ -101,9 +155,10 @@ TEST_CASE("not_evaluated: nor can a start outside the domain") {
 }
 
 TEST_CASE("every stop reason has a name of its own") {
-  const StopReason all[] = {StopReason::boundary,        StopReason::start_failed, StopReason::step_too_small,
-                            StopReason::state_too_large, StopReason::point_limit,  StopReason::user,
-                            StopReason::not_evaluated};
+  const StopReason all[] = {StopReason::boundary,     StopReason::closed,         StopReason::event,
+                            StopReason::start_failed, StopReason::step_too_small, StopReason::state_too_large,
+                            StopReason::point_limit,  StopReason::time_limit,     StopReason::memory_limit,
+                            StopReason::user,         StopReason::not_evaluated};
   for (StopReason a : all) {
     CHECK(std::strcmp(name(a), "unknown") != 0);
     for (StopReason b : all) CHECK((a == b) == (std::strcmp(name(a), name(b)) == 0));

@@ -1,0 +1,75 @@
+#include <arcslip/continuation/jacobian_check.hpp>
+
+#include <arcslip/continuation/linear_solver.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double difference_step = 6e-6;  // the cube root of the rounding
+constexpr double agreement = 1e-4;        // relative differences below are not worth a message
+
+std::string describe(const JacobianError& worst, const Problem& problem) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "the Jacobian is wrong: dF[" << worst.row << "]/d";
+  if (worst.column < problem.size())
+    text << "u[" << worst.column << "]";
+  else
+    text << "(" << problem.parameters()[static_cast<std::size_t>(worst.column - problem.size())].name << ")";
+  text << " is given as " << worst.given << ", differences of F say " << worst.difference;
+  return text.str();
+}
+
+}  // namespace
+
+JacobianError check_jacobian(const Problem& problem, In u, In p) {
+  const Eigen::Index n = problem.size();
+  const auto parameters = problem.parameters();
+  const Vector scales = problem.scales();
+  const auto here = problem.evaluator(), beside = problem.evaluator();
+  JacobianError worst;
+  if (here->move_to(u, p, Needs::jacobian) != Evaluated::ok) return worst;
+  Vector at_u = u, at_p = p, column(n), plus(n), unit = Vector::Zero(n);
+  const auto rounding = std::numeric_limits<double>::epsilon() * here->residual().cwiseAbs().maxCoeff();
+
+  const auto compare = [&](int index, double& x, double scale) {
+    const double at = x, h = difference_step * std::max(std::abs(at), scale);
+    x = at + h;
+    bool usable =
+        beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok && beside->piece() == here->piece();
+    plus = beside->residual();
+    x = at - h;
+    usable = usable && beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok &&
+             beside->piece() == here->piece();
+    x = at;
+    if (!usable) return;
+    const Vector difference = (plus - beside->residual()) / (2 * h);
+    const double size =
+        std::max(difference.cwiseAbs().maxCoeff(), column.cwiseAbs().maxCoeff()) + rounding / h;
+    if (size == 0) return;
+    Eigen::Index row = 0;
+    const double relative = (difference - column).cwiseAbs().maxCoeff(&row) / size;
+    if (!(relative > worst.relative)) return;
+    worst = {static_cast<int>(row), index, column[row], difference[row], relative, {}};
+  };
+  for (Eigen::Index j = 0; j < n; ++j) {
+    unit[j] = 1;
+    apply(here->jacobian(), unit, column);
+    unit[j] = 0;
+    compare(static_cast<int>(j), at_u[j], scales[j]);
+  }
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto index = static_cast<Eigen::Index>(k);
+    here->parameter_derivative(static_cast<int>(k), column);
+    compare(static_cast<int>(n + index), at_p[index], parameters[k].scale);
+  }
+  if (worst.relative > agreement) worst.message = describe(worst, problem);
+  return worst;
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,77 @@
+// A trace that is saved and resumed is the same bit for bit.
+
+#include "catch.hpp"
+
+#include "continuation/problems.hpp"
+
+#include <arcslip/continuation/stationary.hpp>
+
+using namespace problems;
+
+namespace {
+
+bool same(const Vector& a, const Vector& b) {
+  return a.size() == b.size() && (a.array() == b.array()).all();
+}
+
+void check_same(const Branch& a, const Branch& b) {
+  REQUIRE(a.points.size() == b.points.size());
+  for (std::size_t k = 0; k < a.points.size(); ++k) {
+    CHECK(same(a.points[k].u, b.points[k].u));
+    CHECK(same(a.points[k].tangent, b.points[k].tangent));
+    CHECK(a.points[k].parameter == b.points[k].parameter);
+    CHECK(a.points[k].arclength == b.points[k].arclength);
+  }
+  REQUIRE(a.events.size() == b.events.size());
+  for (std::size_t k = 0; k < a.events.size(); ++k) {
+    CHECK(same(a.events[k].point.u, b.events[k].point.u));
+    CHECK(a.events[k].point.parameter == b.events[k].point.parameter);
+    CHECK(a.events[k].data.index() == b.events[k].data.index());
+    if (const auto* fold = std::get_if<Fold>(&a.events[k].data))
+      CHECK(fold->curvature == std::get<Fold>(b.events[k].data).curvature);
+  }
+  CHECK(a.stop.reason == b.stop.reason);
+  CHECK(a.stop.message == b.stop.message);
+  CHECK(a.counts.factorizations == b.counts.factorizations);
+  CHECK(a.linear_solver == b.linear_solver);
+}
+
+// Saved after some points, in the middle of things, and at the end.
+void check_resumed(const std::shared_ptr<const Problem>& problem, const Start& start, const Options& options,
+                   const std::vector<Monitor>& monitors) {
+  for (int points : {0, 1, 2, 17, 60, 100000}) {
+    Tracer whole(problem, start, options, monitors);
+    for (int k = 0; k < points && whole.step(); ++k) {
+    }
+    const std::string saved = to_json(whole.save());
+    while (whole.step()) {
+    }
+    Tracer resumed(problem, state_from_json(saved), options, monitors);
+    while (resumed.step()) {
+    }
+    check_same(whole.branch(), resumed.branch());
+    CHECK(to_json(whole.save()) == to_json(resumed.save()));
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a trace goes on from its state as if it had not been stopped: dense, sparse and a curve of folds") {
+  check_resumed(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1),
+                {fold_monitor()});
+  check_resumed(chan(20), {Vector::Zero(20), Vector::Zero(1), 0, 1}, window(0, 5), {fold_monitor()});
+  check_resumed(folds(cusp(), 0), {Vector{{-0.6, 0.4}}, Vector{{0.0, 1.0}}, 1, -1}, window(-1, 2),
+                {cusp_monitor()});
+}
+
+TEST_CASE("what is not a state is refused, and a state of another problem too") {
+  CHECK_THROWS_AS(state_from_json("{"), std::invalid_argument);
+  CHECK_THROWS_AS(state_from_json("{\"format\": \"arcslip-state-1\"}"), std::invalid_argument);
+  CHECK_THROWS_WITH(state_from_json("{\"format\": \"arcslip-state-9\"}"),
+                    "the format is \"arcslip-state-9\", not \"arcslip-state-1\"");
+  Tracer tracer(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1));
+  tracer.step();
+  CHECK_THROWS_WITH(Tracer(chan(20), tracer.save(), window(0, 5)),
+                    "the state is of 1 unknowns, 2 parameters and 0 monitors, the problem of 20, 1 and 0");
+}

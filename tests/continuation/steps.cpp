@@ -1,0 +1,126 @@
+// Predictors, correctors and the control of steps.
+
+#include "catch.hpp"
+
+#include "continuation/problems.hpp"
+
+#include <numbers>
+
+using namespace problems;
+
+namespace {
+
+// u^2 + p^2 = 1 by a turn about (0, 0): a closed branch with two folds.
+std::shared_ptr<const Problem> circle() {
+  return from_functions({.size = 1,
+                         .parameters = {parameter("p", 0)},
+                         .residual = [](In u, In p, Out F) { F[0] = u[0] * u[0] + p[0] * p[0] - 1; },
+                         .jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = 2 * u[0]; },
+                         .derivative = [](In, In p, int, Out dF) { dF[0] = 2 * p[0]; }});
+}
+
+Branch cusp_branch(const Options& options) {
+  return trace(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, options, {fold_monitor()});
+}
+
+}  // namespace
+
+TEST_CASE("every predictor with every corrector finds the folds of mu + x - x^3") {
+  for (Predictor predictor : {Predictor::tangent, Predictor::secant, Predictor::cubic})
+    for (CorrectorKind corrector : {CorrectorKind::pseudo_arclength, CorrectorKind::moore_penrose})
+      for (bool chord : {false, true}) {
+        Options options = window(-1, 1);
+        options.step.predictor = predictor;
+        options.newton.corrector = corrector;
+        options.newton.chord = chord;
+        const Branch branch = cusp_branch(options);
+        CAPTURE(static_cast<int>(predictor), static_cast<int>(corrector), chord, branch.stop.message);
+        CHECK(branch.stop.reason == StopReason::boundary);
+        REQUIRE(branch.events.size() == 2);
+        CHECK(std::abs(branch.events[0].point.parameter - 0.3849001794597505) < 1e-14);
+        CHECK(std::abs(branch.events[1].point.parameter + 0.3849001794597505) < 1e-14);
+        for (const Point& point : branch.points)
+          CHECK(std::abs(point.parameter - (std::pow(point.u[0], 3) - point.u[0])) < 1e-12);
+      }
+}
+
+TEST_CASE("the Moore-Penrose corrector moves to the circle along its radius") {
+  const auto problem = circle();
+  Counts counts;
+  Corrector corrector(*problem, Vector::Zero(1), 0, {}, counts);
+  Vector v{{1.02, 0.51}};
+  const Vector radius = v.normalized();
+  REQUIRE(corrector.correct(v, Vector{{1.0, 0.3}}, false, CorrectorKind::moore_penrose).converged);
+  CHECK((v - radius).norm() < 1e-12);
+}
+
+TEST_CASE("a closed branch ends where it began, at the length of its way round") {
+  for (int direction : {1, -1})
+    for (double start : {0.0, 0.6, -0.95}) {
+      const Vector p{{start}}, u{{std::sqrt(1 - start * start)}};
+      Options options = window(-2, 2);
+      options.step.curve_tolerance = 1e-9;
+      const Branch branch = trace(circle(), {u, p, 0, direction}, options, {fold_monitor()});
+      REQUIRE(branch.stop.reason == StopReason::closed);
+      CHECK(branch.events.size() == 2);
+      CHECK(branch.points.back().u == branch.points.front().u);
+      CHECK(branch.points.back().parameter == branch.points.front().parameter);
+      CHECK(branch.points.back().arclength == Approx(2 * std::numbers::pi).epsilon(1e-3));
+    }
+}
+
+TEST_CASE(
+    "the curve between the points is as near to the branch as curve_tolerance asks, and no closer than need "
+    "be") {
+  std::size_t points_before = 0;
+  for (double tolerance : {1e-3, 1e-5, 1e-7, 1e-9}) {
+    Options options = window(-1, 1);
+    options.step.curve_tolerance = tolerance;
+    options.step.largest_parameter = 10;
+    options.step.angle = 0.5;
+    const Branch branch = cusp_branch(options);
+    REQUIRE(branch.stop.reason == StopReason::boundary);
+    double worst = 0;
+    for (int k = 0; k <= 2000; ++k) {
+      const Point at = interpolate(branch, branch.points.back().arclength * k / 2000);
+      const double x = at.u[0], slope = 3 * x * x - 1;
+      worst = std::max(
+          worst, std::abs(at.parameter - (x * x * x - x)) / std::sqrt(1 + slope * slope) / (1 + std::abs(x)));
+    }
+    CAPTURE(tolerance, worst, branch.points.size());
+    CHECK(worst < tolerance);
+    CHECK(branch.points.size() > points_before);
+    points_before = branch.points.size();
+  }
+  CHECK(points_before < 700);
+}
+
+TEST_CASE("no point of a branch lies between its ends' arclengths and beyond") {
+  const Branch branch = cusp_branch(window(-1, 1));
+  CHECK_THROWS_AS(interpolate(branch, -1e-3), std::out_of_range);
+  CHECK_THROWS_AS(interpolate(branch, branch.points.back().arclength + 1e-3), std::out_of_range);
+  const Point& middle = branch.points[branch.points.size() / 2];
+  CHECK((interpolate(branch, middle.arclength).u - middle.u).norm() < 1e-14);
+}
+
+TEST_CASE("steps are no longer than step.largest") {
+  Options options = window(-1, 1);
+  options.step.largest = 0.004;
+  const Branch branch = cusp_branch(options);
+  for (std::size_t k = 1; k < branch.points.size(); ++k)
+    CHECK(branch.points[k].arclength - branch.points[k - 1].arclength < 0.0041);
+}
+
+TEST_CASE("a branch starts along a tangent that is given") {
+  const double s = std::sqrt(0.5);
+  for (double sign : {1.0, -1.0}) {
+    // At the fold itself, where the parameter tells no direction.
+    const Branch branch =
+        trace(circle(), {Vector{{1e-9}}, Vector{{1.0}}, 0, 1, Vector{{sign, 0.0}}}, window(-2, 2));
+    REQUIRE(branch.points.size() > 3);
+    CHECK(branch.points[2].u[0] * sign > 0);
+    CHECK(branch.stop.reason == StopReason::closed);
+  }
+  CHECK_THROWS_AS(trace(circle(), {Vector{{s}}, Vector{{s}}, 0, 1, Vector{{1.0}}}, window(-2, 2)),
+                  std::invalid_argument);
+}
