@@ -5,6 +5,26 @@
 #include <cmath>
 
 namespace arcslip::hbm {
+namespace {
+
+constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch that closes on itself never ends
+
+// The branch from rest through the excitation factors from -1 to 1. All laws are antisymmetric: u at -1 is
+// -u at 1. So it may leave rest on either side, or come back through 0, where u need not be zero.
+std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p) {
+  const int factor = problem->excitation_factor();
+  p[factor] = 0;
+  continuation::Options options;
+  options.lower = -1;
+  options.upper = 1;
+  options.step.largest_parameter = 0.01;
+  options.points = longest_ramp;
+  const auto branch = continuation::trace(problem, {Vector::Zero(problem->size()), p, factor, 1}, options);
+  if (branch.stop.reason != continuation::StopReason::boundary) return {};
+  return branch.points.back().parameter * branch.points.back().u;
+}
+
+}  // namespace
 
 Vector linear_response(const HbmProblem& problem, const Vector& p) {
   DynamicStiffness stiffness(problem.model(), problem.coordinates(), problem.harmonics());
@@ -29,16 +49,7 @@ std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& prob
     v << guess, p[model::frequency];
     if (corrector.correct(v, row, false).converged) return v.head(n);
   }
-
-  Vector from_rest = p;
-  from_rest[problem->excitation_factor()] = 0;
-  continuation::Options options;
-  options.lower = 0;
-  options.upper = 1;
-  const auto ramp =
-      continuation::trace(problem, {Vector::Zero(n), from_rest, problem->excitation_factor(), 1}, options);
-  if (ramp.stop.reason != continuation::StopReason::boundary || ramp.points.back().parameter != 1) return {};
-  return ramp.points.back().u;
+  return ramp(problem, p);
 }
 
 }  // namespace arcslip::hbm

@@ -12,7 +12,8 @@ namespace arcslip::hbm {
 Vector linear_response(const HbmProblem& problem, const Vector& p);
 
 /// Newton's method from rest (all sliders stuck), from the response without elements, and, where neither
-/// converges, a branch in the excitation factor from rest at 0 to 1. Empty where that fails too.
+/// converges, a branch in the excitation factor from rest at 0 to 1 or -1, where the response is that of 1
+/// reversed. Empty where that fails too.
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p);
 
 }  // namespace arcslip::hbm

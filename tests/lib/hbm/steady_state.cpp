@@ -1,10 +1,29 @@
 #include "catch.hpp"
 
+#include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/hbm/steady_state.hpp>
 
 using namespace arcslip;
+
+namespace {
+
+// A response from nothing leaves no force: less than 1e-8 of what excites it.
+void check_found(const scene::Scene& s, double omega) {
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const auto problem = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-4, 25);
+  const auto p = hbm::parameters_at(*problem, omega);
+  const auto u = hbm::steady_state(problem, p);
+  REQUIRE(u);
+  const auto at = problem->hbm_evaluator();
+  REQUIRE(at->move_to(*u, p, continuation::Needs::residual) == continuation::Evaluated::ok);
+  continuation::Vector force(u->size());
+  at->stiffness().force(force);
+  CHECK(at->residual().norm() < 1e-8 * force.norm());
+}
+
+}  // namespace
 
 TEST_CASE("a response is found from rest where plain Newton cycles: 20 Hz, Fn = 2 N") {
   // Exact amplitude: tests/reference/exact_1dof.json.
@@ -15,15 +34,19 @@ TEST_CASE("a response is found from rest where plain Newton cycles: 20 Hz, Fn = 
 TEST_CASE("a response is found at every load and frequency, from nothing") {
   for (double hz : {0.3, 5.0, 18.0, 19.1, 20.0, 20.9, 30.0, 500.0})
     for (double load : {0.0, 1e-6, 0.1, 1.0, 2.0, 3.0, 4.0, 10.0, 300.0, 1e6}) {
-      const auto s = scenes::paper(9, load);
-      const auto model = std::make_shared<const model::Model>(model::build(s));
-      const auto problem = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-4, 25);
-      const auto p = hbm::parameters_at(*problem, hz * scenes::hertz);
-      const auto u = hbm::steady_state(problem, p);
       CAPTURE(hz, load);
-      REQUIRE(u);
-      const auto at = problem->hbm_evaluator();
-      at->move_to(*u, p, continuation::Needs::residual);
-      CHECK(at->residual().norm() < 1e-8);  // of a force of 1 N
+      check_found(scenes::paper(9, load), hz * scenes::hertz);
     }
+}
+
+TEST_CASE("a response is found where the branch from rest turns back through zero excitation") {
+  // Seeds where neither Newton's method nor a branch that ends at zero excitation finds one.
+  for (const std::uint64_t seed : {192, 2210, 4159, 4669, 4777, 5696, 6867, 6899}) {
+    const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first_and_second);
+    const auto& study = s.studies.front();
+    for (double hz : {study.from, 0.5 * (study.from + study.to), study.to}) {
+      CAPTURE(seed, hz);
+      check_found(s, hz * scenes::hertz);
+    }
+  }
 }

@@ -1,0 +1,19 @@
+#pragma once
+// Random structures with friction, the same ones on every machine.
+
+#include <arcslip/scene/scene.hpp>
+
+#include <cstdint>
+
+namespace random_scenes {
+
+/// What is excited: one harmonic, a second odd one, or an even one, which brings in the mean.
+enum class Excitation { first, first_and_third, first_and_second };
+
+/// A chain of 1 to 5 masses of about 1 kg from the ground on, with springs of 5 to 20 kN/m and dampers of
+/// 0.1 to 4 N s/m, and 1 to 5 friction dampers of 1 to 20 kN/m between neighbours or to the ground, with
+/// normal loads of 0.05 to 10 N (evenly over the logarithm), N of 3, 5, 7, 9 or 15, forces of 0.2 to 1 N, and
+/// a window within 4 Hz to 40 Hz.
+arcslip::scene::Scene make(std::uint64_t seed, Excitation excitation);
+
+}  // namespace random_scenes
