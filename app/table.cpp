@@ -26,18 +26,6 @@ std::string formatted(const char* format, double value) {
   return text.data();
 }
 
-const char* text(observables::Status status) {
-  switch (status) {
-    case observables::Status::complete:
-      return "complete";
-    case observables::Status::stopped:
-      return "stopped";
-    case observables::Status::failed:
-      break;
-  }
-  return "failed";
-}
-
 Row header(const scene::Scene& scene, const Row& parameters, const Row& friction) {
   Row row;
   for (const std::string& name : parameters) {
@@ -69,7 +57,7 @@ Row row(const scene::Scene& scene, const ResponseBranch& branch, const observabl
   } else {
     cells.insert(cells.end(), 3 + friction.size(), "-");
   }
-  cells.emplace_back(text(branch.status));
+  cells.emplace_back(observables::name(branch.status));
   return cells;
 }
 

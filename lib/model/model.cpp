@@ -3,11 +3,15 @@
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/jenkins.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 
 namespace arcslip::model {
 namespace {
+
+constexpr double held = 1e-12;  // a mean position: its stiffness relative to that of its springs
 
 Eigen::VectorXd vector_of(const scene::Direction& direction, int dofs) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(dofs);
@@ -19,6 +23,7 @@ class Builder {
  public:
   explicit Builder(const scene::Scene& scene) : scene_(scene) {
     model_.dofs = static_cast<int>(scene.dofs.size());
+    model_.dof_names = scene.dofs;
     model_.parameters.push_back({"frequency", "rad/s", 0, 1, 0, 1e300});
   }
 
@@ -102,6 +107,24 @@ Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuatio
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dofs, dofs);
   for (const LinearPart& part : parts) sum += p[part.parameter] * part.direction * part.direction.transpose();
   return sum;
+}
+
+std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p) {
+  if (model.harmonics.odd) return {};
+  Eigen::MatrixXd K = assemble(model.springs, p, model.dofs);
+  const double typical = K.cwiseAbs().maxCoeff();
+  for (const NonlinearPart& element : model.elements)
+    if (element.law == Law::cubic_spring && p[element.parameters[0]] != 0)
+      K += (typical > 0 ? typical : 1) * element.direction * element.direction.transpose();
+  const Eigen::VectorXd size = K.cwiseAbs().rowwise().maxCoeff();
+  for (int i = 0; i < model.dofs; ++i)
+    if (size[i] == 0) return i;
+  const Eigen::VectorXd scale = size.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scale.asDiagonal() * K * scale.asDiagonal());
+  Eigen::Index softest = 0, dof = 0;
+  if (modes.eigenvalues().cwiseAbs().minCoeff(&softest) > held) return {};
+  (scale.asDiagonal() * modes.eigenvectors().col(softest)).cwiseAbs().maxCoeff(&dof);
+  return static_cast<int>(dof);
 }
 
 }  // namespace arcslip::model

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct Force {
 
 struct Model {
   int dofs = 0;
+  std::vector<std::string> dof_names;
   std::vector<continuation::Parameter> parameters;  // [0] is "frequency", rad/s; ties stand for their members
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<NonlinearPart> elements;
@@ -65,5 +67,10 @@ std::unique_ptr<elements::Element> make_element(const Model& model, const Nonlin
 
 /// sum of p * d d^T.
 Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuation::Vector& p, int dofs);
+
+/// Where the mean position is an unknown: a degree of freedom whose mean no spring holds, neither linear nor
+/// cubic, directly or through others. Friction forces do not depend on it, so that it would be arbitrary or
+/// drift. Empty where there is none.
+std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p);
 
 }  // namespace arcslip::model

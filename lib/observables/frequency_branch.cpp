@@ -2,7 +2,9 @@
 
 #include <arcslip/hbm/steady_state.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace arcslip::observables {
 namespace {
@@ -11,6 +13,7 @@ using continuation::Vector;
 
 constexpr double points_in_window = 150;  // at least, from end to end
 constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
+constexpr double smallest_step = 1e-2;          // of the largest at the low end of the window
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
 
 }  // namespace
@@ -25,13 +28,21 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   auto problem = problem_with(1);
   const Vector p = hbm::parameters_at(*problem, from);
   problem = problem_with(hbm::linear_response(*problem, p).norm());
+  const auto failed = [&](const std::string& message) {
+    FrequencyBranch none{problem, {}};
+    none.branch.stop = {continuation::StopReason::start_failed, from, 0, message};
+    return none;
+  };
+  if (const auto dof = model::drifting_dof(*model, p))
+    return failed(
+        "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
+        "\", and friction leaves it free to drift; add a spring between it and the ground or what is "
+        "held, or excite odd harmonics only");
   const auto start = hbm::steady_state(problem, p);
-  if (!start) {
-    FrequencyBranch failed{problem, {}};
-    failed.branch.stop = {continuation::StopReason::start_failed, from, 0,
-                          "no periodic response at the start"};
-    return failed;
-  }
+  if (!start)
+    return failed(
+        "Newton's method failed from rest, from the response without elements, and along a growing "
+        "excitation");
   problem = problem_with(start->norm());
 
   continuation::Options options;
@@ -39,6 +50,8 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   options.upper = window.upper;
   options.step.largest_parameter = width / points_in_window;
   options.step.relative_parameter = largest_relative_step;
+  options.step.smallest =
+      std::min(options.step.smallest, smallest_step * largest_relative_step * window.lower / width);
   options.largest_state = resolvable;
   const auto observer = std::make_shared<Observer>(problem);
   continuation::Observer each;

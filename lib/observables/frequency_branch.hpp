@@ -17,7 +17,7 @@ struct FrequencyWindow {
 
 struct FrequencyBranch {
   std::shared_ptr<const hbm::HbmProblem> problem;
-  continuation::Branch branch;  // start_failed with value = omega where no response was found to start from
+  continuation::Branch branch;  // start_failed where no response was found to start from
 };
 
 /// Called at each point (event: null) and each event; false stops.

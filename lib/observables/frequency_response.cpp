@@ -16,6 +16,8 @@ using continuation::Vector;
 
 constexpr double beyond_display =
     1e6;  // |u| in scales: where it is asked whether the response is bounded at all
+constexpr double least_beyond = 1e-6;  // of the pole's frequency: nearer, a start would be taken for the pole
+constexpr double without_course = 1.0 / 150;  // of the window: as far beyond a pole that the branch begins at
 constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an unbounded peak is taken up
 
 Status status_of(StopReason reason) {
@@ -103,9 +105,13 @@ class Sweep {
       last = omega;
       return progress_(progress);
     };
+    if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
+      end_unbounded(result, on_it, {{from, HUGE_VAL}});
+      return result;
+    }
     const auto traced = frequency_branch(model_, {lower_, upper_}, from, record);
     result.solver.unknowns = traced.problem->size();
-    finish(result, traced, growth, course);
+    finish(result, traced, from, growth, course);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return result;
   }
@@ -123,7 +129,7 @@ class Sweep {
     result.solver.linear_solver = "dense LU";
   }
 
-  void finish(ResponseBranch& result, const FrequencyBranch& traced, const Unboundedness& growth,
+  void finish(ResponseBranch& result, const FrequencyBranch& traced, double from, const Unboundedness& growth,
               const std::vector<std::pair<double, double>>& course) {
     const continuation::Branch& branch = traced.branch;
     const auto& counts = branch.counts;
@@ -140,14 +146,24 @@ class Sweep {
     result.status = status_of(branch.stop.reason);
     result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
     if (branch.stop.reason == StopReason::start_failed) {
-      result.stop.value = branch.stop.value / unit_;
+      result.stop.value = from / unit_;
+      result.stop.limit = 0;
       result.stop.message =
-          "no periodic response was found at " + text(result.stop.value) + " " + unit_name_ +
-          ": Newton's method failed from rest, from the response without elements, and along a "
-          "growing excitation";
+          "no periodic response was found at " + with_unit(from) + ": " + branch.stop.message;
     } else if (branch.stop.reason == StopReason::boundary) {
-      result.stop.value = result.stop.limit = branch.stop.value / unit_;
-      result.stop.message = "reached the end of the window at " + text(result.stop.value) + " " + unit_name_;
+      result.stop.value = branch.stop.value / unit_;
+      result.stop.limit = upper_ / unit_;
+      if (branch.stop.value == upper_) {
+        result.stop.message = "reached the end of the window at " + with_unit(upper_);
+      } else {
+        result.status = Status::stopped;
+        double highest = from;
+        for (const auto& point : result.points) highest = std::max(highest, point.omega);
+        for (const auto& event : result.events) highest = std::max(highest, event.point.omega);
+        result.stop.message = "turned back at " + with_unit(highest) +
+                              " and left the window at its lower end, " + with_unit(branch.stop.value) +
+                              ": no response above was traced";
+      }
     } else if (!growth.message.empty()) {
       result.stop.message += "; " + growth.message;
     }
@@ -160,24 +176,24 @@ class Sweep {
     const double omega = course.back().first;
     result.status = Status::complete;
     result.stop = {"unbounded", growth.dissipation, growth.input,
-                   growth.message + ", near " + text(omega / unit_) + " " + unit_name_};
+                   growth.message + ", near " + with_unit(omega)};
     ResponseEvent peak;
     peak.kind = "peak";
     peak.point.omega = omega;
     peak.point.unbounded = true;
     result.events.push_back(std::move(peak));
-    far_side_ = upper_;
+    far_side_ = omega + (upper_ - lower_) * without_course;
     for (auto it = course.rbegin(); it != course.rend(); ++it) {
       if (it->second > next_to_pole) continue;
-      far_side_ = 2 * omega - it->first;
+      far_side_ = std::max(2 * omega - it->first, (1 + least_beyond) * omega);
       break;
     }
   }
 
-  static std::string text(double x) {
+  std::string with_unit(double omega) const {
     std::ostringstream s;
     s.precision(8);
-    s << x;
+    s << omega / unit_ << ' ' << unit_name_;
     return s.str();
   }
 

@@ -1,5 +1,7 @@
 #include <arcslip/observables/unbounded.hpp>
 
+#include <arcslip/hbm/steady_state.hpp>
+
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -8,6 +10,9 @@
 namespace arcslip::observables {
 namespace {
 
+constexpr double beside = 1e-9, further_off = 1e-5;  // of omega: where it is looked for a pole
+constexpr double grows = 100;                        // between these: less is no pole, whose growth is 1e4
+constexpr double large = 1e6;                        // of that response, as a shape of large amplitude
 constexpr double negligible = 1e-9;  // share of a shape in an element or damper that does not count
 
 }  // namespace
@@ -69,6 +74,16 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
   }
   result.message = text.str();
   return result;
+}
+
+Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega) {
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  const continuation::Vector p = hbm::parameters_at(problem, omega * (1 + beside));
+  const continuation::Vector u = hbm::linear_response(problem, p);
+  const double off =
+      hbm::linear_response(problem, hbm::parameters_at(problem, omega * (1 + further_off))).norm();
+  if (!u.allFinite() || !(u.norm() > grows * off)) return {};
+  return unboundedness(problem, p, large * u);
 }
 
 }  // namespace arcslip::observables

@@ -23,4 +23,8 @@ struct Unboundedness {
 Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::Vector& p,
                             const continuation::Vector& u);
 
+/// At an excitation frequency omega (rad/s) with the model's own parameters, where the response without
+/// elements has a pole within about 1e-7 omega. Nothing is unbounded where there is no such pole.
+Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega);
+
 }  // namespace arcslip::observables

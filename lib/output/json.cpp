@@ -16,18 +16,6 @@ using observables::ResponseEvent;
 using observables::ResponsePoint;
 using Json = nlohmann::ordered_json;
 
-const char* name(observables::Status status) {
-  switch (status) {
-    case observables::Status::complete:
-      return "complete";
-    case observables::Status::stopped:
-      return "stopped";
-    case observables::Status::failed:
-      break;
-  }
-  return "failed";
-}
-
 std::string text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
