@@ -30,7 +30,9 @@ void hold_standard_streams() {
 }
 
 ExitCode print(const Information& information) {
-  StandardOutput().write([&](std::ostream& out) { out << information.text; });
+  StandardOutput screen;
+  screen.write([&](std::ostream& out) { out << information.text; });
+  screen.finish();
   return ExitCode::done;
 }
 

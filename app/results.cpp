@@ -9,9 +9,14 @@
 #include <arcslip/output/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <ostream>
 #include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace arcslip::app {
 
@@ -33,12 +38,25 @@ std::vector<StudyFiles> study_files(const std::string& folder, std::span<const s
   return all;
 }
 
-void make_folder(const std::string& folder) {
+ResultsFolder::ResultsFolder(const std::string& folder) : descriptor_(-1) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
     const std::string cause = error ? error.message() : "it is a file";
     throw UsageError("cannot make the folder " + folder + ": " + cause + " (choose another with --out)");
+  }
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // A file system without locks goes without.
+  if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(descriptor_);
+    throw UsageError("another run writes into the folder " + folder +
+                     ": wait for its end, or choose another with --out");
+  }
+}
+
+ResultsFolder::~ResultsFolder() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
   }
 }
 

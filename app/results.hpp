@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace arcslip::app {
@@ -20,8 +21,18 @@ struct StudyFiles {
 /// A name for the files of each study, different for each.
 std::vector<StudyFiles> study_files(const std::string& folder, std::span<const scene::Study> studies);
 
-/// Makes the folder, with those above it. Throws UsageError.
-void make_folder(const std::string& folder);
+/// A folder that one run at a time writes into: made with those above it, and held as long as this lives,
+/// even if the program is killed. Throws UsageError where it cannot be made or another run holds it.
+class ResultsFolder {
+ public:
+  explicit ResultsFolder(const std::string& folder);
+  ResultsFolder(ResultsFolder&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  ResultsFolder& operator=(ResultsFolder&&) = delete;
+  ~ResultsFolder();
+
+ private:
+  int descriptor_;
+};
 
 /// Throws if one of the files cannot be written, or is the scene file itself.
 void check_writable(const StudyFiles& files, const std::string& scene_file);

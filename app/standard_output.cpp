@@ -1,13 +1,11 @@
 #include "standard_output.hpp"
 
-#include <arcslip/output/atomic_file.hpp>
-
 #include <cerrno>
 
 namespace arcslip::app {
 
 void StandardOutput::write(const std::function<void(std::ostream&)>& writer) {
-  if (!is_read_) {
+  if (lost_) {
     return;
   }
   try {
@@ -18,7 +16,13 @@ void StandardOutput::write(const std::function<void(std::ostream&)>& writer) {
     if (error.error() != EPIPE) {
       throw;
     }
-    is_read_ = false;
+    lost_ = error;
+  }
+}
+
+void StandardOutput::finish() const {
+  if (lost_) {
+    throw *lost_;
   }
 }
 

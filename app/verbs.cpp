@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -32,10 +33,11 @@ bool takes_standard_output(const Options& options) {
   return options.json == "-" || options.csv == "-";
 }
 
-/// Meets what writing the results would meet at its beginning.
-void prepare_places(const Options& options, const std::vector<StudyFiles>& files) {
+/// Meets what writing the results would meet at its beginning. Returns the folder, held for this run.
+std::optional<ResultsFolder> prepare_places(const Options& options, const std::vector<StudyFiles>& files) {
+  std::optional<ResultsFolder> folder;
   if (!options.out.empty()) {
-    make_folder(options.out);
+    folder.emplace(options.out);
     for (const StudyFiles& study : files) {
       check_writable(study, options.scene);
     }
@@ -45,6 +47,7 @@ void prepare_places(const Options& options, const std::vector<StudyFiles>& files
       check_writable(file, options.scene);
     }
   }
+  return folder;
 }
 
 std::vector<ResponseBranch> compute(const scene::Scene& scene, const scene::Study& study, bool quiet) {
@@ -73,8 +76,8 @@ ExitCode report_ends(const scene::Scene& scene, const std::vector<ResponseBranch
     }
     code = ExitCode::stopped_early;
     const std::string set = output::assignment(scene, branch.set);
-    tell("branch " + std::to_string(i + 1) + (set.empty() ? "" : " (" + set + ")") +
-         (branch.status == observables::Status::failed ? " failed: " : " stopped: ") + branch.stop.message);
+    tell("branch " + std::to_string(i + 1) + (set.empty() ? "" : " (" + set + ")") + " " +
+         observables::name(branch.status) + ": " + branch.stop.message);
   }
   return code;
 }
@@ -92,7 +95,7 @@ void write_to(const std::string& place, StandardOutput& screen,
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const Options& options) {
   const std::vector<StudyFiles> files = study_files(options.out, studies);
-  prepare_places(options, files);
+  const std::optional<ResultsFolder> held = prepare_places(options, files);
 
   StandardOutput screen;
   ExitCode code = ExitCode::done;
@@ -132,13 +135,16 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   if (!places.empty() && !options.quiet && !takes_standard_output(options)) {
     screen.write([&](std::ostream& out) { out << '\n' << places; });
   }
+  screen.finish();
   return code;
 }
 
 ExitCode check(const Options& options) {
   const scene::Scene scene = resolve(options);
   if (!options.quiet) {
-    StandardOutput().write([&](std::ostream& out) { out << scene::write(scene); });
+    StandardOutput screen;
+    screen.write([&](std::ostream& out) { out << scene::write(scene); });
+    screen.finish();
   }
   return ExitCode::done;
 }

@@ -4,8 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <filesystem>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 using namespace app_test;
 using Json = nlohmann::json;
@@ -164,16 +168,31 @@ TEST_CASE("help and version stand on standard output") {
   }
 }
 
-TEST_CASE("a reader that goes away early is no error") {
+TEST_CASE("a reader that goes away early leaves all files and an error, since it has not seen all") {
   const Workplace place;
   const std::string command =
       std::string("cd '") + place.path() +
       "' && { '" ARCSLIP_PROGRAM
-      "' frf scene.json --harmonics 1 --json - 2>err; echo $? >code; } | head -c 11 >out";
+      "' frf scene.json --harmonics 1 --json - --csv a.csv 2>err; echo $? >code; } | head -c 11 >out";
   CHECK(std::system(command.c_str()) == 0);
   CHECK(place.read("out") == "{\"format\": ");
-  CHECK(place.read("err").empty());
-  CHECK(place.read("code") == "0\n");
+  CHECK(place.read("err").find("cannot write standard output: Broken pipe") != std::string::npos);
+  CHECK(place.read("code") == "1\n");
+  CHECK(place.read("a.csv").find("\r\n3,5,peak,") != std::string::npos);
+}
+
+TEST_CASE("two runs at once into one folder: the second one is told, and the first one's files are whole") {
+  const Workplace place;
+  std::filesystem::create_directory(place.path() + "/out");
+  place.write("out/keep", "");
+  const int folder = ::open((place.path() + "/out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  REQUIRE(::flock(folder, LOCK_EX) == 0);  // as a run that is not at its end
+  const Ended second = run(place, quick_with({"--out", "out"}));
+  CHECK(second.exit_code == 1);
+  CHECK(second.err.find("another run writes into the folder out: wait for its end") != std::string::npos);
+  CHECK(place.files() == std::vector<std::string>{"out", "out/keep", "scene.json"});
+  ::close(folder);
+  CHECK(run(place, quick_with({"--out", "out"})).exit_code == 0);
 }
 
 TEST_CASE("a closed standard output is an error and no file takes its place") {
