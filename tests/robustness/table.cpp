@@ -117,6 +117,18 @@ slip phases at low frequency with an order past the resonance; they run in reduc
 )";
 }
 
+void print_random_scenes() {
+  std::cout << R"(
+## Random structures
+
+Chains of 1 to 5 masses with 1 to 5 friction dampers, random in stiffness, load, place, window and order up to 15
+(`tests/lib/hbm/random_scenes.hpp`), excited in harmonic 1, in 1 and 3, or in 1 and 2. On each, the branch is complete and
+only grows in frequency, no point is higher than both neighbours without a peak between them, and where the amplitude
+changes most from one point to the next, responses found from nothing in between leave no gap. 40 of each kind are among
+the long tests, the same on every machine; `ARCSLIP_SCENES=1000 tests/run -R random` runs the first 1000 of each.
+)";
+}
+
 void print_bad_inputs() {
   std::cout << R"(
 ## Bad input of the command
@@ -170,6 +182,7 @@ it can.
 int main() try {
   print_introduction();
   print_extremes();
+  print_random_scenes();
   print_bad_inputs();
   print_interruptions();
   print_bad_scenes();
