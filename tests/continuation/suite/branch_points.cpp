@@ -80,3 +80,10 @@ TEST_CASE("the tail of u = lambda e^u, which never comes to lambda = 0, is not s
 TEST_CASE("a singular start is not said to be one that cannot be evaluated", "[!shouldfail]") {
   CHECK(trace(named("powell_4")).stop.reason == StopReason::start_failed);
 }
+
+TEST_CASE("no step on the slipping Duffing oscillator's branch over its normal load is rejected",
+          "[!shouldfail]") {
+  const Branch branch = trace(named("duffing_jenkins_Fn_low"));
+  REQUIRE(branch.stop.reason == StopReason::boundary);
+  CHECK(branch.counts.rejected_steps == 0);
+}

@@ -165,7 +165,9 @@ Case named(const std::string& name) {
 }
 
 Branch trace(const Case& c) {
-  return trace(c, window(c.lower, c.upper));
+  Options options = window(c.lower, c.upper);
+  options.points = 2000;  // a closed branch goes round and round
+  return trace(c, options);
 }
 
 Branch trace(const Case& c, const Options& options) {

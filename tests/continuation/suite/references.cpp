@@ -164,3 +164,13 @@ TEST_CASE(
     }));
   }
 }
+
+TEST_CASE("every branch of the suite costs less than 3.5 factorizations a point, its folds included") {
+  for (const Case& c : cases()) {
+    if (c.name == "powell_4") continue;  // no branch
+    CAPTURE(c.name);
+    const Branch branch = trace(c);
+    CHECK(static_cast<double>(branch.counts.factorizations) <
+          3.5 * static_cast<double>(branch.counts.points));
+  }
+}
