@@ -85,15 +85,15 @@ void pitcon_cases(std::vector<Case>& all) {
     double elevator;
     std::vector<double> folds;
   };
-  // Rheinboldt's limit points, cut after four decimals; his -0.0504 has lost a digit (Melhem: 0.5091,
-  // mirrored).
+  // Solved for directly, from the limit points that TEST_CON prints.
   for (const Trim& trim :
-       {Trim{"aircraft_1", -0.05, {-0.5048}}, Trim{"aircraft_2", -0.008, {-0.2049, 0.0062, -0.3776}},
-        Trim{"aircraft_3", 0, {-0.1869, 0.5101}}, Trim{"aircraft_4", 0.05, {-0.2957}},
-        Trim{"aircraft_5", 0.1, {-0.6897}}})
+       {Trim{"aircraft_1", -0.05, {-0.5048105070786}},
+        Trim{"aircraft_2", -0.008, {-0.2049730045933, 0.006208207067966, -0.3776599599286}},
+        Trim{"aircraft_3", 0, {-0.1869083326997, 0.5101585346486}},
+        Trim{"aircraft_4", 0.05, {-0.2957724043265}}, Trim{"aircraft_5", 0.1, {-0.6897171900916}}})
     all.push_back(make(trim.name, aircraft(trim.elevator),
                        Vector{{0.0, -1.024 * trim.elevator, 0.0, -1.192 * trim.elevator, 0.0}}, 0, -1, -1, 1,
-                       trim.folds, 1e-4));
+                       trim.folds, 1e-12));
   all.push_back(crossing_others(make("cell_kinetics", cell_kinetics(), Vector::Zero(5), 0, 1, 0, 60,
                                      {{34.3569249985262, 18.8870676579243}}, 1e-11)));
   all.push_back(make("riks_up", riks(), Vector::Zero(3), 0, 1, -2, 2));

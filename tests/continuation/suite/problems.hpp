@@ -60,9 +60,9 @@ ProblemPtr wacker(double A);
 /// test_con 7 (Rheinboldt 1980): (I + L) x + 100 x / (1 + x + x^2) - lambda, L the Laplacian of a chain of n
 /// cells. The branch of equal x has its folds where (1 + x + x^2)^2 + 100 (1 - x^2) = 0.
 ProblemPtr cell_kinetics(int n = 5);
-/// test_con 15 (Poenisch and Schwetlick 1981): voltages of a trigger circuit over its input voltage.
-/// Resistances as in Seydel, Practical Bifurcation and Stability Analysis; with those that TEST_CON prints,
-/// its limit points are none.
+/// test_con 15 (Poenisch and Schwetlick 1981): voltages of a trigger circuit over its input voltage. R0 =
+/// 10^4 and the matrix of the resistors: so the limit points are Melhem's, which they are not as TEST_CON
+/// prints it.
 ProblemPtr trigger_circuit();
 /// AUTO-07p's demo ab, steady states: -x + p1 (1 - x) e^y, -y + p1 p2 (1 - x) e^y - p3 y.
 ProblemPtr ab();
