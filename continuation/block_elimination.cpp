@@ -180,6 +180,8 @@ class BlockElimination final : public LinearSolver {
       column_sums_[n + i] =
           borders_.columns.col(i).cwiseAbs().sum() + borders_.corner.col(i).cwiseAbs().sum();
     }
+    row_sums_.tail(m) *= Refinement::of_full_row(n);
+    column_sums_.tail(m) *= Refinement::of_full_row(n);
     return row_sums_.allFinite() && column_sums_.allFinite();
   }
 

@@ -1,4 +1,5 @@
 #include <arcslip/continuation/bordered_sparse.hpp>
+#include <arcslip/continuation/refinement.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,8 @@ void BorderedSparse::scale(int n) {
       value[k] *= scales_[inner[k]];
       row_sums_[inner[k]] += std::abs(value[k]);
     }
+  row_sums_.tail(size - n) *= Refinement::of_full_row(n);
+  column_sums_.tail(size - n) *= Refinement::of_full_row(n);
 }
 
 }  // namespace arcslip::continuation

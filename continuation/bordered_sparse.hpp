@@ -23,7 +23,8 @@ class BorderedSparse {
 
   /// The factors of its rows, > 0; not finite or without use where finite() is false.
   const Vector& scales() const { return scales_; }
-  /// Sums of the magnitudes in its rows, and in the columns of the matrix before it was scaled.
+  /// Sums of the magnitudes in its rows, and in the columns of the matrix before it was scaled; more for the
+  /// borders, so that residuals relative to them are rounding.
   const Vector& row_sums() const { return row_sums_; }
   const Vector& column_sums() const { return column_sums_; }
   bool finite() const { return column_sums_.allFinite(); }

@@ -5,6 +5,7 @@
 
 #include <arcslip/continuation/problem.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,25 +15,30 @@ namespace arcslip::continuation {
 class Refinement {
  public:
   void resize(Eigen::Index n) {
-    for (Vector* v : {&b_, &x_, &trial_, &residual_, &product_}) v->resize(n);
+    for (Vector* v : {&b_, &x_, &next_, &residual_, &next_residual_}) v->resize(n);
+  }
+
+  /// For |row| of a full row: sums of n terms round by sqrt(n).
+  static double of_full_row(Eigen::Index n) {
+    return std::max(1.0, 0.25 * std::sqrt(static_cast<double>(n)));
   }
 
   /// x = M^-1 x. False: x is as it was. row_sums: |row| for each row.
   /// eliminate(b, x): x = M^-1 b as well as it can, bool; multiply(x, y): y = M x, bool.
   template <class Eliminate, class Multiply>
   bool solve(Out x, const Vector& row_sums, const Eliminate& eliminate, const Multiply& multiply) {
-    b_ = residual_ = x;
-    x_.setZero();
-    double error = std::numeric_limits<double>::infinity();
+    b_ = x;
+    if (!eliminate(b_, x_) || !multiply(x_, residual_)) return false;
+    double error = subtract(x_, row_sums, residual_);
     for (int k = 0; k < sweeps && error > rounding; ++k) {
-      if (!eliminate(residual_, trial_)) return false;
-      trial_ += x_;
-      if (!multiply(trial_, product_)) return false;
-      const double now = backward_error(row_sums);
+      if (!eliminate(residual_, next_)) return false;
+      next_ += x_;
+      if (!multiply(next_, next_residual_)) return false;
+      const double now = subtract(next_, row_sums, next_residual_);
       if (!(now < error)) break;
-      std::swap(x_, trial_);
-      residual_ = b_ - product_;
-      const bool stagnates = k > 0 && now > progress * error;
+      std::swap(x_, next_);
+      std::swap(residual_, next_residual_);
+      const bool stagnates = now > progress * error;
       error = now;
       if (stagnates) break;
     }
@@ -47,18 +53,20 @@ class Refinement {
   static constexpr double useful = 1e-8;   // backward errors above are failures
   static constexpr double progress = 0.5;  // of the backward error in a sweep: more is stagnation
 
-  double backward_error(const Vector& row_sums) const {
-    const double x = trial_.lpNorm<Eigen::Infinity>();
+  // Mx becomes the residual b - M x; returns its backward error.
+  double subtract(const Vector& x, const Vector& row_sums, Vector& Mx) const {
+    const double largest = x.lpNorm<Eigen::Infinity>();
     double error = 0;
     for (Eigen::Index i = 0; i < b_.size(); ++i) {
-      const double r = std::abs(b_[i] - product_[i]);
+      const double r = Mx[i] = b_[i] - Mx[i];
+      const double size = std::abs(b_[i]) + row_sums[i] * largest;
       if (!std::isfinite(r)) return std::numeric_limits<double>::infinity();
-      if (r > error * (std::abs(b_[i]) + row_sums[i] * x)) error = r / (std::abs(b_[i]) + row_sums[i] * x);
+      if (std::abs(r) > error * size) error = std::abs(r) / size;
     }
     return error;
   }
 
-  Vector b_, x_, trial_, residual_, product_;
+  Vector b_, x_, next_, residual_, next_residual_;
 };
 
 }  // namespace arcslip::continuation
