@@ -53,7 +53,7 @@ ProblemPtr spoilt(std::function<void(MatrixOut)> J_by, double p_by) {
       },
       [=](In u, In p, MatrixOut J) {
         at->move_to(u, p, Needs::jacobian);
-        J = at->jacobian();
+        J = std::get<Eigen::MatrixXd>(at->jacobian());
         J_by(J);
       },
       [=](In u, In p, int k, Out dF) {

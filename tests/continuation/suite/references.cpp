@@ -57,7 +57,7 @@ TEST_CASE("at every fold the Jacobian is singular and dF/dp is not in its range,
       p[c.start.free] = fold.point.parameter;
       at->move_to(fold.point.u, p, Needs::jacobian);
       const int n = c.problem->size();
-      Eigen::MatrixXd J = at->jacobian() * c.problem->scales().asDiagonal();
+      Eigen::MatrixXd J = std::get<Eigen::MatrixXd>(at->jacobian()) * c.problem->scales().asDiagonal();
       Vector by_p(n);
       at->parameter_derivative(c.start.free, by_p);
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -82,13 +82,13 @@ ProblemPtr exchanged(ProblemPtr problem, int unknown, int k) {
       },
       [=](In u, In p, MatrixOut J) {
         move_to(u, p, Needs::jacobian);
-        J = at->jacobian();
+        J = std::get<Eigen::MatrixXd>(at->jacobian());
         at->parameter_derivative(k, J.col(unknown));
       },
       [=](In u, In p, int j, Out dF) {
         move_to(u, p, Needs::jacobian);
         if (j == k)
-          dF = at->jacobian().col(unknown);
+          dF = std::get<Eigen::MatrixXd>(at->jacobian()).col(unknown);
         else
           at->parameter_derivative(j, dF);
       },
@@ -119,7 +119,7 @@ ProblemPtr rescaled(ProblemPtr problem, double in_u, int k, double in_p) {
       },
       [=](In u, In p, MatrixOut J) {
         move_to(u, p, Needs::jacobian);
-        J = at->jacobian() / in_u;
+        J = std::get<Eigen::MatrixXd>(at->jacobian()) / in_u;
       },
       [=](In u, In p, int j, Out dF) {
         move_to(u, p, Needs::residual);
