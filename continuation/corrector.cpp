@@ -108,7 +108,10 @@ bool Corrector::factorize(const Vector& row) {
     failure_ = thrown.what();
     return false;
   }
-  if (!F_p_.allFinite()) return false;
+  if (!F_p_.allFinite()) {
+    failure_ = "dF/dp is not finite";
+    return false;
+  }
   if (!solver_) solver_ = suitable_solver(evaluator_->jacobian());
   borders_.columns.col(0) = F_p_;
   borders_.rows.col(0) = row.head(n);

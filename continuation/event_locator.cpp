@@ -17,6 +17,9 @@ constexpr double linearized_there = 1e-13;  // corrections below leave factors t
 constexpr double state_tolerance = 1e-10;   // relative, of u at an event
 constexpr int samples_beside = 4;           // of q on each side of an extreme, for its rounding
 constexpr double sample_share = 1e-2;       // of the step, between them
+constexpr int most_kinks = 16;              // looked for in one step
+constexpr double just_beyond = 1e-6;        // of a step: where the other side of a kink is looked at
+constexpr double smallest_kink = 1e-4;      // rad
 constexpr double spreads = 2;               // of the samples: more is no rounding
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
@@ -44,11 +47,65 @@ Corrector& EventLocator::probe() {
 }
 
 std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
-  return gather(&EventLocator::find, from, to);
+  std::vector<LocatedEvent> found = gather(&EventLocator::find, from, to);
+  if (to.piece == from.piece) return found;
+  for (const Monitor& monitor : monitors_)
+    if (monitor.kind == MonitorKind::kink) kinks(monitor, from, to, found);
+  std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
+    return x.event.point.arclength < y.event.point.arclength;
+  });
+  return found;
+}
+
+LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const {
+  LocatedEvent found;
+  found.event.monitor = monitor.name;
+  found.event.point = point(kink, {});
+  found.event.nonsmooth = true;
+  found.event.data = Kink{kink.tangent, beyond};
+  found.place = kink;
+  return found;
+}
+
+// The branch shortly beyond a kink, with its tangent there: linearized ahead, where the other piece is, and
+// corrected along that tangent, on the side of `to`.
+bool EventLocator::look_beyond(const Place& kink, const Place& to, double way, Place& beyond) {
+  Corrector& probe = this->probe();
+  beyond = kink;
+  beyond.v = kink.v + way * kink.tangent;
+  if (!probe.linearize(beyond.v, probe.border_row(kink.tangent)) || !settle(probe, beyond)) return false;
+  const bool against = kink.orientation != 0 ? beyond.orientation != kink.orientation
+                                             : probe.dot(beyond.tangent, to.v - kink.v) < 0;
+  if (against) beyond.reverse();
+  const Vector tangent = beyond.tangent;
+  beyond.v = kink.v + way * tangent;
+  if (!probe.correct(beyond.v, probe.border_row(tangent), false).converged || !settle(probe, beyond))
+    return false;
+  beyond.arclength = kink.arclength + way;
+  return beyond.piece != kink.piece;
+}
+
+void EventLocator::kinks(const Monitor& monitor, const Place& from, const Place& to,
+                         std::vector<LocatedEvent>& found) {
+  Place side = from, kink, beyond;
+  for (int k = 0; k < most_kinks && side.piece != to.piece; ++k) {
+    const double length = to.arclength - side.arclength;
+    Correction correction;
+    if (!(length > 0) || !locate_kink(probe(), side, length, kink, correction) ||
+        !look_beyond(kink, to, just_beyond * length, beyond))
+      return;
+    const double turn = probe().dot(kink.tangent, beyond.tangent);
+    if (turn < 1 - 0.5 * smallest_kink * smallest_kink)
+      found.push_back(kink_event(monitor, kink, beyond.tangent));
+    side = beyond;
+  }
 }
 
 std::vector<LocatedEvent> EventLocator::across(const Place& kink, const Place& beyond) {
-  return gather(&EventLocator::at_kink, kink, beyond);
+  std::vector<LocatedEvent> found = gather(&EventLocator::at_kink, kink, beyond);
+  for (const Monitor& monitor : monitors_)
+    if (monitor.kind == MonitorKind::kink) found.push_back(kink_event(monitor, kink, beyond.tangent));
+  return found;
 }
 
 std::vector<LocatedEvent> EventLocator::gather(Find by, const Place& from, const Place& to) {

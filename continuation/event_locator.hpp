@@ -51,6 +51,9 @@ class EventLocator {
   std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
   std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
   LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
+  void kinks(const Monitor& monitor, const Place& from, const Place& to, std::vector<LocatedEvent>& found);
+  LocatedEvent kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const;
+  bool look_beyond(const Place& kink, const Place& to, double way, Place& beyond);
   void describe(LocatedEvent& found);
   Event event(std::size_t monitor, const Place& place, double value, const Correction& correction) const;
   Corrector& probe();

@@ -26,6 +26,10 @@ struct Accepted {
 /// Which changes of sign count, along the branch in the direction of travel.
 enum class Crossing { any, falling, rising };
 
+/// What makes an event of a monitor: its value is zero, a branch point or a kink, whose value is not looked
+/// at.
+enum class MonitorKind { zero, branch_point, kink };
+
 struct Monitor {
   std::string name;
   std::function<double(const Accepted&)> value;
@@ -43,10 +47,16 @@ struct Monitor {
 
   /// The branch ends at its first event.
   bool terminal = false;
+
+  MonitorKind kind = MonitorKind::zero;
 };
 
 /// dp/ds = 0: a fold in the free parameter, described by its null vectors and its curvature; at a nonsmooth
 /// fold dp/ds jumps.
 Monitor fold_monitor();
+
+/// Kinks of piecewise smooth problems (Evaluator::piece): where the tangent jumps, with the tangents of both
+/// sides. A change of piece that leaves the tangent as it was is none.
+Monitor kink_monitor();
 
 }  // namespace arcslip::continuation
