@@ -1,5 +1,6 @@
 #include <arcslip/continuation/event_locator.hpp>
 
+#include <arcslip/continuation/branch_point.hpp>
 #include <arcslip/continuation/root.hpp>
 
 #include <algorithm>
@@ -20,6 +21,7 @@ constexpr double sample_share = 1e-2;       // of the step, between them
 constexpr int most_kinks = 16;              // looked for in one step
 constexpr double just_beyond = 1e-6;        // of a step: where the other side of a kink is looked at
 constexpr double smallest_kink = 1e-4;      // rad
+constexpr double beside_step = 0.1;         // of a step: a branch point so near lies on it
 constexpr double spreads = 2;               // of the samples: more is no rounding
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
@@ -55,6 +57,37 @@ std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& 
     return x.event.point.arclength < y.event.point.arclength;
   });
   return found;
+}
+
+std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const Place& to) {
+  const double length = to.arclength - from.arclength;
+  Corrector& probe = this->probe();
+  Place place = from;
+  Vector beside(from.v.size());
+  for (double guess : {0.5, 0.1, 0.9}) {
+    hermite(from.v, from.tangent, to.v, to.tangent, length, guess, beside);
+    const auto crossing =
+        locate_branch_point(problem_, p_, free_, beside, options_.linear_solver, options_.newton);
+    if (!crossing || !crossing->branches_cross()) continue;
+    const Vector way = crossing->x - from.v;
+    const double share = probe.dot(way, to.v - from.v) / (length * length);
+    if (!(share > -beside_step && share < 1 + beside_step)) continue;
+    hermite(from.v, from.tangent, to.v, to.tangent, length, share, beside);
+    if (distance(probe, beside, crossing->x) > beside_step * length) continue;
+    auto branches = describe_branch_point(*problem_, free_, *crossing, to.v - from.v);
+    if (!branches) continue;
+    place.v = crossing->x;
+    place.tangent = branches->tangents.front();
+    place.arclength = from.arclength + std::clamp(share, 0.0, 1.0) * length;
+    LocatedEvent found;
+    for (const Monitor& monitor : monitors_)
+      if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
+    found.event.point = point(place, {});
+    found.event.data = std::move(*branches);
+    found.place = std::move(place);
+    return found;
+  }
+  return std::nullopt;
 }
 
 LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const {

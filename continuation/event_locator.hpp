@@ -39,6 +39,10 @@ class EventLocator {
   /// The same for a kink, by the places on its two sides.
   std::vector<LocatedEvent> across(const Place& kink, const Place& beyond);
 
+  /// The branch point between two places whose orientations differ: where two branches cross. Nothing where
+  /// none do: then `to` is on another branch. The event is the first branch_point monitor's, or has no name.
+  std::optional<LocatedEvent> branch_point(const Place& from, const Place& to);
+
   /// An event as monitors and observers see it: evaluator and factors are those there, until the next call.
   /// Nothing where it cannot be linearized.
   std::optional<Accepted> look_at(const Place& event);

@@ -55,6 +55,11 @@ struct Monitor {
 /// fold dp/ds jumps.
 Monitor fold_monitor();
 
+/// Simple branch points, with the tangents of both branches. Nonsmooth where pieces meet at one: the first
+/// tangent is then that before it, the second that beyond. Not located where it is not simple.
+/// Needs a linear solver that knows the sign of its determinant and has transposed solves.
+Monitor branch_point_monitor();
+
 /// Kinks of piecewise smooth problems (Evaluator::piece): where the tangent jumps, with the tangents of both
 /// sides. A change of piece that leaves the tangent as it was is none.
 Monitor kink_monitor();

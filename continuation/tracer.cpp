@@ -297,6 +297,7 @@ bool Tracer::is_kink(double turn, const Place& next) {
 }
 
 Tracer::Attempt Tracer::attempt() {
+  crossing_.reset();
   predict(next_.v);
   main_->border_row(s_.here.tangent, row_);
   const Correction correction = main_->correct(next_.v, row_, factors_fit_, options_.newton.corrector);
@@ -315,10 +316,12 @@ Tracer::Attempt Tracer::attempt() {
     kink = is_kink(turn, next_);
     if (!kink) return Attempt::rejected;
     if (next_.orientation != s_.here.orientation) next_.reverse();
-  } else if (next_.orientation != s_.here.orientation &&
-             s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v))) {
-    // A jump to a branch near by, unless it stays however short the step: a branch point.
-    return Attempt::rejected;
+  } else if (next_.orientation != s_.here.orientation) {
+    // A jump to a branch near by, unless branches cross here, or it stays however short the step.
+    next_.arclength = s_.here.arclength + length;
+    crossing_ = events_->branch_point(s_.here, next_);
+    if (!crossing_ && s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v))) return Attempt::rejected;
+    if (!crossing_) crossing_ = unlocated_branch_point(s_.here, next_);
   }
   measure(next_);
   curve_error_ = curve_error(length);
@@ -513,7 +516,28 @@ void Tracer::keep(const Place& place, const Correction& correction) {
   ++s_.branch.counts.points;
 }
 
+// Where pieces of F meet at it, or a branch point that is not simple.
+std::optional<LocatedEvent> Tracer::unlocated_branch_point(const Place& from, const Place& to) const {
+  LocatedEvent found;
+  for (const Monitor& monitor : monitors_)
+    if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
+  found.event.nonsmooth = from.piece != to.piece;
+  found.event.located = found.event.nonsmooth;
+  found.event.point = point(from, {});
+  BranchPoint half_branches;
+  half_branches.tangents = {from.tangent, to.tangent};
+  found.event.data = std::move(half_branches);
+  found.place = from;
+  return found;
+}
+
 bool Tracer::accept(Place&& place, const Correction& correction, const Corner* corner) {
+  if (crossing_ && !crossing_->event.monitor.empty()) {
+    std::vector<LocatedEvent> crossing;
+    crossing.push_back(std::move(*crossing_));
+    report(std::move(crossing));
+  }
+  crossing_.reset();
   const bool go_on = corner ? report(events_->between(s_.here, corner->before)) &&
                                   report(events_->across(corner->before, corner->beyond)) &&
                                   report(events_->between(corner->beyond, place))

@@ -79,6 +79,7 @@ class Tracer {
   bool is_kink(double turn, const Place& next);
   bool comes_home(double length) const;
   bool accept(Place&& place, const Correction& correction, const Corner* corner = nullptr);
+  std::optional<LocatedEvent> unlocated_branch_point(const Place& from, const Place& to) const;
   bool report(std::vector<LocatedEvent>&& found);
   const Event* add(Event&& event);
   void keep(const Place& place, const Correction& correction);
@@ -104,7 +105,8 @@ class Tracer {
   bool evaluated_ = true;   // the last rejection came from the corrector, not from the problem
   double curve_error_ = 0;  // of the curve along the last step, over that allowed
   std::optional<Place> terminal_;
-  std::string failure_;  // of the last rejection
+  std::optional<LocatedEvent> crossing_;  // the branch point in the step that is tried
+  std::string failure_;                   // of the last rejection
   Vector row_;
   mutable Vector v_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();

@@ -1,0 +1,24 @@
+#include <arcslip/continuation/monitor.hpp>
+
+namespace arcslip::continuation {
+namespace {
+
+Monitor monitor_of(MonitorKind kind, const char* name) {
+  Monitor monitor;
+  monitor.name = name;
+  monitor.value = [](const Accepted&) { return 1.0; };
+  monitor.kind = kind;
+  return monitor;
+}
+
+}  // namespace
+
+Monitor branch_point_monitor() {
+  return monitor_of(MonitorKind::branch_point, "branch_point");
+}
+
+Monitor kink_monitor() {
+  return monitor_of(MonitorKind::kink, "kink");
+}
+
+}  // namespace arcslip::continuation

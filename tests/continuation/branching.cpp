@@ -1,0 +1,118 @@
+// Branch points on the way of a branch: followed through, located, described.
+
+#include "catch.hpp"
+
+#include "continuation/problems.hpp"
+
+#include <numbers>
+
+using namespace problems;
+
+namespace {
+
+// lambda u - u^power = 0, and eps for an imperfection.
+std::shared_ptr<const Problem> normal_form(int power, double eps = 0) {
+  return from_functions(
+      {.size = 1,
+       .parameters = {parameter("lambda", 0)},
+       .residual = [=](In u, In p, Out F) { F[0] = p[0] * u[0] - std::pow(u[0], power) + eps; },
+       .jacobian = [=](In u, In p,
+                       Eigen::Ref<Matrix> J) { J(0, 0) = p[0] - power * std::pow(u[0], power - 1); },
+       .derivative = [](In u, In, int, Out dF) { dF[0] = u[0]; }});
+}
+
+// u'' + lambda sin u = 0, u(0) = u(1) = 0 on n inner nodes: the rod's buckling loads.
+std::shared_ptr<const Problem> rod(int n) {
+  const double h2 = 1.0 / ((n + 1.0) * (n + 1.0));
+  Functions f;
+  f.size = n;
+  f.parameters = {parameter("lambda", 0, 10)};
+  f.residual = [=](In u, In p, Out F) {
+    for (int i = 0; i < n; ++i)
+      F[i] = (i ? u[i - 1] : 0) - 2 * u[i] + (i + 1 < n ? u[i + 1] : 0) + h2 * p[0] * std::sin(u[i]);
+  };
+  f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < n; ++i) {
+      entries.emplace_back(i, i, -2 + h2 * p[0] * std::cos(u[i]));
+      if (i) entries.emplace_back(i, i - 1, 1), entries.emplace_back(i - 1, i, 1);
+    }
+    J.setFromTriplets(entries.begin(), entries.end());
+  };
+  f.derivative = [=](In u, In, int, Out dF) { dF = h2 * u.array().sin(); };
+  f.scales = Vector::Constant(n, std::sqrt(n));
+  return from_functions(f);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the branch u = 0 passes a transcritical point and a pitchfork at 0, in few steps, with both tangents") {
+  for (int power : {2, 3})
+    for (int direction : {1, -1})
+      for (double from : {0.93, 0.731, 0.5}) {
+        const Vector start{{-direction * from}};
+        const Branch branch = trace(normal_form(power), {Vector{{0.0}}, start, 0, direction}, window(-1, 1),
+                                    {branch_point_monitor(), fold_monitor()});
+        CAPTURE(power, direction, from, branch.stop.message);
+        CHECK(branch.stop.reason == StopReason::boundary);
+        CHECK(branch.points.back().parameter == direction);
+        REQUIRE(branch.events.size() == 1);
+        CHECK(branch.events[0].monitor == "branch_point");
+        CHECK(std::abs(branch.events[0].point.parameter) < 1e-12);
+        CHECK(std::abs(branch.events[0].point.u[0]) < 1e-12);
+        const BranchPoint& crossing = std::get<BranchPoint>(branch.events[0].data);
+        CHECK(crossing.type ==
+              (power == 2 ? BranchPoint::Type::transcritical : BranchPoint::Type::pitchfork));
+        REQUIRE(crossing.tangents.size() == 2);
+        CHECK((crossing.tangents[0] - Vector{{0.0, direction * 1.0}}).norm() < 1e-9);
+        const Vector other = power == 2 ? Vector{{1.0, 1.0}}.normalized() : Vector{{1.0, 0.0}};
+        CHECK(std::abs(std::abs(crossing.tangents[1].dot(other)) - 1) < 1e-9);
+        CHECK(branch.counts.rejected_steps < 5);
+      }
+}
+
+TEST_CASE("an imperfect pitchfork has no branch point, and its branch is not left") {
+  for (double eps : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    const Branch branch = trace(normal_form(3, eps), {Vector{{eps}}, Vector{{-1.0}}, 0, 1}, window(-1, 1),
+                                {branch_point_monitor(), fold_monitor()});
+    CAPTURE(eps, branch.stop.message);
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.points.back().u[0] > 0.9);
+    CHECK(branch.events.empty());
+    for (const Point& point : branch.points) CHECK(point.u[0] > 0);
+  }
+}
+
+TEST_CASE("the straight rod buckles at (2/h)^2 sin^2(k pi h/2), by pitchforks, with sparse LU") {
+  const int n = 60;
+  const Branch branch =
+      trace(rod(n), {Vector::Zero(n), Vector{{1.0}}, 0, 1}, window(0, 100), {branch_point_monitor()});
+  CHECK(branch.stop.reason == StopReason::boundary);
+  CHECK(branch.linear_solver == "KLU");
+  REQUIRE(branch.events.size() == 3);
+  for (int k = 1; k <= 3; ++k) {
+    const double half = std::sin(k * std::numbers::pi / (2.0 * (n + 1)));
+    const Event& event = branch.events[static_cast<std::size_t>(k - 1)];
+    CHECK(std::abs(event.point.parameter / (4.0 * (n + 1) * (n + 1) * half * half) - 1) < 1e-10);
+    CHECK(std::get<BranchPoint>(event.data).type == BranchPoint::Type::pitchfork);
+  }
+}
+
+TEST_CASE("a branch point where pieces meet is recognised: |u| = |p|") {
+  const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
+  const auto problem =
+      from_functions({.size = 1,
+                      .parameters = {parameter("p", 0)},
+                      .residual = [](In u, In p, Out F) { F[0] = std::abs(u[0]) - std::abs(p[0]); },
+                      .jacobian = [=](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = sign(u[0]); },
+                      .derivative = [=](In, In p, int, Out dF) { dF[0] = -sign(p[0]); },
+                      .piece = [](In u, In p) { return 1u + (u[0] < 0 ? 1u : 0u) + (p[0] < 0 ? 2u : 0u); }});
+  const Branch branch =
+      trace(problem, {Vector{{-0.87}}, Vector{{-0.87}}, 0, 1}, window(-1, 1), {branch_point_monitor()});
+  CHECK(branch.stop.reason == StopReason::boundary);
+  CHECK(std::abs(branch.points.back().u[0]) == Approx(1));
+  REQUIRE(branch.events.size() == 1);
+  CHECK(branch.events[0].nonsmooth);
+  CHECK(std::abs(branch.events[0].point.parameter) < 1e-6);
+}
