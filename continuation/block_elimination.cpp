@@ -22,17 +22,12 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
 namespace arcslip::continuation {
 namespace {
-
-constexpr double tiny = std::numeric_limits<double>::min();
-
-double largest(In x) {
-  return x.lpNorm<Eigen::Infinity>();
-}
 
 class BlockElimination final : public LinearSolver {
  public:
@@ -138,31 +133,27 @@ class BlockElimination final : public LinearSolver {
 
   // False: x is as it was.
   bool refine(Out x, bool transposed) const {
-    Vector& sums = transposed ? column_sums_ : row_sums_;
-    bool seen = rows_seen_;
+    const Vector& sums = transposed ? column_sums_ : row_sums_;
     const auto eliminate = [&](const Vector& b, Vector& z) {
       return transposed ? this->eliminate_transposed(b, z) : this->eliminate(b, z);
     };
     const auto product = [&](const Vector& z, Vector& y) {
       const Eigen::Index n = w_.size();
-      if (!(transposed ? apply_transposed(J_, z.head(n), y.head(n))
-                       : (apply(J_, z.head(n), y.head(n)), true)))
+      if (!transposed)
+        apply(J_, z.head(n), y.head(n));
+      else if (!apply_transposed(J_, z.head(n), y.head(n)))
         return false;
-      // The rows of an operator are not seen: they all count as what it makes of the first solution.
-      if (!seen) sums.head(n).setConstant(largest(y.head(n)) / std::max(largest(z.head(n)), tiny));
-      seen = true;
       add_borders(z, transposed, y);
       return true;
     };
     return refinement_.solve(x, sums, eliminate, product);
   }
 
-  // Sums of the magnitudes in the rows and columns of M, as far as they are seen. False: not finite.
+  // Sums of the magnitudes in the rows and columns of M, False: not finite.
   bool measure_rows() {
     const Eigen::Index n = V_.rows(), m = V_.cols();
     row_sums_.setZero();
     column_sums_.setZero();
-    rows_seen_ = !std::holds_alternative<const Operator*>(J_);
     if (const auto* dense = std::get_if<Matrix>(&J_)) {
       row_sums_.head(n) = dense->cwiseAbs().rowwise().sum();
       column_sums_.head(n) = dense->cwiseAbs().colwise().sum().transpose();
@@ -172,6 +163,13 @@ class BlockElimination final : public LinearSolver {
           row_sums_[entry.row()] += std::abs(entry.value());
           column_sums_[j] += std::abs(entry.value());
         }
+    } else {
+      // Of an operator, what it makes of a vector without a pattern.
+      for (Eigen::Index i = 0; i < n; ++i)
+        w_[i] = (static_cast<std::uint32_t>(i) * 2654435769u) >> 31 ? 1 : -1;
+      std::get<const Operator*>(J_)->apply(w_, row_sums_.head(n));
+      row_sums_.head(n).setConstant(row_sums_.head(n).lpNorm<Eigen::Infinity>());
+      column_sums_.head(n) = row_sums_.head(n);
     }
     for (Eigen::Index i = 0; i < m; ++i) {
       row_sums_.head(n) += borders_.columns.col(i).cwiseAbs();
@@ -192,8 +190,9 @@ class BlockElimination final : public LinearSolver {
   Matrix V_, S_;
   Eigen::PartialPivLU<Matrix> lu_{0};
   mutable Refinement refinement_;
-  mutable Vector row_sums_, column_sums_, w_, y_;
-  bool ready_ = false, rows_seen_ = true;
+  mutable Vector w_, y_;
+  Vector row_sums_, column_sums_;
+  bool ready_ = false;
   int sign_of_S_ = 1;
 };
 

@@ -46,7 +46,11 @@ class FunctionEvaluator final : public Evaluator, private Operator {
       return finite(*sparse) ? Evaluated::ok : Evaluated::outside_domain;
     }
     auto* J = std::get_if<Matrix>(&J_);
-    if (!J) return Evaluated::ok;
+    if (!J) {
+      u_of_J_ = u_;
+      p_of_J_ = p_;
+      return Evaluated::ok;
+    }
     if (f_->jacobian) {
       f_->jacobian(u_, p_, *J);
     } else {
@@ -73,9 +77,9 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   std::uint64_t piece() const override { return f_->piece ? f_->piece(u_, p_) : 0; }
 
  private:
-  void apply(In x, Out y) const override { f_->apply_jacobian(u_, p_, x, y); }
+  void apply(In x, Out y) const override { f_->apply_jacobian(u_of_J_, p_of_J_, x, y); }
   bool apply_transposed(In x, Out y) const override {
-    if (f_->apply_transposed_jacobian) f_->apply_transposed_jacobian(u_, p_, x, y);
+    if (f_->apply_transposed_jacobian) f_->apply_transposed_jacobian(u_of_J_, p_of_J_, x, y);
     return static_cast<bool>(f_->apply_transposed_jacobian);
   }
 
@@ -92,6 +96,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
 
   std::shared_ptr<const Functions> f_;
   mutable Vector u_, p_;
+  Vector u_of_J_, p_of_J_;  // where an operator is applied: it stays while residuals are looked at elsewhere
   Vector F_;
   mutable Vector plus_, minus_;
   Jacobian J_;
