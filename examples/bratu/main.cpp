@@ -1,0 +1,60 @@
+// Bratu's problem u'' + lambda exp(u) = 0 on (0, 1), u(0) = u(1) = 0, by central differences on n inner
+// points: a branch of n unknowns through its fold, whose place is known, lambda = 3.513830719125.
+//
+//   bratu [n = 100000]
+
+#include <arcslip/continuation/functions.hpp>
+#include <arcslip/continuation/tracer.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+using namespace arcslip::continuation;
+
+int main(int argc, char** argv) {
+  const int n = argc > 1 ? std::atoi(argv[1]) : 100000;
+  const double h = 1.0 / (n + 1);
+
+  Functions bratu;
+  bratu.size = n;
+  bratu.parameters = {{"lambda", "", 0.1}};
+  // Distances on the branch are then root mean squares of u, whatever n is.
+  bratu.scales = Vector::Constant(n, std::sqrt(n));
+  bratu.residual = [=](In u, In p, Out F) {
+    F = 2 * u - h * h * p[0] * u.array().exp().matrix();
+    F.head(n - 1) -= u.tail(n - 1);
+    F.tail(n - 1) -= u.head(n - 1);
+  };
+  bratu.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
+    if (J.nonZeros() == 0) {  // the pattern, once
+      J.reserve(Eigen::VectorXi::Constant(n, 3));
+      for (int i = 0; i < n; ++i) {
+        if (i > 0) J.insert(i - 1, i) = -1;
+        J.insert(i, i) = 2;
+        if (i + 1 < n) J.insert(i + 1, i) = -1;
+      }
+      J.makeCompressed();
+    }
+    for (int i = 0; i < n; ++i)
+      J.valuePtr()[J.outerIndexPtr()[i] + (i > 0)] = 2 - h * h * p[0] * std::exp(u[i]);
+  };
+  bratu.derivative = [=](In u, In, int, Out dF) { dF = -h * h * u.array().exp(); };
+  const auto problem = from_functions(std::move(bratu));
+
+  std::printf("    lambda         max u\n");
+  int points = 0;
+  const auto print = [&](const Accepted& at, const Event* event) {
+    const double lambda = at.p[0], top = at.u.maxCoeff();
+    if (event)
+      std::printf("%.12f  %.6f  fold at lambda = %.12f\n", lambda, top, lambda);
+    else if (points++ % 25 == 0)
+      std::printf("%.12f  %.6f\n", lambda, top);
+    return top < 2 || lambda > 1;  // to lambda = 1 on the upper branch
+  };
+  const Start start{.u = Vector::Zero(n), .p = parameter_values(*problem)};
+  const Branch branch = trace(problem, start, {.lower = 0, .upper = 4}, {fold_monitor()}, print);
+  std::printf("%ld points, %ld factorizations, %ld solves; %s\n", branch.counts.points,
+              branch.counts.factorizations, branch.counts.solves, branch.stop.message.c_str());
+  return branch.events.empty();
+}
