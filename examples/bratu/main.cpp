@@ -22,9 +22,11 @@ int main(int argc, char** argv) {
   // Distances on the branch are then root mean squares of u, whatever n is.
   bratu.scales = Vector::Constant(n, std::sqrt(n));
   bratu.residual = [=](In u, In p, Out F) {
-    F = 2 * u - h * h * p[0] * u.array().exp().matrix();
-    F.head(n - 1) -= u.tail(n - 1);
-    F.tail(n - 1) -= u.head(n - 1);
+    // First differences are exact in floating point; 2 u_i - u_(i-1) - u_(i+1) rounds by 1e-16/h^2.
+    for (int i = 0; i < n; ++i) {
+      const double left = i > 0 ? u[i] - u[i - 1] : u[i], right = i + 1 < n ? u[i] - u[i + 1] : u[i];
+      F[i] = left + right - h * h * p[0] * std::exp(u[i]);
+    }
   };
   bratu.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
     if (J.nonZeros() == 0) {  // the pattern, once

