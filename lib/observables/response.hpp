@@ -20,6 +20,7 @@ struct ElementResponse {
 /// One periodic response.
 struct ResponsePoint {
   double omega = 0;                // excitation frequency, rad/s
+  double over = 0;                 // the parameter ResponseBranch::over, if there is one
   double amplitude = 0;            // max over the period of |x|, m, at the scene's response
   double phase = 0;                // rad, lag of the response's fundamental behind the force's
   double truncation_estimate = 0;  // m, what the neglected harmonics would add to the amplitude
@@ -34,7 +35,7 @@ struct ResponsePoint {
 };
 
 struct ResponseEvent {
-  std::string kind;        // "peak", "fold"
+  std::string kind;        // "peak", "fold"; on curves of peaks "minimum", "maximum", "fold"; of folds "cusp"
   bool nonsmooth = false;  // at a kink of the branch
   bool located = true;     // false: the corrector failed at it; the point is the nearest one of the branch
   ResponsePoint point;
@@ -61,10 +62,12 @@ struct SolverSummary {
   double seconds = 0;
 };
 
-/// A branch of responses over the excitation frequency.
+/// A branch of responses: over the excitation frequency, or over a parameter at a fixed frequency, or a curve
+/// of resonance peaks or folds over a parameter.
 struct ResponseBranch {
   Status status = Status::complete;
   Stop stop;
+  std::string over;  // name of the free parameter beside, or in place of, the frequency; empty for frf
   std::vector<std::pair<std::string, double>> set;         // what for_each gave this branch
   std::vector<std::pair<std::string, double>> parameters;  // every other parameter, by its name
   std::vector<int> harmonics;                              // orders n of the coefficients

@@ -16,7 +16,7 @@ namespace arcslip::scene {
 
 enum class FrequencyUnit { hertz, radian_per_second };
 enum class Friction { exact, sampled };
-enum class StudyKind { frf };
+enum class StudyKind { frf, trace, peaks, folds };
 
 /// One scalar of a part. It is a parameter of the scene under the name "part.field".
 struct Field {
@@ -71,8 +71,10 @@ struct Harmonics {
 struct Study {
   std::string name;
   StudyKind kind = StudyKind::frf;
-  double from = 0, to = 0;  // in the scene's frequency unit
+  double from = 0, to = 0;  // of the frequency in the scene's unit (frf), or of `over`, in its own
   std::vector<std::pair<std::string, std::vector<double>>> for_each;
+  std::string over{};                           // the parameter of trace, peaks and folds; empty for frf
+  double frequency_from = 0, frequency_to = 0;  // trace: both the fixed frequency; peaks, folds: the window
   friend bool operator==(const Study&, const Study&) = default;
 };
 

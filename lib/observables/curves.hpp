@@ -1,0 +1,30 @@
+#pragma once
+// Responses over any parameter: at a fixed excitation frequency, and the curves of resonance peaks and of
+// folds. Each is one continuation over the parameter study.over, for each combination of the study's for_each
+// lists.
+
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/response.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <vector>
+
+namespace arcslip::observables {
+
+/// study.kind trace: the branch over study.over from study.from to study.to at study.frequency_from. Events:
+/// "fold" in that parameter, "maximum" and "minimum" of the amplitude.
+std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const scene::Study& study,
+                                               const ProgressCallback& progress = {});
+
+/// study.kind peaks: the curves of resonance peaks, dA/ds = 0 along the frequency, over study.over; one for
+/// each peak in the frequency window at study.from. Events: "minimum" and "maximum" of the peak amplitude
+/// over the parameter, and "fold", where the curve turns in it.
+std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const scene::Study& study,
+                                            const ProgressCallback& progress = {});
+
+/// study.kind folds: the curves of folds in frequency over study.over; one for each fold in the frequency
+/// window. Events: "cusp", and "fold", where the curve turns in the parameter.
+std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const scene::Study& study,
+                                        const ProgressCallback& progress = {});
+
+}  // namespace arcslip::observables
