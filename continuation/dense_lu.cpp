@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcslip::continuation {
@@ -20,9 +21,11 @@ class DenseLU final : public LinearSolver {
       lu_ = Eigen::PartialPivLU<Matrix>(n + m);
       work_.resize(n + m);
     }
-    // Rows of equal magnitude: partial pivoting compares entries of J with entries of the border.
+    // Rows of equal magnitude: partial pivoting compares entries of J with entries of the border, and a J of
+    // a single entry may vanish beside its columns.
     const double largest = m > 0 && n > 0 ? borders.rows.cwiseAbs().maxCoeff() : 0;
-    const double magnitude = n > 0 ? J->cwiseAbs().maxCoeff() : 0;
+    double magnitude = n > 0 ? J->cwiseAbs().maxCoeff() : 0;
+    if (n == 1 && m > 0) magnitude = std::max(magnitude, borders.columns.cwiseAbs().maxCoeff());
     row_scale_ = largest > 0 && magnitude > 0 ? magnitude / largest : 1.0;
     if (!std::isfinite(row_scale_)) return false;
     matrix_.topLeftCorner(n, n) = *J;

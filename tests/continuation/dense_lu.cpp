@@ -78,3 +78,20 @@ TEST_CASE("a singular or non-finite bordered matrix is refused") {
   J(0, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(lu->factorize(J, borders));
 }
+
+TEST_CASE("a single entry of J that vanishes beside its columns leaves the bordered system accurate") {
+  for (double tiny : {1e-8, 1e-20, -1e-61}) {
+    Borders borders(1, 2);
+    borders.columns << 2e-31, 1;
+    borders.rows << -0.38992585549959879, 0.92084625601286241;
+    borders.corner << 0.92084625601286241, 0, 0.38992585549959885, 0;
+    const auto lu = dense_lu();
+    REQUIRE(lu->factorize(Matrix(Matrix::Constant(1, 1, tiny)), borders));
+    Vector x = Vector{{0.0, 1.0, 0.0}};
+    lu->solve(x);
+    // The border's rows are orthonormal: x is the first of them, and the last entry makes the sum zero.
+    CHECK(std::abs(x[0] - borders.rows(0, 0)) < 1e-15);
+    CHECK(std::abs(x[1] - borders.corner(0, 0)) < 1e-15);
+    CHECK(std::abs(x[2] + tiny * x[0] + 2e-31 * x[1]) < 1e-15 * std::abs(x[2]));
+  }
+}
