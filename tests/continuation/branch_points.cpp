@@ -344,50 +344,80 @@ TEST_CASE("isolated points, tacnodes and double branch points have no pair of ta
                          Vector{{0.0, 0.0, 1.0}}));
 }
 
-TEST_CASE("block elimination solves the system of branch points, borders included, and knows its sign") {
-  const Embedded e(6, 3);
-  const Vector p = Vector{{0.0, 0.1, 0.4}};
-  for (const MakeLinearSolver& make_solver : {MakeLinearSolver{}, forward_only()})
-    for (int seed : {1, 2, 3, 4, 5}) {
-      std::srand(static_cast<unsigned>(seed));
-      const auto problem = branch_points(e.problem(), lambda, Vector::Random(6), make_solver);
-      const auto at = problem->evaluator();
-      const auto solver = problem->linear_solver();
-      const Vector v = Vector::Random(8);
-      REQUIRE(at->move_to(v, p, Needs::jacobian) == Evaluated::ok);
-      Borders borders(8, 2);
-      borders.columns.setRandom();
-      borders.rows.setRandom();
-      borders.corner.setRandom();
-      REQUIRE(solver->factorize(at->jacobian(), borders));
-      const Vector right = Vector::Random(10);
-      Vector x = right, product(8), dR(8);
-      solver->solve(x);
-      apply(at->jacobian(), x.head(8), product);
-      at->parameter_derivative(2, dR);
-      const auto sign = solver->determinant_sign();
-      REQUIRE(sign);
+// (lambda - c^2) u_0 - u_0^3, c u_0^2 + lambda - u_1, with second derivatives.
+std::shared_ptr<const Problem> twice_differentiated() {
+  Functions f;
+  f.size = 2;
+  f.parameters = {parameter("lambda", 0), parameter("c", 0)};
+  f.residual = [](In u, In p, Out F) {
+    F[0] = (p[0] - p[1] * p[1]) * u[0] - std::pow(u[0], 3);
+    F[1] = p[1] * u[0] * u[0] + p[0] - u[1];
+  };
+  f.jacobian = [](In u, In p, Eigen::Ref<Matrix> J) {
+    J << p[0] - p[1] * p[1] - 3 * u[0] * u[0], 0, 2 * p[1] * u[0], -1;
+  };
+  f.derivative = [](In u, In p, int k, Out dF) {
+    dF = k == 0 ? Vector{{u[0], 1.0}} : Vector{{-2 * p[1] * u[0], u[0] * u[0]}};
+  };
+  f.second = [](In u, In p, In w, In v, In q, Out du, Out dp) {
+    const double c = p[1];
+    du << w[0] * (-6 * u[0] * v[0] + q[0] - 2 * c * q[1]) + w[1] * (2 * c * v[0] + 2 * u[0] * q[1]), 0;
+    dp << w[0] * v[0], w[0] * (-2 * c * v[0] - 2 * u[0] * q[1]) + w[1] * 2 * u[0] * v[0];
+  };
+  return from_functions(f);
+}
 
-      // The residual beside v, in the same equations.
-      const double h = 1e-5;
-      const auto residual = [&](const Vector& where, const Vector& parameters) {
-        REQUIRE(at->move_to(where, parameters, Needs::residual) == Evaluated::ok);
-        return at->residual();
-      };
-      Matrix K(10, 10);
-      K << Matrix::Zero(8, 8), borders.columns, borders.rows.transpose(), borders.corner;
-      for (int j = 0; j < 8; ++j) {
-        const Vector d = h * Vector::Unit(8, j);
-        K.col(j).head(8) = (residual(v + d, p) - residual(v - d, p)) / (2 * h);
-      }
-      const Vector dp = h * Vector::Unit(3, 2);
-      const Vector by_parameter = (residual(v, p + dp) - residual(v, p - dp)) / (2 * h);
-      INFO("seed " << seed << ", condition " << K.norm() * K.inverse().norm());
-      CHECK((K * x - right).norm() < 1e-7 * K.norm() * x.norm());
-      CHECK((product - K.topLeftCorner(8, 8) * x.head(8)).norm() < 1e-7 * K.norm() * x.norm());
-      CHECK((dR - by_parameter).norm() < 1e-7 * K.norm());
-      CHECK(*sign == (K.determinant() > 0 ? 1 : -1));
+// The linear system of branch points over parameter k against differences of its residuals, at random places.
+void check_linear_system(const std::shared_ptr<const Problem>& inner, const Vector& p, int k,
+                         const MakeLinearSolver& make_solver = {}) {
+  const int n = inner->size(), N = n + 2, m = 2;
+  for (int seed : {1, 2, 3, 4, 5}) {
+    std::srand(static_cast<unsigned>(seed));
+    const auto problem = branch_points(inner, lambda, Vector::Random(n), make_solver);
+    const auto at = problem->evaluator();
+    const auto solver = problem->linear_solver();
+    const Vector v = Vector::Random(N);
+    REQUIRE(at->move_to(v, p, Needs::jacobian) == Evaluated::ok);
+    Borders borders(N, m);
+    borders.columns.setRandom();
+    borders.rows.setRandom();
+    borders.corner.setRandom();
+    REQUIRE(solver->factorize(at->jacobian(), borders));
+    const Vector right = Vector::Random(N + m);
+    Vector x = right, product(N), dR(N);
+    solver->solve(x);
+    apply(at->jacobian(), x.head(N), product);
+    at->parameter_derivative(k, dR);
+    const auto sign = solver->determinant_sign();
+    REQUIRE(sign);
+
+    // Residuals beside v are those of the same equations.
+    const double h = 1e-5;
+    const auto residual = [&](const Vector& where, const Vector& parameters) {
+      REQUIRE(at->move_to(where, parameters, Needs::residual) == Evaluated::ok);
+      return at->residual();
+    };
+    Matrix K(N + m, N + m);
+    K << Matrix::Zero(N, N), borders.columns, borders.rows.transpose(), borders.corner;
+    for (int j = 0; j < N; ++j) {
+      const Vector d = h * Vector::Unit(N, j);
+      K.col(j).head(N) = (residual(v + d, p) - residual(v - d, p)) / (2 * h);
     }
+    const Vector dp = h * Vector::Unit(p.size(), k);
+    const Vector by_parameter = (residual(v, p + dp) - residual(v, p - dp)) / (2 * h);
+    INFO("seed " << seed << ", condition " << K.norm() * K.inverse().norm());
+    CHECK((K * x - right).norm() < 1e-7 * K.norm() * x.norm());
+    CHECK((product - K.topLeftCorner(N, N) * x.head(N)).norm() < 1e-7 * K.norm() * x.norm());
+    CHECK((dR - by_parameter).norm() < 1e-7 * K.norm());
+    CHECK(*sign == (K.determinant() > 0 ? 1 : -1));
+  }
+}
+
+TEST_CASE("block elimination solves the system of branch points, borders included, and knows its sign") {
+  const Vector p = Vector{{0.0, 0.1, 0.4}};
+  check_linear_system(Embedded(6, 3).problem(), p, 2);
+  check_linear_system(Embedded(6, 3).problem(), p, 2, forward_only());
+  check_linear_system(twice_differentiated(), Vector{{0.0, 0.7}}, 1);
 }
 
 TEST_CASE("second derivatives of the problem's own give the branch point without evaluations beside it") {
