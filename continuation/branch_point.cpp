@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -14,8 +15,7 @@ constexpr double displacement = 1e-9;       // relative, over which F changes by
 constexpr int displacements = 8;
 constexpr double divergence = 2;       // of Newton's corrections, from one to the next
 constexpr double double_point = 1e-8;  // distance in scales of a place where A loses another rank
-constexpr double rounding = 1e-14;
-
+constexpr double rounding = 1e-14;     // of a correction, relative: nothing is gained by another
 constexpr double rounding_safety = 20;
 constexpr double smallest_share = 1e-9;  // of the form's smaller eigenvalue in the larger: the error of both
 constexpr double smallest_slope = 1e-6;  // dp/ds != 0, in scales
@@ -63,7 +63,7 @@ double rounding_of_beta(const Problem& problem, Vector p, int along, const Vecto
                         const LinearSolver& solver) {
   const Eigen::Index n = x.size() - 1;
   const auto at = problem.evaluator();
-  double lowest = 0, highest = 0;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   Vector beside(n + 1), correction(n + 2);
   for (int k = 0; k < displacements; ++k) {
     for (Eigen::Index i = 0; i <= n; ++i)
@@ -74,8 +74,8 @@ double rounding_of_beta(const Problem& problem, Vector p, int along, const Vecto
     correction.setZero();
     correction.head(n) = at->residual();
     solver.solve(correction);
-    lowest = k == 0 ? correction[n + 1] : std::min(lowest, correction[n + 1]);
-    highest = k == 0 ? correction[n + 1] : std::max(highest, correction[n + 1]);
+    lowest = std::min(lowest, correction[n + 1]);
+    highest = std::max(highest, correction[n + 1]);
   }
   const double size = std::max(1.0, x.cwiseQuotient(scale.head(n + 1)).norm());
   return std::max(rounding_safety * (highest - lowest),
