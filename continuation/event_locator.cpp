@@ -23,6 +23,8 @@ constexpr double just_beyond = 1e-6;        // of a step: where the other side o
 constexpr double smallest_kink = 1e-4;      // rad
 constexpr double beside_step = 0.1;         // of a step: a branch point so near lies on it
 constexpr double spreads = 2;               // of the samples: more is no rounding
+constexpr double same_place =
+    1e-6;  // of a step: zeros of monitors of one name, closer than that, are one event
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 }  // namespace
@@ -147,12 +149,20 @@ std::vector<LocatedEvent> EventLocator::gather(Find by, const Place& from, const
     if (monitors_[m].quantity) {
       follow(m, by, from, to, found);
     } else if (changes(m, from, to, monitors_[m].crossing)) {
-      if (auto event = (this->*by)(m, from, to)) found.push_back(std::move(*event));
+      auto event = (this->*by)(m, from, to);
+      if (event && is_event(m, *event)) found.push_back(std::move(*event));
     }
   }
   std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
     return x.event.point.arclength < y.event.point.arclength;
   });
+  const double same = same_place * (to.arclength - from.arclength);
+  const auto again =
+      std::unique(found.begin(), found.end(), [&](const LocatedEvent& x, const LocatedEvent& y) {
+        return x.event.monitor == y.event.monitor &&
+               y.event.point.arclength - x.event.point.arclength <= same;
+      });
+  found.erase(again, found.end());
   for (LocatedEvent& each : found) describe(each);
   return found;
 }
@@ -203,6 +213,12 @@ void EventLocator::follow(std::size_t monitor, Find by, const Place& from, const
 
 std::optional<LocatedEvent> EventLocator::find(std::size_t monitor, const Place& from, const Place& to) {
   return turns(from, to) ? locate_beside_kink(monitor, from, to) : locate(monitor, from, to);
+}
+
+bool EventLocator::is_event(std::size_t monitor, const LocatedEvent& found) {
+  if (!monitors_[monitor].is_event) return true;
+  const auto now = look_at(found.place);
+  return !now || monitors_[monitor].is_event(*now);
 }
 
 void EventLocator::describe(LocatedEvent& found) {

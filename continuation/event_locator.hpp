@@ -58,6 +58,7 @@ class EventLocator {
   void kinks(const Monitor& monitor, const Place& from, const Place& to, std::vector<LocatedEvent>& found);
   LocatedEvent kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const;
   bool look_beyond(const Place& kink, const Place& to, double way, Place& beyond);
+  bool is_event(std::size_t monitor, const LocatedEvent& found);
   void describe(LocatedEvent& found);
   Event event(std::size_t monitor, const Place& place, double value, const Correction& correction) const;
   Corrector& probe();

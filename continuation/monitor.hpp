@@ -49,6 +49,10 @@ struct Monitor {
   bool terminal = false;
 
   MonitorKind kind = MonitorKind::zero;
+
+  /// Whether a zero of value() is an event at all, asked where one was found (not of slopes of a quantity).
+  /// None: every zero is.
+  std::function<bool(const Accepted&)> is_event = {};
 };
 
 /// dp/ds = 0: a fold in the free parameter, described by its null vectors and its curvature; at a nonsmooth
