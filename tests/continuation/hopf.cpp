@@ -173,6 +173,34 @@ TEST_CASE("two equal pairs that cross at one place are one Hopf point") {
   CHECK(std::abs(branch.events[0].point.parameter) < 1e-12);
 }
 
+TEST_CASE("a pair that jumps across the axis at a kink is a nonsmooth event, a real eigenvalue is none") {
+  for (bool complex : {true, false}) {
+    Functions f;
+    f.size = 2;
+    f.parameters = {parameter("p", 0)};
+    const auto fill = [=](double p, Eigen::Ref<Matrix> M) {
+      if (complex)
+        pair(M, 0, p < 0.03 ? p - 0.5 : p + 0.5, 1);
+      else
+        M << (p < 0.03 ? p - 0.5 : p + 0.5), 0, 0, -1;
+    };
+    f.residual = [=](In u, In p, Out F) {
+      Matrix M(2, 2);
+      fill(p[0], M);
+      F = M * u;
+    };
+    f.jacobian = [=](In, In p, Eigen::Ref<Matrix> M) { fill(p[0], M); };
+    f.piece = [](In, In p) { return p[0] < 0.03 ? 0u : 1u; };
+    const Branch branch = along_zero(from_functions(f), -0.2, 0.2);
+    CAPTURE(complex);
+    REQUIRE(branch.events.size() == (complex ? 1 : 0));
+    if (!complex) continue;
+    CHECK(branch.events[0].nonsmooth);
+    CHECK(std::abs(branch.events[0].point.parameter - 0.03) < 1e-11);
+    CHECK(std::holds_alternative<std::monostate>(branch.events[0].data));
+  }
+}
+
 TEST_CASE("Hopf points are refused where not all eigenvalues can be computed") {
   const auto large =
       from_functions(largest_spectrum + 1, {parameter("p", 0)}, [](In u, In p, Out F) { F = u * p[0]; });

@@ -103,6 +103,8 @@ TEST_CASE(
     const JacobianError check = check_jacobian(*problem, x, Vector{{0.0, 14.0, 2.0}});
     CHECK(check.message == "");
   }
+  const Vector p{{1.1, 0.0}};  // with second derivatives given
+  CHECK(check_jacobian(*hopf_points(brusselator(), 1, 1), Vector{{0.9, 1.2, 1.7, 1.1}}, p).message == "");
   const Line line;
   Vector x(2 * line.nodes + 2);
   x << line.homogeneous(2, 5) + 0.05 * Vector::Random(2 * line.nodes), 5.1, 3.9;

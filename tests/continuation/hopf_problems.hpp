@@ -24,17 +24,26 @@ inline std::shared_ptr<const Problem> ab() {
 
 // Parameters A, B; the Hopf point is at B = 1 + A^2, omega = A (Prigogine and Lefever 1968).
 inline std::shared_ptr<const Problem> brusselator() {
-  return from_functions(
-      2, {parameter("A", 1), parameter("B", 1)},
-      [](In u, In p, Out F) {
-        const double x2y = u[0] * u[0] * u[1];
-        F[0] = p[0] - (p[1] + 1) * u[0] + x2y;
-        F[1] = p[1] * u[0] - x2y;
-      },
-      [](In u, In p, Eigen::Ref<Matrix> J) {
-        const double xy = 2 * u[0] * u[1], x2 = u[0] * u[0];
-        J << xy - p[1] - 1, x2, p[1] - xy, -x2;
-      });
+  Functions f;
+  f.size = 2;
+  f.parameters = {parameter("A", 1), parameter("B", 1)};
+  f.residual = [](In u, In p, Out F) {
+    const double x2y = u[0] * u[0] * u[1];
+    F[0] = p[0] - (p[1] + 1) * u[0] + x2y;
+    F[1] = p[1] * u[0] - x2y;
+  };
+  f.jacobian = [](In u, In p, Eigen::Ref<Matrix> J) {
+    const double xy = 2 * u[0] * u[1], x2 = u[0] * u[0];
+    J << xy - p[1] - 1, x2, p[1] - xy, -x2;
+  };
+  f.second = [](In u, In, In w, In v, In q, Out du, Out dp) {
+    const double left = w[0] - w[1];
+    du[0] = left * (2 * u[1] * v[0] + 2 * u[0] * v[1] - q[1]);
+    du[1] = left * 2 * u[0] * v[0];
+    dp[0] = 0;
+    dp[1] = -left * v[0];
+  };
+  return from_functions(std::move(f));
 }
 
 // The same along a line, x_t = .. + d1 x_ss, y_t = .. + d2 y_ss, with x = A, y = B/A at both ends, at `nodes`
