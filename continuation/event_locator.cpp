@@ -23,8 +23,7 @@ constexpr double just_beyond = 1e-6;        // of a step: where the other side o
 constexpr double smallest_kink = 1e-4;      // rad
 constexpr double beside_step = 0.1;         // of a step: a branch point so near lies on it
 constexpr double spreads = 2;               // of the samples: more is no rounding
-constexpr double same_place =
-    1e-6;  // of a step: zeros of monitors of one name, closer than that, are one event
+constexpr double same_place = 1e-6;  // of a step: monitors of one name with zeros so near share an event
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 }  // namespace

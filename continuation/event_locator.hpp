@@ -12,6 +12,9 @@
 // the extreme, over a part of the step in which the change of q itself is negligible. Where q goes on beyond
 // a waiting extreme by more than r, while its slope has not changed its sign again, q is right: the extreme
 // moves along, from point to point.
+//
+// A monitor may have zeros that are no events (Monitor::is_event), and zeros of several monitors of one name
+// at one place of a step are one event.
 
 #include <arcslip/continuation/place.hpp>
 #include <arcslip/continuation/state.hpp>
