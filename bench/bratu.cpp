@@ -93,8 +93,9 @@ void measure(int n) {
   Stopwatch all;
   Branch branch;
   all.time([&] {
-    branch = trace(problem, {.u = Vector::Zero(n), .p = parameter_values(*problem)}, {.lower = 0, .upper = 4},
-                   {fold_monitor()}, [](const Accepted& at, const Event*) {
+    branch = trace(problem, {.u = Vector::Zero(n), .p = parameter_values(*problem)},
+                   {.lower = 0, .upper = 4, .keep_points = false}, {fold_monitor()},
+                   [](const Accepted& at, const Event*) {
                      return at.u.maxCoeff() < 2 || at.p[0] > 1;  // to lambda = 1 on the upper branch
                    });
   });

@@ -8,10 +8,12 @@
 namespace arcslip::continuation {
 namespace {
 
-// On the contraction expected of the next chord step: the larger the problem, the more new factors cost
-// beside it.
-double chord_safety(int n) {
-  return std::clamp(n / 8.0, 1.0, 5.0);
+// On the contraction expected of the next chord step: the larger a dense matrix, the more new factors cost
+// beside it. Those of a sparse matrix with little fill cost a few solves.
+double chord_safety(const Jacobian& J) {
+  return std::holds_alternative<Matrix>(J)
+             ? std::clamp(static_cast<double>(std::get<Matrix>(J).rows()) / 8, 1.0, 5.0)
+             : 1.0;
 }
 
 constexpr double smallest_damping = 1.0 / 256;
@@ -40,7 +42,6 @@ Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOpt
       tangent_(problem.size() + 1),
       metric_(problem.size()),
       free_(free),
-      chord_safety_(chord_safety(problem.size())),
       parameter_scale_(problem.parameters()[static_cast<std::size_t>(free)].scale) {
   weights_.head(problem.size()) = problem.scales().cwiseAbs2().cwiseInverse();
   weights_[problem.size()] = 1 / (parameter_scale_ * parameter_scale_);
@@ -113,6 +114,7 @@ bool Corrector::factorize(const Vector& row) {
     return false;
   }
   if (!solver_) solver_ = suitable_solver(evaluator_->jacobian());
+  chord_safety_ = chord_safety(evaluator_->jacobian());
   borders_.columns.col(0) = F_p_;
   borders_.rows.col(0) = row.head(n);
   borders_.corner(0, 0) = row[n];

@@ -94,7 +94,7 @@ class Corrector {
   bool has_metric_;
   std::string failure_;
   int free_;
-  double chord_safety_;
+  double chord_safety_ = 1;
   double parameter_scale_;
   double contraction_ = 1;  // of the last chord step
 };

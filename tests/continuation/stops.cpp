@@ -164,3 +164,54 @@ TEST_CASE("every stop reason has a name of its own") {
     for (StopReason b : all) CHECK((a == b) == (std::strcmp(name(a), name(b)) == 0));
   }
 }
+
+namespace {
+
+// u - p = 0 for one unknown, said by a problem of `size` unknowns whose residual has as many entries as it
+// likes.
+class Odd final : public Problem {
+ public:
+  Odd(int size, double grows_beyond) : size_(size), grows_beyond_(grows_beyond) {}
+  int size() const override { return size_; }
+  std::span<const Parameter> parameters() const override { return parameters_; }
+  Vector scales() const override { return Vector::Ones(size_); }
+  std::unique_ptr<Evaluator> evaluator() const override { return std::make_unique<At>(grows_beyond_); }
+
+ private:
+  class At final : public Evaluator {
+   public:
+    explicit At(double grows_beyond) : grows_beyond_(grows_beyond) {}
+    Evaluated move_to(In u, In p, Needs) override {
+      F_ = Vector::Constant(p[0] > grows_beyond_ ? 2 : 1, u[0] - p[0]);
+      return Evaluated::ok;
+    }
+    const Vector& residual() const override { return F_; }
+    const Jacobian& jacobian() const override { return J_; }
+    void parameter_derivative(int, Out dF) const override { dF[0] = -1; }
+
+   private:
+    double grows_beyond_;
+    Vector F_;
+    Jacobian J_ = Matrix(Matrix::Ones(1, 1));
+  };
+  int size_;
+  double grows_beyond_;
+  std::vector<Parameter> parameters_{parameter("p", 0)};
+};
+
+}  // namespace
+
+TEST_CASE("not_evaluated: a residual of another size ends the branch and is said") {
+  const Branch branch = trace(std::make_shared<Odd>(1, 0.5), at(0, 0), window(0, 1));
+  CHECK(branch.stop.reason == StopReason::not_evaluated);
+  CHECK(branch.stop.message.find("the residual has 2 entries for 1 unknowns") != std::string::npos);
+  CHECK(branch.points.size() > 10);
+}
+
+TEST_CASE("a problem without unknowns, and a free parameter that there is none, are refused") {
+  CHECK_THROWS_WITH(trace(std::make_shared<Odd>(0, 1), {Vector(), Vector::Zero(1), 0, 1}, window(0, 1)),
+                    "the problem has no unknowns");
+  CHECK_THROWS_WITH(
+      trace(std::make_shared<Odd>(1, 1), {Vector::Zero(1), Vector::Zero(1), 3, 1}, window(0, 1)),
+      "the free parameter is number 3 of 1");
+}
