@@ -1,0 +1,353 @@
+// Diagrams of branches that cross: each branch once, compared with closed forms.
+
+#include <arcslip/continuation/diagram.hpp>
+
+#include "catch.hpp"
+
+#include "continuation/problems.hpp"
+
+#include <numbers>
+
+using namespace problems;
+
+namespace {
+
+// One equation F(u, lambda) = 0, with dF/du and dF/dlambda.
+using Scalar = double (*)(double u, double lambda);
+std::shared_ptr<const Problem> scalar(Scalar F, Scalar F_u, Scalar F_lambda) {
+  return from_functions({.size = 1,
+                         .parameters = {parameter("lambda", 0)},
+                         .residual = [=](In u, In p, Out out) { out[0] = F(u[0], p[0]); },
+                         .jacobian = [=](In u, In p, Eigen::Ref<Matrix> J) { J(0, 0) = F_u(u[0], p[0]); },
+                         .derivative = [=](In u, In p, int, Out out) { out[0] = F_lambda(u[0], p[0]); }});
+}
+
+Start at(double u, double lambda, int direction = 1) {
+  return {.u = Vector{{u}}, .p = Vector{{lambda}}, .free = 0, .direction = direction};
+}
+
+std::shared_ptr<const Problem> pitchfork() {
+  return scalar([](double u, double l) { return l * u - u * u * u; },
+                [](double u, double l) { return l - 3 * u * u; }, [](double u, double) { return u; });
+}
+
+// The largest |g(u, lambda)| of the points of a branch.
+template <class G>
+double largest(const Branch& branch, const G& g) {
+  double result = 0;
+  for (const Point& point : branch.points)
+    result = std::max(result, std::abs(g(point.u[0], point.parameter)));
+  return result;
+}
+
+// What holds of every diagram: points in the order of arclength, without gaps, tangents that lead on; events
+// between their points; half-branches that name their branches.
+void check_order(const Diagram& diagram) {
+  for (const DiagramBranch& each : diagram.branches) {
+    const auto& points = each.branch.points;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      REQUIRE(points[i].arclength > points[i - 1].arclength);
+      Vector way(points[i].u.size() + 1);
+      way << points[i].u - points[i - 1].u, points[i].parameter - points[i - 1].parameter;
+      REQUIRE(way.dot(points[i - 1].tangent) > 0);
+      REQUIRE(way.dot(points[i].tangent) > 0);
+    }
+    for (const Event& event : each.branch.events) {
+      REQUIRE(event.point.arclength >= points[event.after].arclength);
+      if (event.after + 1 < points.size())
+        REQUIRE(event.point.arclength <= points[event.after + 1].arclength);
+    }
+  }
+  for (const Junction& junction : diagram.branch_points) {
+    const auto& parent = diagram.branches[static_cast<std::size_t>(junction.branch)];
+    const Event& event = parent.branch.events[static_cast<std::size_t>(junction.event)];
+    REQUIRE((event.point.u - junction.u).norm() < 1e-9);
+    REQUIRE(parent.depth == junction.depth);
+  }
+}
+
+bool all_traced(const Junction& junction) {
+  return std::all_of(junction.half_branches.begin(), junction.half_branches.end(),
+                     [](const HalfBranch& half) { return half.branch >= 0; });
+}
+
+}  // namespace
+
+TEST_CASE("the pitchfork's diagram is the line u = 0 and one parabola, from either end") {
+  for (const Start& start : {at(0, -0.93), at(0, 0.8, -1), at(0, 0.37)}) {
+    const Diagram diagram = trace_diagram(pitchfork(), start, window(-1, 1), {.depth = 1}, {fold_monitor()});
+    CHECK(diagram.complete);
+    REQUIRE(diagram.branches.size() == 2);
+    REQUIRE(diagram.branch_points.size() == 1);
+    check_order(diagram);
+    const Branch& line = diagram.branches[0].branch;
+    CHECK(largest(line, [](double u, double) { return u; }) < 1e-12);
+    CHECK(std::min(line.points.front().parameter, line.points.back().parameter) == -1);
+    CHECK(std::max(line.points.front().parameter, line.points.back().parameter) == 1);
+    const Branch& parabola = diagram.branches[1].branch;
+    CHECK(diagram.branches[1].depth == 1);
+    CHECK(diagram.branches[1].origin == 0);
+    CHECK(diagram.branches[1].begin.reason == StopReason::boundary);
+    CHECK(parabola.stop.reason == StopReason::boundary);
+    CHECK(largest(parabola, [](double u, double l) { return u * u - l; }) < 1e-12);
+    CHECK(std::abs(parabola.points.front().u[0] + parabola.points.back().u[0]) < 1e-12);
+    CHECK(std::abs(std::abs(parabola.points.back().u[0]) - 1) < 1e-12);
+    const std::vector<Event> crossings = events_named(parabola, "branch_point");
+    REQUIRE(crossings.size() == 1);
+    const BranchPoint& crossing = std::get<BranchPoint>(crossings[0].data);
+    CHECK(std::abs(std::abs(crossing.tangents[0][0]) - 1) < 1e-9);
+    CHECK(std::abs(std::abs(crossing.tangents[1][1]) - 1) < 1e-9);
+    CHECK(diagram.branch_points[0].half_branches.size() == 4);
+    CHECK(all_traced(diagram.branch_points[0]));
+  }
+}
+
+TEST_CASE("begun on the parabola, the pitchfork's diagram is the same") {
+  const Diagram diagram = trace_diagram(pitchfork(), at(0.9, 0.81, -1), window(-1, 1), {.depth = 1});
+  CHECK(diagram.complete);
+  REQUIRE(diagram.branches.size() == 2);
+  check_order(diagram);
+  CHECK(largest(diagram.branches[0].branch, [](double u, double l) { return u * u - l; }) < 1e-12);
+  CHECK(largest(diagram.branches[1].branch, [](double u, double) { return u; }) < 1e-12);
+  CHECK(diagram.branches[1].branch.stop.reason == StopReason::boundary);
+  CHECK(diagram.branches[1].begin.reason == StopReason::boundary);
+}
+
+TEST_CASE("two lines that cross are two branches: lambda u = u^2") {
+  const auto problem =
+      scalar([](double u, double l) { return l * u - u * u; }, [](double u, double l) { return l - 2 * u; },
+             [](double u, double) { return u; });
+  const Diagram diagram = trace_diagram(problem, at(0, -0.9), window(-1, 1), {.depth = 3});
+  CHECK(diagram.complete);
+  REQUIRE(diagram.branches.size() == 2);
+  REQUIRE(diagram.branch_points.size() == 1);
+  check_order(diagram);
+  CHECK(largest(diagram.branches[1].branch, [](double u, double l) { return u - l; }) < 1e-12);
+  CHECK(std::abs(diagram.branches[1].branch.points.front().parameter) == 1);
+  CHECK(std::abs(diagram.branches[1].branch.points.back().parameter) == 1);
+}
+
+TEST_CASE("a parabola and a circle that cross twice are two branches, the circle closed") {
+  const auto problem =
+      scalar([](double u, double l) { return (u * u - l) * (u * u + l * l - 1); },
+             [](double u, double l) { return 2 * u * (u * u + l * l - 1) + (u * u - l) * 2 * u; },
+             [](double u, double l) { return -(u * u + l * l - 1) + (u * u - l) * 2 * l; });
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  for (const Start& start : {at(1.2, 1.44, -1), at(-1.2, 1.44), at(0.6, -0.8)}) {
+    const Diagram diagram = trace_diagram(problem, start, window(-2, 2), {.depth = 2}, {fold_monitor()});
+    CAPTURE(start.u, diagram.message);
+    CHECK(diagram.complete);
+    REQUIRE(diagram.branches.size() == 2);
+    REQUIRE(diagram.branch_points.size() == 2);
+    check_order(diagram);
+    for (const Junction& junction : diagram.branch_points) {
+      CHECK(std::abs(junction.parameter - golden) < 1e-12);
+      CHECK(std::abs(std::abs(junction.u[0]) - std::sqrt(golden)) < 1e-12);
+      CHECK(all_traced(junction));
+    }
+    const std::size_t circle = start.p[0] < 0 ? 0 : 1;
+    const Branch& loop = diagram.branches[circle].branch;
+    CHECK(loop.stop.reason == StopReason::closed);
+    CHECK(largest(loop, [](double u, double l) { return u * u + l * l - 1; }) < 1e-12);
+    CHECK(events_named(loop, "fold").size() == 2);
+    CHECK(largest(diagram.branches[1 - circle].branch, [](double u, double l) { return u * u - l; }) < 1e-12);
+  }
+}
+
+TEST_CASE("a loop between two points of one branch is there once: u (u^2 - lambda (1 - lambda)) = 0") {
+  const auto problem = scalar([](double u, double l) { return u * (u * u - l * (1 - l)); },
+                              [](double u, double l) { return 3 * u * u - l * (1 - l); },
+                              [](double u, double l) { return -u * (1 - 2 * l); });
+  const Diagram diagram =
+      trace_diagram(problem, at(0, -0.47), window(-0.5, 1.5), {.depth = 2}, {fold_monitor()});
+  CHECK(diagram.complete);
+  REQUIRE(diagram.branches.size() == 2);
+  REQUIRE(diagram.branch_points.size() == 2);
+  check_order(diagram);
+  CHECK(std::abs(diagram.branch_points[0].parameter) < 1e-12);
+  CHECK(std::abs(diagram.branch_points[1].parameter - 1) < 1e-12);
+  const Branch& loop = diagram.branches[1].branch;
+  CHECK(loop.stop.reason == StopReason::closed);
+  CHECK(largest(loop, [](double u, double l) { return u * u - l * (1 - l); }) < 1e-12);
+  CHECK(events_named(loop, "branch_point").size() == 2);
+}
+
+TEST_CASE("a branch that crosses itself is one branch: the lemniscate of Gerono") {
+  const auto problem =
+      scalar([](double u, double l) { return l * l * (1 - l * l) - u * u; },
+             [](double u, double) { return -2 * u; }, [](double, double l) { return 2 * l - 4 * l * l * l; });
+  const Diagram diagram = trace_diagram(problem, at(0.48, 0.8), window(-2, 2), {.depth = 2});
+  CHECK(diagram.complete);
+  REQUIRE(diagram.branches.size() == 1);
+  check_order(diagram);
+  CHECK(diagram.branches[0].branch.stop.reason == StopReason::closed);
+  REQUIRE(diagram.branch_points.size() == 1);
+  CHECK(all_traced(diagram.branch_points[0]));
+  CHECK(events_named(diagram.branches[0].branch, "branch_point").size() == 2);
+}
+
+TEST_CASE("branches of branches are followed to the depth asked for, and no further") {
+  // u = 0, which the parabola crosses, which u = 1/2 crosses at lambda = 1/4
+  const auto problem =
+      scalar([](double u, double l) { return u * (u * u - l) * (u - 0.5); },
+             [](double u, double l) { return (3 * u * u - l) * (u - 0.5) + u * (u * u - l); },
+             [](double u, double) { return -u * (u - 0.5); });
+  for (int depth : {0, 1, 2, 5}) {
+    const Diagram diagram = trace_diagram(problem, at(0, -0.9), window(-1, 1), {.depth = depth});
+    CAPTURE(depth);
+    CHECK(diagram.complete);
+    check_order(diagram);
+    REQUIRE(diagram.branches.size() == static_cast<std::size_t>(std::min(depth, 2) + 1));
+    CHECK(diagram.branch_points.size() == static_cast<std::size_t>(depth == 0 ? 1 : 2));
+    if (depth < 2) CHECK(!all_traced(diagram.branch_points.back()));
+    if (depth < 2) continue;
+    const DiagramBranch& last = diagram.branches[2];
+    CHECK(last.depth == 2);
+    CHECK(last.origin == 1);
+    CHECK(diagram.branch_points[1].branch == 1);
+    CHECK(largest(last.branch, [](double u, double) { return u - 0.5; }) < 1e-12);
+    CHECK(std::abs(diagram.branch_points[1].parameter - 0.25) < 1e-12);
+  }
+}
+
+TEST_CASE("the rod's buckled branches have k half-waves each way, and begin at (2/h)^2 sin^2(k pi h/2)") {
+  const int n = 40;
+  const double h2 = 1.0 / ((n + 1.0) * (n + 1.0));
+  Functions f;
+  f.size = n;
+  f.parameters = {parameter("lambda", 0, 10)};
+  f.residual = [=](In u, In p, Out F) {
+    for (int i = 0; i < n; ++i)
+      F[i] = (i ? u[i - 1] : 0) - 2 * u[i] + (i + 1 < n ? u[i + 1] : 0) + h2 * p[0] * std::sin(u[i]);
+  };
+  f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < n; ++i) {
+      entries.emplace_back(i, i, -2 + h2 * p[0] * std::cos(u[i]));
+      if (i) entries.emplace_back(i, i - 1, 1), entries.emplace_back(i - 1, i, 1);
+    }
+    J.setFromTriplets(entries.begin(), entries.end());
+  };
+  f.derivative = [=](In u, In, int, Out dF) { dF = h2 * u.array().sin(); };
+  f.scales = Vector::Constant(n, std::sqrt(n));
+  const Diagram diagram =
+      trace_diagram(from_functions(f), {Vector::Zero(n), Vector{{1.0}}, 0, 1}, window(0, 100), {.depth = 2});
+  CAPTURE(diagram.message);
+  CHECK(diagram.complete);
+  REQUIRE(diagram.branches.size() == 4);
+  REQUIRE(diagram.branch_points.size() == 3);
+  for (std::size_t k = 1; k <= 3; ++k) {
+    const double half = std::sin(static_cast<double>(k) * std::numbers::pi / (2.0 * (n + 1)));
+    CHECK(std::abs(diagram.branch_points[k - 1].parameter / (4.0 / h2 * half * half) - 1) < 1e-10);
+    const DiagramBranch& buckled = diagram.branches[k];
+    CHECK(buckled.depth == 1);
+    CHECK(buckled.branch.linear_solver == "KLU");
+    const Point& first = buckled.branch.points.front();
+    const Point& last = buckled.branch.points.back();
+    CHECK(first.parameter == 100);
+    CHECK(last.parameter == 100);
+    CHECK((first.u + last.u).norm() < 1e-8 * last.u.norm());
+    std::size_t half_waves = 1;
+    for (int i = 0; i + 1 < n; ++i)
+      if (last.u[i] * last.u[i + 1] < 0) ++half_waves;
+    CHECK(half_waves == k);
+  }
+}
+
+TEST_CASE("where pieces meet, the half-branches beside the one traced are followed: |u| = |lambda|") {
+  const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
+  const auto problem =
+      from_functions({.size = 1,
+                      .parameters = {parameter("lambda", 0)},
+                      .residual = [](In u, In p, Out F) { F[0] = std::abs(u[0]) - std::abs(p[0]); },
+                      .jacobian = [=](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = sign(u[0]); },
+                      .derivative = [=](In, In p, int, Out dF) { dF[0] = -sign(p[0]); },
+                      .piece = [](In u, In p) { return 1u + (u[0] < 0 ? 1u : 0u) + (p[0] < 0 ? 2u : 0u); }});
+  const Diagram diagram = trace_diagram(problem, at(-0.87, -0.87), window(-1, 1), {.depth = 1});
+  CAPTURE(diagram.message);
+  CHECK(diagram.complete);
+  REQUIRE(diagram.branch_points.size() == 1);
+  REQUIRE(diagram.branch_points[0].half_branches.size() == 4);
+  CHECK(all_traced(diagram.branch_points[0]));
+  REQUIRE(diagram.branches.size() == 3);
+  check_order(diagram);
+  std::vector<std::pair<double, double>> ends;
+  for (const DiagramBranch& each : diagram.branches) {
+    CHECK(largest(each.branch, [](double u, double l) { return std::abs(u) - std::abs(l); }) < 1e-12);
+    if (each.depth == 0)
+      ends.emplace_back(each.branch.points.front().u[0], each.branch.points.front().parameter);
+    ends.emplace_back(each.branch.points.back().u[0], each.branch.points.back().parameter);
+  }
+  std::sort(ends.begin(), ends.end());
+  REQUIRE(ends.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(std::abs(ends[i].first - (i < 2 ? -1 : 1)) < 1e-12);
+    CHECK(ends[i].second == (i % 2 ? 1 : -1));
+  }
+}
+
+TEST_CASE("a diagram that would have too many branches says so and names what is missing") {
+  const Diagram diagram =
+      trace_diagram(pitchfork(), at(0, -0.93), window(-1, 1), {.depth = 1, .branches = 1});
+  CHECK(!diagram.complete);
+  CHECK(diagram.branches.size() == 1);
+  CHECK(diagram.message == "reached the largest number of branches, 1");
+  CHECK(!all_traced(diagram.branch_points.at(0)));
+}
+
+TEST_CASE("half-branches that leave the window at once are named as such") {
+  // the parabola lambda = u^2 lies at lambda >= 0 only; its mirror image, at lambda <= 0, is not in the
+  // window
+  const auto problem =
+      scalar([](double u, double l) { return u * (1e6 * u * u + l - 1); },
+             [](double u, double l) { return 3e6 * u * u + l - 1; }, [](double u, double) { return u; });
+  const Diagram diagram = trace_diagram(problem, at(0, 1.9, -1), window(1 - 1e-9, 2), {.depth = 1});
+  REQUIRE(diagram.branch_points.size() == 1);
+  CHECK(!diagram.complete);
+  CHECK(diagram.branches.size() == 1);
+  CHECK(diagram.message == "the half-branch leaves the window");
+}
+
+TEST_CASE("a branch point just beyond the window is none of the diagram") {
+  const Diagram diagram = trace_diagram(pitchfork(), at(0, 0.9, -1), window(1e-3, 1), {.depth = 1});
+  CHECK(diagram.complete);
+  CHECK(diagram.branch_points.empty());
+  CHECK(diagram.branches.size() == 1);
+}
+
+TEST_CASE("a start that fails is a diagram of one branch that says why") {
+  const auto problem = scalar([](double u, double l) { return u * u + l * l + 1; },
+                              [](double u, double) { return 2 * u; }, [](double, double l) { return 2 * l; });
+  const Diagram diagram = trace_diagram(problem, at(0.5, 0), window(-1, 1));
+  CHECK(!diagram.complete);
+  REQUIRE(diagram.branches.size() == 1);
+  CHECK(diagram.branches[0].branch.stop.reason == StopReason::start_failed);
+  CHECK(diagram.message == diagram.branches[0].branch.stop.message);
+}
+
+TEST_CASE("an observer sees every branch, and ends the diagram") {
+  int seen = 0;
+  const Diagram whole = trace_diagram(pitchfork(), at(0, -0.93), window(-1, 1), {}, {},
+                                      [&](const Accepted&, const Event*) { return ++seen > 0; });
+  CHECK(whole.complete);
+  std::size_t points = 0;
+  for (const DiagramBranch& each : whole.branches) points += each.branch.points.size();
+  CHECK(seen >= static_cast<int>(points) - 1);
+  int left = seen / 2;
+  const Diagram part = trace_diagram(pitchfork(), at(0, -0.93), window(-1, 1), {}, {},
+                                     [&](const Accepted&, const Event*) { return --left > 0; });
+  CHECK(!part.complete);
+  CHECK(part.message == "stopped by the caller");
+}
+
+TEST_CASE("a diagram refuses depths and numbers of branches that make none, and points that are not kept") {
+  const auto begin = [](const Options& options, const DiagramOptions& diagram) {
+    return trace_diagram(pitchfork(), at(0, -0.93), options, diagram);
+  };
+  Options unkept = window(-1, 1);
+  unkept.keep_points = false;
+  CHECK_THROWS_AS(begin(unkept, {}), std::invalid_argument);
+  CHECK_THROWS_AS(begin(window(-1, 1), {.depth = -1}), std::invalid_argument);
+  CHECK_THROWS_AS(begin(window(-1, 1), {.branches = 0}), std::invalid_argument);
+  CHECK_THROWS_AS(begin(window(-1, 1), {.same_place = 0}), std::invalid_argument);
+}
