@@ -17,7 +17,8 @@ constexpr double entry_turn = 0.3;    // of the angle to it
 constexpr double beside_segment = 0.05;
 constexpr double same_point = 1e-2;      // of h
 constexpr double same_direction = 0.95;  // cosine
-constexpr int oblique_probes = 8;        // directions in which pieces are looked for
+constexpr double empty_step = 1e-14;
+constexpr int oblique_probes = 8;  // directions in which pieces are looked for
 
 Vector joined(const Vector& u, double parameter) {
   Vector v(u.size() + 1);
@@ -79,10 +80,33 @@ void number(Branch& branch) {
   }
 }
 
+// A trace that begins at a bound, or meets it by chance, ends with a step of rounding.
+void drop_empty_step(Branch& branch) {
+  auto& points = branch.points;
+  if (points.size() < 2) return;
+  const auto last = points.end() - 1;
+  if (last->arclength - (last - 1)->arclength <= empty_step * (1 + last->arclength)) points.erase(last - 1);
+  number(branch);
+}
+
+// A loop from a branch point back to it: what was traced beyond is dropped.
+void cut(Branch& branch, const Event& end, double miss, double reach) {
+  const double s = end.point.arclength;
+  while (!branch.points.empty() && branch.points.back().arclength >= s) branch.points.pop_back();
+  while (!branch.events.empty() && branch.events.back().point.arclength > s) branch.events.pop_back();
+  branch.points.push_back(end.point);
+  branch.stop = {StopReason::closed, miss, reach, "came back to the branch point that it left: it is closed"};
+}
+
 struct Entry {
   Start start;
   double step = 0;
+  std::optional<std::size_t> origin = {};  // index of the branch point that is left
 };
+
+// How a branch comes to a branch point: on a half-branch that is new, that was traced before, or that is the
+// opposite of the one on which it left.
+enum class Arrival { first, repeated, home };
 
 class DiagramTracer {
  public:
@@ -106,14 +130,15 @@ class DiagramTracer {
   void first_branch();
   void leave(std::size_t junction, std::size_t half);
   Branch follow(const Entry& entry, int branch, int depth);
-  bool pass(const Event& event, int branch, int depth);
+  Arrival pass(const Event& event, const Entry& entry, int branch, int depth);
   std::size_t meet(const Event& event, int depth);
   void look_for_others(Junction& junction, const Vector& x, const BranchPoint& known);
-  std::optional<Entry> enter(Junction& junction, HalfBranch& half);
+  std::optional<Entry> enter(std::size_t k, HalfBranch& half);
   int known_branch(const Vector& v, const Vector& tangent, double step, double angle);
   std::optional<std::size_t> nearest(const Junction& junction, const Vector& direction) const;
   std::size_t half_towards(Junction& junction, const Vector& direction);
   double angle_to_others(const Junction& junction, const HalfBranch& half) const;
+  double reach(const Vector& x) const { return limits_.same_place * (1 + with_->norm_u(x)); }
   std::size_t index_of(const Vector& x) const;
   void name_events(int branch);
   void incomplete(const std::string& why);
@@ -181,7 +206,7 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
     half(h).untraced = "reached the largest number of branches, " + std::to_string(limits_.branches);
     return incomplete(half(h).untraced);
   }
-  const auto forward = enter(diagram_.branch_points[k], half(h));
+  const auto forward = enter(k, half(h));
   if (!forward) {
     if (half(h).branch < 0) incomplete(half(h).untraced);
     return;
@@ -195,7 +220,6 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
   now.begin = now.branch.stop;
   const bool closed = now.branch.stop.reason == StopReason::closed;
   diagram_.branches.push_back(std::move(now));
-  if (closed) return name_events(index);
 
   // The origin between both ways is a point of the branch, and an event as on the branch that met it.
   const Junction origin = diagram_.branch_points[k];
@@ -214,9 +238,9 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
   event.point.arclength = 0;
   event.point.tangent = half(h).direction;
   const auto opposite = simple(event) ? nearest(origin, -half(h).direction) : std::nullopt;
-  if (opposite && half(*opposite).branch < 0 && !stopped_) {
+  if (!closed && opposite && half(*opposite).branch < 0 && !stopped_) {
     diagram_.branches.back().branch = ahead;  // the way back may lie on it
-    if (const auto backward = enter(diagram_.branch_points[k], half(*opposite))) {
+    if (const auto backward = enter(k, half(*opposite))) {
       half(*opposite).branch = index;
       whole = follow(*backward, index, diagram_.branches.back().depth);
       diagram_.branches.back().begin = whole.stop;
@@ -232,7 +256,7 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
     if (with_->dot(tangents.front(), half(h).direction) < 0) tangents.front() = -tangents.front();
   }
   whole.points.push_back(event.point);
-  whole.events.push_back(std::move(event));
+  if (!closed) whole.events.push_back(std::move(event));
   append(whole, std::move(ahead));
   number(whole);
   diagram_.branches.back().branch = std::move(whole);
@@ -253,37 +277,47 @@ Branch DiagramTracer::follow(const Entry& entry, int branch, int depth) {
     with_ = std::make_unique<Corrector>(*problem_, start_.p, start_.free, options_.newton, counts_,
                                         options_.linear_solver);
   std::size_t passed = 0;
-  bool fresh = true;
-  while (fresh && tracer.step()) {
+  Arrival last = Arrival::first;
+  Event at;  // of the last arrival
+  const auto look = [&](const Branch& branch_so_far) {
     std::size_t met = 0;
-    for (const Event& event : tracer.branch().events)
-      if (std::holds_alternative<BranchPoint>(event.data) && met++ == passed) {
-        ++passed;
-        fresh = pass(event, branch, depth) && fresh;
-      }
-  }
+    for (const Event& event : branch_so_far.events) {
+      if (last != Arrival::first) return;
+      if (!std::holds_alternative<BranchPoint>(event.data) || met++ < passed) continue;
+      ++passed;
+      last = pass(event, entry, branch, depth);
+      at = event;
+    }
+  };
+  while (last == Arrival::first && tracer.step()) look(tracer.branch());
+  look(tracer.branch());
   Branch traced = tracer.take();
-  std::size_t met = 0;
-  for (const Event& event : traced.events)
-    if (std::holds_alternative<BranchPoint>(event.data) && met++ >= passed) pass(event, branch, depth);
-  if (!fresh) traced.stop = {StopReason::user, 0, 0, "came to a half-branch that was traced before"};
+  drop_empty_step(traced);
+  if (last == Arrival::repeated)
+    traced.stop = {StopReason::user, 0, 0, "came to a half-branch that was traced before"};
+  if (last == Arrival::home) {
+    const Vector x = joined(at.point.u, at.point.parameter);
+    const Junction& origin = diagram_.branch_points[*entry.origin];
+    cut(traced, at, distance(*with_, x, joined(origin.u, origin.parameter)), reach(x));
+  }
   return traced;
 }
 
-// False where the branch arrives on a half-branch that was traced before.
-bool DiagramTracer::pass(const Event& event, int branch, int depth) {
-  if (event.point.parameter < options_.lower || event.point.parameter > options_.upper) return true;
+Arrival DiagramTracer::pass(const Event& event, const Entry& entry, int branch, int depth) {
+  if (event.point.parameter < options_.lower || event.point.parameter > options_.upper) return Arrival::first;
   const BranchPoint& crossing = std::get<BranchPoint>(event.data);
   std::size_t k = index_of(joined(event.point.u, event.point.parameter));
   if (k == diagram_.branch_points.size()) k = meet(event, depth);
   Junction& junction = diagram_.branch_points[k];
+  const Vector& beyond = simple(event) ? crossing.tangents.front() : crossing.tangents.back();
   const std::size_t from = half_towards(junction, -crossing.tangents.front());
-  const std::size_t to =
-      half_towards(junction, simple(event) ? crossing.tangents.front() : crossing.tangents.back());
-  if (junction.half_branches[from].branch >= 0) return false;
+  const std::size_t to = half_towards(junction, beyond);
+  if (junction.half_branches[from].branch >= 0) return Arrival::repeated;
   junction.half_branches[from].branch = branch;
+  if (entry.origin == k && simple(event) && with_->dot(beyond, entry.start.tangent) > same_direction)
+    return Arrival::home;
   if (junction.half_branches[to].branch < 0) junction.half_branches[to].branch = branch;
-  return true;
+  return Arrival::first;
 }
 
 std::size_t DiagramTracer::meet(const Event& event, int depth) {
@@ -343,7 +377,8 @@ void DiagramTracer::look_for_others(Junction& junction, const Vector& x, const B
 
 // The first solution on a half-branch, so near that no other is meant. Nothing where there is none, or where
 // it lies on a branch that is known.
-std::optional<Entry> DiagramTracer::enter(Junction& junction, HalfBranch& half) {
+std::optional<Entry> DiagramTracer::enter(std::size_t k, HalfBranch& half) {
+  const Junction& junction = diagram_.branch_points[k];
   const Vector x = joined(junction.u, junction.parameter);
   const double angle = angle_to_others(junction, half);
   const double size = 1 + with_->norm_u(x);
@@ -373,6 +408,7 @@ std::optional<Entry> DiagramTracer::enter(Junction& junction, HalfBranch& half) 
     entry.start.free = start_.free;
     entry.start.tangent = place.tangent;
     entry.step = step;
+    entry.origin = k;
     return entry;
   }
   half.untraced = inside ? "no solution was found on the half-branch, apart from the other branch"
@@ -434,11 +470,10 @@ std::size_t DiagramTracer::half_towards(Junction& junction, const Vector& direct
 }
 
 std::size_t DiagramTracer::index_of(const Vector& x) const {
-  const double reach = limits_.same_place * (1 + with_->norm_u(x));
   std::size_t k = 0;
   for (; k < diagram_.branch_points.size(); ++k) {
     const Junction& junction = diagram_.branch_points[k];
-    if (distance(*with_, joined(junction.u, junction.parameter), x) <= reach) break;
+    if (distance(*with_, joined(junction.u, junction.parameter), x) <= reach(x)) break;
   }
   return k;
 }

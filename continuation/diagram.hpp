@@ -44,10 +44,10 @@ struct Junction {
 
 /// A branch through its origin in both directions, as one: arclength is 0 at the origin and negative
 /// backward, where the tangents of the trace are turned. The origin is the start of the diagram or a branch
-/// point, which is then a point and an event of the branch. A monitor's `falling` and `rising` refer to the
-/// direction of the trace, away from the origin.
+/// point, which is then a point and an event of the branch (of a loop, the last one). A monitor's `falling`
+/// and `rising` refer to the direction of the trace, away from the origin.
 struct DiagramBranch {
-  Branch branch;  // branch.stop: how it ended forward; closed: the whole loop, from its first point to it
+  Branch branch;  // branch.stop: how it ended forward; closed: a loop, from its origin to it
   Stop begin;     // how it ended backward; where there is no way backward, as `stop`
   int depth = 0;
   int origin = -1;  // index of the branch point; -1: the start

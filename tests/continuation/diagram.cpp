@@ -74,7 +74,7 @@ bool all_traced(const Junction& junction) {
 }  // namespace
 
 TEST_CASE("the pitchfork's diagram is the line u = 0 and one parabola, from either end") {
-  for (const Start& start : {at(0, -0.93), at(0, 0.8, -1), at(0, 0.37)}) {
+  for (const Start& start : {at(0, -0.93), at(0, 0.8, -1), at(0, 0.31), at(0, -1)}) {
     const Diagram diagram = trace_diagram(pitchfork(), start, window(-1, 1), {.depth = 1}, {fold_monitor()});
     CHECK(diagram.complete);
     REQUIRE(diagram.branches.size() == 2);
@@ -251,6 +251,59 @@ TEST_CASE("the rod's buckled branches have k half-waves each way, and begin at (
     for (int i = 0; i + 1 < n; ++i)
       if (last.u[i] * last.u[i + 1] < 0) ++half_waves;
     CHECK(half_waves == k);
+  }
+}
+
+TEST_CASE("a chain of five cells branches where its linearization is singular, in either of two step sizes") {
+  // Rheinboldt 1980: (I + L) u + 100 u / (1 + u + u^2) = lambda. Equal cells branch where 1 + r'(u) + m = 0,
+  // m = 4 sin^2(k pi / 10) the eigenvalues of L, k = 1 .. 4: twice for each.
+  const int n = 5;
+  Matrix A = Matrix::Identity(n, n);
+  for (int i = 0; i + 1 < n; ++i) A.block(i, i, 2, 2) += Eigen::Matrix2d{{1, -1}, {-1, 1}};
+  const auto slope = [](double x) { return 100 * (1 - x * x) / std::pow(1 + x + x * x, 2); };
+  const auto problem = from_functions(
+      n, {parameter("lambda", 0, 10)},
+      [=](In u, In p, Out F) {
+        F = A * u;
+        for (int i = 0; i < n; ++i) F[i] += 100 * u[i] / (1 + u[i] + u[i] * u[i]) - p[0];
+      },
+      [=](In u, In, Eigen::Ref<Matrix> J) {
+        J = A;
+        for (int i = 0; i < n; ++i) J(i, i) += slope(u[i]);
+      },
+      [](In, In, int, Out dF) { dF.setConstant(-1); });
+  for (double step : {0.6, 0.1}) {
+    Options options = window(0, 60);
+    options.step.largest_parameter = step;
+    const Diagram diagram =
+        trace_diagram(problem, {Vector::Zero(n), Vector{{0.0}}, 0, 1}, options, {.depth = 5});
+    CAPTURE(step, diagram.message);
+    CHECK(diagram.complete);
+    check_order(diagram);
+    std::size_t equal = 0;
+    for (const Junction& junction : diagram.branch_points) {
+      CHECK(all_traced(junction));
+      const double x = junction.u.mean();
+      if ((junction.u.array() - x).matrix().norm() > 1e-6) continue;
+      ++equal;
+      double nearest = 1e300;
+      for (int k = 1; k <= 4; ++k)
+        nearest =
+            std::min(nearest, std::abs(1 + slope(x) + 4 * std::pow(std::sin(k * std::numbers::pi / 10), 2)));
+      CHECK(nearest < 1e-8);
+    }
+    CHECK(equal == 8);
+    std::size_t of_equal_cells = 0;
+    for (const DiagramBranch& each : diagram.branches) {
+      const auto& points = each.branch.points;
+      of_equal_cells += std::all_of(points.begin(), points.end(), [](const Point& point) {
+        return (point.u.array() - point.u.mean()).matrix().norm() < 1e-6;
+      });
+      if (each.depth > 0) CHECK(each.branch.stop.reason == StopReason::closed);
+    }
+    CHECK(of_equal_cells == 1);
+    CHECK(diagram.branches.size() == 11);
+    CHECK(diagram.branch_points.size() == 20);
   }
 }
 
