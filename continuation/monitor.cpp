@@ -1,5 +1,7 @@
 #include <arcslip/continuation/monitor.hpp>
 
+#include <utility>
+
 namespace arcslip::continuation {
 namespace {
 
@@ -12,6 +14,14 @@ Monitor monitor_of(MonitorKind kind, const char* name) {
 }
 
 }  // namespace
+
+Monitor bound_monitor(std::string name, int index, double value) {
+  Monitor monitor;
+  monitor.name = std::move(name);
+  monitor.value = [=](const Accepted& now) { return now.u[index] - value; };
+  monitor.terminal = true;
+  return monitor;
+}
 
 Monitor branch_point_monitor() {
   return monitor_of(MonitorKind::branch_point, "branch_point");

@@ -59,6 +59,11 @@ struct Monitor {
 /// fold dp/ds jumps.
 Monitor fold_monitor();
 
+/// The unknown u[index] has the value: terminal, a bound of an unknown, as of the second parameter on a curve
+/// of special points, which is an unknown there. (The free parameter's own bounds are Options::lower, upper
+/// and Parameter::lower, upper.)
+Monitor bound_monitor(std::string name, int index, double value);
+
 /// Simple branch points, with the tangents of both branches. Nonsmooth where pieces meet at one: the first
 /// tangent is then that before it, the second that beyond. Not located where it is not simple.
 /// Needs a linear solver that knows the sign of its determinant and has transposed solves.

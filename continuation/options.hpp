@@ -46,7 +46,8 @@ struct StepOptions {
 };
 
 struct Options {
-  double lower = 0, upper = 0;  // window of the free parameter, lower < upper
+  double lower = 0,
+         upper = 0;  // window of the free parameter, lower < upper, within the parameter's own bounds
   NewtonOptions newton{};
   StepOptions step{};
   long points = 100000;              // at most

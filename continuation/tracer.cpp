@@ -118,6 +118,9 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Option
 }
 
 void Tracer::make_tools() {
+  const Parameter& free = problem_->parameters()[static_cast<std::size_t>(s_.free)];
+  options_.lower = std::max(options_.lower, free.lower);
+  options_.upper = std::min(options_.upper, free.upper);
   if (options_.step.largest_parameter == 0)
     options_.step.largest_parameter = first_share_of_window * (options_.upper - options_.lower);
   main_ = std::make_unique<Corrector>(*problem_, s_.p, s_.free, options_.newton, s_.branch.counts,

@@ -29,6 +29,24 @@ TEST_CASE("boundary: a branch that reaches the window's end stops exactly there"
   CHECK(branch.stop.message == "reached the end of the window at 2");
 }
 
+TEST_CASE("boundary: nor does a branch go beyond the bounds of its parameter") {
+  const auto problem =
+      from_functions(1, {{"p", "", 0, 1, -0.5, 0.75}}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  for (int direction : {-1, 1}) {
+    const Branch branch = trace(problem, {Vector::Zero(1), Vector::Zero(1), 0, direction}, window(-2, 2));
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.points.back().parameter == (direction < 0 ? -0.5 : 0.75));
+  }
+}
+
+TEST_CASE("event: a bound of an unknown ends the branch exactly there") {
+  const Branch branch = trace(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1),
+                              {bound_monitor("x = 0.25", 0, 0.25)});
+  CHECK(branch.stop.reason == StopReason::event);
+  CHECK(std::abs(branch.points.back().u[0] - 0.25) < 1e-12);
+  CHECK(branch.stop.message.find("reached the terminal event \"x = 0.25\"") == 0);
+}
+
 TEST_CASE("start_failed: no solution near the start is said, and there are no points") {
   const Branch branch =
       trace(scalar([](In u, In, Out F) { F[0] = 1 + u[0] * u[0]; }), at(0.5, 0), window(0, 1));
