@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 using namespace arcslip::continuation;
 
@@ -34,14 +35,19 @@ int main() {
   const int p1 = parameter_index(*problem, "p1"), p3 = parameter_index(*problem, "p3");
   const Vector p = parameter_values(*problem);
 
+  const Monitor half{.name = "half", .value = [](const Accepted& now) { return now.u[0] - 0.5; }};
   const Start cold{.u = Vector::Zero(2), .p = p, .free = p1};
-  const Branch branch = trace(problem, cold, {.lower = 0, .upper = 0.15}, {fold_monitor()});
-  for (const Event& fold : branch.events)
-    std::printf("fold at p1 = %.12f, x = %.9f\n", fold.point.parameter, fold.point.u[0]);
-  if (branch.events.empty()) return 1;
+  const Branch branch = trace(problem, cold, {.lower = 0, .upper = 0.15}, {fold_monitor(), half});
+  std::vector<Point> turns;
+  for (const Event& event : branch.events) {
+    std::printf("%s at p1 = %.12f, x = %.9f\n", event.monitor.c_str(), event.point.parameter,
+                event.point.u[0]);
+    if (event.monitor == "fold") turns.push_back(event.point);
+  }
+  if (turns.empty()) return 1;
 
   // The same problem with p1 among its unknowns, which are now (x, y, p1), and p3 free.
-  const Start ignition{.u = with_parameter(branch.events[0].point), .p = p, .free = p3};
+  const Start ignition{.u = with_parameter(turns.front()), .p = p, .free = p3};
   const Branch curve = trace(folds(problem, p1), ignition, {.lower = 1, .upper = 3},
                              {cusp_monitor(), bogdanov_takens_monitor()});
   for (const Event& event : curve.events)
