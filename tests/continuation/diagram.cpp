@@ -54,6 +54,13 @@ void check_order(const Diagram& diagram) {
     }
     for (const Event& event : each.branch.events) {
       REQUIRE(event.point.arclength >= points[event.after].arclength);
+      if (const auto* crossing = std::get_if<BranchPoint>(&event.data)) {
+        const std::size_t i = std::min(event.after, points.size() - 2);
+        Vector way(points[i].u.size() + 1);
+        way << points[i + 1].u - points[i].u, points[i + 1].parameter - points[i].parameter;
+        REQUIRE(way.dot(event.point.tangent) > 0);
+        REQUIRE(way.dot(crossing->tangents[0]) > 0);
+      }
       if (event.after + 1 < points.size())
         REQUIRE(event.point.arclength <= points[event.after + 1].arclength);
     }
