@@ -95,7 +95,7 @@ void Deflation::log_gradient(const Vector& u) {
 bool Deflation::go(Vector& u) {
   for (double share = 1; share >= smallest_share; share /= 2) {
     trial_ = u + share * step_;
-    if (!evaluate(trial_, Needs::residual)) continue;
+    if (!evaluate(trial_, Needs::jacobian)) continue;
     u = trial_;
     return true;
   }
@@ -103,9 +103,9 @@ bool Deflation::go(Vector& u) {
 }
 
 std::optional<Vector> Deflation::solve(Vector u, double limit) {
+  if (!evaluate(u, Needs::jacobian)) return {};
   double before = 0;
   for (int k = 0; k < options_.iterations; ++k) {
-    if (!evaluate(u, Needs::jacobian)) return {};
     if (!solver_) solver_ = suitable_solver(evaluator_->jacobian());
     if (!solver_->factorize(evaluator_->jacobian(), none_)) return {};
     s_ = -evaluator_->residual();

@@ -334,6 +334,9 @@ std::size_t DiagramTracer::meet(const Event& event, int depth) {
   } else {
     junction.half_branches.push_back({-crossing.tangents.front(), -1, {}});
     junction.half_branches.push_back({crossing.tangents.back(), -1, {}});
+    if (!event.nonsmooth && depth < limits_.depth)
+      incomplete("the branch point at " + std::to_string(junction.parameter) +
+                 " is not simple: other branches through it are not followed");
     if (event.nonsmooth) look_for_others(junction, joined(junction.u, junction.parameter), crossing);
   }
   diagram_.branch_points.push_back(std::move(junction));

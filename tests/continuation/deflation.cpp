@@ -207,6 +207,8 @@ TEST_CASE("where there is nothing else, nothing is found") {
                 {Vector{{0.3}}, Vector{{1.0}}, Vector{{-40.0}}})
             .empty());
   CHECK(deflate(*polynomial({2, 2}), p, {Vector{{2.0}}}, {Vector{{2.0}}, Vector{{3.0}}}).empty());
+  // Of a triple root a simple one is left: it is recognised.
+  CHECK(deflate(*polynomial({2, 2, 2}), p, {Vector{{2.0}}}, {Vector{{2.0}}, Vector{{3.0}}}).empty());
   CHECK(deflate(*polynomial({-1, 1}), p, {}, {}).empty());
 }
 

@@ -375,6 +375,25 @@ TEST_CASE("a branch point just beyond the window is none of the diagram") {
   CHECK(diagram.branches.size() == 1);
 }
 
+TEST_CASE(
+    "three pitchforks at one place are no simple branch point: the diagram says that it is incomplete") {
+  const auto problem = from_functions(
+      3, {parameter("lambda", 0)}, [](In u, In p, Out F) { F = (p[0] - u.array().square()) * u.array(); },
+      [](In u, In p, Eigen::Ref<Matrix> J) {
+        J.setZero();
+        J.diagonal() = p[0] - 3 * u.array().square();
+      });
+  const Start start{.u = Vector::Zero(3), .p = Vector{{-0.93}}, .free = 0};
+  const Diagram diagram = trace_diagram(problem, start, window(-1, 1), {.depth = 1});
+  CHECK(!diagram.complete);
+  CHECK(diagram.message.find("not simple") != std::string::npos);
+  CHECK(diagram.branches.size() == 1);
+  CHECK(diagram.branches[0].branch.points.back().parameter == 1);
+  REQUIRE(diagram.branch_points.size() == 1);
+  CHECK(diagram.branch_points[0].half_branches.size() == 2);
+  CHECK(trace_diagram(problem, start, window(-1, 1), {.depth = 0}).complete);
+}
+
 TEST_CASE("a start that fails is a diagram of one branch that says why") {
   const auto problem = scalar([](double u, double l) { return u * u + l * l + 1; },
                               [](double u, double) { return 2 * u; }, [](double, double l) { return 2 * l; });
