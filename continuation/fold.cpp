@@ -1,15 +1,26 @@
 #include <arcslip/continuation/monitor.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace arcslip::continuation {
 namespace {
 
 constexpr double difference = 6e-6;  // relative, of central differences
 
+// Relative to u in each unknown, whatever its unit: |v| = 1 in scales, so that |v_i| is a change of u_i that is
+// not too large.
+double step_along(In u, const Vector& v) {
+  double h = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (v[i] != 0) h = std::min(h, std::abs(u[i] / v[i]));
+  return difference * (std::isfinite(h) ? std::max(1.0, h) : 1.0);
+}
+
 // y = F_uu v v. False where F cannot be evaluated beside u.
 bool second_along(const Accepted& now, const Vector& v, Vector& y) {
-  const double h = difference * std::max(1.0, now.u.norm() / v.norm());
+  const double h = step_along(now.u, v);
   const Vector ahead = now.u + h * v, behind = now.u - h * v;
   Vector minus(v.size());
   if (now.at.move_to(ahead, now.p, Needs::jacobian) != Evaluated::ok) return false;

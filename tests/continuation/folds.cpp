@@ -105,3 +105,21 @@ TEST_CASE("the null vectors at the folds of Chan's problem are those of J, from 
   CHECK(std::get<Fold>(branch.events[0].data).curvature < 0);
   CHECK(std::get<Fold>(branch.events[1].data).curvature > 0);
 }
+
+TEST_CASE("the curvature of a fold does not depend on an unknown of a large unit that takes no part in it") {
+  for (double size : {1.0, 1e3, 1e6, 1e9}) {
+    Functions f;
+    f.size = 2;
+    f.parameters = {parameter("p", 0)};
+    f.scales = Vector{{size, 1.0}};
+    f.residual = [=](In u, In p, Out F) {
+      F[0] = u[0] / size - 1;
+      F[1] = p[0] - 1 + std::cos(u[1]);
+    };
+    const Start start{Vector{{size, -0.5}}, Vector{{1 - std::cos(0.5)}}, 0, -1};
+    const Branch branch = trace(from_functions(f), start, window(-1, 0.5), {fold_monitor()});
+    CAPTURE(size, branch.stop.message);
+    REQUIRE(branch.events.size() == 1);
+    CHECK(std::abs(std::get<Fold>(branch.events[0].data).curvature - 1) < 1e-5);
+  }
+}
