@@ -336,6 +336,7 @@ Tracer::Attempt Tracer::attempt() {
 // Where the branch turns by any angle at a kink just ahead: goes to the kink, linearizes beyond it, and steps
 // along the tangent there, whose direction the sign of the determinant tells.
 bool Tracer::corner() {
+  crossing_.reset();
   v_ = s_.here.v + s_.step * s_.here.tangent;
   if (!main_->move_to(v_) || main_->evaluator().piece() == s_.here.piece) return false;
   Place kink;
@@ -534,17 +535,23 @@ std::optional<LocatedEvent> Tracer::unlocated_branch_point(const Place& from, co
   return found;
 }
 
-bool Tracer::accept(Place&& place, const Correction& correction, const Corner* corner) {
+// The events of a step in the order of arclength: the first terminal one ends the branch.
+std::vector<LocatedEvent> Tracer::with_crossing(std::vector<LocatedEvent>&& found) {
   if (crossing_ && !crossing_->event.monitor.empty()) {
-    std::vector<LocatedEvent> crossing;
-    crossing.push_back(std::move(*crossing_));
-    report(std::move(crossing));
+    const auto place = std::upper_bound(
+        found.begin(), found.end(), crossing_->place.arclength,
+        [](double s, const LocatedEvent& each) { return s < each.event.point.arclength; });
+    found.insert(place, std::move(*crossing_));
   }
   crossing_.reset();
+  return std::move(found);
+}
+
+bool Tracer::accept(Place&& place, const Correction& correction, const Corner* corner) {
   const bool go_on = corner ? report(events_->between(s_.here, corner->before)) &&
                                   report(events_->across(corner->before, corner->beyond)) &&
                                   report(events_->between(corner->beyond, place))
-                            : report(events_->between(s_.here, place));
+                            : report(with_crossing(events_->between(s_.here, place)));
   if (terminal_) return end_at(*terminal_);
   keep(place, correction);
   std::swap(s_.before, s_.here);

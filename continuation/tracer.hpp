@@ -80,6 +80,7 @@ class Tracer {
   bool comes_home(double length) const;
   bool accept(Place&& place, const Correction& correction, const Corner* corner = nullptr);
   std::optional<LocatedEvent> unlocated_branch_point(const Place& from, const Place& to) const;
+  std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found);
   bool report(std::vector<LocatedEvent>&& found);
   const Event* add(Event&& event);
   void keep(const Place& place, const Correction& correction);

@@ -116,3 +116,28 @@ TEST_CASE("a branch point where pieces meet is recognised: |u| = |p|") {
   CHECK(branch.events[0].nonsmooth);
   CHECK(std::abs(branch.events[0].point.parameter) < 1e-6);
 }
+
+TEST_CASE("an observer that says stop at a branch point stops the branch there") {
+  int events = 0;
+  const Branch branch = trace(normal_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, window(-1, 1),
+                              {branch_point_monitor()}, [&](const Accepted&, const Event* event) {
+                                if (event) ++events;
+                                return !event;
+                              });
+  CHECK(events == 1);
+  CHECK(branch.stop.reason == StopReason::user);
+  CHECK(branch.points.back().parameter < 0.1);
+}
+
+TEST_CASE("a terminal event shortly before a branch point of the same step is the one that ends the branch") {
+  Monitor crossing = branch_point_monitor(), before{"before", [](const Accepted& now) {
+                                                      return now.parameter + 0.001;
+                                                    }};
+  crossing.terminal = before.terminal = true;
+  Options options = window(-1, 1);
+  options.step.initial = options.step.largest_parameter = 0.1;
+  const Branch branch =
+      trace(normal_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, options, {crossing, before});
+  CHECK(branch.stop.message == "reached the terminal event \"before\" at -0.001");
+  CHECK(branch.events.size() == 1);
+}
