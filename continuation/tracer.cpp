@@ -397,6 +397,8 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   const double p = next_.v[n_], bound = std::clamp(p, options_.lower, options_.upper);
   if (p != bound) {
     if (!to_boundary(next_, bound)) return Attempt::rejected;
+    if (crossing_ && (crossing_->place.v[n_] < options_.lower || crossing_->place.v[n_] > options_.upper))
+      crossing_.reset();
     if (accept(std::move(next_), correction))
       end(StopReason::boundary, bound, bound, "reached the end of the window at " + text(bound));
     return Attempt::ended;

@@ -141,3 +141,18 @@ TEST_CASE("a terminal event shortly before a branch point of the same step is th
   CHECK(branch.stop.message == "reached the terminal event \"before\" at -0.001");
   CHECK(branch.events.size() == 1);
 }
+
+TEST_CASE("a branch point beyond the window is no event, and ends no branch") {
+  for (double upper : {-0.01, -0.001, -1e-5}) {
+    Monitor crossing = branch_point_monitor();
+    crossing.terminal = true;
+    Options options = window(-1, upper);
+    options.step.initial = options.step.largest_parameter = 0.1;
+    const Branch branch =
+        trace(normal_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, options, {crossing});
+    CAPTURE(upper, branch.stop.message);
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.points.back().parameter == upper);
+    CHECK(branch.events.empty());
+  }
+}
