@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -28,7 +30,9 @@ class Writer {
   template <class T>
   static Json json(const T& x) {
     if constexpr (std::is_same_v<T, Vector>) {
-      return std::vector<double>(x.data(), x.data() + x.size());
+      Json all = Json::array();
+      for (const double each : x) all.push_back(json(each));
+      return all;
     } else if constexpr (requires { x.has_value(); }) {
       return x ? json(*x) : Json();
     } else if constexpr (std::is_same_v<T, EventData>) {
@@ -38,6 +42,11 @@ class Writer {
       return Json();
     } else if constexpr (std::is_enum_v<T>) {
       return static_cast<int>(x);
+    } else if constexpr (std::is_same_v<T, double>) {
+      // JSON has no such numbers, but monitors do: the logarithm of an amplitude at rest.
+      if (std::isnan(x)) return "nan";
+      if (std::isinf(x)) return x > 0 ? "inf" : "-inf";
+      return x;
     } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
       return x;
     } else if constexpr (requires { x.size(); }) {
@@ -66,7 +75,8 @@ class Reader {
   template <class T>
   static void read(const Json& from, T& x) {
     if constexpr (std::is_same_v<T, Vector>) {
-      const auto values = from.get<std::vector<double>>();
+      std::vector<double> values;
+      read(from, values);
       x = Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
     } else if constexpr (requires { x.has_value(); }) {
       x.reset();
@@ -76,6 +86,14 @@ class Reader {
     } else if constexpr (std::is_same_v<T, std::monostate>) {
     } else if constexpr (std::is_enum_v<T>) {
       x = static_cast<T>(from.get<int>());
+    } else if constexpr (std::is_same_v<T, double>) {
+      constexpr double inf = std::numeric_limits<double>::infinity();
+      if (from == "nan")
+        x = std::numeric_limits<double>::quiet_NaN();
+      else if (from == "inf" || from == "-inf")
+        x = from == "inf" ? inf : -inf;
+      else
+        x = from.get<double>();
     } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
       x = from.get<T>();
     } else if constexpr (requires { x.size(); }) {
@@ -157,7 +175,8 @@ void fields(Visit&& visit, auto& x) {
 std::string to_json(const State& state) {
   Json json{{"format", format}};
   fields(Writer(json), state);
-  return json.dump();
+  // A message may hold words of the problem in any encoding.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 State state_from_json(const std::string& text) {

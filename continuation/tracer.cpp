@@ -107,6 +107,9 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Option
       s_(std::move(state)),
       n_(problem_->size()) {
   check(options);
+  if (s_.free < 0 || static_cast<std::size_t>(s_.free) >= problem_->parameters().size())
+    throw std::invalid_argument("the free parameter of the state is number " + std::to_string(s_.free) +
+                                " of " + std::to_string(problem_->parameters().size()));
   if (s_.here.v.size() != n_ + 1 || s_.p.size() != static_cast<Eigen::Index>(problem_->parameters().size()) ||
       s_.courses.size() != monitors_.size())
     throw std::invalid_argument("the state is of " + std::to_string(s_.here.v.size() - 1) + " unknowns, " +

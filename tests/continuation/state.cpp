@@ -75,3 +75,31 @@ TEST_CASE("what is not a state is refused, and a state of another problem too") 
   CHECK_THROWS_WITH(Tracer(chan(20), tracer.save(), window(0, 5)),
                     "the state is of 1 unknowns, 2 parameters and 0 monitors, the problem of 20, 1 and 0");
 }
+
+TEST_CASE("a monitor that is infinite at a point, as decibels at rest are, leaves a state that can be read") {
+  const auto line =
+      from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const Monitor decibels{"dB", [](const Accepted& now) { return 20 * std::log10(std::abs(now.u[0])); }};
+  check_resumed(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 2), {decibels});
+  const Monitor undefined{"0/0", [](const Accepted& now) { return now.u[0] > 0.5 ? std::nan("") : 1.0; }};
+  check_resumed(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 2), {undefined});
+}
+
+TEST_CASE("what a problem says in another encoding does not keep a state from being saved") {
+  const auto problem = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) {
+    if (p[0] > 0.5) throw std::runtime_error("Werkstoff ung\xfcltig");
+    F[0] = u[0] - p[0];
+  });
+  Tracer tracer(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 2));
+  while (tracer.step()) {
+  }
+  CHECK(state_from_json(to_json(tracer.save())).branch.points.size() == tracer.branch().points.size());
+}
+
+TEST_CASE("a state whose free parameter the problem does not have is refused") {
+  Tracer tracer(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1));
+  tracer.step();
+  State state = tracer.save();
+  state.free = 2;
+  CHECK_THROWS_WITH(Tracer(cusp(), state, window(-1, 1)), "the free parameter of the state is number 2 of 2");
+}
