@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -67,8 +68,11 @@ std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const 
   Vector beside(from.v.size());
   for (double guess : {0.5, 0.1, 0.9}) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, guess, beside);
-    const auto crossing =
-        locate_branch_point(problem_, p_, free_, beside, options_.linear_solver, options_.newton);
+    std::optional<BranchPointLocation> crossing;
+    try {
+      crossing = locate_branch_point(problem_, p_, free_, beside, options_.linear_solver, options_.newton);
+    } catch (const std::exception&) {  // what the corrector takes for a place that cannot be evaluated
+    }
     if (!crossing || !crossing->branches_cross()) continue;
     const Vector way = crossing->x - from.v;
     const double share = probe.dot(way, to.v - from.v) / (length * length);

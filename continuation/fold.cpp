@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 namespace arcslip::continuation {
@@ -19,7 +20,7 @@ double step_along(In u, const Vector& v) {
 }
 
 // y = F_uu v v. False where F cannot be evaluated beside u.
-bool second_along(const Accepted& now, const Vector& v, Vector& y) {
+bool second_along(const Accepted& now, const Vector& v, Vector& y) try {
   const double h = step_along(now.u, v);
   const Vector ahead = now.u + h * v, behind = now.u - h * v;
   Vector minus(v.size());
@@ -29,6 +30,8 @@ bool second_along(const Accepted& now, const Vector& v, Vector& y) {
   apply(now.at.jacobian(), v, minus);
   y = (y - minus) / (2 * h);
   return true;
+} catch (const std::exception&) {
+  return false;
 }
 
 // With B = [J F_p; r^T], whose tangent at the fold is t = (v, 0): B^T (w, 0) = e_{n+1}, and by

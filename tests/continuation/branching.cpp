@@ -156,3 +156,24 @@ TEST_CASE("a branch point beyond the window is no event, and ends no branch") {
     CHECK(branch.events.empty());
   }
 }
+
+TEST_CASE("a problem that throws beside the branch on which it is evaluated ends no trace by an exception") {
+  for (double domain : {1e-5, 1e-6, 1e-8}) {
+    const auto problem = from_functions(
+        {.size = 1,
+         .parameters = {parameter("lambda", 0)},
+         .residual =
+             [=](In u, In p, Out F) {
+               if (std::abs(u[0]) > domain) throw std::runtime_error("outside");
+               F[0] = p[0] * u[0] - std::pow(u[0], 3);
+             },
+         .jacobian = [](In u, In p, Eigen::Ref<Matrix> J) { J(0, 0) = p[0] - 3 * u[0] * u[0]; },
+         .derivative = [](In u, In, int, Out dF) { dF[0] = u[0]; }});
+    Branch branch;
+    CHECK_NOTHROW(branch = trace(problem, {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, window(-1, 1),
+                                 {branch_point_monitor()}));
+    CAPTURE(domain, branch.stop.message);
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.events.size() == 1);
+  }
+}
