@@ -195,9 +195,9 @@ double Tracer::limited(double ds) const {
   if (options_.step.largest > 0) ds = std::min(ds, options_.step.largest);
   const double along = std::abs(s_.here.tangent[n_]);
   double limit = options_.step.largest_parameter;
-  if (options_.step.relative_parameter > 0)
-    limit = std::min(limit, options_.step.relative_parameter * std::abs(s_.here.v[n_]));
-  return along * ds > limit && limit > 0 ? limit / along : ds;
+  const double relative = options_.step.relative_parameter * std::abs(s_.here.v[n_]);
+  if (relative > 0) limit = std::min(limit, relative);  // at p = 0 there is no such limit
+  return along * ds > limit ? limit / along : ds;
 }
 
 // By the cubic or the secant of the last two points, or, after a kink, at the start or far out, the tangent.

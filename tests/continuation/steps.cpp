@@ -124,3 +124,14 @@ TEST_CASE("a branch starts along a tangent that is given") {
   CHECK_THROWS_AS(trace(circle(), {Vector{{s}}, Vector{{s}}, 0, 1, Vector{{1.0}}}, window(-2, 2)),
                   std::invalid_argument);
 }
+
+TEST_CASE("at p = 0, where a step relative to p would be none, the largest step in p still holds") {
+  Options options = window(0, 1);
+  options.step.initial = 0.5;
+  options.step.largest_parameter = 0.01;
+  options.step.relative_parameter = 0.1;
+  options.points = 2;
+  const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const Branch branch = trace(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, options);
+  CHECK(branch.points.back().parameter == Approx(0.01));
+}
