@@ -430,3 +430,12 @@ TEST_CASE("a diagram refuses depths and numbers of branches that make none, and 
   CHECK_THROWS_AS(begin(window(-1, 1), {.branches = 0}), std::invalid_argument);
   CHECK_THROWS_AS(begin(window(-1, 1), {.same_place = 0}), std::invalid_argument);
 }
+
+TEST_CASE("a branch of a diagram is interpolated before its origin as well as beyond") {
+  const auto parabola =
+      from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0] * p[0]; });
+  const Diagram diagram = trace_diagram(parabola, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(-1, 1));
+  const Point before = interpolate(diagram.branches[0].branch, -0.5);
+  CHECK(before.parameter < -0.4);
+  CHECK(std::abs(before.u[0] - before.parameter * before.parameter) < 1e-5);
+}
