@@ -26,7 +26,8 @@ constexpr double unresolved_share = 1.0 / 50;  // of the step that was first fou
 constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
 constexpr double curve_safety = 0.9;           // of the step that the curve's error allows
 constexpr double middle_share = 0.7;           // of the largest error of the curve, in the middle of a step
-constexpr double home = 1e-3;                  // of a step: a start so near to it lies on it
+constexpr double home = 1e-3;                  // of a step: a start so near to it may lie on it
+constexpr double home_rounding = 10;           // of the corrector: two solutions nearer than that are one
 constexpr int largest_to_check = 500;          // unknowns, where a failure asks for a check of the Jacobian
 constexpr double corner_step = 1e-3;           // beyond a kink, of the step, to linearize there
 
@@ -407,12 +408,22 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
     return Attempt::ended;
   }
   if (!kink && comes_home(length)) {
-    const double miss = distance(*main_, next_.v, s_.start.v);
-    next_ = s_.start;
-    next_.arclength = s_.here.arclength + distance(*main_, s_.here.v, next_.v);
-    if (accept(std::move(next_), correction))
-      end(StopReason::closed, miss, length, "came back to the start: the branch is closed");
-    return Attempt::ended;
+    // The branch that passes so near is that of the start if it has the same solution in the start's plane.
+    v_ += main_->dot(s_.start.v - v_, s_.start.tangent) * s_.start.tangent;
+    main_->border_row(s_.start.tangent, row_);
+    const bool converged = main_->correct(v_, row_, false).converged;
+    const double miss = distance(*main_, v_, s_.start.v);
+    const double size = 1 + main_->norm_u(s_.start.v) + std::abs(s_.start.v[n_]) / main_->parameter_scale();
+    const double rounding = home_rounding * options_.newton.rounding_level * size;
+    if (converged && miss <= rounding) {
+      next_ = s_.start;
+      next_.arclength = s_.here.arclength + distance(*main_, s_.here.v, next_.v);
+      if (accept(std::move(next_), correction))
+        end(StopReason::closed, miss, rounding, "came back to the start: the branch is closed");
+      return Attempt::ended;
+    }
+    main_->border_row(next_.tangent, row_);
+    if (!main_->linearize(next_.v, row_)) return Attempt::rejected;
   }
   s_.last_step = length;
   s_.has_before = !kink;
@@ -422,7 +433,8 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   return within_limits() ? Attempt::accepted : Attempt::ended;
 }
 
-// Whether the start lies on the step from here to next_: beside their cubic by a small part of its length.
+// Whether the start may lie on the step from here to next_: beside their cubic, of which v_ is the point next to
+// it, by a small part of its length.
 bool Tracer::comes_home(double length) const {
   if (s_.here.arclength == 0) return false;
   v_ = s_.start.v - s_.here.v;

@@ -135,3 +135,27 @@ TEST_CASE("at p = 0, where a step relative to p would be none, the largest step 
   const Branch branch = trace(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, options);
   CHECK(branch.points.back().parameter == Approx(0.01));
 }
+
+TEST_CASE("a helix that passes its start nearer than steps are long is not closed") {
+  for (double scale : {1e3, 1e4, 1e5}) {  // of the angle: the pitch in scales is 2 pi / scale
+    Functions f;
+    f.size = 2;
+    f.parameters = {parameter("x", 0)};
+    f.scales = Vector{{scale, 1.0}};
+    f.residual = [](In u, In p, Out F) {
+      F[0] = p[0] - std::cos(u[0]);
+      F[1] = u[1] - std::sin(u[0]);
+    };
+    f.jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J << std::sin(u[0]), 0, -std::cos(u[0]), 1; };
+    f.derivative = [](In, In, int, Out dF) { dF << 1, 0; };
+    Options options = window(-2, 2);
+    options.step.largest_parameter = 1;
+    options.points = 200;
+    const Branch branch =
+        trace(from_functions(f), {Vector{{0.5, std::sin(0.5)}}, Vector{{std::cos(0.5)}}, 0, 1}, options);
+    CAPTURE(scale, branch.stop.message);
+    CHECK(branch.stop.reason == StopReason::point_limit);
+    CHECK(std::abs(branch.points.back().u[0] - 0.5) > 12);
+    for (const Point& point : branch.points) CHECK(std::abs(point.parameter - std::cos(point.u[0])) < 1e-8);
+  }
+}

@@ -5,6 +5,7 @@
 #include "continuation/problems.hpp"
 
 #include <cstring>
+#include <limits>
 
 using namespace problems;
 
