@@ -57,6 +57,20 @@ std::string doubt_of_jacobian(const Problem& problem, In u, In p) {
   }
 }
 
+// Distances are measured in them: a wrong one is no place to find out that a branch goes nowhere.
+void check_scales(const Problem& problem) {
+  const Vector scales = problem.scales();
+  if (scales.size() != problem.size())
+    throw std::invalid_argument("the problem has " + std::to_string(scales.size()) + " scales for " +
+                                std::to_string(problem.size()) + " unknowns");
+  if (!scales.allFinite() || !(scales.minCoeff() > 0))
+    throw std::invalid_argument("the scales of the unknowns must be positive and finite");
+  for (const Parameter& parameter : problem.parameters())
+    if (!(parameter.scale > 0 && std::isfinite(parameter.scale)))
+      throw std::invalid_argument("the scale of the parameter \"" + parameter.name + "\" is " +
+                                  text(parameter.scale) + ", must be positive and finite");
+}
+
 // Of the step, where the curve's error is `error` times that allowed: it falls with the fourth power.
 double curve_factor(double error) {
   return std::clamp(curve_safety / std::sqrt(std::sqrt(error)), shrinkage, growth);
@@ -96,6 +110,7 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const
     throw std::invalid_argument("the start is at " + text(s_.here.v[n_]) + ", outside the window [" +
                                 text(options.lower) + ", " + text(options.upper) + "]");
   s_.here.tangent = start.tangent;
+  check_scales(*problem_);
   make_tools();
 }
 
@@ -118,6 +133,7 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Option
                                 std::to_string(s_.courses.size()) + " monitors, the problem of " +
                                 std::to_string(n_) + ", " + std::to_string(problem_->parameters().size()) +
                                 " and " + std::to_string(monitors_.size()));
+  check_scales(*problem_);
   make_tools();
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <limits>
+#include <limits>
 
 using namespace problems;
 
@@ -233,4 +234,15 @@ TEST_CASE("a problem without unknowns, and a free parameter that there is none, 
   CHECK_THROWS_WITH(
       trace(std::make_shared<Odd>(1, 1), {Vector::Zero(1), Vector::Zero(1), 3, 1}, window(0, 1)),
       "the free parameter is number 3 of 1");
+}
+
+TEST_CASE("scales that are not positive are refused before anything is traced") {
+  const auto line = [](double scale) {
+    return from_functions(1, {parameter("p", 0, scale)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  };
+  CHECK_NOTHROW(trace(line(1), at(0, 0), window(0, 1)));
+  CHECK_THROWS_WITH(trace(line(0), at(0, 0), window(0, 1)),
+                    "the scale of the parameter \"p\" is 0, must be positive and finite");
+  for (double scale : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    CHECK_THROWS_AS(trace(line(scale), at(0, 0), window(0, 1)), std::invalid_argument);
 }
