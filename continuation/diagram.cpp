@@ -202,6 +202,10 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
   const auto half = [&](std::size_t i) -> HalfBranch& { return diagram_.branch_points[k].half_branches[i]; };
   if (half(h).branch >= 0) return;
   if (!half(h).untraced.empty()) return incomplete(half(h).untraced);
+  if (diagram_.branch_points[k].event < 0) {  // it lay beyond a terminal event that was certain only later
+    half(h).untraced = "the branch that met it ended before it";
+    return incomplete(half(h).untraced);
+  }
   if (static_cast<int>(diagram_.branches.size()) >= limits_.branches) {
     half(h).untraced = "reached the largest number of branches, " + std::to_string(limits_.branches);
     return incomplete(half(h).untraced);
