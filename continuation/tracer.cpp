@@ -536,8 +536,11 @@ bool Tracer::report(std::vector<LocatedEvent>&& all) {
   bool go_on = true;
   for (LocatedEvent& found : all) {
     const Event* event = add(std::move(found.event));
-    if (observer_ && go_on)
-      if (const auto now = events_->look_at(found.place)) go_on = observer_(*now, event);
+    if (observer_ && go_on) {
+      const auto now = events_->look_at(found.place);
+      if (!now) main_->move_to(found.place.v);  // at a branch point B may be singular to the last bit
+      go_on = observer_(now ? *now : accepted(*main_, found.place), event);
+    }
     const bool terminal = std::any_of(monitors_.begin(), monitors_.end(), [&](const Monitor& m) {
       return m.terminal && m.name == event->monitor;
     });

@@ -177,3 +177,19 @@ TEST_CASE("a problem that throws beside the branch on which it is evaluated ends
     CHECK(branch.events.size() == 1);
   }
 }
+
+TEST_CASE("an observer is told of each branch point, also where the bordered matrix is zero to the last bit") {
+  for (int power : {2, 3, 5})
+    for (double from : {1.0, 0.75, 0.5, 0.125}) {
+      int told = 0;
+      const Branch branch = trace(normal_form(power), {Vector{{0.0}}, Vector{{-from}}, 0, 1}, window(-1, 1),
+                                  {branch_point_monitor()}, [&](const Accepted& now, const Event* event) {
+                                    told += event ? 1 : 0;
+                                    return !event || std::abs(now.parameter) < 1e-12;
+                                  });
+      CAPTURE(power, from, branch.stop.message);
+      CHECK(branch.events.size() == 1);
+      CHECK(told == 1);
+      CHECK(branch.stop.reason == StopReason::boundary);
+    }
+}
