@@ -10,8 +10,8 @@ namespace {
 
 constexpr double difference = 6e-6;  // relative, of central differences
 
-// Relative to u in each unknown, whatever its unit: |v| = 1 in scales, so that |v_i| is a change of u_i that is
-// not too large.
+// Relative to u in each unknown, whatever its unit: |v| = 1 in scales, so that |v_i| is a change of u_i that
+// is not too large.
 double step_along(In u, const Vector& v) {
   double h = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < v.size(); ++i)

@@ -449,8 +449,8 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   return within_limits() ? Attempt::accepted : Attempt::ended;
 }
 
-// Whether the start may lie on the step from here to next_: beside their cubic, of which v_ is the point next to
-// it, by a small part of its length.
+// Whether the start may lie on the step from here to next_: beside their cubic, of which v_ is the point next
+// to it, by a small part of its length.
 bool Tracer::comes_home(double length) const {
   if (s_.here.arclength == 0) return false;
   v_ = s_.start.v - s_.here.v;
@@ -574,9 +574,9 @@ std::optional<LocatedEvent> Tracer::unlocated_branch_point(const Place& from, co
 // The events of a step in the order of arclength: the first terminal one ends the branch.
 std::vector<LocatedEvent> Tracer::with_crossing(std::vector<LocatedEvent>&& found) {
   if (crossing_ && !crossing_->event.monitor.empty()) {
-    const auto place = std::upper_bound(
-        found.begin(), found.end(), crossing_->place.arclength,
-        [](double s, const LocatedEvent& each) { return s < each.event.point.arclength; });
+    const auto place =
+        std::upper_bound(found.begin(), found.end(), crossing_->place.arclength,
+                         [](double s, const LocatedEvent& each) { return s < each.event.point.arclength; });
     found.insert(place, std::move(*crossing_));
   }
   crossing_.reset();

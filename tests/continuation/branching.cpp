@@ -130,9 +130,8 @@ TEST_CASE("an observer that says stop at a branch point stops the branch there")
 }
 
 TEST_CASE("a terminal event shortly before a branch point of the same step is the one that ends the branch") {
-  Monitor crossing = branch_point_monitor(), before{"before", [](const Accepted& now) {
-                                                      return now.parameter + 0.001;
-                                                    }};
+  Monitor crossing = branch_point_monitor(),
+          before{"before", [](const Accepted&now) { return now.parameter + 0.001; }};
   crossing.terminal = before.terminal = true;
   Options options = window(-1, 1);
   options.step.initial = options.step.largest_parameter = 0.1;
@@ -148,8 +147,7 @@ TEST_CASE("a branch point beyond the window is no event, and ends no branch") {
     crossing.terminal = true;
     Options options = window(-1, upper);
     options.step.initial = options.step.largest_parameter = 0.1;
-    const Branch branch =
-        trace(normal_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, options, {crossing});
+    const Branch branch = trace(normal_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, options, {crossing});
     CAPTURE(upper, branch.stop.message);
     CHECK(branch.stop.reason == StopReason::boundary);
     CHECK(branch.points.back().parameter == upper);
@@ -178,7 +176,8 @@ TEST_CASE("a problem that throws beside the branch on which it is evaluated ends
   }
 }
 
-TEST_CASE("an observer is told of each branch point, also where the bordered matrix is zero to the last bit") {
+TEST_CASE(
+    "an observer is told of each branch point, also where the bordered matrix is zero to the last bit") {
   for (int power : {2, 3, 5})
     for (double from : {1.0, 0.75, 0.5, 0.125}) {
       int told = 0;

@@ -77,8 +77,7 @@ TEST_CASE("what is not a state is refused, and a state of another problem too") 
 }
 
 TEST_CASE("a monitor that is infinite at a point, as decibels at rest are, leaves a state that can be read") {
-  const auto line =
-      from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   const Monitor decibels{"dB", [](const Accepted& now) { return 20 * std::log10(std::abs(now.u[0])); }};
   check_resumed(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 2), {decibels});
   const Monitor undefined{"0/0", [](const Accepted& now) { return now.u[0] > 0.5 ? std::nan("") : 1.0; }};

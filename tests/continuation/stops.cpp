@@ -6,7 +6,6 @@
 
 #include <cstring>
 #include <limits>
-#include <limits>
 
 using namespace problems;
 
