@@ -87,6 +87,11 @@ void read_for_each(const Place& place, const Parameters& all, Study& study, Faul
       continue;  // told as a duplicate key
     }
     const Place item{&member.value, child(place.pointer, member.key)};
+    if (!study.over.empty() && member.key == study.over) {
+      faults.add(item.pointer,
+                 "found " + shown(member.key) + ", which the study is \"over\"; must be another parameter");
+      continue;
+    }
     const auto fields = fields_of(member.key, item.pointer, all, faults);
     study.for_each.emplace_back(member.key, read_values(item, fields, faults));
   }
@@ -102,12 +107,34 @@ bool is_file_name(const std::string& name) {
          std::none_of(name.begin(), name.end(), forbidden);
 }
 
-void read_range(const Keys& keys, FrequencyUnit unit, Study& study, Faults& faults) {
-  const Field bounds{.name = "frequency",
-                     .unit = unit_name(unit),
-                     .lower = 0,
-                     .upper = std::numeric_limits<double>::infinity(),
-                     .lower_open = true};
+// What every one of the fields allows.
+Field common(const std::vector<const Field*>& fields) {
+  Field all = *fields.front();
+  for (const Field* field : fields) {
+    if (field->lower > all.lower) {
+      all.lower = field->lower;
+      all.lower_open = field->lower_open;
+    } else if (field->lower == all.lower) {
+      all.lower_open = all.lower_open || field->lower_open;
+    }
+    all.upper = std::min(all.upper, field->upper);
+  }
+  return all;
+}
+
+Field frequency_field(FrequencyUnit unit) {
+  return {.name = "frequency",
+          .unit = unit_name(unit),
+          .lower = 0,
+          .upper = std::numeric_limits<double>::infinity(),
+          .lower_open = true};
+}
+
+std::string with_unit(double value, const Field& field) {
+  return number_text(value) + (field.unit == "-" ? "" : " " + std::string(field.unit));
+}
+
+void read_range(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
   const auto from = read_number(keys.require("from", allowed_text(bounds), faults), bounds, faults);
   const Place to_place = keys.require("to", allowed_text(bounds), faults);
   const auto to = read_number(to_place, bounds, faults);
@@ -115,8 +142,80 @@ void read_range(const Keys& keys, FrequencyUnit unit, Study& study, Faults& faul
   study.to = to.value_or(0);
   if (from && to && !(*from < *to)) {
     faults.add(to_place.pointer, "found " + number_text(*to) + ", must be above \"from\", which is " +
-                                     number_text(*from) + " " + std::string(unit_name(unit)));
+                                     with_unit(*from, bounds));
   }
+}
+
+// The parameter that the study is over, and what bounds it; any number where a fault is told.
+Field read_over(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
+  constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Field any{.name = "over", .unit = "-", .lower = -infinity, .upper = infinity};
+  const Place place = keys.require("over", std::string(wanted), faults);
+  const auto over = read_string(place, wanted, faults);
+  if (!over) {
+    return any;
+  }
+  study.over = *over;
+  if (*over == "frequency") {
+    faults.add(
+        place.pointer,
+        "found \"frequency\", must be another parameter; over the frequency is a study of kind \"frf\"");
+    return any;
+  }
+  const auto fields = fields_of(*over, place.pointer, all, faults);
+  const bool known = !fields.empty() && std::find(fields.begin(), fields.end(), nullptr) == fields.end();
+  return known ? common(fields) : any;
+}
+
+void read_window(const Place& place, const Field& bounds, Study& study, Faults& faults) {
+  const std::string wanted = "a window [lower, upper] of two frequencies, each " + allowed_text(bounds);
+  const Node::List* list = read_list(place, wanted, faults);
+  if (list == nullptr) {
+    return;
+  }
+  if (list->size() != 2) {
+    faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
+    return;
+  }
+  const auto lower = read_number({&list->front(), child(place.pointer, std::size_t{0})}, bounds, faults);
+  const auto upper = read_number({&list->back(), child(place.pointer, std::size_t{1})}, bounds, faults);
+  study.frequency_from = lower.value_or(0);
+  study.frequency_to = upper.value_or(0);
+  if (lower && upper && !(*lower < *upper)) {
+    faults.add(child(place.pointer, std::size_t{1}), "found " + number_text(*upper) +
+                                                         ", must be above the lower end, which is " +
+                                                         with_unit(*lower, bounds));
+  }
+}
+
+// "frequency": one for a trace, a window else.
+void read_frequency(const Keys& keys, FrequencyUnit unit, Study& study, Faults& faults) {
+  const Field bounds = frequency_field(unit);
+  if (study.kind != StudyKind::trace) {
+    const std::string wanted = "a window [lower, upper] of two frequencies, each " + allowed_text(bounds);
+    read_window(keys.require("frequency", wanted, faults), bounds, study, faults);
+    return;
+  }
+  const Place place = keys.require("frequency", "one frequency, " + allowed_text(bounds), faults);
+  if (place.node != nullptr && place.node->get<Node::List>() != nullptr) {
+    add_wrong_type(place, "one frequency, " + allowed_text(bounds), faults);
+    return;
+  }
+  const auto frequency = read_number(place, bounds, faults);
+  study.frequency_from = study.frequency_to = frequency.value_or(0);
+}
+
+// Says of a key of other kinds which ones these are.
+std::string kinds_with(std::string_view key) {
+  std::vector<std::string> kinds;
+  for (const auto& kind : study_kinds) {
+    const auto keys = study_keys(kind.value);
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
+      kinds.emplace_back(kind.text);
+    }
+  }
+  return kinds.empty() ? "" : "which belongs to studies of kind " + listed(kinds);
 }
 
 StudyKind read_kind(const Place& study, Faults& faults) {
@@ -162,7 +261,7 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const st
     if (faults.count() > before) {
       continue;  // without its kind nobody knows what else it may hold
     }
-    const Keys keys(item, {"name", "kind", "from", "to", "for_each"}, faults);
+    const Keys keys(item, study_keys(study.kind), faults, kinds_with);
     if (!keys.is_object()) {
       continue;
     }
@@ -180,7 +279,12 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const st
       }
       study.name = *text;
     }
-    read_range(keys, unit, study, faults);
+    if (study.kind == StudyKind::frf) {
+      read_range(keys, frequency_field(unit), study, faults);
+    } else {
+      read_range(keys, read_over(keys, all, study, faults), study, faults);
+      read_frequency(keys, unit, study, faults);
+    }
     read_for_each(keys.find("for_each"), all, study, faults);
   }
   std::unordered_map<std::string, int> next;

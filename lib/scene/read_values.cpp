@@ -11,7 +11,7 @@ void add_wrong_type(const Place& place, std::string_view must_be, Faults& faults
   faults.add(place.pointer, "found " + described(*place.node) + ", must be " + std::string(must_be));
 }
 
-Keys::Keys(const Place& place, std::vector<std::string> allowed, Faults& faults)
+Keys::Keys(const Place& place, std::vector<std::string> allowed, Faults& faults, const Elsewhere& elsewhere)
     : object_(place.node != nullptr ? place.node->get<Node::Object>() : nullptr), pointer_(place.pointer) {
   if (object_ == nullptr) {
     if (place.node != nullptr) {
@@ -26,9 +26,12 @@ Keys::Keys(const Place& place, std::vector<std::string> allowed, Faults& faults)
       faults.add(child(pointer_, member.key),
                  "found the key " + shown(member.key) + " again, must stand only once");
     } else if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), member.key) == allowed.end()) {
-      faults.add(child(pointer_, member.key), "found the unknown key " + shown(member.key) +
-                                                  ", must be one of " + listed(allowed) +
-                                                  hint(member.key, allowed));
+      const std::string belongs = elsewhere ? elsewhere(member.key) : "";
+      faults.add(child(pointer_, member.key),
+                 belongs.empty() ? "found the unknown key " + shown(member.key) + ", must be one of " +
+                                       listed(allowed) + hint(member.key, allowed)
+                                 : "found the key " + shown(member.key) + ", " + belongs +
+                                       ", must be one of " + listed(allowed));
     }
   }
 }

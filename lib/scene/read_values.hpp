@@ -6,6 +6,7 @@
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/words.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,11 +20,14 @@ struct Place {
   std::string pointer;
 };
 
+/// Says of a key that is not allowed where it belongs, "which is of studies of kind "frf"", or "".
+using Elsewhere = std::function<std::string(std::string_view)>;
+
 /// The keys of an object. Wrong type, duplicate keys and unknown keys are told at once; an empty list of
 /// allowed keys allows every key. Of duplicates the first counts.
 class Keys {
  public:
-  Keys(const Place& place, std::vector<std::string> allowed, Faults& faults);
+  Keys(const Place& place, std::vector<std::string> allowed, Faults& faults, const Elsewhere& elsewhere = {});
   bool is_object() const { return object_ != nullptr; }
   bool has(std::string_view key) const { return find(key).node != nullptr; }
   const std::string& pointer() const { return pointer_; }

@@ -23,7 +23,18 @@ inline constexpr std::array<Word<FrequencyUnit>, 2> frequency_units = {
     {{"Hz", FrequencyUnit::hertz}, {"rad/s", FrequencyUnit::radian_per_second}}};
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
-inline constexpr std::array<Word<StudyKind>, 1> study_kinds = {{{"frf", StudyKind::frf}}};
+inline constexpr std::array<Word<StudyKind>, 4> study_kinds = {{{"frf", StudyKind::frf},
+                                                                {"trace", StudyKind::trace},
+                                                                {"peaks", StudyKind::peaks},
+                                                                {"folds", StudyKind::folds}}};
+
+/// The keys of a study of some kind, in the order in which they are written.
+inline std::vector<std::string> study_keys(StudyKind kind) {
+  if (kind == StudyKind::frf) {
+    return {"name", "kind", "from", "to", "for_each"};
+  }
+  return {"name", "kind", "over", "from", "to", "frequency", "for_each"};
+}
 
 template <class Words>
 std::vector<std::string> texts(const Words& words) {

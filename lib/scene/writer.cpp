@@ -88,18 +88,31 @@ Node node(const Harmonics& harmonics) {
                        {"samples", node(harmonics.samples)}}};
 }
 
+Node node(const Study& study) {
+  const bool has_over = study.kind != StudyKind::frf;
+  Node::Object object = {{"name", node(study.name)}, {"kind", node(word_of(study_kinds, study.kind))}};
+  if (has_over) {
+    object.push_back({"over", node(study.over)});
+  }
+  object.push_back({"from", node(study.from)});
+  object.push_back({"to", node(study.to)});
+  if (has_over) {
+    object.push_back({"frequency", study.kind == StudyKind::trace
+                                       ? node(study.frequency_from)
+                                       : node(std::vector{study.frequency_from, study.frequency_to})});
+  }
+  Node::Object lists;
+  for (const auto& [parameter, values] : study.for_each) {
+    lists.push_back({parameter, node(values)});
+  }
+  object.push_back({"for_each", {std::move(lists)}});
+  return {std::move(object)};
+}
+
 Node node(const std::vector<Study>& studies) {
   Node::List list;
   for (const Study& study : studies) {
-    Node::Object lists;
-    for (const auto& [parameter, values] : study.for_each) {
-      lists.push_back({parameter, node(values)});
-    }
-    list.push_back({Node::Object{{"name", node(study.name)},
-                                 {"kind", node(word_of(study_kinds, study.kind))},
-                                 {"from", node(study.from)},
-                                 {"to", node(study.to)},
-                                 {"for_each", {std::move(lists)}}}});
+    list.push_back(node(study));
   }
   return {std::move(list)};
 }

@@ -347,8 +347,9 @@ void add_studies(std::vector<BadScene>& rows) {
                   "found \"frf\" (a string), must be an object with the keys \"name\", \"kind\""});
   rows.push_back({"study without a kind", with_study("{\"from\": 1, \"to\": 2}"), "/studies/0/kind",
                   "found no key \"kind\", which is required: must be one of \"frf\""});
-  rows.push_back({"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
-                  "found \"ffr\", must be one of \"frf\"; did you mean \"frf\"?"});
+  rows.push_back(
+      {"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
+       "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\"; did you mean \"frf\"?"});
   rows.push_back({"kind that is no string", with_study("{\"kind\": 1}"), "/studies/0/kind",
                   "found 1 (a number), must be one of \"frf\""});
   rows.push_back({"unknown key of a study",
@@ -403,6 +404,78 @@ void add_studies(std::vector<BadScene>& rows) {
                   "found 1e999 (a number that is too large), must be a finite number"});
 }
 
+void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
+  const auto add = [&](const std::string& name, const std::string& study, const std::string& place,
+                       const std::string& message) {
+    rows.push_back(
+        {name,
+         good_scene_with(
+             "{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"for_each\": {\"d.normal_load\": [1, 2]}}",
+             "{" + study + "}"),
+         "/studies/0/" + place, message});
+  };
+  const std::string kind = "\"kind\": \"peaks\", ";
+  const std::string trace = "\"kind\": \"trace\", \"over\": \"d.normal_load\", \"from\": 1, \"to\": 2, ";
+  const std::string over = "\"over\": \"d.normal_load\", ";
+  const std::string range = "\"from\": 1, \"to\": 2, ";
+  const std::string window = "\"frequency\": [1, 2]";
+
+  add("no parameter to go over", kind + range + window, "over",
+      "found no key \"over\", which is required: must be a string, the parameter \"part.field\" or tie");
+  add("over that is no string", kind + range + window + ", \"over\": [\"d.normal_load\"]", "over",
+      "found a list, must be a string, the parameter \"part.field\" or tie");
+  add("over an unknown parameter", kind + range + window + ", \"over\": \"d.normal_laod\"", "over",
+      "found the unknown parameter \"d.normal_laod\", must be one of \"m.value\"");
+  add("over a part without its field", kind + range + window + ", \"over\": \"d\"", "over",
+      "found the unknown parameter \"d\", must be one of \"m.value\"");
+  add("over the frequency", kind + range + window + ", \"over\": \"frequency\"", "over",
+      "must be another parameter; over the frequency is a study of kind \"frf\"");
+  rows.push_back({"over a tied field",
+                  good_scene_with("\"studies\": [{\"kind\": \"frf\", \"from\": 1, \"to\": 2, "
+                                  "\"for_each\": {\"d.normal_load\": [1, 2]}}]",
+                                  "\"ties\": {\"t\": [\"d.normal_load\"]}, \"studies\": [{" + kind + over +
+                                      range + window + "}]"),
+                  "/studies/0/over", "found \"d.normal_load\", which is tied; must be its tie \"t\""});
+  add("over the same parameter as for_each",
+      kind + over + range + window + ", \"for_each\": {\"d.normal_load\": [1, 2]}", "for_each/d.normal_load",
+      "found \"d.normal_load\", which the study is \"over\"; must be another parameter");
+  add("no beginning of the parameter", kind + over + "\"to\": 2, " + window, "from",
+      "found no key \"from\", which is required: must be at least 0 N");
+  add("beginning below the parameter's bound", kind + over + "\"from\": -1, \"to\": 2, " + window, "from",
+      "found -1, must be at least 0 N");
+  add("beginning at an open bound", kind + "\"over\": \"d.stiffness\", \"from\": 0, \"to\": 2, " + window,
+      "from", "found 0, must be above 0 N/m");
+  add("parameter from above to", kind + over + "\"from\": 3, \"to\": 2, " + window, "to",
+      "found 2, must be above \"from\", which is 3 N");
+  add("pure number from above to",
+      kind + "\"over\": \"d.friction_coefficient\", \"from\": 0.5, \"to\": 0.5, " + window, "to",
+      "found 0.5, must be above \"from\", which is 0.5");
+  add("window of frequencies in a trace", trace + window, "frequency",
+      "found a list, must be one frequency, above 0 Hz");
+  add("trace without its frequency", trace + "\"for_each\": {}", "frequency",
+      "found no key \"frequency\", which is required: must be one frequency, above 0 Hz");
+  add("trace at zero frequency", trace + "\"frequency\": 0", "frequency", "found 0, must be above 0 Hz");
+  add("one frequency in place of a window", kind + over + range + "\"frequency\": 1.5", "frequency",
+      "found 1.5 (a number), must be a window [lower, upper] of two frequencies, each above 0 Hz");
+  add("no window", kind + over + "\"from\": 1, \"to\": 2", "frequency",
+      "found no key \"frequency\", which is required: must be a window [lower, upper] of two frequencies");
+  add("window of three frequencies", kind + over + range + "\"frequency\": [1, 2, 3]", "frequency",
+      "found a list of 3, must be a window [lower, upper] of two frequencies");
+  add("window from zero", kind + over + range + "\"frequency\": [0, 2]", "frequency/0",
+      "found 0, must be above 0 Hz");
+  add("window that ends before it begins", kind + over + range + "\"frequency\": [2, 1]", "frequency/1",
+      "found 1, must be above the lower end, which is 2 Hz");
+  add("window with a string", kind + over + range + "\"frequency\": [1, \"2\"]", "frequency/1",
+      "found \"2\" (a string), must be a number, above 0 Hz");
+  add("parameter of a study over the frequency", "\"kind\": \"frf\", " + over + "\"from\": 1, \"to\": 2",
+      "over",
+      "found the key \"over\", which belongs to studies of kind \"trace\", \"peaks\", \"folds\", must be one "
+      "of "
+      "\"name\", \"kind\", \"from\", \"to\", \"for_each\"");
+  add("misspelt key of a study over a parameter", kind + over + range + window + ", \"frequencies\": 1",
+      "frequencies", "did you mean \"frequency\"?");
+}
+
 }  // namespace
 
 const std::string& good_scene() {
@@ -445,6 +518,7 @@ const std::vector<BadScene>& bad_scenes() {
     add_rest(all);
     add_ties(all);
     add_studies(all);
+    add_studies_over_a_parameter(all);
     return all;
   }();
   return rows;

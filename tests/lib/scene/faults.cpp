@@ -90,6 +90,25 @@ TEST_CASE("a file with seven faults gives these seven in one go") {
   CHECK(pointers == expected);
 }
 
+TEST_CASE("all faults of a study over a parameter are told in one go") {
+  const std::vector<Fault> faults = faults_of(good_scene_with(
+      R"({"kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}})",
+      R"({"kind": "folds", "over": "d.normal_load", "from": -1, "too": 2, "frequency": [0, "2"],
+          "for_each": {"d.normal_load": [1], "m.valu": [2]}})"));
+  std::vector<std::string> pointers;
+  for (const Fault& fault : faults) {
+    pointers.push_back(fault.pointer);
+  }
+  const std::vector<std::string> expected = {"/studies/0/too",
+                                             "/studies/0/from",
+                                             "/studies/0/to",
+                                             "/studies/0/frequency/0",
+                                             "/studies/0/frequency/1",
+                                             "/studies/0/for_each/d.normal_load",
+                                             "/studies/0/for_each/m.valu"};
+  CHECK(pointers == expected);
+}
+
 TEST_CASE("what() of a scene error has one line for each fault, with its pointer") {
   const SceneError error({{"/a", "found 1"}, {"", "too long"}});
   CHECK(std::string(error.what()) == "/a: found 1\ntoo long");
@@ -105,6 +124,15 @@ TEST_CASE("what follows from a fault that is told is not told again") {
     const auto faults = faults_of(good_scene_with("\"name\": \"d\"", "\"name\": 4"));
     REQUIRE(faults.size() == 1);
     CHECK(faults[0].pointer == "/elements/0/name");
+  }
+  SECTION("the parameter of a study that belongs to an element whose type is not known") {
+    std::string text = good_scene_with(
+        R"({"kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}})",
+        R"({"kind": "peaks", "over": "d.normal_load", "from": -1, "to": 2, "frequency": [1, 2]})");
+    text.replace(text.find("jenkins"), 7, "jenkinz");
+    const auto faults = faults_of(text);
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].pointer == "/elements/0/type");
   }
   SECTION("the names of degrees of freedom whose list is at fault") {
     const auto faults =

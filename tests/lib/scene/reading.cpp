@@ -120,6 +120,40 @@ TEST_CASE("studies without a name are named after their kind, each differently")
   CHECK(scene.studies[3].name == "frf_4");
 }
 
+TEST_CASE("a study over a parameter has its range, and one frequency or a window of them") {
+  const Scene scene = read_text(good_scene_with("\"studies\": [",
+                                                R"("studies": [
+        {"kind": "trace", "over": "k.value", "from": -5, "to": 5, "frequency": 1.5, "for_each": {"m.value": [1, 2]}},
+        {"kind": "folds", "over": "d.normal_load", "from": 0, "to": 5, "frequency": [0.5, 2.5]},)"));
+  const Study& trace = scene.studies[0];
+  CHECK(trace.kind == StudyKind::trace);
+  CHECK(trace.name == "trace");
+  CHECK(trace.over == "k.value");
+  CHECK(trace.from == -5);
+  CHECK(trace.to == 5);
+  CHECK(trace.frequency_from == 1.5);
+  CHECK(trace.frequency_to == 1.5);
+  CHECK(trace.for_each.size() == 1);
+  const Study& folds = scene.studies[1];
+  CHECK(folds.kind == StudyKind::folds);
+  CHECK(folds.over == "d.normal_load");
+  CHECK(folds.frequency_from == 0.5);
+  CHECK(folds.frequency_to == 2.5);
+  CHECK(scene.studies[2].over.empty());
+}
+
+TEST_CASE("the range of a tie must suit each of its fields") {
+  const auto with_load_from = [](const std::string& from) {
+    std::string text = good_scene_with("\"stiffness\": 10,", "\"stiffness\": 100,");
+    return text.replace(
+        text.find("\"studies\": ["), 12,
+        R"("ties": {"t": ["k.value", "d.stiffness"]}, "studies": [{"kind": "trace", "over": "t", "from": )" +
+            from + R"(, "to": 5, "frequency": 1},)");
+  };
+  CHECK(read_text(with_load_from("1")).studies[0].from == 1);
+  CHECK_THROWS_WITH(read_text(with_load_from("-1")), "/studies/0/from: found -1, must be above 0 N/m");
+}
+
 TEST_CASE("a hertz is 2 pi radians per second") {
   CHECK(to_rad_per_s(FrequencyUnit::hertz) == 2 * std::numbers::pi);
   CHECK(to_rad_per_s(FrequencyUnit::radian_per_second) == 1.0);

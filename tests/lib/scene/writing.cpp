@@ -43,7 +43,11 @@ const char* const full_scene = R"({
   "response": {"direction": {"blade 1": 1, "x\"y": 1}},
   "studies": [
     {"kind": "frf", "from": 0.1, "to": 1e9},
-    {"name": "loads", "kind": "frf", "from": 1, "to": 2, "for_each": {"load": [0, 1e-12, 1e9], "n.stiffness": [-1]}}
+    {"name": "loads", "kind": "frf", "from": 1, "to": 2, "for_each": {"load": [0, 1e-12, 1e9], "n.stiffness": [-1]}},
+    {"kind": "trace", "over": "n.stiffness", "from": -2, "to": 3, "frequency": 0.1, "for_each": {"load": [1, 2]}},
+    {"kind": "peaks", "over": "load", "from": 0, "to": 1e300, "frequency": [0.1, 0.3333333333333333]},
+    {"name": "turns", "kind": "folds", "over": "d1.friction_coefficient", "from": 0.1, "to": 0.5,
+     "frequency": [1e-300, 3]}
   ]
 })";
 
@@ -81,6 +85,20 @@ TEST_CASE("a scene is written with every default, in the order of the format") {
   "studies": [{"name": "frf", "kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}}]
 }
 )");
+}
+
+TEST_CASE("a study over a parameter is written with its parameter and its frequency, or its window of them") {
+  const std::string text = write(read_text(full_scene));
+  for (const char* line :
+       {R"({"name": "trace", "kind": "trace", "over": "n.stiffness", "from": -2, "to": 3, "frequency": 0.1,)",
+        R"("for_each": {"load": [1, 2]}})",
+        R"({"name": "peaks", "kind": "peaks", "over": "load", "from": 0, "to": 1e+300,)",
+        R"("frequency": [0.1, 0.3333333333333333], "for_each": {}})",
+        R"({"name": "turns", "kind": "folds", "over": "d1.friction_coefficient", "from": 0.1, "to": 0.5,)",
+        R"("frequency": [1e-300, 3], "for_each": {}})"}) {
+    CAPTURE(line);
+    CHECK(text.find(line) != std::string::npos);
+  }
 }
 
 TEST_CASE("no line of a long scene is wider than 110 columns where it can be broken") {
