@@ -75,6 +75,7 @@ void check_writable(const StudyFiles& files, const std::string& scene_file) {
 }
 
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
+                                     scene::StudyKind kind,
                                      std::span<const observables::ResponseBranch> branches,
                                      bool coefficients) {
   std::vector<std::string> paths{files.path(".scene.json"), files.path(".json"), files.path(".csv")};
@@ -82,7 +83,7 @@ std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene
   output::write_file(paths[1],
                      [&](std::ostream& out) { output::write_json(out, scene, branches, {coefficients}); });
   output::write_file(paths[2], [&](std::ostream& out) { output::write_csv(out, scene, branches); });
-  const output::Figures figures = output::write_figures(scene, branches, files.folder, files.name);
+  const output::Figures figures = output::write_figures(scene, kind, branches, files.folder, files.name);
   paths.insert(paths.end(), figures.sources.begin(), figures.sources.end());
   paths.insert(paths.end(), figures.images.begin(), figures.images.end());
   if (!figures.problem.empty()) {

@@ -38,8 +38,10 @@ class ResultsFolder {
 void check_writable(const StudyFiles& files, const std::string& scene_file);
 void check_writable(const std::string& file, const std::string& scene_file);
 
-/// Writes the files and figures. Returns their paths; tells on standard error why figures are missing.
+/// Writes the files and figures of a study of this kind. Returns their paths; tells on standard error why
+/// figures are missing.
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
+                                     scene::StudyKind kind,
                                      std::span<const observables::ResponseBranch> branches,
                                      bool coefficients);
 

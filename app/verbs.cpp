@@ -112,7 +112,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       code = ExitCode::stopped_early;
     }
     if (!options.out.empty()) {
-      for (const std::string& path : write_study(files[i], scene, branches, options.coefficients)) {
+      for (const std::string& path :
+           write_study(files[i], scene, studies[i].kind, branches, options.coefficients)) {
         places += path + "\n";
       }
     }

@@ -43,18 +43,23 @@ void write_row(std::ostream& out, const std::vector<std::string>& cells) {
 }
 
 struct Columns {
-  std::vector<std::string> parameters;  // that some branch sets
+  std::vector<std::string> parameters;  // that some branch sets or is over
   std::vector<std::string> friction;    // elements that stick and slip
 };
 
 Columns columns_of(std::span<const ResponseBranch> branches) {
   Columns columns;
+  const auto add = [&](const std::string& name) {
+    auto& names = columns.parameters;
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(name);
+    }
+  };
   for (const ResponseBranch& branch : branches) {
     for (const auto& [name, value] : branch.set) {
-      if (std::find(columns.parameters.begin(), columns.parameters.end(), name) == columns.parameters.end()) {
-        columns.parameters.push_back(name);
-      }
+      add(name);
     }
+    add(branch.over);
   }
   columns.friction = friction_elements(branches);
   return columns;
@@ -76,8 +81,11 @@ std::vector<std::string> header(const scene::Scene& scene, const Columns& column
   return cells;
 }
 
-/// The value that `branch` gives to a parameter: set for this branch, or the scene's own.
-double parameter(const ResponseBranch& branch, const std::string& name) {
+/// The value of a parameter at a point: where the branch has come, what is set for it, or the scene's own.
+double parameter(const ResponseBranch& branch, const ResponsePoint& point, const std::string& name) {
+  if (name == branch.over) {
+    return point.over;
+  }
   for (const auto* values : {&branch.set, &branch.parameters}) {
     for (const auto& [key, value] : *values) {
       if (key == name) {
@@ -93,7 +101,7 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
                              const ResponsePoint& point) {
   std::vector<std::string> cells;
   for (const std::string& name : columns.parameters) {
-    cells.push_back(number(parameter(branch, name)));
+    cells.push_back(number(parameter(branch, point, name)));
   }
   cells.push_back(std::to_string(branch_number));
   cells.push_back(event);

@@ -4,6 +4,7 @@
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <ostream>
 
@@ -12,20 +13,23 @@ namespace {
 
 using observables::ResponseBranch;
 using observables::ResponsePoint;
+using scene::StudyKind;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double decade = 10;
 
-std::vector<double> stick_percents(const ResponsePoint& point, const std::vector<std::string>& friction) {
-  std::vector<double> percents;
-  for (const std::string& element : friction) {
-    percents.push_back(stick_percent(point, element));
+Record record(const scene::Scene& scene, const FigureData& data, const ResponsePoint& point) {
+  Record values;
+  if (data.kind != StudyKind::frf) {
+    values.push_back(point.over);
   }
-  return percents;
-}
-
-double amplitude(const ResponsePoint& point) {
-  return point.unbounded ? nan : point.amplitude;
+  values.push_back(in_scene_unit(scene, point.omega));
+  values.push_back(point.unbounded ? nan : point.amplitude);
+  for (const std::string& element : data.friction) {
+    values.push_back(stick_percent(point, element));
+  }
+  return values;
 }
 
 std::string label(const scene::Scene& scene, const ResponseBranch& branch) {
@@ -36,37 +40,77 @@ std::string label(const scene::Scene& scene, const ResponseBranch& branch) {
   return text;
 }
 
-void write_record(std::ostream& out, double frequency, double height, const std::vector<double>& stick) {
-  out << shortest(frequency) << ' ' << shortest(height);
-  for (const double percent : stick) {
-    out << ' ' << shortest(percent);
+template <class Visit>
+void for_each_record(const FigureData& data, const Visit& visit) {
+  for (const FigureLine& line : data.lines) {
+    for (const auto& part : line.parts) {
+      std::for_each(part.begin(), part.end(), visit);
+    }
+    for (const FigureMark& mark : line.marks) {
+      visit(mark.record);
+    }
+  }
+}
+
+Range range_of(const FigureData& data, std::size_t column, double above) {
+  Range range{infinity, -infinity};
+  for_each_record(data, [&](const Record& values) {
+    const double value = values[column];
+    if (std::isfinite(value) && value > above) {
+      range = {std::min(range.lower, value), std::max(range.upper, value)};
+    }
+  });
+  return range;
+}
+
+/// Amplitudes of frequency responses are shown by their logarithm, which no resonance dwarfs; other columns
+/// where they are positive and span decades.
+void set_ranges(FigureData& data) {
+  for (std::size_t i = 0; i < data.columns.size(); ++i) {
+    FigureColumn& column = data.columns[i];
+    column.range = range_of(data, i, -infinity);
+    if (column.scale == Scale::percent || i == data.frequency_column()) {
+      continue;
+    }
+    const bool is_amplitude = i == data.amplitude_column();
+    const Range positive = is_amplitude ? range_of(data, i, 0) : column.range;
+    if (positive.lower > 0 && positive.upper >= positive.lower &&
+        ((is_amplitude && data.kind == StudyKind::frf) || positive.upper > decade * positive.lower)) {
+      column.scale = Scale::logarithmic;
+      column.range = positive;
+    }
+  }
+}
+
+void set_columns(const scene::Scene& scene, std::span<const ResponseBranch> branches, FigureData& data) {
+  if (data.kind != StudyKind::frf) {
+    const std::string name = branches.empty() ? "" : branches.front().over;
+    data.columns.push_back({with_unit(name, name.empty() ? "" : parameter_unit(scene, name))});
+  }
+  data.columns.push_back({with_unit("frequency", scene::unit_name(scene.frequency_unit))});
+  data.columns.push_back({"amplitude (m)"});
+  for (const std::string& element : data.friction) {
+    data.columns.push_back({element + " stick (%)", Scale::percent});
+  }
+}
+
+void write_record(std::ostream& out, const Record& values) {
+  const char* separator = "";
+  for (const double value : values) {
+    out << separator << shortest(value);
+    separator = " ";
   }
   out << '\n';
 }
 
-void write_marks(std::ostream& out, const FigureLine& line, bool peaks) {
-  bool any = false;
-  for (const FigureMark& mark : line.marks) {
-    if (mark.peak == peaks) {
-      write_record(out, mark.frequency, mark.amplitude, mark.stick);
-      any = true;
-    }
-  }
-  if (any) {
-    out << "\n\n";
-  }
-}
-
 }  // namespace
 
-FigureData figure_data(const scene::Scene& scene, std::span<const ResponseBranch> branches) {
+FigureData figure_data(const scene::Scene& scene, StudyKind kind, std::span<const ResponseBranch> branches) {
   FigureData data;
+  data.kind = kind;
   data.title = scene.title;
-  data.frequency_unit = scene::to_rad_per_s(scene.frequency_unit);
-  data.frequency_label = with_unit("frequency", scene::unit_name(scene.frequency_unit));
   data.friction = friction_elements(branches);
-  data.frequency = {infinity, -infinity};
-  data.amplitude = {infinity, 0};
+  set_columns(scene, branches, data);
   for (const ResponseBranch& branch : branches) {
     if (branch.points.empty()) {
       continue;
@@ -76,53 +120,53 @@ FigureData figure_data(const scene::Scene& scene, std::span<const ResponseBranch
         data.parameters.push_back(name);
       }
     }
-    auto line = std::find_if(data.lines.begin(), data.lines.end(), [&](const FigureLine& candidate) {
-      return candidate.parts.front()->set == branch.set;
-    });
+    auto line = std::find_if(data.lines.begin(), data.lines.end(),
+                             [&](const FigureLine& candidate) { return candidate.set == branch.set; });
     if (line == data.lines.end()) {
-      line = data.lines.insert(line, FigureLine{label(scene, branch), {}, {}});
+      line = data.lines.insert(line, FigureLine{label(scene, branch), branch.set, {}, {}});
     }
-    line->parts.push_back(&branch);
     for (const observables::ResponseEvent& event : branch.events) {
-      if (event.kind == "peak" || event.kind == "fold") {
-        line->marks.push_back({event.kind == "peak", in_scene_unit(scene, event.point.omega),
-                               amplitude(event.point), stick_percents(event.point, data.friction)});
+      line->unbounded = line->unbounded || event.point.unbounded;
+      if (std::find(mark_kinds.begin(), mark_kinds.end(), event.kind) != mark_kinds.end()) {
+        line->marks.push_back({event.kind, record(scene, data, event.point)});
       }
     }
+    std::vector<Record>& part = line->parts.emplace_back();
     for (const ResponsePoint& point : branch.points) {
-      const double frequency = in_scene_unit(scene, point.omega);
-      data.frequency = {std::min(data.frequency.lower, frequency), std::max(data.frequency.upper, frequency)};
-      if (const double height = amplitude(point); height > 0) {
-        data.amplitude = {std::min(data.amplitude.lower, height), std::max(data.amplitude.upper, height)};
-      }
-    }
-    for (const FigureMark& mark : line->marks) {
-      if (mark.amplitude > 0) {
-        data.amplitude.upper = std::max(data.amplitude.upper, mark.amplitude);
-      }
+      line->unbounded = line->unbounded || point.unbounded;
+      part.push_back(record(scene, data, point));
     }
   }
+  set_ranges(data);
   return data;
 }
 
 void write_figure_data(std::ostream& out, const scene::Scene& scene, const FigureData& data) {
-  out << "# " << data.frequency_label << ", amplitude (m)";
-  for (const std::string& element : data.friction) {
-    out << ", " << element << " stick (%)";
+  const char* separator = "# ";
+  for (const FigureColumn& column : data.columns) {
+    out << separator << column.label;
+    separator = ", ";
   }
   out << '\n';
   for (const FigureLine& line : data.lines) {
-    out << "# " << assignment(scene, line.parts.front()->set) << '\n';
-    for (const ResponseBranch* part : line.parts) {
-      for (const ResponsePoint& point : part->points) {
-        write_record(out, in_scene_unit(scene, point.omega), amplitude(point),
-                     stick_percents(point, data.friction));
+    out << "# " << assignment(scene, line.set) << '\n';
+    for (const auto& part : line.parts) {
+      for (const Record& values : part) {
+        write_record(out, values);
       }
       out << '\n';
     }
     out << '\n';
-    write_marks(out, line, true);
-    write_marks(out, line, false);
+    for (const std::string_view kind : mark_kinds) {
+      bool any = false;
+      for (const FigureMark& mark : line.marks) {
+        if (mark.kind == kind) {
+          write_record(out, mark.record);
+          any = true;
+        }
+      }
+      out << (any ? "\n\n" : "");
+    }
   }
 }
 

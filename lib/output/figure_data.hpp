@@ -1,51 +1,71 @@
 #pragma once
-// What the figures of a family of frequency responses show, before any program draws it.
+// What the figures of a study show, before any program draws it.
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <array>
 #include <iosfwd>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace arcslip::output {
-
-/// A mark on a line: a peak or a fold.
-struct FigureMark {
-  bool peak = true;
-  double frequency = 0, amplitude = 0;
-  std::vector<double> stick;  // % for each friction element
-};
-
-/// One line of a figure: the branches with the same set parameters.
-struct FigureLine {
-  std::string label;                                      // "3 N", or "3 N, 0.1 N s/m"
-  std::vector<const observables::ResponseBranch*> parts;  // drawn apart
-  std::vector<FigureMark> marks;
-};
 
 struct Range {
   double lower = 0, upper = 0;
 };
 
-struct FigureData {
-  std::string title;
-  double frequency_unit = 1;            // rad/s
-  std::string frequency_label;          // "frequency (Hz)"
-  std::vector<std::string> parameters;  // that tell the lines apart, by name
-  std::vector<std::string> friction;    // names of the friction elements
-  std::vector<FigureLine> lines;
-  Range frequency;
-  Range amplitude;  // of the positive ones; upper = 0: there is none
+enum class Scale { linear, logarithmic, percent };
+
+/// A quantity of every point, and how an axis shows it.
+struct FigureColumn {
+  std::string label;  // "frequency (Hz)"
+  Scale scale = Scale::linear;
+  Range range{};  // of the values that the scale can show; lower > upper: there are none
 };
 
-/// Points into `branches`, which must outlive it.
-FigureData figure_data(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches);
+using Record = std::vector<double>;  // a value for each column, NaN where there is none
 
-/// Data as gnuplot reads it: for each line an indexed block with its points, then one with its peaks, then
-/// one with its folds; columns frequency, amplitude (m), stick (%) of each friction element. No block is
-/// empty.
+/// The kinds of events that are drawn, in the order of the data.
+inline constexpr std::array<std::string_view, 5> mark_kinds = {"peak", "fold", "maximum", "minimum", "cusp"};
+
+struct FigureMark {
+  std::string kind;
+  Record record;
+};
+
+/// One line of a figure: the branches with the same set parameters.
+struct FigureLine {
+  std::string label;                                // "3 N", or "3 N, 0.1 N s/m"
+  std::vector<std::pair<std::string, double>> set;  // what the label tells, with names
+  std::vector<std::vector<Record>> parts;           // drawn apart
+  std::vector<FigureMark> marks;
+  bool unbounded = false;  // somewhere, where nothing can be drawn
+};
+
+struct FigureData {
+  scene::StudyKind kind = scene::StudyKind::frf;
+  std::string title;
+  std::vector<std::string> parameters;  // that tell the lines apart, by name
+  std::vector<std::string> friction;    // names of the friction elements
+  std::vector<FigureColumn> columns;    // see write_figure_data()
+  std::vector<FigureLine> lines;
+
+  /// Columns from 0; stick_column() is that of the first friction element.
+  std::size_t frequency_column() const { return kind == scene::StudyKind::frf ? 0 : 1; }
+  std::size_t amplitude_column() const { return frequency_column() + 1; }
+  std::size_t stick_column() const { return frequency_column() + 2; }
+};
+
+/// The branches of one study of this kind.
+FigureData figure_data(const scene::Scene& scene, scene::StudyKind kind,
+                       std::span<const observables::ResponseBranch> branches);
+
+/// Data as gnuplot reads it: for each line an indexed block with its points, then one for each kind of its
+/// marks, in the order of mark_kinds; columns: the parameter of a study over one, the frequency, amplitude
+/// (m), stick (%) of each friction element. No block is empty.
 void write_figure_data(std::ostream& out, const scene::Scene& scene, const FigureData& data);
 
 }  // namespace arcslip::output

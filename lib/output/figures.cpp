@@ -64,11 +64,12 @@ std::string file_name(const std::string& name) {
   return result.empty() || result.front() == '-' ? "_" + result : result;
 }
 
-Figures write_figures(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
-                      const std::string& folder, const std::string& name) {
+Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
+                      std::span<const observables::ResponseBranch> branches, const std::string& folder,
+                      const std::string& name) {
   const std::string stem = file_name(name);
   const std::string base = folder + (folder.empty() || folder.back() != '/' ? "/" : "");
-  const FigureData data = figure_data(scene, branches);
+  const FigureData data = figure_data(scene, kind, branches);
   const std::vector<GnuplotFigure> figures = gnuplot_figures(data, stem);
 
   Figures result;

@@ -1,5 +1,5 @@
 #pragma once
-// Figures of frequency responses, drawn by gnuplot.
+// Figures of studies, drawn by gnuplot.
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -16,14 +16,13 @@ struct Figures {
   std::string problem;               // why images are missing, one sentence for people; empty: all are there
 };
 
-/// Writes NAME.dat and NAME.gp into `folder` and lets gnuplot make of them, as SVG and PNG,
-///   NAME_amplitude   the amplitude over the frequency, a line for each combination of set parameters, and
-///   NAME_stick       the share of the period in stick, where there is friction (NAME_stick_ELEMENT for
-///   several).
-/// NAME is made of letters, digits, '.', '_' and '-' only. Without gnuplot, or where it fails, `problem` says
-/// so and the sources are there all the same. Throws WriteError where these cannot be written.
-Figures write_figures(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
-                      const std::string& folder, const std::string& name);
+/// Writes NAME.dat and NAME.gp into `folder`, of the branches of one study of this kind, and lets gnuplot
+/// make of them the figures of gnuplot_figures(), as SVG and PNG, with a line for each combination of set
+/// parameters. NAME is made of letters, digits, '.', '_' and '-' only. Without gnuplot, or where it fails,
+/// `problem` says so and the sources are there all the same. Throws WriteError where these cannot be written.
+Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
+                      std::span<const observables::ResponseBranch> branches, const std::string& folder,
+                      const std::string& name);
 
 /// A file name for anything that has a name: what is not a letter, a digit, '_', '-' or an inner '.' becomes
 /// '_'.

@@ -20,15 +20,16 @@ std::string rounded(double value) {
 }
 
 /// Tics of a logarithmic axis: decades, or 1, 2, 5 where there are few of them.
-void write_logarithmic_tics(std::ostream& out, const Range& range) {
+void write_logarithmic_tics(std::ostream& out, char axis, const Range& range) {
   const double decades = std::log10(range.upper / range.lower);
   if (decades > 2) {
-    out << "set ytics " << (decades > 12 ? "1e3" : "10") << "\nset mytics 10\nset format y '10^{%T}'\n";
+    out << "set " << axis << "tics " << (decades > 12 ? "1e3" : "10") << "\nset m" << axis
+        << "tics 10\nset format " << axis << " '10^{%T}'\n";
     return;
   }
   const std::vector<double> fine{1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9};
   const std::vector<double> coarse{1, 2, 5};
-  out << "set ytics (";
+  out << "set " << axis << "tics (";
   const char* separator = "";
   for (int exponent = static_cast<int>(std::floor(std::log10(range.lower)));
        exponent <= static_cast<int>(std::ceil(std::log10(range.upper))); ++exponent) {
@@ -40,54 +41,72 @@ void write_logarithmic_tics(std::ostream& out, const Range& range) {
       }
     }
   }
-  out << ")\nset format y '%g'\n";
+  out << ")\nset format " << axis << " '%g'\n";
+}
+
+/// The axis of a column: just its range, or with room at both ends, of which the upper one may hold labels.
+Axis axis_of(const FigureColumn& column, bool has_room) {
+  if (column.scale == Scale::percent) {
+    return {{-3, 103}};
+  }
+  const auto [lower, upper] = column.range;
+  if (!(lower <= upper)) {
+    return {{-1, 1}};
+  }
+  if (column.scale == Scale::logarithmic) {
+    if (!has_room && lower < upper) {
+      return {column.range, true};
+    }
+    const double spread = std::pow(upper / lower, 0.05);
+    return {{lower / std::max(spread, 1.05), upper * std::max(spread * spread, 1.15)}, true};
+  }
+  if (lower == upper) {
+    const double width = lower == 0 ? 1 : std::max(std::abs(lower), 1e-300) / 10;
+    return {{lower - width, upper + width}};
+  }
+  const double room = has_room ? 0.05 * (upper - lower) : 0;
+  return {{lower - room, upper + 2 * room}};
+}
+
+void write_axis(std::ostream& out, char name, const std::string& label, const Axis& axis) {
+  out << (axis.logarithmic ? "set logscale " : "unset logscale ") << name
+      << (axis.logarithmic ? " 10\n" : "\n") << "set " << name << "label " << quoted(label) << " noenhanced\n"
+      << "set " << name << "range [" << rounded(axis.range.lower) << ":" << rounded(axis.range.upper)
+      << "]\n";
+  if (axis.logarithmic) {
+    write_logarithmic_tics(out, name, axis.range);
+  } else {
+    out << "set " << name << "tics autofreq\nunset m" << name << "tics\nset format " << name << " '%g'\n";
+  }
 }
 
 }  // namespace
 
-bool Axes::shows(double height) const {
-  return std::isfinite(height) && !(logarithmic && height <= 0);
+bool Axis::shows(double value) const {
+  return std::isfinite(value) && !(logarithmic && value <= 0);
 }
 
-Place Axes::place(double frequency, double height) const {
-  return {(frequency - x.lower) / (x.upper - x.lower),
-          logarithmic ? std::log(height / y.lower) / std::log(y.upper / y.lower)
-                      : (height - y.lower) / (y.upper - y.lower)};
+double Axis::place(double value) const {
+  return logarithmic ? std::log(value / range.lower) / std::log(range.upper / range.lower)
+                     : (value - range.lower) / (range.upper - range.lower);
+}
+
+bool Axes::shows(const Record& values, const GnuplotFigure& figure) const {
+  return x.shows(values[figure.x]) && y.shows(values[figure.y]);
+}
+
+Place Axes::place(const Record& values, const GnuplotFigure& figure) const {
+  return {x.place(values[figure.x]), y.place(values[figure.y])};
 }
 
 Axes axes_of(const FigureData& data, const GnuplotFigure& figure) {
-  Axes axes;
-  axes.x = data.frequency;
-  if (!(axes.x.upper > axes.x.lower)) {  // a single frequency
-    const double width = std::isfinite(axes.x.lower) ? std::max(std::abs(axes.x.lower), 1e-300) / 10 : 1;
-    const double middle = std::isfinite(axes.x.lower) ? axes.x.lower : 0;
-    axes.x = {middle - width, middle + width};
-  }
-  if (figure.column != 2) {
-    axes.y = {-3, 103};
-  } else if (data.amplitude.upper > 0) {
-    axes.logarithmic = true;
-    const double spread = std::pow(data.amplitude.upper / data.amplitude.lower, 0.05);
-    axes.y = {data.amplitude.lower / std::max(spread, 1.05),
-              data.amplitude.upper * std::max(spread * spread, 1.15)};
-  } else {
-    axes.y = {-1, 1};
-  }
-  return axes;
+  // What a study goes over fills its axis; in a curve of folds it is the result that the frequency shows.
+  return {axis_of(data.columns[figure.x], figure.x != 0), axis_of(data.columns[figure.y], true)};
 }
 
-void write_axes(std::ostream& out, const FigureData& data, const GnuplotFigure& figure, const Axes& axes) {
-  out << (axes.logarithmic ? "set logscale y 10\n" : "unset logscale y\n") << "set xlabel "
-      << quoted(data.frequency_label) << " noenhanced\n"
-      << "set ylabel " << quoted(figure.axis_label) << " noenhanced\n"
-      << "set xrange [" << rounded(axes.x.lower) << ":" << rounded(axes.x.upper) << "]\n"
-      << "set yrange [" << rounded(axes.y.lower) << ":" << rounded(axes.y.upper) << "]\n"
-      << "set xtics autofreq\nset format x '%g'\n";
-  if (axes.logarithmic) {
-    write_logarithmic_tics(out, axes.y);
-  } else {
-    out << "set ytics autofreq\nunset mytics\nset format y '%g'\n";
-  }
+void write_axes(std::ostream& out, const GnuplotFigure& figure, const Axes& axes) {
+  write_axis(out, 'x', figure.x_label, axes.x);
+  write_axis(out, 'y', figure.y_label, axes.y);
 }
 
 }  // namespace arcslip::output

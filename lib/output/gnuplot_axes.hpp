@@ -8,19 +8,26 @@
 
 namespace arcslip::output {
 
-/// What the axes of a figure span. The amplitude is logarithmic, unless none is positive.
-struct Axes {
-  Range x, y;
+/// What one axis of a figure spans.
+struct Axis {
+  Range range;
   bool logarithmic = false;
 
-  bool shows(double height) const;
-  /// Where a frequency and a height lie over the axes.
-  Place place(double frequency, double height) const;
+  bool shows(double value) const;
+  /// Where a value lies, from 0 to 1.
+  double place(double value) const;
+};
+
+struct Axes {
+  Axis x, y;
+
+  bool shows(const Record& values, const GnuplotFigure& figure) const;
+  Place place(const Record& values, const GnuplotFigure& figure) const;
 };
 
 Axes axes_of(const FigureData& data, const GnuplotFigure& figure);
 
 /// Labels, ranges and tics.
-void write_axes(std::ostream& out, const FigureData& data, const GnuplotFigure& figure, const Axes& axes);
+void write_axes(std::ostream& out, const GnuplotFigure& figure, const Axes& axes);
 
 }  // namespace arcslip::output

@@ -2,13 +2,13 @@
 
 #include <arcslip/output/figure_labels.hpp>
 #include <arcslip/output/figures.hpp>
-#include <arcslip/output/friction_elements.hpp>
 #include <arcslip/output/gnuplot_axes.hpp>
 #include <arcslip/output/gnuplot_style.hpp>
 #include <arcslip/output/units.hpp>
 #include <arcslip/output/version.hpp>
 
 #include <algorithm>
+#include <array>
 #include <ostream>
 
 namespace arcslip::output {
@@ -17,8 +17,14 @@ namespace {
 constexpr int longest_title = 76;        // characters across a figure
 constexpr std::size_t most_in_key = 24;  // lines that a key has room for
 
-double height(const FigureMark& mark, const GnuplotFigure& figure) {
-  return figure.column == 2 ? mark.amplitude : mark.stick[static_cast<std::size_t>(figure.column - 3)];
+/// How the marks of a kind look, in the order of mark_kinds.
+constexpr std::array<const char*, mark_kinds.size()> mark_styles = {
+    "pointtype 7 pointsize 0.8", "pointtype 4 pointsize 1 linewidth 1.5", "pointtype 9 pointsize 1",
+    "pointtype 11 pointsize 1", "pointtype 13 pointsize 1.1"};
+
+/// Whether marks of this kind carry the label of their line.
+bool is_labelled(const std::string& kind) {
+  return kind == "peak" || kind == "minimum" || kind == "cusp";
 }
 
 /// The lines over the axes, from 0 to 1, so that no label is put upon one.
@@ -26,12 +32,11 @@ std::vector<std::vector<Place>> places(const FigureData& data, const GnuplotFigu
                                        const Axes& axes) {
   std::vector<std::vector<Place>> lines;
   for (const FigureLine& line : data.lines) {
-    for (const observables::ResponseBranch* part : line.parts) {
+    for (const std::vector<Record>& part : line.parts) {
       std::vector<Place>& path = lines.emplace_back();
-      for (const observables::ResponsePoint& point : part->points) {
-        const double y = figure.column == 2 ? point.amplitude : stick_percent(point, figure.element);
-        if (axes.shows(y) && !point.unbounded) {
-          path.push_back(axes.place(point.omega / data.frequency_unit, y));
+      for (const Record& values : part) {
+        if (axes.shows(values, figure)) {
+          path.push_back(axes.place(values, figure));
         }
       }
     }
@@ -39,7 +44,7 @@ std::vector<std::vector<Place>> places(const FigureData& data, const GnuplotFigu
   return lines;
 }
 
-/// Labels at the peaks, for those that find room.
+/// Labels at the marks, for those that find room.
 void write_labels(std::ostream& out, const FigureData& data, const GnuplotFigure& figure, const Axes& axes) {
   struct Label {
     double x, y;
@@ -49,10 +54,9 @@ void write_labels(std::ostream& out, const FigureData& data, const GnuplotFigure
   std::vector<Label> labels;
   for (std::size_t i = 0; i < data.lines.size(); ++i) {
     for (const FigureMark& mark : data.lines[i].marks) {
-      const double y = height(mark, figure);
-      if (mark.peak && axes.shows(y) && !data.lines[i].label.empty()) {
-        wishes.push_back({axes.place(mark.frequency, y), data.lines[i].label});
-        labels.push_back({mark.frequency, y, i});
+      if (is_labelled(mark.kind) && axes.shows(mark.record, figure) && !data.lines[i].label.empty()) {
+        wishes.push_back({axes.place(mark.record, figure), data.lines[i].label});
+        labels.push_back({mark.record[figure.x], mark.record[figure.y], i});
       }
     }
   }
@@ -93,62 +97,41 @@ void write_key_title(std::ostream& out, const FigureData& data) {
   out << " noenhanced left\nset key width " << (longest_name > entry ? longest_name - entry : 0) << '\n';
 }
 
-bool has_mark(const FigureLine& line, bool peak) {
+bool has_mark(const FigureLine& line, std::string_view kind) {
   return std::any_of(line.marks.begin(), line.marks.end(),
-                     [&](const FigureMark& mark) { return mark.peak == peak; });
-}
-
-bool is_unbounded(const FigureLine& line) {
-  for (const observables::ResponseBranch* part : line.parts) {
-    for (const observables::ResponseEvent& event : part->events) {
-      if (event.point.unbounded) {
-        return true;
-      }
-    }
-    for (const observables::ResponsePoint& point : part->points) {
-      if (point.unbounded) {
-        return true;
-      }
-    }
-  }
-  return false;
+                     [&](const FigureMark& mark) { return mark.kind == kind; });
 }
 
 void write_plot(std::ostream& out, const FigureData& data, const GnuplotFigure& figure) {
-  const std::string columns = " using 1:" + std::to_string(figure.column);
+  const std::string columns = " using " + std::to_string(figure.x + 1) + ":" + std::to_string(figure.y + 1);
   const std::size_t count = data.lines.size();
   const std::size_t key_step = (count + most_in_key - 1) / most_in_key;
   std::vector<std::string> curves;
   std::vector<std::string> marks;
+  std::array<bool, mark_kinds.size()> in_figure{};
   int index = 0;
-  bool peaks = false;
-  bool folds = false;
   for (std::size_t i = 0; i < count; ++i) {
     const FigureLine& line = data.lines[i];
     const std::string paint = " linecolor rgb '" + line_colour(i, count) + "'";
     const bool in_key = !line.label.empty() && i % key_step == 0;
-    const std::string title = line.label + (is_unbounded(line) ? " (unbounded)" : "");
+    const std::string title = line.label + (line.unbounded ? " (unbounded)" : "");
     curves.push_back("data index " + std::to_string(index++) + columns + " with lines linewidth 2 dashtype " +
                      line_dash(i) + paint +
                      (in_key ? " title " + quoted(title) + " noenhanced" : " notitle"));
-    if (has_mark(line, true)) {
-      peaks = true;
-      marks.push_back("data index " + std::to_string(index++) + columns +
-                      " with points pointtype 7 pointsize 0.8" + paint + " notitle");
-    }
-    if (has_mark(line, false)) {
-      folds = true;
-      marks.push_back("data index " + std::to_string(index++) + columns +
-                      " with points pointtype 4 pointsize 1 linewidth 1.5" + paint + " notitle");
+    for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
+      if (has_mark(line, mark_kinds[k])) {
+        in_figure[k] = true;
+        marks.push_back("data index " + std::to_string(index++) + columns + " with points " + mark_styles[k] +
+                        paint + " notitle");
+      }
     }
   }
   curves.insert(curves.end(), marks.begin(), marks.end());
-  if (peaks) {
-    curves.push_back("NaN with points pointtype 7 pointsize 0.8 linecolor rgb '#444444' title 'peak'");
-  }
-  if (folds) {
-    curves.push_back(
-        "NaN with points pointtype 4 pointsize 1 linewidth 1.5 linecolor rgb '#444444' title 'fold'");
+  for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
+    if (in_figure[k]) {
+      curves.push_back(std::string("NaN with points ") + mark_styles[k] + " linecolor rgb '#444444' title '" +
+                       std::string(mark_kinds[k]) + "'");
+    }
   }
   out << "plot ";
   const char* separator = "";
@@ -159,20 +142,18 @@ void write_plot(std::ostream& out, const FigureData& data, const GnuplotFigure& 
   out << '\n';
 }
 
-}  // namespace
-
-std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::string& name) {
-  std::vector<GnuplotFigure> figures;
-  if (data.lines.empty()) {
-    return figures;
-  }
-  figures.push_back({name + "_amplitude", 2, "", "amplitude (m)"});
+/// A figure for each friction element, with its stick share on one of the axes.
+void add_stick_figures(const FigureData& data, const GnuplotFigure& first, bool over_stick,
+                       std::vector<GnuplotFigure>& figures) {
   for (std::size_t i = 0; i < data.friction.size(); ++i) {
     const std::string& element = data.friction[i];
-    GnuplotFigure figure{name + "_stick", static_cast<int>(i) + 3, element, "stick (% of the period)"};
+    GnuplotFigure figure = first;
+    std::string& label = over_stick ? figure.x_label : figure.y_label;
+    (over_stick ? figure.x : figure.y) = data.stick_column() + i;
+    label = "stick (% of the period)";
     if (data.friction.size() > 1) {
       figure.name.append("_").append(file_name(element));
-      figure.axis_label.insert(0, element + ": ");
+      label.insert(0, element + ": ");
     }
     for (const GnuplotFigure& other : figures) {  // two names may differ only in what a file name cannot hold
       if (other.name == figure.name) {
@@ -180,6 +161,36 @@ std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::st
       }
     }
     figures.push_back(figure);
+  }
+}
+
+}  // namespace
+
+std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::string& name) {
+  std::vector<GnuplotFigure> figures;
+  if (data.lines.empty()) {
+    return figures;
+  }
+  const std::size_t frequency = data.frequency_column();
+  const std::size_t amplitude = data.amplitude_column();
+  const std::string& over = data.columns.front().label;
+  const std::string& frequency_label = data.columns[frequency].label;
+  const std::string& amplitude_label = data.columns[amplitude].label;
+  switch (data.kind) {
+    case scene::StudyKind::frf:
+    case scene::StudyKind::trace:
+      figures.push_back({name + "_amplitude", 0, amplitude, over, amplitude_label});
+      add_stick_figures(data, {name + "_stick", 0, 0, over, ""}, false, figures);
+      break;
+    case scene::StudyKind::peaks:
+      figures.push_back({name + "_amplitude", 0, amplitude, over, "peak " + amplitude_label});
+      figures.push_back({name + "_frequency", 0, frequency, over, "resonance " + frequency_label});
+      add_stick_figures(data, {name + "_amplitude_over_stick", 0, amplitude, "", "peak " + amplitude_label},
+                        true, figures);
+      break;
+    case scene::StudyKind::folds:
+      figures.push_back({name + "_folds", frequency, 0, frequency_label, over});
+      break;
   }
   return figures;
 }
@@ -199,7 +210,7 @@ void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::
   for (const GnuplotFigure& figure : figures) {
     const Axes axes = axes_of(data, figure);
     out << "\n# " << figure.name << '\n';
-    write_axes(out, data, figure, axes);
+    write_axes(out, figure, axes);
     write_labels(out, data, figure, axes);
     out << "set terminal svg size 800,500 font 'Helvetica,15' background rgb 'white' dashlength 0.5\n"
         << "set output '" << figure.name << ".svg'.suffix\n";

@@ -35,8 +35,11 @@ Json elements(const ResponsePoint& point) {
 }
 
 /// The point's fields, put after those that `json` has.
-Json with_point(Json json, const scene::Scene& scene, const ResponsePoint& point,
+Json with_point(Json json, const scene::Scene& scene, const std::string& over, const ResponsePoint& point,
                 const JsonOptions& options) {
+  if (!over.empty()) {
+    json[over] = point.over;
+  }
   json["omega"] = point.omega;
   json["frequency"] = in_scene_unit(scene, point.omega);
   const auto known = [&](double value) { return point.unbounded ? Json(nullptr) : Json(value); };
@@ -99,18 +102,20 @@ void write_branch(std::ostream& out, const scene::Scene& scene, const ResponseBr
                      {"limit", branch.stop.limit},
                      {"message", branch.stop.message}};
   out << "{\"status\": \"" << name(branch.status) << "\",\n\"stop\": " << text(stop)
+      << (branch.over.empty() ? "" : ",\n\"over\": " + text(branch.over))
       << ",\n\"set\": " << text(named_values(branch.set))
       << ",\n\"parameters\": " << text(named_values(branch.parameters));
   if (options.coefficients) {
     out << ",\n\"harmonics\": " << text(branch.harmonics);
   }
   out << ",\n\"points\": ";
-  write_list(out, branch.points,
-             [&](const ResponsePoint& point) { return with_point(Json::object(), scene, point, options); });
+  write_list(out, branch.points, [&](const ResponsePoint& point) {
+    return with_point(Json::object(), scene, branch.over, point, options);
+  });
   out << ",\n\"events\": ";
   write_list(out, branch.events, [&](const ResponseEvent& event) {
     return with_point({{"kind", event.kind}, {"nonsmooth", event.nonsmooth}, {"located", event.located}},
-                      scene, event.point, options);
+                      scene, branch.over, event.point, options);
   });
   out << ",\n\"solver\": " << text(solver(branch.solver)) << '}';
 }

@@ -15,8 +15,9 @@ struct JsonOptions {
 
 /// Writes one object, {"format", "program", "scene_hash", "title", "frequency_unit", "branches": [B, ...]},
 /// with
-///   B = {"status", "stop": {"reason", "value", "limit", "message"}, "set", "parameters", "points", "events",
-///        "solver"}.
+///   B = {"status", "stop": {"reason", "value", "limit", "message"}, "over", "set", "parameters", "points",
+///        "events", "solver"};
+/// "over" only where the branch is over a parameter, whose value each point and event holds by its name then.
 /// Points and events hold omega (rad/s), frequency (scene's unit), amplitude (m), phase (rad),
 /// truncation_estimate (m), energies (J per period), and under "elements" what each element has (angles in
 /// rad). Numbers are the shortest that read back exactly; what is not finite is null. Where the amplitude is

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 using namespace arcslip;
+using scene::StudyKind;
 using support::content;
 using support::TemporaryFolder;
 
@@ -46,7 +47,8 @@ TEST_CASE("figures come as whole SVG and PNG, amplitude and stick share") {
   }
   const TemporaryFolder folder;
   const std::vector branches{support::branch(1), support::branch(3)};
-  const auto figures = output::write_figures(support::scene(), branches, folder.path(), "frf");
+  const auto figures =
+      output::write_figures(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
   CHECK(figures.problem.empty());
   CHECK(figures.sources == std::vector<std::string>{folder / "frf.dat", folder / "frf.gp"});
   CHECK(figures.images == std::vector<std::string>{folder / "frf_amplitude.svg", folder / "frf_amplitude.png",
@@ -76,7 +78,7 @@ TEST_CASE("no name or title runs a command or breaks a figure") {
   auto scene = support::scene(evil);
   scene.elements[0].name = evil;
   branch.set = {{evil + ".normal_load", 3}};
-  const auto figures = output::write_figures(scene, std::vector{branch}, folder.path(), evil);
+  const auto figures = output::write_figures(scene, StudyKind::frf, std::vector{branch}, folder.path(), evil);
   CHECK(figures.problem == "");
   CHECK(figures.images.size() == 6);
   CHECK_FALSE(support::fs::exists(folder / "broken"));
@@ -117,7 +119,8 @@ TEST_CASE("results that are hard to draw are drawn") {
     for (std::size_t i = 0; i < branches.size(); ++i) {
       branches[i].set[0].second = static_cast<double>(i);
     }
-    const auto figures = output::write_figures(support::scene(), branches, folder.path(), name);
+    const auto figures =
+        output::write_figures(support::scene(), StudyKind::frf, branches, folder.path(), name);
     CHECK(figures.problem == "");
     CHECK(figures.images.size() == (name == "no_friction" ? 2 : 4));
   }
@@ -127,7 +130,8 @@ TEST_CASE("branches without a point give data and a reason, and no figure") {
   const TemporaryFolder folder;
   auto branch = support::branch();
   branch.points.clear();
-  const auto figures = output::write_figures(support::scene(), std::vector{branch}, folder.path(), "frf");
+  const auto figures =
+      output::write_figures(support::scene(), StudyKind::frf, std::vector{branch}, folder.path(), "frf");
   CHECK(figures.problem == "there is no point to draw, so there is no figure");
   CHECK(figures.images.empty());
   CHECK(folder.files() == 2);
@@ -136,8 +140,8 @@ TEST_CASE("branches without a point give data and a reason, and no figure") {
 TEST_CASE("without gnuplot there are the data, the script and a plain message") {
   const TemporaryFolder folder;
   const SearchPath nothing("/nonexistent");
-  const auto figures =
-      output::write_figures(support::scene(), std::vector{support::branch()}, folder.path(), "frf");
+  const auto figures = output::write_figures(support::scene(), StudyKind::frf, std::vector{support::branch()},
+                                             folder.path(), "frf");
   CHECK(figures.problem.find("figures need gnuplot (Debian package gnuplot-nox)") == 0);
   CHECK(figures.images.empty());
   CHECK(folder.files() == 2);
@@ -157,8 +161,8 @@ TEST_CASE("a gnuplot that fails, is killed or stops half way leaves a message an
     const TemporaryFolder folder;
     write_program(programs / "gnuplot", c.script);
     const SearchPath path(programs.path() + ":/usr/bin:/bin");
-    const auto figures =
-        output::write_figures(support::scene(), std::vector{support::branch()}, folder.path(), "frf");
+    const auto figures = output::write_figures(support::scene(), StudyKind::frf,
+                                               std::vector{support::branch()}, folder.path(), "frf");
     CHECK(figures.problem.find(c.message) == 0);
     CHECK(figures.images.empty());
     CHECK(folder.files() == 2);
@@ -170,8 +174,8 @@ TEST_CASE("what a failing gnuplot says is told") {
   const TemporaryFolder programs;
   write_program(programs / "gnuplot", "echo no such terminal >&2; exit 3");
   const SearchPath path(programs.path() + ":/usr/bin:/bin");
-  const auto figures =
-      output::write_figures(support::scene(), std::vector{support::branch()}, folder.path(), "frf");
+  const auto figures = output::write_figures(support::scene(), StudyKind::frf, std::vector{support::branch()},
+                                             folder.path(), "frf");
   CHECK(figures.problem.find("\nno such terminal") != std::string::npos);
 }
 
@@ -180,7 +184,8 @@ TEST_CASE("the data of a figure has a block for each line and its marks") {
   const SearchPath nothing("/nonexistent");
   auto second = support::branch();  // goes on beyond a cut: the same line
   second.events.clear();
-  output::write_figures(support::scene(), std::vector{support::branch(), second}, folder.path(), "frf");
+  output::write_figures(support::scene(), StudyKind::frf, std::vector{support::branch(), second},
+                        folder.path(), "frf");
   const std::string data = content(folder / "frf.dat");
   CHECK(data.find(
             "# frequency (Hz), amplitude (m), damper stick (%)\n# damper.normal_load = 3 N\n1 0.01 100\n") ==
