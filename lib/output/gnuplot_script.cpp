@@ -22,9 +22,9 @@ constexpr std::array<const char*, mark_kinds.size()> mark_styles = {
     "pointtype 7 pointsize 0.8", "pointtype 4 pointsize 1 linewidth 1.5", "pointtype 9 pointsize 1",
     "pointtype 11 pointsize 1", "pointtype 13 pointsize 1.1"};
 
-/// Whether marks of this kind carry the label of their line.
+/// Whether marks of this kind carry the label of their line: folds come in pairs that would repeat it.
 bool is_labelled(const std::string& kind) {
-  return kind == "peak" || kind == "minimum" || kind == "cusp";
+  return kind != "fold";
 }
 
 /// The lines over the axes, from 0 to 1, so that no label is put upon one.
@@ -79,6 +79,7 @@ void write_labels(std::ostream& out, const FigureData& data, const GnuplotFigure
 /// a key.
 void write_key_title(std::ostream& out, const FigureData& data) {
   if (data.parameters.empty()) {
+    out << "set key width 1\n";  // off the edge
     return;
   }
   std::size_t longest_entry = 0;

@@ -41,6 +41,37 @@ TEST_CASE("CSV has a row a point, with the events in order") {
   CHECK(rows[9] == "0.5,2,peak,1.5,0.1,0.5,40,1e-09,no,0.25,0.125");
 }
 
+TEST_CASE("the parameter that a branch is over has a column with its unit, after those that are set") {
+  auto branch = support::peaks();
+  branch.set = {{"c.value", 0.5}};
+  const auto rows = lines(support::scene(), {branch});
+  CHECK(rows.at(0).find("c.value (N s/m),damper.normal_load (N),branch,event,frequency (Hz),") == 0);
+  REQUIRE(rows.size() == 1 + 5);
+  CHECK(rows[2].find("0.5,1,1,,1.51,0.04,") == 0);
+  CHECK(rows[3].find("0.5,4,1,minimum,1.57,0.01,") == 0);
+  CHECK(rows[4].find("0.5,10,1,,1.62,0.05,") == 0);
+}
+
+TEST_CASE("a response over the frequency and one over a parameter share that parameter's column") {
+  const auto rows = lines(support::scene(), {support::branch(3), support::peaks()});
+  CHECK(rows.at(0).find("damper.normal_load (N),branch,") == 0);
+  CHECK(rows[1].find("3,1,,1,") == 0);
+  CHECK(rows[7].find("0.1,2,,1.5,") == 0);
+}
+
+TEST_CASE("an event at a fixed frequency and amplitude stands where its parameter lies") {
+  auto branch = support::peaks();
+  for (auto& point : branch.points) {
+    point.omega = 10;
+    point.amplitude = 1;
+  }
+  branch.events[0].point.omega = 10;
+  branch.events[0].point.amplitude = 1;
+  CHECK(output::points_before_events(branch) == std::vector<std::size_t>{2});
+  branch.events[0].point.over = 20;
+  CHECK(output::points_before_events(branch) == std::vector<std::size_t>{3});
+}
+
 TEST_CASE("an unbounded peak in CSV has its frequency, inf, and nothing else") {
   auto branch = support::branch();
   branch.events[0].point.unbounded = true;

@@ -126,6 +126,36 @@ TEST_CASE("results that are hard to draw are drawn") {
   }
 }
 
+TEST_CASE("a study over a parameter that is hard to draw is drawn") {
+  if (!have_gnuplot()) {
+    return;
+  }
+  auto one_point = support::peaks();
+  one_point.points.resize(1);
+  one_point.events.clear();
+  auto at_zero = one_point;
+  at_zero.points[0].over = 0;
+  at_zero.points[0].amplitude = 0;
+  auto negative = support::peaks();
+  auto unbounded = support::peaks();
+  for (auto& point : negative.points) {
+    point.over = -point.over;
+  }
+  for (auto& point : unbounded.points) {
+    point.unbounded = true;
+  }
+  for (const StudyKind kind : {StudyKind::trace, StudyKind::peaks, StudyKind::folds}) {
+    for (const auto& branch : {one_point, at_zero, negative, unbounded}) {
+      CAPTURE(static_cast<int>(kind), branch.points[0].over, branch.points[0].unbounded);
+      const TemporaryFolder folder;
+      const auto figures =
+          output::write_figures(support::scene(), kind, std::vector{branch}, folder.path(), "x");
+      CHECK(figures.problem == "");
+      CHECK_FALSE(figures.images.empty());
+    }
+  }
+}
+
 TEST_CASE("branches without a point give data and a reason, and no figure") {
   const TemporaryFolder folder;
   auto branch = support::branch();
@@ -192,6 +222,89 @@ TEST_CASE("the data of a figure has a block for each line and its marks") {
         0);
   CHECK(data.find("2 0.005 50\n\n1 0.01 100\n") != std::string::npos);
   CHECK(data.find("2 0.005 50\n\n\n1.5 0.1 40\n\n\n") != std::string::npos);
+}
+
+TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitude over the stick share") {
+  if (!have_gnuplot()) {
+    return;
+  }
+  const TemporaryFolder folder;
+  const auto figures = output::write_figures(support::scene(), StudyKind::peaks,
+                                             std::vector{support::peaks()}, folder.path(), "peaks");
+  CHECK(figures.problem.empty());
+  CHECK(figures.images ==
+        std::vector<std::string>{folder / "peaks_amplitude.svg", folder / "peaks_amplitude.png",
+                                 folder / "peaks_frequency.svg", folder / "peaks_frequency.png",
+                                 folder / "peaks_amplitude_over_stick.svg",
+                                 folder / "peaks_amplitude_over_stick.png"});
+  struct Case {
+    std::string figure;
+    std::vector<std::string> texts;
+  };
+  const std::vector<Case> cases{
+      {"peaks_amplitude.svg", {"damper.normal_load (N)", "peak amplitude (m)", "minimum"}},
+      {"peaks_frequency.svg", {"damper.normal_load (N)", "resonance frequency (Hz)"}},
+      {"peaks_amplitude_over_stick.svg", {"stick (% of the period)", "peak amplitude (m)"}}};
+  for (const Case& c : cases) {
+    for (const std::string& text : c.texts) {
+      CAPTURE(c.figure, text);
+      CHECK(content(folder / c.figure).find(text) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE(
+    "a trace is drawn as amplitude and stick share, a curve of folds as the parameter over the frequency") {
+  const SearchPath nothing("/nonexistent");
+  const auto script_of = [](StudyKind kind) {
+    const TemporaryFolder folder;
+    output::write_figures(support::scene(), kind, std::vector{support::peaks()}, folder.path(), "x");
+    return content(folder / "x.gp");
+  };
+  const std::string trace = script_of(StudyKind::trace);
+  CHECK(trace.find("set output 'x_amplitude.svg'") != std::string::npos);
+  CHECK(trace.find("set output 'x_stick.svg'") != std::string::npos);
+  CHECK(trace.find("data index 0 using 1:3 with lines") != std::string::npos);
+  CHECK(trace.find("data index 1 using 1:4 with points") != std::string::npos);
+  const std::string folds = script_of(StudyKind::folds);
+  CHECK(folds.find("set output 'x_folds.svg'") != std::string::npos);
+  CHECK(folds.find("data index 0 using 2:1 with lines") != std::string::npos);
+  CHECK(folds.find("set xlabel 'frequency (Hz)'") != std::string::npos);
+  CHECK(folds.find("set ylabel 'damper.normal_load (N)'") != std::string::npos);
+}
+
+TEST_CASE("an axis of a parameter is logarithmic where it is positive over more than a decade") {
+  const SearchPath nothing("/nonexistent");
+  const auto script_of = [](double first) {
+    const TemporaryFolder folder;
+    auto branch = support::peaks();
+    branch.points[0].over = first;
+    branch.points.resize(2);
+    branch.events.clear();
+    output::write_figures(support::scene(), StudyKind::peaks, std::vector{branch}, folder.path(), "x");
+    return content(folder / "x.gp");
+  };
+  CHECK(script_of(0.01).find("\nset logscale x") != std::string::npos);
+  CHECK(script_of(0.01).find("set xrange [0.01:1]") != std::string::npos);
+  for (const double first : {0.5, 0.0, -0.01}) {
+    CAPTURE(first);
+    CHECK(script_of(first).find("\nset logscale x") == std::string::npos);
+  }
+}
+
+TEST_CASE("the data of a study over a parameter begin with it, and have a block for each kind of event") {
+  const TemporaryFolder folder;
+  const SearchPath nothing("/nonexistent");
+  auto branch = support::peaks();
+  branch.events.push_back(branch.events[0]);
+  branch.events[1].kind = "fold";
+  output::write_figures(support::scene(), StudyKind::peaks, std::vector{branch}, folder.path(), "x");
+  const std::string data = content(folder / "x.dat");
+  CHECK(
+      data.find(
+          "# damper.normal_load (N), frequency (Hz), amplitude (m), damper stick (%)\n# \n0.1 1.5 0.3 1\n") ==
+      0);
+  CHECK(data.find("\n\n\n4 1.57 0.01 50\n\n\n4 1.57 0.01 50\n") != std::string::npos);
 }
 
 TEST_CASE("a label keeps off marks, lines, other labels and the border") {

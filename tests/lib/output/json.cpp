@@ -65,6 +65,20 @@ TEST_CASE("a branch in JSON has its status, stop, parameters, points, events and
   CHECK(branch["events"][0]["amplitude"] == 0.1);
 }
 
+TEST_CASE(
+    "each point and event in JSON holds the value of the parameter that its branch is over, by its name") {
+  const Json json = written(support::scene(), {support::peaks(), support::branch()});
+  const Json& peaks = json["branches"][0];
+  CHECK(peaks["over"] == "damper.normal_load");
+  CHECK(peaks["points"][1]["damper.normal_load"] == 1.0);
+  CHECK(peaks["points"][1]["frequency"].get<double>() == Approx(1.51).epsilon(1e-15));
+  CHECK(peaks["events"][0]["kind"] == "minimum");
+  CHECK(peaks["events"][0]["damper.normal_load"] == 4.0);
+  const Json& response = json["branches"][1];
+  CHECK_FALSE(response.contains("over"));
+  CHECK_FALSE(response["points"][0].contains("damper.normal_load"));
+}
+
 TEST_CASE("the status of a branch is written by its name") {
   auto branch = support::branch();
   branch.status = observables::Status::stopped;

@@ -86,4 +86,23 @@ inline arcslip::observables::ResponseBranch branch(double normal_load = 3) {
   return branch;
 }
 
+/// Resonance peaks over the normal load, from 0.1 N to 30 N, with the least between the second and the third.
+inline arcslip::observables::ResponseBranch peaks() {
+  const auto at = [](double load, double hertz, double amplitude, double stick) {
+    auto result = point(hertz, amplitude, stick);
+    result.over = load;
+    return result;
+  };
+  arcslip::observables::ResponseBranch branch;
+  branch.stop = {"boundary", 30, 30, "reached the end of the range at 30 N"};
+  branch.over = "damper.normal_load";
+  branch.parameters = {{"m.value", 1.0}, {"k.value", 100.0}};
+  branch.harmonics = {1, 3};
+  branch.points = {at(0.1, 1.50, 0.3, 1), at(1, 1.51, 0.04, 20), at(10, 1.62, 0.05, 70),
+                   at(30, 1.64, 0.15, 90)};
+  branch.events = {{"minimum", false, true, at(4, 1.57, 0.01, 50)}};
+  branch.solver = {"dense LU", 4, 4, 1, 20, 18, 9, 30, 0.001};
+  return branch;
+}
+
 }  // namespace support
