@@ -5,14 +5,40 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 
 namespace arcslip::app {
 namespace {
 
 constexpr std::string_view exit_codes =
     "Exit codes: 0 done, 1 usage or file, 2 invalid scene, 3 stopped early with partial results written.";
+
+struct VerbText {
+  Verb verb;
+  const char* name;
+  const char* help;
+};
+
+constexpr std::array<VerbText, 6> verb_texts{{
+    {Verb::run, "run", "every study of the scene: results and figures"},
+    {Verb::frf, "frf", "frequency responses, with their peaks and folds"},
+    {Verb::trace, "trace", "responses over a parameter at a fixed frequency, with their extremes and folds"},
+    {Verb::peaks, "peaks", "resonance peaks over a parameter, with the least and the greatest"},
+    {Verb::folds, "folds", "folds of the frequency response over a parameter, with their cusps"},
+    {Verb::check, "check", "validate; print the resolved scene with every default"},
+}};
+
+std::string verb_names() {
+  std::string names;
+  for (const VerbText& text : verb_texts) {
+    names.append(&text == &verb_texts.back() ? " or " : names.empty() ? "" : ", ").append(text.name);
+  }
+  return names;
+}
 
 /// The whole text as a finite number, or nothing.
 std::optional<double> number(const std::string& text) {
@@ -38,9 +64,18 @@ std::pair<std::string, double> assignment(const std::string& text) {
 
 /// What the parser keeps as text until all of it is read.
 struct Texts {
-  std::vector<std::string> set;
+  std::vector<std::string> set, frequency;
   std::string harmonics, from, to;
 };
+
+/// --from or --to of a study over a parameter.
+std::optional<double> parameter_value(const std::string& option, const std::string& text) {
+  const auto value = number(text);
+  if (!text.empty() && !value) {
+    throw UsageError(option + " " + text + ": must be a value of the parameter, a finite number");
+  }
+  return value;
+}
 
 std::optional<double> frequency(const std::string& option, const std::string& text) {
   if (text.empty()) {
@@ -65,9 +100,8 @@ std::optional<int> harmonics(const std::string& text) {
   return value;
 }
 
-CLI::App* add_verb(CLI::App& app, const std::string& name, const std::string& help, Options& options,
-                   Texts& texts) {
-  CLI::App* verb = app.add_subcommand(name, help);
+CLI::App* add_verb(CLI::App& app, const VerbText& text, Options& options, Texts& texts) {
+  CLI::App* verb = app.add_subcommand(text.name, text.help);
   verb->add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-1)")
       ->required()
       ->type_name("");
@@ -82,9 +116,32 @@ CLI::App* add_verb(CLI::App& app, const std::string& name, const std::string& he
   return verb;
 }
 
-void add_study_options(CLI::App& verb, Options& options, Texts& texts) {
-  verb.add_option("--from", texts.from, "first frequency, in the scene's unit")->type_name("A");
-  verb.add_option("--to", texts.to, "last frequency, in the scene's unit")->type_name("B");
+/// What a study over a parameter takes from the scene's first study of its kind, or from here.
+void add_range_over_parameter(CLI::App& verb, Verb kind, Options& options, Texts& texts) {
+  verb.add_option("--over", options.over, "the parameter that is varied, as damper.normal_load")
+      ->type_name("NAME.FIELD");
+  verb.add_option("--from", texts.from, "first value of the parameter, in its unit")->type_name("A");
+  verb.add_option("--to", texts.to, "last value of the parameter")->type_name("B");
+  verb.add_option("--frequency", texts.frequency,
+                  kind == Verb::trace ? "the frequency, in the scene's unit"
+                                      : "the window of frequencies, lower and upper, in the scene's unit")
+      ->expected(kind == Verb::trace ? 1 : 2)
+      ->allow_extra_args(false)  // what follows may be the scene
+      ->type_name("F");
+}
+
+void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts) {
+  if (kind == Verb::run || kind == Verb::frf) {
+    const std::string of = kind == Verb::run ? " of frequency responses" : "";
+    verb.add_option("--from", texts.from, "first frequency" + of + ", in the scene's unit")->type_name("A");
+    verb.add_option("--to", texts.to, "last frequency" + of + ", in the scene's unit")->type_name("B");
+  } else {
+    add_range_over_parameter(verb, kind, options, texts);
+  }
+  verb.add_option("--out", options.out,
+                  std::string("folder for results and figures (default: ") +
+                      (kind == Verb::run ? "out/<name of the scene file>)" : "none are written)"))
+      ->type_name("DIR");
   verb.add_option("--json", options.json, "results as JSON into a file, or - for standard output")
       ->type_name("FILE|-");
   verb.add_option("--csv", options.csv, "results as CSV into a file, or - for standard output")
@@ -93,10 +150,26 @@ void add_study_options(CLI::App& verb, Options& options, Texts& texts) {
   verb.add_flag("--quiet", options.quiet, "no progress and no notes, only errors");
 }
 
-void check_consistent(const Options& options, bool json_given, bool csv_given, bool out_given) {
+std::vector<double> frequencies(const std::vector<std::string>& texts) {
+  std::vector<double> values;
+  for (const std::string& text : texts) {
+    values.push_back(frequency("--frequency", text).value());
+  }
+  if (values.size() == 2 && !(values[0] < values[1])) {
+    throw UsageError("--frequency " + texts[0] + " " + texts[1] +
+                     ": must be a window, the lower frequency before the upper one");
+  }
+  return values;
+}
+
+void check_consistent(const Options& options, bool json_given, bool csv_given, bool out_given,
+                      bool over_given) {
   if ((json_given && options.json.empty()) || (csv_given && options.csv.empty()) ||
       (out_given && options.out.empty())) {
     throw UsageError("--out, --json and --csv need a name that is not empty");
+  }
+  if (over_given && options.over.empty()) {
+    throw UsageError("--over needs the name of a parameter, such as --over damper.normal_load");
   }
   if (!options.json.empty() && options.json == options.csv) {
     throw UsageError("--json and --csv both go to " +
@@ -116,30 +189,33 @@ bool given(const CLI::App& verb, const std::string& option) {
 
 }  // namespace
 
+std::string name(Verb verb) {
+  const auto* const text = std::find_if(verb_texts.begin(), verb_texts.end(),
+                                        [&](const VerbText& each) { return each.verb == verb; });
+  return text->name;
+}
+
 std::variant<Options, Information> parse(int argc, const char* const* argv) {
   const std::string hint = "Run arcslip --help for the verbs, arcslip VERB --help for their options.";
   Options options;
   Texts texts;
-  CLI::App app("Frequency responses of vibrating structures with friction and other nonlinear elements.",
-               "arcslip");
+  CLI::App app("Responses of vibrating structures with friction and other nonlinear elements.", "arcslip");
   app.require_subcommand(1);
   app.set_version_flag("--version", "arcslip " + std::string(output::version()), "print the version");
   app.set_help_flag("--help,-h", "print this help");
   app.get_formatter()->label("SUBCOMMAND", "VERB SCENE");
   app.footer(std::string(exit_codes) + "\narcslip VERB --help tells the options of a verb.");
 
-  CLI::App* run = add_verb(app, "run", "every study of the scene: results and figures", options, texts);
-  CLI::App* frf = add_verb(app, "frf", "frequency responses, with their peaks and folds", options, texts);
-  CLI::App* check =
-      add_verb(app, "check", "validate; print the resolved scene with every default", options, texts);
-  run->add_option("--out", options.out,
-                  "folder for results and figures (default: out/<name of the scene file>)")
-      ->type_name("DIR");
-  frf->add_option("--out", options.out, "folder for results and figures (default: none are written)")
-      ->type_name("DIR");
-  add_study_options(*run, options, texts);
-  add_study_options(*frf, options, texts);
-  check->add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
+  std::map<const CLI::App*, Verb> verbs;
+  for (const VerbText& text : verb_texts) {
+    CLI::App* verb = add_verb(app, text, options, texts);
+    verbs.emplace(verb, text.verb);
+    if (text.verb == Verb::check) {
+      verb->add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
+    } else {
+      add_study_options(*verb, text.verb, options, texts);
+    }
+  }
 
   if (argc < 2) {
     throw UsageError("what shall be done? Give a verb and a scene, as in arcslip run scene.json\n" + hint);
@@ -153,19 +229,22 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const std::string first = argv[1];
     if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
-      throw UsageError("unknown verb \"" + first + "\", must be run, frf or check\n" + hint);
+      throw UsageError("unknown verb \"" + first + "\", must be " + verb_names() + "\n" + hint);
     }
     throw UsageError(std::string(error.what()) + "\n" + hint);
   }
   const CLI::App* verb = app.get_subcommands().front();
-  options.verb = verb == run ? Verb::run : verb == frf ? Verb::frf : Verb::check;
+  options.verb = verbs.at(verb);
   for (const std::string& text : texts.set) {
     options.set.push_back(assignment(text));
   }
   options.harmonics = harmonics(texts.harmonics);
-  options.from = frequency("--from", texts.from);
-  options.to = frequency("--to", texts.to);
-  check_consistent(options, given(*verb, "--json"), given(*verb, "--csv"), given(*verb, "--out"));
+  const bool of_frequency = options.verb == Verb::run || options.verb == Verb::frf;
+  options.from = of_frequency ? frequency("--from", texts.from) : parameter_value("--from", texts.from);
+  options.to = of_frequency ? frequency("--to", texts.to) : parameter_value("--to", texts.to);
+  options.frequency = frequencies(texts.frequency);
+  check_consistent(options, given(*verb, "--json"), given(*verb, "--csv"), given(*verb, "--out"),
+                   given(*verb, "--over"));
   return options;
 }
 

@@ -12,18 +12,23 @@
 
 namespace arcslip::app {
 
-enum class Verb { run, frf, check };
+enum class Verb { run, frf, trace, peaks, folds, check };
 
 struct Options {
   Verb verb = Verb::check;
   std::string scene;                                // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
-  std::optional<double> from, to;  // in the scene's frequency unit
+  std::string over;                // the parameter of trace, peaks and folds, "" where it is not given
+  std::optional<double> from, to;  // run, frf: in the scene's frequency unit; else of `over`
+  std::vector<double> frequency;   // in the scene's unit: none, one (trace), or the window (peaks, folds)
   std::string out, json, csv;      // paths, "-" for standard output (json, csv), "" for none
   bool coefficients = false;
   bool quiet = false;
 };
+
+/// "frf", as the user writes it. Verbs that compute studies of one kind have the name of that kind.
+std::string name(Verb verb);
 
 /// Arguments that make no sense. what() says which and what to do.
 class UsageError : public std::runtime_error {

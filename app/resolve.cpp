@@ -3,6 +3,9 @@
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 namespace arcslip::app {
 namespace {
@@ -30,6 +33,85 @@ void apply(scene::Scene& scene, const Options& options) {
   }
 }
 
+std::string range_unit(const scene::Scene& scene, const scene::Study& study) {
+  if (study.kind == scene::StudyKind::frf) {
+    return std::string(scene::unit_name(scene.frequency_unit));
+  }
+  return study.over == "frequency" ? "" : output::parameter_unit(scene, study.over);
+}
+
+/// Throws where --over names no parameter at all; what else may be wrong with it is told by check_study().
+void check_over(const scene::Scene& scene, const Options& options) {
+  if (options.over.empty() || options.over == "frequency") {
+    return;
+  }
+  try {
+    scene::parameter_fields(scene, options.over);
+  } catch (const scene::ParameterError& error) {
+    throw UsageError("--over " + options.over + ": " + error.what());
+  }
+}
+
+/// "--from, --to and --frequency"
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text.append(i == 0 ? "" : i + 1 == words.size() ? " and " : ", ").append(words[i]);
+  }
+  return text;
+}
+
+/// The option and its value where it gave this key of a study, or "".
+std::string option_of(const std::string& key, const Options& options) {
+  if (key == "over" && !options.over.empty()) {
+    return "--over " + options.over;
+  }
+  if (key == "from" && options.from) {
+    return "--from " + output::shortest(*options.from);
+  }
+  if (key == "to" && options.to) {
+    return "--to " + output::shortest(*options.to);
+  }
+  return "";
+}
+
+/// Tells what the scene's own check says of a study that the options made, by these options.
+void check_study(const scene::Scene& scene, std::size_t index, const Options& options) {
+  try {
+    scene::check(scene);
+  } catch (const scene::SceneError& error) {
+    const std::string place = "/studies/" + std::to_string(index) + "/";
+    std::string message;
+    for (const scene::Fault& fault : error.faults()) {
+      const std::string key = fault.pointer.starts_with(place) ? fault.pointer.substr(place.size()) : "";
+      const std::string option = option_of(key, options);
+      message +=
+          (message.empty() ? "" : "\n  ") + (option.empty() ? fault.pointer : option) + ": " + fault.message;
+    }
+    throw UsageError(message);
+  }
+}
+
+/// The study that says what the command line does not. A name that no other study has, where there is none.
+std::size_t study_to_follow(scene::Scene& scene, scene::StudyKind kind, const Options& options) {
+  const auto find = [&](bool over_the_same) {
+    return std::find_if(scene.studies.begin(), scene.studies.end(), [&](const scene::Study& study) {
+      return study.kind == kind && (!over_the_same || study.over == options.over);
+    });
+  };
+  auto study = options.over.empty() ? find(false) : find(true);
+  study = study == scene.studies.end() ? find(false) : study;
+  if (study == scene.studies.end()) {
+    std::string free_name = name(options.verb);
+    while (std::any_of(scene.studies.begin(), scene.studies.end(),
+                       [&](const scene::Study& other) { return other.name == free_name; })) {
+      free_name += "_2";
+    }
+    study = scene.studies.insert(study, scene::Study{free_name, kind, 0, 0, {}});
+  }
+  return static_cast<std::size_t>(study - scene.studies.begin());
+}
+
 }  // namespace
 
 scene::Scene resolve(const Options& options) {
@@ -42,7 +124,7 @@ void set_range(scene::Study& study, const scene::Scene& scene, const Options& op
   study.from = options.from.value_or(study.from);
   study.to = options.to.value_or(study.to);
   if (!(study.from < study.to)) {
-    const std::string unit(scene::unit_name(scene.frequency_unit));
+    const std::string unit = range_unit(scene, study);
     throw UsageError(
         (options.from ? "--from must be below " : "--to must be above ") +
         (options.from
@@ -52,21 +134,56 @@ void set_range(scene::Study& study, const scene::Scene& scene, const Options& op
   }
 }
 
-scene::Study frequency_study(scene::Scene& scene, const Options& options) {
-  auto study = std::find_if(scene.studies.begin(), scene.studies.end(), [](const scene::Study& candidate) {
-    return candidate.kind == scene::StudyKind::frf;
-  });
-  if (study == scene.studies.end()) {
-    if (!options.from || !options.to) {
-      throw UsageError(
-          "the scene has no study of kind frf, so the range of frequencies is not known: give --from and "
-          "--to, or add such a study to the scene");
-    }
-    study = scene.studies.insert(study,
-                                 scene::Study{"frf", scene::StudyKind::frf, *options.from, *options.to, {}});
+scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Options& options) {
+  check_over(scene, options);
+  const bool is_frf = kind == scene::StudyKind::frf;
+  const std::size_t studies_before = scene.studies.size();
+  const std::size_t index = study_to_follow(scene, kind, options);
+  const bool is_new = scene.studies.size() > studies_before;
+  scene::Study& study = scene.studies[index];
+  const bool is_over_another = !is_new && !options.over.empty() && options.over != study.over;
+
+  std::vector<std::string> missing;
+  if (is_new && !is_frf && options.over.empty()) {
+    missing.emplace_back("--over");
   }
-  set_range(*study, scene, options);
-  return *study;
+  if ((is_new || is_over_another) && !options.from) {
+    missing.emplace_back("--from");
+  }
+  if ((is_new || is_over_another) && !options.to) {
+    missing.emplace_back("--to");
+  }
+  if (is_new && !is_frf && options.frequency.empty()) {
+    missing.emplace_back("--frequency");
+  }
+  if (!missing.empty()) {
+    const std::string kind_name = name(options.verb);
+    throw UsageError("the scene has no study of kind " + kind_name +
+                     (is_over_another ? " over " + options.over : "") + ", so not all is known: give " +
+                     listed(missing) + ", or add such a study to the scene");
+  }
+
+  if (!options.over.empty()) {
+    study.over = options.over;
+    std::erase_if(study.for_each, [&](const auto& list) { return list.first == study.over; });
+  }
+  if (!options.frequency.empty()) {
+    study.frequency_from = options.frequency.front();
+    study.frequency_to = options.frequency.back();
+  }
+  if (is_new || is_over_another) {
+    study.from = *options.from;
+    study.to = *options.to;
+  }
+  for (const auto& [parameter, value] : options.set) {
+    if (parameter == study.over) {
+      throw UsageError("--set " + parameter + "=" + output::shortest(value) +
+                       ": the study is over this parameter; give --from and --to for its range");
+    }
+  }
+  set_range(study, scene, options);
+  check_study(scene, index, options);
+  return study;
 }
 
 }  // namespace arcslip::app

@@ -14,8 +14,8 @@ scene::Scene resolve(const Options& options);
 /// Applies --from and --to to a study. Throws UsageError where the range is empty then.
 void set_range(scene::Study& study, const scene::Scene& scene, const Options& options);
 
-/// The scene's first study of kind frf, with --from and --to; it is made from these where there is none.
-/// Throws UsageError.
-scene::Study frequency_study(scene::Scene& scene, const Options& options);
+/// The scene's first study of the verb's kind, over the parameter that was asked for if there is one, with
+/// what the command line says; it is made from that where there is none. Throws UsageError.
+scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Options& options);
 
 }  // namespace arcslip::app

@@ -26,6 +26,7 @@ std::string formatted(const char* format, double value) {
   return text.data();
 }
 
+/// `parameters`: those that are set, then the one that the branches are over.
 Row header(const scene::Scene& scene, const Row& parameters, const Row& friction) {
   Row row;
   for (const std::string& name : parameters) {
@@ -46,6 +47,9 @@ Row row(const scene::Scene& scene, const ResponseBranch& branch, const observabl
   Row cells;
   for (const auto& [name, value] : branch.set) {
     cells.push_back(output::shortest(value));
+  }
+  if (!branch.over.empty()) {
+    cells.push_back(event != nullptr ? formatted("%.8g", event->point.over) : "-");
   }
   if (event != nullptr) {
     const observables::ResponsePoint& point = event->point;
@@ -87,6 +91,9 @@ void write_table(std::ostream& out, const scene::Scene& scene, std::span<const R
   Row parameters;
   for (const auto& [name, value] : branches.front().set) {
     parameters.push_back(name);
+  }
+  if (!branches.front().over.empty()) {
+    parameters.push_back(branches.front().over);
   }
   const Row friction = output::friction_elements(branches);
   std::vector<Row> rows{header(scene, parameters, friction)};

@@ -8,8 +8,8 @@
 
 namespace arcslip::app {
 
-/// The peaks and folds of each branch for people: set parameters, what it is, frequency, amplitude, stick
-/// share and how the branch ended, in aligned columns.
+/// The events of each branch of one study for people: set parameters, the parameter that the branch is over,
+/// what it is, frequency, amplitude, stick share and how the branch ended, in aligned columns.
 void write_table(std::ostream& out, const scene::Scene& scene,
                  std::span<const observables::ResponseBranch> branches);
 

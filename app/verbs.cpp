@@ -8,6 +8,7 @@
 #include "standard_output.hpp"
 #include "table.hpp"
 
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/output/csv.hpp>
@@ -50,10 +51,25 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
   return folder;
 }
 
+/// What computes studies of this kind.
+auto computation(scene::StudyKind kind) {
+  switch (kind) {
+    case scene::StudyKind::trace:
+      return observables::parameter_response;
+    case scene::StudyKind::peaks:
+      return observables::resonance_peaks;
+    case scene::StudyKind::folds:
+      return observables::fold_curves;
+    case scene::StudyKind::frf:
+      break;
+  }
+  return observables::frequency_response;
+}
+
 std::vector<ResponseBranch> compute(const scene::Scene& scene, const scene::Study& study, bool quiet) {
   ProgressLine line(quiet, std::string(scene::unit_name(scene.frequency_unit)));
   bool told = false;
-  return observables::frequency_response(scene, study, [&](const observables::Progress& progress) {
+  return computation(study.kind)(scene, study, [&](const observables::Progress& progress) {
     if (!interrupted()) {
       line.show(progress);
       return true;
@@ -150,9 +166,9 @@ ExitCode check(const Options& options) {
   return ExitCode::done;
 }
 
-ExitCode frf(const Options& options) {
+ExitCode one_study(scene::StudyKind kind, const Options& options) {
   scene::Scene scene = resolve(options);
-  const scene::Study study = frequency_study(scene, options);
+  const scene::Study study = study_of_verb(scene, kind, options);
   return run_studies(scene, {study}, options);
 }
 
@@ -163,8 +179,17 @@ ExitCode run(Options options) {
         "the scene has no studies, so there is nothing to run: add one to \"studies\", or use "
         "arcslip frf with --from and --to");
   }
+  bool any_frf = false;
   for (scene::Study& study : scene.studies) {
-    set_range(study, scene, options);
+    if (study.kind == scene::StudyKind::frf) {
+      set_range(study, scene, options);
+      any_frf = true;
+    }
+  }
+  if (!any_frf && (options.from || options.to)) {
+    throw UsageError(
+        "--from and --to of run are those of frequency responses, of which the scene has none: use the verb "
+        "of the study's kind");
   }
   if (options.out.empty()) {
     options.out = (std::filesystem::path("out") / std::filesystem::path(options.scene).stem()).string();
@@ -179,7 +204,13 @@ ExitCode execute(const Options& options) {
     case Verb::run:
       return run(options);
     case Verb::frf:
-      return frf(options);
+      return one_study(scene::StudyKind::frf, options);
+    case Verb::trace:
+      return one_study(scene::StudyKind::trace, options);
+    case Verb::peaks:
+      return one_study(scene::StudyKind::peaks, options);
+    case Verb::folds:
+      return one_study(scene::StudyKind::folds, options);
     case Verb::check:
       break;
   }

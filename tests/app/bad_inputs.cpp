@@ -27,6 +27,26 @@ BadInput printed_on(std::string output, std::string name, std::vector<std::strin
   return {std::move(name), std::move(arguments), 1, std::move(message), "", {}, std::move(output)};
 }
 
+/// A scene without studies.
+BadInput bare(std::string name, std::vector<std::string> arguments, std::string message) {
+  return {std::move(name),    std::move(arguments), 1,
+          std::move(message), "bare.json",          [] { return scene_with(structure("1", "100"), ""); }};
+}
+
+/// A friction damper as stiff as its spring, both tied, and the peaks over its load.
+std::string peaks_scene() {
+  return scene_with(structure("1", "100"), R"(, "elements": [{"name": "damper", "type": "jenkins", "at": "x",
+    "stiffness": 100, "friction_coefficient": 0.5, "normal_load": 3}],
+    "ties": {"both": ["k.value", "damper.stiffness"]},
+    "studies": [{"name": "peaks", "kind": "peaks", "over": "damper.normal_load", "from": 0.01, "to": 500,
+                 "frequency": [1, 3]}])");
+}
+
+BadInput peaks(std::string name, std::vector<std::string> options, std::string message) {
+  options.insert(options.begin(), {"peaks", "bad.json"});
+  return {std::move(name), std::move(options), 1, std::move(message), "bad.json", peaks_scene};
+}
+
 BadInput scene(std::string name, std::string message, std::function<std::string()> content) {
   return {std::move(name), {"run", "bad.json"}, 2, std::move(message), "bad.json", std::move(content)};
 }
@@ -35,7 +55,8 @@ std::vector<BadInput> make() {
   return {
       // the command line
       line("no verb", {}, "Give a verb and a scene"),
-      line("an unknown verb", {"fry", "scene.json"}, "unknown verb \"fry\", must be run, frf or check"),
+      line("an unknown verb", {"fry", "scene.json"},
+           "unknown verb \"fry\", must be run, frf, trace, peaks, folds or check"),
       line("no scene", {"run"}, "SCENE is required"),
       line("an unknown option", {"frf", "scene.json", "--harmonic", "3"},
            "The following arguments were not expected: 3 --harmonic"),
@@ -81,6 +102,47 @@ std::vector<BadInput> make() {
        "the scene has no studies",
        "bare.json",
        [] { return scene_with(structure("1", "100"), ""); }},
+      // studies over a parameter
+      bare("peaks without a study", {"peaks", "bare.json"},
+           "the scene has no study of kind peaks, so not all is known: give --over, --from, --to and "
+           "--frequency, or add such a study to the scene"),
+      bare("trace without a study, half told", {"trace", "bare.json", "--over", "k.value", "--to", "200"},
+           "the scene has no study of kind trace, so not all is known: give --from and --frequency"),
+      peaks("--over another parameter than the study's", {"--over", "m.value"},
+            "the scene has no study of kind peaks over m.value, so not all is known: give --from and --to"),
+      peaks("--over an unknown parameter", {"--over", "damper.normal_lod"},
+            "--over damper.normal_lod: unknown parameter \"damper.normal_lod\""),
+      peaks("--over the frequency", {"--over", "frequency", "--from", "1", "--to", "2"},
+            "--over frequency: found \"frequency\", must be another parameter; over the frequency is"),
+      peaks("--over nothing", {"--over", ""}, "--over needs the name of a parameter"),
+      peaks("--over a tied field", {"--over", "damper.stiffness", "--from", "1", "--to", "2"},
+            "--over damper.stiffness: found \"damper.stiffness\", which is tied; must be its tie \"both\""),
+      peaks("--set of the parameter that is varied", {"--set", "damper.normal_load=3"},
+            "--set damper.normal_load=3: the study is over this parameter; give --from and --to"),
+      peaks("--from below the parameter's bound", {"--from", "-1"},
+            "--from -1: found -1, must be at least 0 N"),
+      peaks("--from above the study's last load", {"--from", "600"},
+            "--from must be below 500 N, where the study \"peaks\" ends; found 600 N"),
+      peaks("--to below the study's first load", {"--to", "0.001"},
+            "--to must be above 0.01 N, where the study \"peaks\" begins; found 0.001 N"),
+      peaks("a value of the parameter that is no number", {"--from", "low"},
+            "--from low: must be a value of the parameter, a finite number"),
+      peaks("one frequency in place of a window", {"--frequency", "20"},
+            "--frequency: At least 2 required but received 1"),
+      peaks("three frequencies", {"--frequency", "18", "20", "22"}, "argument was not expected: 22"),
+      peaks("a window that ends before it begins", {"--frequency", "22", "18"},
+            "--frequency 22 18: must be a window, the lower frequency before the upper one"),
+      peaks("a window from zero", {"--frequency", "0", "18"}, "--frequency 0: must be a frequency above 0"),
+      bare("a window in place of one frequency", {"trace", "bare.json", "--frequency", "18", "22"},
+           "argument was not expected: 22"),
+      line("--over in a frequency response", {"frf", "scene.json", "--over", "k.value"},
+           "The following arguments were not expected: k.value --over"),
+      {"a range of frequencies where no study has one",
+       {"run", "bad.json", "--from", "18"},
+       1,
+       "--from and --to of run are those of frequency responses, of which the scene has none",
+       "bad.json",
+       peaks_scene},
       // places
       line("a scene that is not there", {"run", "nothing.json"}, "nothing.json: No such file or directory"),
       line("a folder as the scene", {"run", "."}, ". is a directory, must be a scene file"),
@@ -142,6 +204,14 @@ std::vector<BadInput> make() {
       scene("no stiffness at all",
             "bad.json: /structure/springs: found no stiffness, must have at least one spring",
             [] { return scene_with(structure("1", "0"), study("1", "2")); }),
+      scene(
+          "a study over a parameter that is not there",
+          "bad.json: /studies/0/over: found the unknown parameter \"k.valeu\"",
+          [] {
+            return scene_with(
+                structure("1", "100"),
+                R"(, "studies": [{"kind": "trace", "over": "k.valeu", "from": 1, "to": 2, "frequency": 1}])");
+          }),
       scene("a study that ends before it begins", "bad.json: /studies/0/to: found 1, must be above \"from\"",
             [] { return scene_with(structure("1", "100"), study("2", "1")); }),
   };
