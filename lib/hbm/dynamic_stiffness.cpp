@@ -1,5 +1,6 @@
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcslip::hbm {
@@ -197,49 +198,54 @@ void DynamicStiffness::solve(Out x) const {
   }
 }
 
+bool DynamicStiffness::depends_on(int k) const {
+  const auto is = [k](int parameter) { return parameter == k; };
+  return k == model::frequency ||
+         std::any_of(structural_parameters_.begin(), structural_parameters_.end(), is) ||
+         std::any_of(model_.forces.begin(), model_.forces.end(),
+                     [&](const model::Force& force) { return is(force.cosine) || is(force.sine); });
+}
+
+// dZ/dp_k y - force_factor df/dp_k at the motion y of harmonic h.
+void DynamicStiffness::differentiate(int k, In u, int h, double force_factor, Vectorc& v) const {
+  const double n = harmonics_.cosine_order(h), s = n * omega_;
+  gather(u, h, q_);
+  expand(q_, h, force_factor, y_);
+  if (k == model::frequency) {
+    for (Eigen::Index i = 0; i < v.size(); ++i) {
+      Complex sum = 0;
+      for (Eigen::Index j = 0; j < v.size(); ++j) sum += Complex(-2 * n * s * M_(i, j), n * C_(i, j)) * y_[j];
+      v[i] = sum;
+    }
+    return;
+  }
+  v.setZero();
+  const auto add = [&](const std::vector<model::LinearPart>& parts, Complex factor) {
+    for (const auto& part : parts) {
+      if (part.parameter != k) continue;
+      Complex along = 0;
+      for (Eigen::Index i = 0; i < v.size(); ++i) along += P_.col(i).dot(part.direction) * y_[i];
+      for (Eigen::Index i = 0; i < v.size(); ++i) v[i] += factor * along * P_.col(i).dot(part.direction);
+    }
+  };
+  add(model_.masses, -s * s);
+  add(model_.dampers, Complex(0, s));
+  add(model_.springs, 1);
+  for (const auto& force : model_.forces) {
+    if (force.harmonic != harmonics_.cosine_order(h)) continue;
+    Complex amplitude = 0;
+    if (force.cosine == k) amplitude += 1;
+    if (force.sine == k && n > 0) amplitude += Complex(0, -1);
+    for (Eigen::Index i = 0; i < v.size(); ++i)
+      v[i] -= force_factor * amplitude * P_.col(i).dot(force.direction);
+  }
+}
+
 void DynamicStiffness::parameter_derivative(int k, In u, double force_factor, Out dR) const {
   dR.setZero();
-  const bool by_frequency = k == model::frequency;
-  const auto is = [k](int parameter) { return parameter == k; };
-  bool any = by_frequency;
-  for (int parameter : structural_parameters_) any = any || is(parameter);
-  for (const auto& force : model_.forces) any = any || is(force.cosine) || is(force.sine);
-  if (!any) return;
-
+  if (!depends_on(k)) return;
   for (int h = 0; h < harmonics_.cosines(); ++h) {
-    const double n = harmonics_.cosine_order(h), s = n * omega_;
-    gather(u, h, q_);
-    expand(q_, h, force_factor, y_);
-    if (by_frequency) {
-      for (Eigen::Index i = 0; i < v_.size(); ++i) {
-        Complex sum = 0;
-        for (Eigen::Index j = 0; j < v_.size(); ++j)
-          sum += Complex(-2 * n * s * M_(i, j), n * C_(i, j)) * y_[j];
-        v_[i] = sum;
-      }
-    } else {
-      v_.setZero();
-      const auto add = [&](const std::vector<model::LinearPart>& parts, Complex factor) {
-        for (const auto& part : parts) {
-          if (!is(part.parameter)) continue;
-          Complex along = 0;
-          for (Eigen::Index i = 0; i < v_.size(); ++i) along += P_.col(i).dot(part.direction) * y_[i];
-          for (Eigen::Index i = 0; i < v_.size(); ++i)
-            v_[i] += factor * along * P_.col(i).dot(part.direction);
-        }
-      };
-      add(model_.masses, -s * s);
-      add(model_.dampers, Complex(0, s));
-      add(model_.springs, 1);
-      for (const auto& force : model_.forces) {
-        if (force.harmonic != harmonics_.cosine_order(h)) continue;
-        Complex amplitude = 0;
-        if (is(force.cosine)) amplitude += 1;
-        if (is(force.sine) && n > 0) amplitude += Complex(0, -1);
-        for (Eigen::Index i = 0; i < v_.size(); ++i)
-          v_[i] -= force_factor * amplitude * P_.col(i).dot(force.direction);
-      }
-    }
+    differentiate(k, u, h, force_factor, v_);
     project(v_, h, q_);
     scatter_add(q_, h, dR);
   }
@@ -276,21 +282,14 @@ void DynamicStiffness::response_transposed(In a, Out g) const {
   }
 }
 
-void DynamicStiffness::response_by_frequency(In u, double force_factor, Out dx) const {
+void DynamicStiffness::response_derivative(int k, In u, double force_factor, Out dx) const {
   dx.setZero();
-  if (l_ == 0) return;
+  if (l_ == 0 || !depends_on(k)) return;
   for (int h = 0; h < harmonics_.cosines(); ++h) {
-    const double n = harmonics_.cosine_order(h), s = n * omega_;
-    gather(u, h, q_);
-    expand(q_, h, force_factor, y_);
+    differentiate(k, u, h, force_factor, v_);
     const Matrixc& W = W_[static_cast<std::size_t>(h)];
     Complex sum = 0;
-    for (Eigen::Index k = 0; k < l_; ++k) {
-      Complex v = 0;
-      for (Eigen::Index j = 0; j < y_.size(); ++j)
-        v += Complex(-2 * n * s * M_(r_ + k, j), n * C_(r_ + k, j)) * y_[j];
-      sum -= W(k, r_ + 1) * v;
-    }
+    for (Eigen::Index i = 0; i < l_; ++i) sum -= W(i, r_ + 1) * v_[r_ + i];
     dx[h] = sum.real();
     const int order = harmonics_.cosine_order(h);
     if (order > 0) dx[harmonics_.sine_index(order)] = -sum.imag();

@@ -36,10 +36,10 @@ class DynamicStiffness {
   void parameter_derivative(int k, In u, double force_factor, Out dR) const;  // zero for element parameters
   void solve(Out x) const;  // Z_n^-1 of each harmonic, in place
 
-  /// The observed coordinate: its coefficients x = L u + x_0, the product L^T a, and dx/domega at fixed u.
+  /// The observed coordinate: its coefficients x = L u + x_0, the product L^T a, and dx/dp_k at fixed u.
   void response(In u, double force_factor, Out x) const;
   void response_transposed(In a, Out g) const;
-  void response_by_frequency(In u, double force_factor, Out dx) const;
+  void response_derivative(int k, In u, double force_factor, Out dx) const;
 
   /// Energy dissipated by the dampers in a period: pi omega sum n^2 (a^T C a + b^T C b), J.
   double viscous_energy(In u, double force_factor) const;
@@ -50,6 +50,8 @@ class DynamicStiffness {
   using Matrixc = Eigen::MatrixXcd;
 
   void assemble(In p);
+  bool depends_on(int k) const;
+  void differentiate(int k, In u, int h, double force_factor, Vectorc& v) const;
   void gather(In u, int h, Vectorc& q) const;
   void expand(const Vectorc& q, int h, double force_factor, Vectorc& y) const;
   void scatter_add(const Vectorc& v, int h, Out R) const;

@@ -24,29 +24,35 @@ double element_energy(const elements::Harmonics& h, const continuation::Vector& 
 
 }  // namespace
 
-Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem)
+Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem, int free)
     : problem_(std::move(problem)),
+      free_(free),
       amplitude_(problem_->harmonics()),
       x_(problem_->harmonics().size()),
       dx_(x_.size()),
-      by_frequency_(x_.size()) {}
+      by_parameter_(x_.size()) {}
 
-Extreme Observer::extreme(const continuation::Accepted& now) {
-  const auto& at = evaluator_of(now);
-  at.stiffness().response(now.u, at.force_factor(), x_);
+Extreme Observer::extreme(const hbm::HbmEvaluator& at, continuation::In u) {
+  at.stiffness().response(u, at.force_factor(), x_);
   const Extreme found = amplitude_.of(x_);
   last_amplitude_ = found.amplitude;
   return found;
 }
 
+double Observer::amplitude_change(const hbm::HbmEvaluator& at, continuation::In u, continuation::In du,
+                                  std::initializer_list<std::pair<int, double>> dp) {
+  const Extreme at_most = extreme(at, u);
+  at.stiffness().response(du, 0, dx_);
+  for (const auto& [k, change] : dp) {
+    at.stiffness().response_derivative(k, u, at.force_factor(), by_parameter_);
+    dx_ += change * by_parameter_;
+  }
+  return observables::amplitude_change(problem_->harmonics(), at_most, dx_);
+}
+
 double Observer::amplitude_slope(const continuation::Accepted& now) {
-  const Extreme at_most = extreme(now);
-  const auto& at = evaluator_of(now);
   const Eigen::Index n = now.u.size();
-  at.stiffness().response(now.tangent.head(n), 0, dx_);
-  at.stiffness().response_by_frequency(now.u, at.force_factor(), by_frequency_);
-  dx_ += now.tangent[n] * by_frequency_;
-  return amplitude_change(problem_->harmonics(), at_most, dx_);
+  return amplitude_change(evaluator_of(now), now.u, now.tangent.head(n), {{free_, now.tangent[n]}});
 }
 
 // Lag of the response's fundamental behind the first force of that harmonic, in (-pi, pi].
@@ -68,7 +74,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now) {
   const auto& at = evaluator_of(now);
   const auto& h = problem_->harmonics();
   ResponsePoint point;
-  const Extreme at_most = extreme(now);
+  const Extreme at_most = extreme(at, now.u);
   point.omega = now.p[model::frequency];
   point.amplitude = at_most.amplitude;
   point.phase = phase(now);

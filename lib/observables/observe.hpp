@@ -7,23 +7,29 @@
 #include <arcslip/observables/response.hpp>
 #include <arcslip/observables/truncation.hpp>
 
+#include <initializer_list>
 #include <memory>
+#include <utility>
 
 namespace arcslip::observables {
 
-/// Observes the points of branches of one problem in the excitation frequency. Owns its buffers; one for each
+/// Observes the points of branches of one problem in one of its parameters. Owns its buffers; one for each
 /// thread.
 class Observer {
  public:
-  explicit Observer(std::shared_ptr<const hbm::HbmProblem> problem);
+  explicit Observer(std::shared_ptr<const hbm::HbmProblem> problem, int free = model::frequency);
 
   const hbm::HbmProblem& problem() const { return *problem_; }
 
   /// Everything at one point.
   ResponsePoint observe(const continuation::Accepted& now);
 
-  /// Largest |x| of the observed coordinate.
-  Extreme extreme(const continuation::Accepted& now);
+  /// Largest |x| of the observed coordinate, for unknowns u at the parameters of an evaluator.
+  Extreme extreme(const hbm::HbmEvaluator& at, continuation::In u);
+
+  /// dA for changes du of the unknowns and dp_k of parameters k.
+  double amplitude_change(const hbm::HbmEvaluator& at, continuation::In u, continuation::In du,
+                          std::initializer_list<std::pair<int, double>> dp);
 
   /// A at the last call of any of these.
   double last_amplitude() const { return last_amplitude_; }
@@ -35,9 +41,10 @@ class Observer {
   double phase(const continuation::Accepted& now) const;
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
+  int free_;
   Amplitude amplitude_;
   std::unique_ptr<Truncation> truncation_;  // made at the first observe()
-  continuation::Vector x_, dx_, by_frequency_;
+  continuation::Vector x_, dx_, by_parameter_;
   double last_amplitude_ = 0;
 };
 
