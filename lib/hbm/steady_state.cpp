@@ -35,20 +35,22 @@ Vector linear_response(const HbmProblem& problem, const Vector& p) {
   return u;
 }
 
-std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p) {
-  const int n = problem->size();
+std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess) {
+  if (!guess.allFinite()) return {};
+  const int n = problem.size();
   continuation::Counts counts;
   continuation::NewtonOptions newton;
   newton.iterations = 30;
-  continuation::Corrector corrector(*problem, p, model::frequency, newton, counts);
-  Vector row = Vector::Zero(n + 1);
-  row[n] = 1;
-  for (const Vector& guess : {Vector(Vector::Zero(n)), linear_response(*problem, p)}) {
-    if (!guess.allFinite()) continue;
-    Vector v(n + 1);
-    v << guess, p[model::frequency];
-    if (corrector.correct(v, row, false).converged) return v.head(n);
-  }
+  continuation::Corrector corrector(problem, p, model::frequency, newton, counts);
+  Vector v(n + 1);
+  v << guess, p[model::frequency];
+  if (!corrector.correct(v, Vector::Unit(n + 1, n), false).converged) return {};
+  return v.head(n);
+}
+
+std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p) {
+  for (const Vector& guess : {Vector(Vector::Zero(problem->size())), linear_response(*problem, p)})
+    if (const auto found = response_near(*problem, p, guess)) return found;
   return ramp(problem, p);
 }
 

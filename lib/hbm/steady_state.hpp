@@ -11,6 +11,9 @@ namespace arcslip::hbm {
 /// finite at an undamped resonance.
 Vector linear_response(const HbmProblem& problem, const Vector& p);
 
+/// Newton's method from a guess. Empty where it fails.
+std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess);
+
 /// Newton's method from rest (all sliders stuck), from the response without elements, and, where neither
 /// converges, a branch in the excitation factor from rest at 0 to 1 or -1, where the response is that of 1
 /// reversed. Empty where that fails too.

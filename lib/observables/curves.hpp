@@ -11,8 +11,10 @@
 
 namespace arcslip::observables {
 
-/// study.kind trace: the branch over study.over from study.from to study.to at study.frequency_from. Events:
-/// "fold" in that parameter, "maximum" and "minimum" of the amplitude.
+/// study.kind trace: the branches over study.over from study.from to study.to at study.frequency_from, one
+/// for each response found at study.from: where a spring is cubic there may be several. Events: "fold" in
+/// that parameter, "maximum" and "minimum" of the amplitude. Throws scene::ParameterError where there is no
+/// such parameter or it may not take those values.
 std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const scene::Study& study,
                                                const ProgressCallback& progress = {});
 

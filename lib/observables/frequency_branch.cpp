@@ -18,32 +18,40 @@ constexpr double largest_relative_step = 0.05;  // of the frequency, so that wid
 
 }  // namespace
 
+FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
+                             double frequency_scale) {
+  const auto problem_with = [&](double displacement) {
+    const double scale = displacement > 0 && std::isfinite(displacement) ? displacement : 1;
+    return std::make_shared<const hbm::HbmProblem>(model, model->harmonics, scale, frequency_scale);
+  };
+  auto problem = problem_with(1);
+  const Vector p = hbm::parameters_at(*problem, omega);
+  problem = problem_with(hbm::linear_response(*problem, p).norm());
+  if (const auto dof = model::drifting_dof(*model, p))
+    return {problem,
+            {},
+            "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
+                "\", and friction leaves it free to drift; add a spring between it and the ground or what is "
+                "held, or excite odd harmonics only"};
+  const auto u = hbm::steady_state(problem, p);
+  if (!u)
+    return {problem,
+            {},
+            "Newton's method failed from rest, from the response without elements, and along a growing "
+            "excitation"};
+  return {problem_with(u->norm()), u, {}};
+}
+
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record) {
   const double width = window.upper - window.lower;
-  const auto problem_with = [&](double displacement) {
-    const double scale = displacement > 0 && std::isfinite(displacement) ? displacement : 1;
-    return std::make_shared<const hbm::HbmProblem>(model, model->harmonics, scale, width);
-  };
-  auto problem = problem_with(1);
-  const Vector p = hbm::parameters_at(*problem, from);
-  problem = problem_with(hbm::linear_response(*problem, p).norm());
-  const auto failed = [&](const std::string& message) {
-    FrequencyBranch none{problem, {}};
-    none.branch.stop = {continuation::StopReason::start_failed, from, 0, message};
+  const FirstResponse first = first_response(model, from, width);
+  if (!first.u) {
+    FrequencyBranch none{first.problem, {}};
+    none.branch.stop = {continuation::StopReason::start_failed, from, 0, first.failure};
     return none;
-  };
-  if (const auto dof = model::drifting_dof(*model, p))
-    return failed(
-        "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
-        "\", and friction leaves it free to drift; add a spring between it and the ground or what is "
-        "held, or excite odd harmonics only");
-  const auto start = hbm::steady_state(problem, p);
-  if (!start)
-    return failed(
-        "Newton's method failed from rest, from the response without elements, and along a growing "
-        "excitation");
-  problem = problem_with(start->norm());
+  }
+  const auto& problem = first.problem;
 
   continuation::Options options;
   options.lower = window.lower;
@@ -59,8 +67,9 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
     each = [&](const continuation::Accepted& now, const continuation::Event* event) {
       return record(*observer, now, event);
     };
-  return {problem, continuation::trace(problem, {*start, p, model::frequency, 1}, options,
-                                       {peak_monitor(observer), continuation::fold_monitor()}, each)};
+  return {problem,
+          continuation::trace(problem, {*first.u, hbm::parameters_at(*problem, from), model::frequency, 1},
+                              options, {peak_monitor(observer), continuation::fold_monitor()}, each)};
 }
 
 }  // namespace arcslip::observables

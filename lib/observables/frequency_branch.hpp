@@ -8,6 +8,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace arcslip::observables {
 
@@ -19,6 +21,17 @@ struct FrequencyBranch {
   std::shared_ptr<const hbm::HbmProblem> problem;
   continuation::Branch branch;  // start_failed where no response was found to start from
 };
+
+/// A response to start from, and the problem in its scale; no response: why there is none.
+struct FirstResponse {
+  std::shared_ptr<const hbm::HbmProblem> problem;
+  std::optional<continuation::Vector> u;
+  std::string failure;
+};
+
+/// At omega with the model's own parameters. frequency_scale: of the problem.
+FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
+                             double frequency_scale);
 
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;

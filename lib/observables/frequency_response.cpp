@@ -1,12 +1,12 @@
 #include <arcslip/observables/frequency_response.hpp>
 
 #include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 
 namespace arcslip::observables {
 namespace {
@@ -20,40 +20,13 @@ constexpr double least_beyond = 1e-6;  // of the pole's frequency: nearer, a sta
 constexpr double without_course = 1.0 / 150;  // of the window: as far beyond a pole that the branch begins at
 constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an unbounded peak is taken up
 
-Status status_of(StopReason reason) {
-  switch (reason) {
-    case StopReason::boundary:
-      return Status::complete;
-    case StopReason::user:
-    case StopReason::point_limit:
-      return Status::stopped;
-    default:
-      return Status::failed;
-  }
-}
-
-// All combinations of the for_each lists, the last one fastest.
-std::vector<std::vector<std::pair<std::string, double>>> combinations(const scene::Study& study) {
-  std::vector<std::vector<std::pair<std::string, double>>> all{{}};
-  for (const auto& [name, values] : study.for_each) {
-    decltype(all) longer;
-    for (const auto& begun : all)
-      for (double value : values) {
-        longer.push_back(begun);
-        longer.back().emplace_back(name, value);
-      }
-    all = std::move(longer);
-  }
-  return all;
-}
-
 // One branch over the window [from, to], and what has to be known to go on beyond an unbounded peak.
 class Sweep {
  public:
   Sweep(const scene::Scene& scene, const scene::Study& study, const ProgressCallback& progress, int index,
         int count)
       : unit_(scene::to_rad_per_s(scene.frequency_unit)),
-        unit_name_(scene::unit_name(scene.frequency_unit)),
+        frequency_unit_(scene.frequency_unit),
         lower_(study.from * unit_),
         upper_(study.to * unit_),
         progress_(progress),
@@ -61,7 +34,7 @@ class Sweep {
         count_(count),
         model_(std::make_shared<const model::Model>(model::build(scene))) {}
 
-  std::vector<ResponseBranch> run(const std::vector<std::pair<std::string, double>>& set, bool& stopped) {
+  std::vector<ResponseBranch> run(const Setting& set, bool& stopped) {
     std::vector<ResponseBranch> branches;
     double from = lower_;
     for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
@@ -74,10 +47,9 @@ class Sweep {
   }
 
  private:
-  ResponseBranch trace_from(double from, const std::vector<std::pair<std::string, double>>& set) {
+  ResponseBranch trace_from(double from, const Setting& set) {
     const auto began = std::chrono::steady_clock::now();
-    ResponseBranch result;
-    describe(result, set);
+    ResponseBranch result = described(*model_, set);
 
     std::vector<std::pair<double, double>> course;  // frequency, |u| in scales
     double last = from;
@@ -116,29 +88,10 @@ class Sweep {
     return result;
   }
 
-  void describe(ResponseBranch& result, const std::vector<std::pair<std::string, double>>& set) const {
-    result.set = set;
-    for (const auto& parameter : model_->parameters) {
-      const bool is_set =
-          std::any_of(set.begin(), set.end(), [&](const auto& s) { return s.first == parameter.name; });
-      if (parameter.name != "frequency" && !is_set)
-        result.parameters.emplace_back(parameter.name, parameter.value);
-    }
-    const auto& h = model_->harmonics;
-    for (int i = 0; i < h.cosines(); ++i) result.harmonics.push_back(h.cosine_order(i));
-    result.solver.linear_solver = "dense LU";
-  }
-
   void finish(ResponseBranch& result, const FrequencyBranch& traced, double from, const Unboundedness& growth,
               const std::vector<std::pair<double, double>>& course) {
     const continuation::Branch& branch = traced.branch;
-    const auto& counts = branch.counts;
-    result.solver.points = counts.points;
-    result.solver.rejected_steps = counts.rejected_steps;
-    result.solver.residuals = counts.residuals;
-    result.solver.jacobians = counts.jacobians;
-    result.solver.factorizations = counts.factorizations;
-    result.solver.solves = counts.solves;
+    add(branch.counts, result.solver);
     if (growth.unbounded) {
       end_unbounded(result, growth, course);
       return;
@@ -190,15 +143,10 @@ class Sweep {
     }
   }
 
-  std::string with_unit(double omega) const {
-    std::ostringstream s;
-    s.precision(8);
-    s << omega / unit_ << ' ' << unit_name_;
-    return s.str();
-  }
+  std::string with_unit(double omega) const { return frequency_text(omega, frequency_unit_); }
 
   double unit_;
-  std::string unit_name_;
+  scene::FrequencyUnit frequency_unit_;
   double lower_, upper_;
   const ProgressCallback& progress_;
   int index_, count_;

@@ -52,6 +52,19 @@ inline scene::Scene chain(int order, bool even) {
     "studies": [{"kind": "frf", "from": 0.3, "to": 2.2}]})");
 }
 
+/// m = k = 1, c = 0.02, a cubic spring of 0.5, and a Jenkins element with k_d = mu = 0.5, forced by 0.5.
+inline scene::Scene duffing_jenkins(int order = 1) {
+  scene::Scene s = parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.02}]},
+    "elements": [{"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 0.5},
+      {"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.5, "friction_coefficient": 0.5, "normal_load": 0.8}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.5}], "response": {"at": "x"},
+    "studies": [{"kind": "frf", "from": 0.2, "to": 3}]})");
+  s.harmonics.order = order;
+  return s;
+}
+
 /// The response at one frequency, in the scene's unit.
 inline observables::ResponsePoint response_at(scene::Scene s, double frequency) {
   scene::Study study;

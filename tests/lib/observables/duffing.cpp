@@ -62,13 +62,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the Jenkins and Duffing oscillator folds where its describing function does") {
-  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
-      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.02}]},
-    "elements": [{"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 0.5},
-      {"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.5, "friction_coefficient": 0.5, "normal_load": 0.8}],
-    "excitation": [{"name": "f", "at": "x", "cosine": 0.5}], "harmonics": {"order": 1}, "response": {"at": "x"},
-    "studies": [{"kind": "frf", "from": 0.2, "to": 3}]})");
+  const scene::Scene s = scenes::duffing_jenkins();
   const auto found = folds(observables::frequency_response(s, s.studies.front()).front());
   REQUIRE(found.size() == 2);
   CHECK(reference::error(found[0].point.omega, 2.1150531362) < 1e-9);

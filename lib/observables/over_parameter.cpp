@@ -1,0 +1,52 @@
+#include <arcslip/observables/over_parameter.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::observables {
+namespace {
+
+constexpr double points_in_range = 150;             // at least, from end to end
+constexpr double largest_relative_step = 1.0 / 12;  // of the parameter
+constexpr double smallest_step = 1e-2;              // of the largest at the low end of the range
+constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
+
+}  // namespace
+
+continuation::Options OverParameter::options() const {
+  continuation::Options options;
+  options.lower = lower();
+  options.upper = upper();
+  options.step.largest_parameter = (upper() - lower()) / points_in_range;
+  options.largest_state = resolvable;
+  if (!has_one_sign()) return options;
+  options.step.relative_parameter = largest_relative_step;
+  const double scale = model->parameters[static_cast<std::size_t>(index)].scale;
+  const double least = std::min(std::abs(from), std::abs(to));
+  options.step.smallest =
+      std::min(options.step.smallest, smallest_step * largest_relative_step * least / scale);
+  return options;
+}
+
+double OverParameter::share(double value) const {
+  const double share = has_one_sign() && value / from > 0 ? std::log(value / from) / std::log(to / from)
+                                                          : (value - from) / (to - from);
+  return std::clamp(share, 0.0, 1.0);
+}
+
+OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to) {
+  scene::set(scene, over, to);
+  scene::set(scene, over, from);
+  model::Model model = model::build(scene);
+  OverParameter result;
+  result.name = over;
+  result.index = model::parameter_index(model, over);
+  result.from = from;
+  result.to = to;
+  model.parameters[static_cast<std::size_t>(result.index)].scale =
+      result.has_one_sign() ? std::sqrt(from * to) : std::abs(to - from);
+  result.model = std::make_shared<const model::Model>(std::move(model));
+  return result;
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,187 @@
+#include <arcslip/observables/curves.hpp>
+
+#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/over_parameter.hpp>
+#include <arcslip/observables/study_branches.hpp>
+#include <arcslip/observables/unbounded.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::Accepted;
+using continuation::Crossing;
+using continuation::StopReason;
+using continuation::Vector;
+
+constexpr double search_ratio = 4;  // of frequencies: the window in which other responses are looked for
+constexpr double same = 1e-6;       // responses that differ by less, relatively, are one
+
+continuation::Monitor extreme_monitor(const char* kind, Crossing crossing,
+                                      const std::shared_ptr<Observer>& observer) {
+  return {kind, [observer](const Accepted& now) { return observer->amplitude_slope(now); }, crossing,
+          [observer](const Accepted&) { return observer->last_amplitude(); }};
+}
+
+std::string text(double value) {
+  std::ostringstream s;
+  s.precision(8);
+  s << value;
+  return s.str();
+}
+
+// Where a spring is cubic, several responses may stand at one frequency: those at which a frequency branch
+// through a wide window passes omega.
+std::vector<Vector> other_responses(const OverParameter& way, double omega) {
+  const auto& model = *way.model;
+  const bool cubic = std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
+    return element.law == model::Law::cubic_spring &&
+           model.parameters[static_cast<std::size_t>(element.parameters[0])].value != 0;
+  });
+  std::vector<Vector> found;
+  if (!cubic) return found;
+  const FrequencyWindow window{omega / search_ratio, omega * search_ratio};
+  const auto swept = frequency_branch(way.model, window, window.lower);
+  const Vector p = hbm::parameters_at(*swept.problem, omega);
+  const auto& points = swept.branch.points;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto &a = points[i - 1], &b = points[i];
+    if ((a.parameter < omega) == (b.parameter < omega)) continue;
+    const double share = (omega - a.parameter) / (b.parameter - a.parameter);
+    if (const auto u = hbm::response_near(*swept.problem, p, a.u + share * (b.u - a.u))) found.push_back(*u);
+  }
+  return found;
+}
+
+// The branches over one parameter at one frequency and one setting, each from another response at its
+// beginning.
+class Traces {
+ public:
+  Traces(const scene::Scene& scene, const scene::Study& study, const Setting& set,
+         const ProgressCallback& report, const Progress& progress)
+      : way_(over_parameter(scene, study.over, study.from, study.to)),
+        unit_(scene.frequency_unit),
+        omega_(study.frequency_from * scene::to_rad_per_s(unit_)),
+        set_(set),
+        report_(report),
+        progress_(progress) {
+    progress_.frequency = study.frequency_from;
+  }
+
+  std::vector<ResponseBranch> run() {
+    if (const auto growth = unbounded_resonance(way_.model, omega_); growth.unbounded)
+      return {failed("no response is bounded", growth.message)};
+    const FirstResponse first = first_response(way_.model, omega_, omega_);
+    if (!first.u) return {failed("no periodic response was found", first.failure)};
+    std::vector<Vector> starts = other_responses(way_, omega_);
+    starts.insert(starts.begin(), *first.u);
+    std::vector<Vector> ends;
+    std::vector<ResponseBranch> branches;
+    bool reached = false;
+    for (const Vector& start : starts) {
+      if (std::any_of(ends.begin(), ends.end(),
+                      [&](const Vector& end) { return (start - end).norm() <= same * end.norm(); }))
+        continue;
+      const auto traced = trace(first.problem, start, branches.emplace_back());
+      ends.push_back(start);
+      if (traced.stop.reason == StopReason::boundary) {
+        if (traced.stop.value == way_.from) ends.push_back(traced.points.back().u);
+        reached = reached || traced.stop.value == way_.to;
+      }
+      if (traced.stop.reason == StopReason::user) break;
+    }
+    // A branch that came back is whole where others tell what lies beyond.
+    for (ResponseBranch& branch : branches)
+      if (reached && branch.stop.reason == name(StopReason::boundary)) branch.status = Status::complete;
+    return branches;
+  }
+
+ private:
+  ResponseBranch failed(const std::string& what, const std::string& why) const {
+    ResponseBranch result = described(*way_.model, set_, way_.name);
+    result.status = Status::failed;
+    result.stop = {name(StopReason::start_failed), way_.from, 0,
+                   what + " at " + way_.name + " = " + text(way_.from) + " and " +
+                       frequency_text(omega_, unit_) + ": " + why};
+    return result;
+  }
+
+  continuation::Branch trace(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u,
+                             ResponseBranch& result) {
+    const auto began = std::chrono::steady_clock::now();
+    result = described(*way_.model, set_, way_.name);
+    const auto observer = std::make_shared<Observer>(problem, way_.index);
+    const auto record = [&](const Accepted& now, const continuation::Event* event) {
+      ResponsePoint point = observer->observe(now);
+      point.over = now.parameter;
+      if (event) {
+        result.events.push_back({event->monitor, event->nonsmooth, event->located, std::move(point)});
+        return true;
+      }
+      result.points.push_back(std::move(point));
+      progress_.points = static_cast<long>(result.points.size());
+      progress_.share_done = way_.share(now.parameter);
+      return !report_ || report_(progress_);
+    };
+    auto branch = continuation::trace(
+        problem, {u, hbm::parameters_at(*problem, omega_), way_.index, way_.direction()}, way_.options(),
+        {extreme_monitor("maximum", Crossing::falling, observer),
+         extreme_monitor("minimum", Crossing::rising, observer), continuation::fold_monitor()},
+        record);
+    finish(result, branch);
+    result.solver.unknowns = problem->size();
+    add(branch.counts, result.solver);
+    result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return branch;
+  }
+
+  void finish(ResponseBranch& result, const continuation::Branch& branch) const {
+    result.status = status_of(branch.stop.reason);
+    result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
+    if (branch.stop.reason != StopReason::boundary) return;
+    result.stop.limit = way_.to;
+    if (branch.stop.value == way_.to) {
+      result.stop.message = "reached the end of the range at " + way_.name + " = " + text(way_.to);
+      return;
+    }
+    result.status = Status::stopped;
+    double farthest = way_.from;
+    for (const auto& event : result.events)
+      if (event.kind == "fold" && way_.direction() * (event.point.over - farthest) > 0)
+        farthest = event.point.over;
+    result.stop.message = "turned back at " + way_.name + " = " + text(farthest) +
+                          " and left the range where it began, at " + text(way_.from);
+  }
+
+  OverParameter way_;
+  scene::FrequencyUnit unit_;
+  double omega_;
+  const Setting& set_;
+  const ProgressCallback& report_;
+  Progress progress_;
+};
+
+}  // namespace
+
+std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const scene::Study& study,
+                                               const ProgressCallback& progress) {
+  const auto all = combinations(study);
+  std::vector<ResponseBranch> branches;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    scene::Scene with = scene;
+    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
+    Progress of_branch;
+    of_branch.branch = static_cast<int>(k);
+    of_branch.branches = static_cast<int>(all.size());
+    for (auto& branch : Traces(with, study, all[k], progress, of_branch).run())
+      branches.push_back(std::move(branch));
+    if (branches.back().stop.reason == name(StopReason::user)) break;
+  }
+  return branches;
+}
+
+}  // namespace arcslip::observables

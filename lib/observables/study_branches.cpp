@@ -1,0 +1,68 @@
+#include <arcslip/observables/study_branches.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace arcslip::observables {
+
+using continuation::StopReason;
+
+std::vector<Setting> combinations(const scene::Study& study) {
+  std::vector<Setting> all{{}};
+  for (const auto& [name, values] : study.for_each) {
+    std::vector<Setting> longer;
+    for (const auto& begun : all)
+      for (double value : values) {
+        longer.push_back(begun);
+        longer.back().emplace_back(name, value);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+ResponseBranch described(const model::Model& model, const Setting& set, const std::string& over) {
+  ResponseBranch branch;
+  branch.over = over;
+  branch.set = set;
+  for (const auto& parameter : model.parameters) {
+    const bool is_set =
+        std::any_of(set.begin(), set.end(), [&](const auto& s) { return s.first == parameter.name; });
+    if (parameter.name != "frequency" && parameter.name != over && !is_set)
+      branch.parameters.emplace_back(parameter.name, parameter.value);
+  }
+  const auto& h = model.harmonics;
+  for (int i = 0; i < h.cosines(); ++i) branch.harmonics.push_back(h.cosine_order(i));
+  branch.solver.linear_solver = "dense LU";
+  return branch;
+}
+
+void add(const continuation::Counts& counts, SolverSummary& to) {
+  to.points += counts.points;
+  to.rejected_steps += counts.rejected_steps;
+  to.residuals += counts.residuals;
+  to.jacobians += counts.jacobians;
+  to.factorizations += counts.factorizations;
+  to.solves += counts.solves;
+}
+
+Status status_of(StopReason reason) {
+  switch (reason) {
+    case StopReason::boundary:
+      return Status::complete;
+    case StopReason::user:
+    case StopReason::point_limit:
+      return Status::stopped;
+    default:
+      return Status::failed;
+  }
+}
+
+std::string frequency_text(double omega, scene::FrequencyUnit unit) {
+  std::ostringstream s;
+  s.precision(8);
+  s << omega / scene::to_rad_per_s(unit) << ' ' << scene::unit_name(unit);
+  return s.str();
+}
+
+}  // namespace arcslip::observables

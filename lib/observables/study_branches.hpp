@@ -1,0 +1,32 @@
+#pragma once
+// What all studies have in common: the combinations of their lists, and the description of a branch.
+
+#include <arcslip/continuation/branch.hpp>
+#include <arcslip/model/model.hpp>
+#include <arcslip/observables/response.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace arcslip::observables {
+
+/// The values that one combination of the for_each lists gives to parameters.
+using Setting = std::vector<std::pair<std::string, double>>;
+
+/// All combinations of the for_each lists, the last one fastest; one empty setting where there are none.
+std::vector<Setting> combinations(const scene::Study& study);
+
+/// An empty branch of a model: its parameters, harmonics and solver. over: the free parameter, if there is
+/// one in the study.
+ResponseBranch described(const model::Model& model, const Setting& set, const std::string& over = {});
+
+void add(const continuation::Counts& counts, SolverSummary& to);
+
+Status status_of(continuation::StopReason reason);
+
+/// omega (rad/s) in the scene's unit, with its name.
+std::string frequency_text(double omega, scene::FrequencyUnit unit);
+
+}  // namespace arcslip::observables

@@ -1,0 +1,150 @@
+// Branches over a parameter at a fixed frequency.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+
+#include <arcslip/observables/curves.hpp>
+
+#include <algorithm>
+
+using namespace arcslip;
+using observables::ResponseBranch;
+
+namespace {
+
+scene::Study over(const std::string& parameter, double frequency, double from, double to) {
+  scene::Study study;
+  study.name = "trace";
+  study.kind = scene::StudyKind::trace;
+  study.over = parameter;
+  study.from = from;
+  study.to = to;
+  study.frequency_from = study.frequency_to = frequency;
+  return study;
+}
+
+std::vector<observables::ResponseEvent> events(const ResponseBranch& branch, const std::string& kind) {
+  std::vector<observables::ResponseEvent> found;
+  for (const auto& event : branch.events)
+    if (event.kind == kind) found.push_back(event);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("over the load, at fixed frequency, the paper's oscillator responds exactly to 5e-8") {
+  for (double frequency : {18.5, 20.0, 21.5}) {
+    for (const auto& exact : reference::exact("fixed_frequency")) {
+      const double load = exact["normal_load"];
+      if (exact["frequency_hz"] != frequency) continue;
+      CAPTURE(frequency, load);
+      const auto branches = observables::parameter_response(
+          scenes::paper(55), over("damper.normal_load", frequency, 0.01, load));
+      REQUIRE(branches.size() == 1);
+      const ResponseBranch& branch = branches[0];
+      CHECK(branch.status == observables::Status::complete);
+      CHECK(branch.over == "damper.normal_load");
+      REQUIRE_FALSE(branch.points.empty());
+      const auto& end = branch.points.back();
+      CHECK(end.over == load);
+      CHECK(end.omega == frequency * scenes::hertz);
+      CHECK(reference::error(end.amplitude, exact["amplitude"]) < 5e-8);
+      CHECK(std::abs(end.elements[0].stick_percent - exact["stick_percent"].get<double>()) < 1e-4);
+    }
+  }
+}
+
+TEST_CASE("at 20 Hz the response over the load has one maximum, above both responses in its neighbourhood") {
+  const auto branch =
+      observables::parameter_response(scenes::paper(15), over("damper.normal_load", 20, 0.01, 500)).front();
+  CHECK(branch.status == observables::Status::complete);
+  CHECK(branch.points.front().over == 0.01);
+  CHECK(branch.points.back().over == 500);
+  CHECK(branch.points.size() >= 150);
+  CHECK(events(branch, "fold").empty());
+  const auto maxima = events(branch, "maximum");
+  CHECK(maxima.size() == events(branch, "minimum").size() + 1);
+  for (const auto& kind : {"maximum", "minimum"})
+    for (const auto& event : events(branch, kind)) {
+      CAPTURE(kind, event.point.over);
+      for (double shift : {-1e-3, 1e-3}) {
+        const double beside =
+            scenes::response_at(scenes::paper(15, event.point.over * (1 + shift)), 20).amplitude;
+        CHECK((event.kind == "maximum") == (beside < event.point.amplitude));
+      }
+    }
+}
+
+TEST_CASE("the Jenkins and Duffing oscillator folds in the load where its describing function does") {
+  // Below the first fold and above the second there are two responses of large amplitude beside the small
+  // one.
+  const auto s = scenes::duffing_jenkins();
+  for (const auto& [study, fold] : {std::pair(over("d.normal_load", 2, 0.5, 3), 0.9169049045),
+                                    std::pair(over("d.normal_load", 2, 3, 0.5), 1.6884695203)}) {
+    const auto branches = observables::parameter_response(s, study);
+    CAPTURE(fold);
+    REQUIRE(branches.size() == 2);
+    for (const auto& branch : branches) CHECK(branch.status == observables::Status::complete);
+    CHECK(events(branches[0], "fold").empty());
+    CHECK(branches[0].points.back().over == study.to);
+    const auto folds = events(branches[1], "fold");
+    REQUIRE(folds.size() == 1);
+    CHECK(std::abs(folds[0].point.over - fold) < 1e-9);
+    CHECK_FALSE(folds[0].nonsmooth);
+    CHECK(branches[1].points.back().over == study.from);
+  }
+}
+
+TEST_CASE("over a tie both of its fields change") {
+  scene::Scene s = scenes::paper(7);
+  s.elements.push_back(s.elements.front());
+  s.elements.back().name = "second";
+  for (auto& element : s.elements) element.values[0] = 1750;
+  s.ties.push_back({"loads", {"damper.normal_load", "second.normal_load"}});
+  const auto halves = observables::parameter_response(s, over("loads", 20, 0.5, 1.5)).front();
+  const auto whole =
+      observables::parameter_response(scenes::paper(7), over("damper.normal_load", 20, 1, 3)).front();
+  CHECK(reference::error(halves.points.back().amplitude, whole.points.back().amplitude) < 1e-10);
+  CHECK(reference::error(halves.points.front().amplitude, whole.points.front().amplitude) < 1e-10);
+}
+
+TEST_CASE("a parameter that is not there, or may not take the value, is refused by name") {
+  CHECK_THROWS_AS(observables::parameter_response(scenes::paper(1), over("damper.load", 20, 1, 3)),
+                  scene::ParameterError);
+  CHECK_THROWS_AS(observables::parameter_response(scenes::paper(1), over("damper.normal_load", 20, 1, -3)),
+                  scene::ParameterError);
+}
+
+TEST_CASE("a branch over a parameter ends with the callback, and no other is begun") {
+  scene::Study study = over("damper.normal_load", 20, 1, 3);
+  study.for_each = {{"c.value", {0.1, 0.2}}};
+  long calls = 0;
+  double share = 0;
+  const auto branches =
+      observables::parameter_response(scenes::paper(1), study, [&](const observables::Progress& progress) {
+        CHECK(progress.share_done >= share);
+        CHECK(progress.branches == 2);
+        share = progress.share_done;
+        return ++calls < 5;
+      });
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].status == observables::Status::stopped);
+  CHECK(branches[0].stop.reason == "user");
+  CHECK(branches[0].points.size() == 5);
+}
+
+TEST_CASE("where the resonance is unbounded at the fixed frequency, a branch says so instead of a start") {
+  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}]},
+    "elements": [{"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.5, "friction_coefficient": 0.5,
+      "normal_load": 0.1}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "harmonics": {"order": 3}, "response": {"at": "x"},
+    "studies": [{"kind": "frf", "from": 0.2, "to": 3}]})");
+  const auto branch = observables::parameter_response(s, over("d.normal_load", 1, 0.1, 3)).front();
+  CHECK(branch.status == observables::Status::failed);
+  CHECK(branch.stop.reason == "start_failed");
+  CHECK(branch.stop.message.find("unbounded") != std::string::npos);
+}
