@@ -119,6 +119,7 @@ class Traces {
       ResponsePoint point = observer->observe(now);
       point.over = now.parameter;
       if (event) {
+        if (event->nonsmooth && event->value == 0) return true;  // constant beyond: no extreme
         result.events.push_back({event->monitor, event->nonsmooth, event->located, std::move(point)});
         return true;
       }

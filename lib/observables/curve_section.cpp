@@ -1,0 +1,118 @@
+#include <arcslip/observables/curve_section.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace arcslip::observables {
+
+using continuation::Accepted;
+using continuation::Evaluated;
+using continuation::In;
+using continuation::Needs;
+using continuation::Out;
+using continuation::Vector;
+
+CurveSection::CurveSection(std::shared_ptr<const hbm::HbmProblem> problem, int over)
+    : problem_(std::move(problem)),
+      over_(over),
+      observer_(problem_),
+      evaluator_(problem_->hbm_evaluator()),
+      border_(problem_->size(), 1),
+      u_(problem_->size()),
+      scales_(problem_->size() + 1),
+      tangent_(scales_.size()) {
+  scales_ << problem_->scales(), problem_->parameters()[model::frequency].scale;
+  // Until there is a tangent, a border row that no symmetry makes orthogonal to it.
+  for (Eigen::Index i = 0; i < scales_.size(); ++i)
+    tangent_[i] = (1 + 0.3 * std::sin(7.0 * static_cast<double>(i))) * scales_[i];
+}
+
+bool CurveSection::move_to(const Accepted& now, Needs needs) {
+  u_ = now.u.head(u_.size());
+  p_ = now.p;
+  p_[model::frequency] = now.u[u_.size()];
+  return evaluator_->move_to(u_, p_, needs) == Evaluated::ok;
+}
+
+// The tangent of the branch over the frequency, with the last one as border row.
+bool CurveSection::linearize() {
+  const Eigen::Index n = u_.size();
+  Vector row = tangent_.cwiseQuotient(scales_).cwiseQuotient(scales_);
+  row /= tangent_.cwiseQuotient(scales_).norm();
+  border_.rows.col(0) = row.head(n);
+  border_.corner(0, 0) = row[n];
+  evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
+  if (!solver_) solver_ = continuation::suitable_solver(evaluator_->jacobian());
+  if (!solver_->factorize(evaluator_->jacobian(), border_)) return false;
+  Vector t = Vector::Unit(n + 1, n);
+  solver_->solve(t);
+  const double length = t.cwiseQuotient(scales_).norm();
+  if (!(length > 0) || !std::isfinite(length)) return false;
+  tangent_ = t / length;
+  return true;
+}
+
+ResponsePoint CurveSection::observe(const Accepted& now) {
+  move_to(now, Needs::jacobian);
+  linearize();
+  ResponsePoint point =
+      observer_.observe({u_, p_, tangent_, now.arclength, *evaluator_, *solver_, p_[model::frequency]});
+  point.over = now.parameter;
+  return point;
+}
+
+double CurveSection::amplitude_slope(const Accepted& now) {
+  if (!move_to(now, Needs::residual)) return std::nan("");
+  const Eigen::Index n = u_.size();
+  return observer_.amplitude_change(*evaluator_, u_, now.tangent.head(n),
+                                    {{model::frequency, now.tangent[n]}, {over_, now.tangent[n + 1]}});
+}
+
+namespace {
+
+// dA/du = L^T a and dA/dp_k = a . dx/dp_k with the observed coordinate x = L u + x_0 and a = sign
+// phi(theta_hat).
+class AmplitudeGradient {
+ public:
+  explicit AmplitudeGradient(const hbm::HbmProblem& problem)
+      : harmonics_(problem.harmonics()),
+        condensed_(problem.coordinates().linear() > 0),
+        amplitude_(harmonics_),
+        x_(harmonics_.size()),
+        a_(x_.size()) {}
+
+  void by_unknowns(const hbm::HbmEvaluator& at, In u, Out dA) {
+    at.stiffness().response(u, at.force_factor(), x_);
+    const Extreme extreme = amplitude_.of(x_);
+    elements::series_basis(harmonics_, extreme.theta, a_);
+    a_ *= extreme.sign;
+    at.stiffness().response_transposed(a_, dA);
+  }
+
+  double by_parameter(const hbm::HbmEvaluator& at, In u, int k) {
+    if (!condensed_) return 0;
+    at.stiffness().response(u, at.force_factor(), x_);
+    const Extreme extreme = amplitude_.of(x_);
+    at.stiffness().response_derivative(k, u, at.force_factor(), x_);
+    return amplitude_change(harmonics_, extreme, x_);
+  }
+
+ private:
+  elements::Harmonics harmonics_;
+  bool condensed_;  // otherwise the response is a combination of the unknowns
+  Amplitude amplitude_;
+  Vector x_, a_;
+};
+
+}  // namespace
+
+continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem) {
+  const auto gradient = std::make_shared<AmplitudeGradient>(*problem);
+  const auto of = [](continuation::Evaluator& at) -> const hbm::HbmEvaluator& {
+    return static_cast<const hbm::HbmEvaluator&>(at);
+  };
+  return {[=](continuation::Evaluator& at, In u, In, Out dA) { gradient->by_unknowns(of(at), u, dA); },
+          [=](continuation::Evaluator& at, In u, In, int k) { return gradient->by_parameter(of(at), u, k); }};
+}
+
+}  // namespace arcslip::observables

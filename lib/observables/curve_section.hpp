@@ -1,0 +1,44 @@
+#pragma once
+// A point of a curve of special points, seen as a point of the branch over the excitation frequency that
+// passes through it: what observables need, and how the amplitude changes along the curve.
+
+#include <arcslip/continuation/linear_solver.hpp>
+#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/observables/observe.hpp>
+
+#include <memory>
+
+namespace arcslip::observables {
+
+/// For curves of stationary points of `problem` along the frequency, in one more parameter. Owns its buffers.
+class CurveSection {
+ public:
+  CurveSection(std::shared_ptr<const hbm::HbmProblem> problem, int over);
+
+  /// Everything at a point of the curve; `over` is told. truncation_estimate is 0 and flagged where the
+  /// branch has no tangent.
+  ResponsePoint observe(const continuation::Accepted& now);
+
+  /// dA/ds along the curve.
+  double amplitude_slope(const continuation::Accepted& now);
+
+  /// A at the last call of either.
+  double last_amplitude() const { return observer_.last_amplitude(); }
+
+ private:
+  bool move_to(const continuation::Accepted& now, continuation::Needs needs);
+  bool linearize();
+
+  std::shared_ptr<const hbm::HbmProblem> problem_;
+  int over_;
+  Observer observer_;
+  std::unique_ptr<hbm::HbmEvaluator> evaluator_;
+  std::unique_ptr<continuation::LinearSolver> solver_;
+  continuation::Borders border_;
+  continuation::Vector u_, p_, scales_, tangent_;
+};
+
+/// The amplitude as the quantity whose stationary points are followed.
+continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem);
+
+}  // namespace arcslip::observables

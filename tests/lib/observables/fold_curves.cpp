@@ -1,0 +1,82 @@
+// Curves of folds over a parameter.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+
+#include <arcslip/observables/curves.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace arcslip;
+using observables::ResponseBranch;
+
+namespace {
+
+scene::Study folds_over(const std::string& parameter, double from, double to, double lower, double upper) {
+  scene::Study study;
+  study.name = "folds";
+  study.kind = scene::StudyKind::folds;
+  study.over = parameter;
+  study.from = from;
+  study.to = to;
+  study.frequency_from = lower;
+  study.frequency_to = upper;
+  return study;
+}
+
+scene::Scene duffing(double force) {
+  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json");
+  scene::set(s, "c.value", 0.1);
+  scene::set(s, "hardening.stiffness", 1);
+  scene::set(s, "force.cosine", force);
+  s.harmonics.order = 1;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("both folds of the Duffing oscillator lie on one curve over the force, with a cusp between them") {
+  const auto branches = observables::fold_curves(duffing(1), folds_over("force.cosine", 0.1, 0.01, 0.5, 2));
+  REQUIRE(branches.size() == 1);
+  const ResponseBranch& curve = branches[0];
+  CHECK(curve.status == observables::Status::complete);
+  CHECK(curve.over == "force.cosine");
+  CHECK(std::abs(curve.points.front().omega - 1.227095772) < 1e-9);
+  CHECK(std::abs(curve.points.back().omega - 1.157717746) < 1e-9);
+  CHECK(curve.points.front().over == 0.1);
+  CHECK(curve.points.back().over == 0.1);
+  REQUIRE(curve.events.size() == 1);
+  CHECK(curve.events[0].kind == "cusp");
+  CHECK(std::abs(curve.events[0].point.omega - 1.090345535) < 1e-9);
+  CHECK(std::abs(curve.events[0].point.over - 0.0515845499) < 1e-10);
+}
+
+TEST_CASE("a fold curve of the Duffing oscillator solves dg/dA = 0 of its closed form") {
+  // g^2 = A^2 ((1 - w^2 + 3/4 A^2)^2 + 0.01 w^2), and at folds in w its derivative by A^2 vanishes.
+  const auto branches = observables::fold_curves(duffing(1), folds_over("force.cosine", 0.06, 0.3, 0.5, 4));
+  REQUIRE(branches.size() == 2);
+  for (const ResponseBranch& curve : branches) {
+    CAPTURE(curve.stop.message);
+    CHECK(curve.status == observables::Status::complete);
+    CHECK(curve.points.back().over == 0.3);
+    for (const auto& point : curve.points) {
+      const double y = point.amplitude * point.amplitude, w2 = point.omega * point.omega;
+      const double detuning = 1 - w2 + 0.75 * y;
+      CHECK(std::abs(y * (detuning * detuning + 0.01 * w2) / (point.over * point.over) - 1) < 1e-9);
+      CHECK(std::abs(detuning * detuning + 0.01 * w2 + 1.5 * y * detuning) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("folds of the Jenkins and Duffing oscillator over the load: in the frequency, and where they turn in it") {
+  const auto branches =
+      observables::fold_curves(scenes::duffing_jenkins(), folds_over("d.normal_load", 0.8, 3, 0.5, 4));
+  REQUIRE(branches.size() >= 1);
+  for (const auto& b : branches) {
+    std::printf("%s %s %zu points, %g..%g, omega %.12g .. %.12g\n", b.stop.reason.c_str(), b.stop.message.c_str(), b.points.size(), b.points.front().over, b.points.back().over, b.points.front().omega, b.points.back().omega);
+    for (const auto& e : b.events) std::printf("  %s %d %.12g %.12g A %.9g\n", e.kind.c_str(), e.nonsmooth, e.point.over, e.point.omega, e.point.amplitude);
+  }
+}
