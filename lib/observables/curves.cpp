@@ -57,22 +57,16 @@ class Curves {
     for (const SpecialPoint& start : found.points) {
       const auto is_start = [&](const Vector& end) { return (start.x - end).norm() <= same * end.norm(); };
       if (std::any_of(ends.begin(), ends.end(), is_start)) continue;
-      if (start.nonsmooth) {
-        branches.push_back(failed(StopReason::start_failed,
-                                  "the " + what_ + " at " + place(start.x) +
-                                      " is a corner of the response, where no derivative vanishes"));
-        continue;
-      }
       const auto began = std::chrono::steady_clock::now();
-      const SpecialCurve curve = trace(found.problem, start.x);
+      const SpecialCurve curve = trace(found.problem, start);
       auto parts = split(curve);
       SolverSummary& solver = parts.front().solver;
       solver.unknowns = found.problem->size() + 1;
-      add(curve.branch.counts, solver);
+      add(curve.counts, solver);
       solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
       for (auto& part : parts) branches.push_back(std::move(part));
       if (curve.end.size() > 0) ends.push_back(curve.end);
-      if (curve.branch.stop.reason == StopReason::user && curve.unbounded.empty()) return branches;
+      if (curve.stop.reason == StopReason::user && curve.unbounded.empty()) return branches;
     }
     if (branches.empty())
       branches.push_back(failed(StopReason::start_failed,
@@ -97,10 +91,10 @@ class Curves {
     return result;
   }
 
-  SpecialCurve trace(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& start) {
+  SpecialCurve trace(const std::shared_ptr<const hbm::HbmProblem>& problem, const SpecialPoint& start) {
     const auto section = std::make_shared<CurveSection>(problem, way_.index);
     long points = 0;
-    double last = start[start.size() - 1];
+    double last = start.x[start.x.size() - 1];
     const auto progress = [&](double over, double omega) {
       progress_.points = ++points;
       progress_.frequency = omega / to_rad_per_s_;
@@ -109,27 +103,34 @@ class Curves {
       last = omega;
       return !report_ || report_(progress_);
     };
-    const auto curve =
-        peaks_ ? continuation::stationary_points(problem, model::frequency, amplitude_quantity(problem))
-               : continuation::folds(problem, model::frequency);
-    return follow(problem, curve, way_, window_, start, section,
-                  peaks_ ? peak_monitors(section) : fold_monitors(), progress);
+    return SpecialCurveTracer(problem, peaks_ ? peak_kind(problem) : fold_kind(), way_, window_,
+                              with_folds(peaks_ ? peak_monitors(section) : fold_monitors()),
+                              peaks_ ? peak_monitors(section) : turn_monitors(), section, progress)
+        .run(start);
   }
 
   static std::vector<Monitor> peak_monitors(const std::shared_ptr<CurveSection>& section) {
     const auto slope = [section](const Accepted& now) { return section->amplitude_slope(now); };
     const auto amplitude = [section](const Accepted&) { return section->last_amplitude(); };
     return {{"minimum", slope, Crossing::rising, amplitude},
-            {"maximum", slope, Crossing::falling, amplitude},
-            continuation::fold_monitor()};
+            {"maximum", slope, Crossing::falling, amplitude}};
+  }
+
+  static std::vector<Monitor> turn_monitors() {
+    const auto slope = [](const Accepted& now) { return now.tangent[now.u.size() - 1]; };
+    const auto frequency = [](const Accepted& now) { return now.u[now.u.size() - 1]; };
+    return {{"turn", slope, Crossing::any, frequency}};
   }
 
   static std::vector<Monitor> fold_monitors() {
-    const auto slope = [](const Accepted& now) { return now.tangent[now.u.size() - 1]; };
-    const auto frequency = [](const Accepted& now) { return now.u[now.u.size() - 1]; };
-    return {continuation::cusp_monitor(),
-            continuation::fold_monitor(),
-            {"turn", slope, Crossing::any, frequency}};
+    auto monitors = turn_monitors();
+    monitors.push_back(continuation::cusp_monitor());
+    return monitors;
+  }
+
+  static std::vector<Monitor> with_folds(std::vector<Monitor> monitors) {
+    monitors.push_back(continuation::fold_monitor());
+    return monitors;
   }
 
   // Where a cusp is, the curve turns in everything: that is no event of its own.
@@ -151,6 +152,8 @@ class Curves {
       for (const auto& each : curve.events)
         if (each.event.kind == "fold") turns.push_back(each.arclength);
     turns.push_back(HUGE_VAL);
+    std::vector<std::pair<double, double>> course;
+    for (const auto& at : curve.points) course.emplace_back(at.arclength, at.point.amplitude);
     double begin = -HUGE_VAL;
     for (std::size_t k = 0; k < turns.size(); begin = turns[k++]) {
       const double end = turns[k];
@@ -158,13 +161,15 @@ class Curves {
       ResponseBranch part = described(*way_.model, set_, way_.name);
       for (const auto& at : curve.points) {
         if (!(at.arclength >= begin && at.arclength < end)) continue;
-        ++(at.second < 0 ? peaks : others);
+        ++(at.second <= 0 ? peaks : others);
         part.points.push_back(at.point);
       }
-      if (peaks_ && others > peaks) continue;
+      if (part.points.empty() || (peaks_ && others > peaks)) continue;
       for (std::size_t i = 0; i < curve.events.size(); ++i) {
         const auto& each = curve.events[i];
         if (each.arclength < begin || each.arclength > end || is_of_a_cusp(curve, each)) continue;
+        const bool extreme = each.event.kind == "minimum" || each.event.kind == "maximum";
+        if (extreme && !departs(course, each.arclength, each.event.point.amplitude)) continue;
         part.events.push_back(each.event);
         if (peaks_ && each.arclength == begin) part.points.insert(part.points.begin(), each.event.point);
         if (peaks_ && each.arclength == end) part.points.push_back(each.event.point);
@@ -180,15 +185,17 @@ class Curves {
   }
 
   void finish(ResponseBranch& part, const SpecialCurve& curve, double end) const {
-    const continuation::Stop& stop = curve.branch.stop;
+    const continuation::Stop& stop = curve.stop;
     part.status = status_of(stop.reason);
     part.stop = {name(stop.reason), stop.value, stop.limit, stop.message};
-    if (end < HUGE_VAL) {
+    if (end < HUGE_VAL || curve.vanishes) {
       const ResponsePoint& last = part.points.back();
       part.status = Status::complete;
-      part.stop = {"fold", last.over, last.over,
-                   "the peak meets a minimum of the amplitude over the frequency, and there is none beyond " +
-                       way_.name + " = " + text(last.over)};
+      part.stop = {
+          "fold", last.over, last.over,
+          (peaks_ ? "the peak meets a minimum of the amplitude over the frequency, and there is none beyond "
+                  : "the fold meets another at a corner of the response, and there is none beyond ") +
+              way_.name + " = " + text(last.over)};
     } else if (!curve.unbounded.empty()) {
       const ResponsePoint& last = part.points.back();
       part.status = Status::complete;
@@ -206,7 +213,10 @@ class Curves {
           stop.value == way_.to
               ? "reached the end of the range at " + way_.name + " = " + text(way_.to)
               : "came back to the beginning of the range at " + way_.name + " = " + text(way_.from);
-    } else if (!part.points.empty()) {
+    } else if (part.points.empty()) {
+      part.stop.message = "no curve was begun from the " + what_ + " at " + way_.name + " = " +
+                          text(way_.from) + ": " + stop.message;
+    } else {
       part.stop.message += ", near " + way_.name + " = " + text(part.points.back().over);
     }
   }

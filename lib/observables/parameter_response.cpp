@@ -115,14 +115,17 @@ class Traces {
     const auto began = std::chrono::steady_clock::now();
     result = described(*way_.model, set_, way_.name);
     const auto observer = std::make_shared<Observer>(problem, way_.index);
+    std::vector<std::pair<double, double>> course;  // arclength, amplitude
+    std::vector<double> at;                         // arclength of the events
     const auto record = [&](const Accepted& now, const continuation::Event* event) {
       ResponsePoint point = observer->observe(now);
       point.over = now.parameter;
       if (event) {
-        if (event->nonsmooth && event->value == 0) return true;  // constant beyond: no extreme
+        at.push_back(now.arclength);
         result.events.push_back({event->monitor, event->nonsmooth, event->located, std::move(point)});
         return true;
       }
+      course.emplace_back(now.arclength, point.amplitude);
       result.points.push_back(std::move(point));
       progress_.points = static_cast<long>(result.points.size());
       progress_.share_done = way_.share(now.parameter);
@@ -133,6 +136,9 @@ class Traces {
         {extreme_monitor("maximum", Crossing::falling, observer),
          extreme_monitor("minimum", Crossing::rising, observer), continuation::fold_monitor()},
         record);
+    for (std::size_t i = at.size(); i-- > 0;)
+      if (result.events[i].kind != "fold" && !departs(course, at[i], result.events[i].point.amplitude))
+        result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
     finish(result, branch);
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);

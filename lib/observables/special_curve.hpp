@@ -2,13 +2,20 @@
 // Curves of special points of the branches over the excitation frequency, over one more parameter: resonance
 // peaks and folds. Found on the branch at the range's beginning, followed by continuation of the equations
 // that define them (continuation/stationary.hpp).
+//
+// A special point may come to a corner of the branches, where a friction element passes from full stick to
+// slip, and sit there while the parameter goes on: the slope has opposite signs on the two sides. The curve
+// then follows the corner (hbm/stick_limit.hpp), until the slope vanishes on one of the sides.
 
+#include <arcslip/hbm/stick_limit.hpp>
 #include <arcslip/observables/curve_section.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/over_parameter.hpp>
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,11 +39,20 @@ struct SpecialPoints {
 SpecialPoints special_points(const OverParameter& way, const FrequencyWindow& window,
                              const std::string& kind);
 
+/// What is special, as the zero of the slope of a quantity along the branch over the frequency.
+struct SpecialKind {
+  std::string event;  // "peak" or "fold"
+  continuation::Quantity quantity;
+  bool maximum = false;  // of the quantity only
+};
+SpecialKind peak_kind(const std::shared_ptr<const hbm::HbmProblem>& problem);
+SpecialKind fold_kind();
+
 /// What was recorded of one curve, in the order of arclength.
 struct SpecialCurve {
   struct At {
     double arclength = 0;
-    double second = 0;  // second derivative of the amplitude, or of the frequency, along the frequency branch
+    double second = 0;  // derivative of the quantity along the frequency branch; 0 at corners
     ResponsePoint point;
   };
   struct EventAt {
@@ -44,19 +60,58 @@ struct SpecialCurve {
     ResponseEvent event;
   };
   std::vector<At> points;
-  std::vector<EventAt> events;
-  continuation::Branch branch;  // without its points' unknowns but for the ends
-  continuation::Vector end;     // unknowns and frequency at the last point
-  bool left_window = false;     // of the frequency
-  std::string unbounded;        // why, where the response grows without bound
+  std::vector<EventAt>
+      events;  // those of the monitors, and "corner" where the curve comes to one or leaves it
+  continuation::Stop stop;
+  continuation::Counts counts;
+  continuation::Vector end;  // unknowns and frequency at the last point
+  bool left_window = false;  // of the frequency
+  bool vanishes = false;     // at a corner that the branch over the frequency touches from one side
+  std::string unbounded;     // why, where the response grows without bound
 };
 
-/// curve: the equations, in the parameter way.index. monitors: in addition to that of the frequency window.
-/// progress: after each point, with its value of the parameter and its frequency; false stops.
-SpecialCurve follow(const std::shared_ptr<const hbm::HbmProblem>& problem,
-                    const std::shared_ptr<const continuation::Problem>& curve, const OverParameter& way,
-                    const FrequencyWindow& window, const continuation::Vector& start,
-                    const std::shared_ptr<CurveSection>& section, std::vector<continuation::Monitor> monitors,
-                    const std::function<bool(double over, double omega)>& progress);
+class SpecialCurveTracer {
+ public:
+  using Progress = std::function<bool(double over, double omega)>;
+
+  /// monitors: of the curve, in addition to that of the frequency window. progress: after each point, with
+  /// its value of the parameter and its frequency; false stops.
+  SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> problem, SpecialKind kind, OverParameter way,
+                     const FrequencyWindow& window, std::vector<continuation::Monitor> smooth_monitors,
+                     std::vector<continuation::Monitor> corner_monitors,
+                     std::shared_ptr<CurveSection> section, Progress progress);
+
+  SpecialCurve run(const SpecialPoint& start);
+
+ private:
+  struct Place {
+    continuation::Vector x;  // unknowns and frequency
+    double over = 0;
+    int direction = 1;
+    int element = -1;  // at whose corner; none on smooth parts
+    int side = 0;      // where a corner was left: -1 stick, +1 slip
+  };
+
+  continuation::Branch trace(const Place& from);
+  std::optional<Place> to_corner(const Place& at);
+  std::optional<Place> from_corner(const Place& at, bool slip);
+  std::optional<continuation::Vector> corrected(const continuation::Problem& problem,
+                                                const continuation::Vector& x, double over) const;
+  bool is_special(int element, const continuation::Vector& x, double over);
+  double excess(int element, const continuation::Vector& x, double over) const;
+  continuation::Vector parameters(const continuation::Vector& x, double over) const;
+  bool inside(double over) const { return over >= way_.lower() && over <= way_.upper(); }
+
+  std::shared_ptr<const hbm::HbmProblem> problem_;
+  SpecialKind kind_;
+  OverParameter way_;
+  FrequencyWindow window_;
+  std::vector<continuation::Monitor> smooth_monitors_, corner_monitors_;
+  std::shared_ptr<CurveSection> section_;
+  Progress progress_;
+  std::shared_ptr<const continuation::Problem> smooth_;
+  SpecialCurve result_;
+  double arclength_ = 0;  // where the part begins
+};
 
 }  // namespace arcslip::observables

@@ -1,9 +1,17 @@
 #include <arcslip/observables/study_branches.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace arcslip::observables {
+
+namespace {
+
+constexpr double constant = 1e-11;        // relative changes of the amplitude below
+constexpr std::ptrdiff_t neighbours = 2;  // that are looked at, on each side
+
+}  // namespace
 
 using continuation::StopReason;
 
@@ -35,6 +43,17 @@ ResponseBranch described(const model::Model& model, const Setting& set, const st
   for (int i = 0; i < h.cosines(); ++i) branch.harmonics.push_back(h.cosine_order(i));
   branch.solver.linear_solver = "dense LU";
   return branch;
+}
+
+bool departs(const std::vector<std::pair<double, double>>& course, double arclength, double amplitude) {
+  const auto after = std::upper_bound(course.begin(), course.end(), arclength,
+                                      [](double s, const auto& point) { return s < point.first; });
+  const auto differs = [&](const auto& point) {
+    return std::abs(point.second - amplitude) > constant * std::abs(amplitude);
+  };
+  const auto first = after - course.begin() > neighbours ? after - neighbours : course.begin();
+  const auto last = course.end() - after > neighbours ? after + neighbours : course.end();
+  return std::any_of(first, after, differs) && std::any_of(after, last, differs);
 }
 
 void add(const continuation::Counts& counts, SolverSummary& to) {

@@ -22,6 +22,11 @@ std::vector<Setting> combinations(const scene::Study& study);
 /// one in the study.
 ResponseBranch described(const model::Model& model, const Setting& set, const std::string& over = {});
 
+/// Whether the amplitude departs from an extreme at an arclength, on both sides, by more than rounding: it
+/// does not where all friction elements that the free parameter acts on stick, or slip, and nothing changes.
+/// course: arclength and amplitude of the points of the branch.
+bool departs(const std::vector<std::pair<double, double>>& course, double arclength, double amplitude);
+
 void add(const continuation::Counts& counts, SolverSummary& to);
 
 Status status_of(continuation::StopReason reason);

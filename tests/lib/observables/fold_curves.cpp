@@ -71,12 +71,25 @@ TEST_CASE("a fold curve of the Duffing oscillator solves dg/dA = 0 of its closed
   }
 }
 
-TEST_CASE("folds of the Jenkins and Duffing oscillator over the load: in the frequency, and where they turn in it") {
+TEST_CASE("folds of the Jenkins and Duffing oscillator over the load, and where they turn in the frequency") {
   const auto branches =
       observables::fold_curves(scenes::duffing_jenkins(), folds_over("d.normal_load", 0.8, 3, 0.5, 4));
-  REQUIRE(branches.size() >= 1);
+  REQUIRE(branches.size() >= 2);
+  CHECK(std::abs(branches[0].points.front().omega - 2.1150531362) < 1e-9);
+  CHECK(std::abs(branches[1].points.front().omega - 1.5063740448) < 1e-9);
+  std::vector<observables::ResponsePoint> turns;
+  for (const auto& event : branches[0].events)
+    if (event.kind == "turn") turns.push_back(event.point);
+  REQUIRE(turns.size() == 1);
+  CHECK(std::abs(turns[0].omega - 1.911489205) < 1e-9);
+  CHECK(std::abs(turns[0].over - 1.215318824) < 1e-8);
+  CHECK(branches[0].status == observables::Status::complete);
   for (const auto& b : branches) {
-    std::printf("%s %s %zu points, %g..%g, omega %.12g .. %.12g\n", b.stop.reason.c_str(), b.stop.message.c_str(), b.points.size(), b.points.front().over, b.points.back().over, b.points.front().omega, b.points.back().omega);
-    for (const auto& e : b.events) std::printf("  %s %d %.12g %.12g A %.9g\n", e.kind.c_str(), e.nonsmooth, e.point.over, e.point.omega, e.point.amplitude);
+    std::printf("%s %s %zu points, %g..%g, omega %.12g .. %.12g\n", b.stop.reason.c_str(),
+                b.stop.message.c_str(), b.points.size(), b.points.front().over, b.points.back().over,
+                b.points.front().omega, b.points.back().omega);
+    for (const auto& e : b.events)
+      std::printf("  %s %d %.12g %.12g A %.9g\n", e.kind.c_str(), e.nonsmooth, e.point.over, e.point.omega,
+                  e.point.amplitude);
   }
 }

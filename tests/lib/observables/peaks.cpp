@@ -54,7 +54,8 @@ TEST_CASE("the curve of peaks ends at each load from 0.01 N to 500 N in the exac
       const double load = exact["normal_load"];
       CAPTURE(order, load);
       // From 0.01 N on, and the first load from 0.1 N down.
-      const ResponseBranch branch = load > 0.01 ? paper_peaks(order, 0.01, load) : paper_peaks(order, 0.1, load);
+      const ResponseBranch branch =
+          load > 0.01 ? paper_peaks(order, 0.01, load) : paper_peaks(order, 0.1, load);
       CHECK(branch.status == observables::Status::complete);
       const ResponsePoint& end = branch.points.back();
       CHECK(end.over == load);
@@ -123,37 +124,116 @@ TEST_CASE("from full stick on the peak is that of the stuck oscillator: no slip 
   }
 }
 
-TEST_CASE("random structures: peaks on the curves are those of frequency responses at five loads") {
+namespace {
+
+double distance(const ResponsePoint& a, const ResponsePoint& b) {
+  return std::max(reference::error(a.amplitude, b.amplitude), reference::error(a.omega, b.omega));
+}
+
+// Every curve that comes to `load` ends in a peak of the frequency response there. Returns how many there
+// are.
+int compare(const scene::Scene& s, const std::string& over, double from, double load, int& corners) {
+  scene::Study study = over_load(from, load);
+  study.over = over;
+  study.frequency_from = s.studies[0].from;
+  study.frequency_to = s.studies[0].to;
+  scene::Scene at = s;
+  scene::set(at, over, load);
+  const auto frf = observables::frequency_response(at, at.studies[0]).front();
   int compared = 0;
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (const auto& curve : observables::resonance_peaks(s, study)) {
+    CAPTURE(curve.stop.message);
+    corners += static_cast<int>(events(curve, "corner").size());
+    if (curve.points.empty() || curve.points.back().over != load) continue;
+    double nearest = 1;
+    for (const auto& event : frf.events)
+      nearest = std::min(nearest, distance(event.point, curve.points.back()));
+    CHECK(nearest < 1e-8);
+    ++compared;
+  }
+  return compared;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "random structures: where a curve of peaks ends at a load, the frequency response there has that peak") {
+  int compared = 0, corners = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first);
-    scene::Study study = over_load(0.1, 5);
-    study.over = s.elements[0].name + ".normal_load";
-    study.frequency_from = s.studies[0].from;
-    study.frequency_to = s.studies[0].to;
-    CAPTURE(seed);
     for (double load : {0.13, 0.4, 1.0, 2.0, 5.0}) {
-      study.to = load;
-      CAPTURE(load);
-      const auto curves = observables::resonance_peaks(s, study);
-      scene::Scene at = s;
-      scene::set(at, study.over, load);
-      const auto frf = observables::frequency_response(at, at.studies[0]).front();
-      for (const auto& curve : curves) {
-        CAPTURE(curve.stop.message);
-        if (curve.stop.reason != "boundary" || curve.points.back().over != load) {
-          std::printf("seed %d load %g: %s %s\n", (int)seed, load, curve.stop.reason.c_str(), curve.stop.message.c_str());
-          continue;
-        }
-        const ResponsePoint& end = curve.points.back();
-        if (std::min(end.omega - at.studies[0].from * scenes::hertz, at.studies[0].to * scenes::hertz - end.omega) < 1e-9) continue;
-        double nearest = 1;
-        for (const auto& event : frf.events)
-          nearest = std::min(nearest, std::max(reference::error(event.point.amplitude, end.amplitude),reference::error(event.point.omega, end.omega)));
-        CHECK(nearest < 1e-8);
-        ++compared;
-      }
+      CAPTURE(seed, s.dofs.size(), load);
+      compared += compare(s, s.elements[0].name + ".normal_load", 0.1, load, corners);
     }
   }
-  CHECK(compared > 50);
+  CHECK(compared >= 40);
+  CHECK(corners >= 4);  // peaks that sit, for a range of loads, where an element passes from stick to slip
+}
+
+TEST_CASE("two masses: peaks over a stiffness beyond the elements are those of frequency responses") {
+  scene::Scene s = scenes::chain(5, false);
+  int corners = 0;
+  for (double stiffness : {0.55, 0.7, 0.9, 1.2, 1.5}) {
+    CAPTURE(stiffness);
+    CHECK(compare(s, "kc.value", 0.5, stiffness, corners) >= 2);
+  }
+}
+
+TEST_CASE("a peak that meets a minimum of the amplitude ends there, and the curve says so") {
+  const scene::Scene s = random_scenes::make(4, random_scenes::Excitation::first);
+  scene::Study study = over_load(0.1, 1);
+  study.over = "d1.normal_load";
+  study.frequency_from = s.studies[0].from;
+  study.frequency_to = s.studies[0].to;
+  bool ended = false;
+  for (const auto& curve : observables::resonance_peaks(s, study)) {
+    if (curve.stop.reason != "fold") continue;
+    ended = true;
+    CHECK(curve.status == observables::Status::complete);
+    REQUIRE_FALSE(events(curve, "fold").empty());
+    const ResponsePoint last = events(curve, "fold").back().point;
+    CHECK(curve.points.back().over == last.over);
+    // Just below there is that peak, just above none.
+    for (const auto& [share, there] : {std::pair(1 - 1e-5, true), std::pair(1 + 1e-5, false)}) {
+      scene::Scene at = s;
+      scene::set(at, study.over, last.over * share);
+      double nearest = 1;
+      for (const auto& event : observables::frequency_response(at, at.studies[0]).front().events)
+        nearest = std::min(nearest, distance(event.point, last));
+      CHECK((nearest < 2e-3) == there);
+    }
+  }
+  CHECK(ended);
+}
+
+TEST_CASE("a peak that leaves the window of the frequency ends at its edge") {
+  scene::Study study = over_load(0.1, 10);
+  study.frequency_to = 20;
+  const auto branch = observables::resonance_peaks(scenes::paper(15), study).front();
+  CHECK(branch.status == observables::Status::complete);
+  CHECK(branch.stop.reason == "boundary");
+  CHECK(reference::error(branch.points.back().omega, 20 * scenes::hertz) < 1e-11);
+  CHECK(branch.points.back().over < 10);
+}
+
+TEST_CASE("where there is no peak in the window, the study says so") {
+  scene::Study study = over_load(0.1, 10);
+  study.frequency_from = 21.5;
+  const auto branches = observables::resonance_peaks(scenes::paper(15), study);
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].status == observables::Status::failed);
+  CHECK(branches[0].stop.reason == "start_failed");
+  CHECK(branches[0].stop.message.find("no resonance peak was found at damper.normal_load = 0.1") == 0);
+}
+
+TEST_CASE("a study of peaks ends with the callback, and no other curve is begun") {
+  scene::Study study = over_load(0.1, 10);
+  study.for_each = {{"c.value", {0.1, 0.2}}};
+  int calls = 0;
+  const auto branches = observables::resonance_peaks(
+      scenes::paper(1), study, [&](const observables::Progress&) { return ++calls < 5; });
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].status == observables::Status::stopped);
+  CHECK(branches[0].stop.reason == "user");
+  CHECK(branches[0].points.size() == 5);
 }
