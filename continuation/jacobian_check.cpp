@@ -11,6 +11,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double difference_step = 6e-6;  // the cube root of the rounding
+constexpr double wider = 4;               // another step, in steps
 constexpr double agreement = 1e-4;        // relative differences below are not worth a message
 
 std::string describe(const JacobianError& worst, const Problem& problem) {
@@ -49,8 +50,15 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
     x = at;
     if (!usable) return;
     const Vector difference = (plus - beside->residual()) / (2 * h);
-    const double size =
-        std::max(difference.cwiseAbs().maxCoeff(), column.cwiseAbs().maxCoeff()) + rounding / h;
+    // What differences of another step say tells how good they are.
+    x = at + wider * h;
+    if (beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus = beside->residual();
+    x = at - wider * h;
+    if (beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus -= beside->residual();
+    x = at;
+    const double doubt = (plus / (2 * wider * h) - difference).cwiseAbs().maxCoeff();
+    const double size = std::max(difference.cwiseAbs().maxCoeff(), column.cwiseAbs().maxCoeff()) +
+                        rounding / h + (beside->piece() == here->piece() ? doubt : 0.0) / agreement;
     if (size == 0) return;
     Eigen::Index row = 0;
     const double relative = (difference - column).cwiseAbs().maxCoeff(&row) / size;

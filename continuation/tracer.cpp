@@ -26,10 +26,13 @@ constexpr double unresolved_share = 1.0 / 50;  // of the step that was first fou
 constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
 constexpr double curve_safety = 0.9;           // of the step that the curve's error allows
 constexpr double middle_share = 0.7;           // of the largest error of the curve, in the middle of a step
-constexpr double home = 1e-3;                  // of a step: a start so near to it may lie on it
-constexpr double home_rounding = 10;           // of the corrector: two solutions nearer than that are one
-constexpr int largest_to_check = 500;          // unknowns, where a failure asks for a check of the Jacobian
-constexpr double corner_step = 1e-3;           // beyond a kink, of the step, to linearize there
+constexpr int window_samples = 16;             // of a step that may pass a bound between its ends
+constexpr double singular_bound = 1e-6;  // relative to p: so near to a singular bound a branch has reached it
+constexpr int home_bisections = 30;
+constexpr double home = 0.05;          // of a step: a start so near to it may lie on it
+constexpr double home_rounding = 10;   // of the corrector: two solutions nearer than that are one
+constexpr int largest_to_check = 500;  // unknowns, where a failure asks for a check of the Jacobian
+constexpr double corner_step = 1e-3;   // beyond a kink, of the step, to linearize there
 
 double angle_between(double cosine) {
   return std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -204,7 +207,7 @@ bool Tracer::begin() {
   keep(s_.here, correction);
   factors_fit_ = false;  // their border row is that of the start
   if (!notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
-  return true;
+  return within_limits();
 }
 
 double Tracer::limited(double ds) const {
@@ -277,11 +280,13 @@ bool Tracer::went_back(const Place& next) const {
 // The monitors at the solution of the last correction. Its factors, and so the tangent, are those of a place
 // within the corrector's tolerance, which near a sharp peak is enough to turn the sign of a monitor: a change
 // of sign is believed from the linearization at the solution itself.
-void Tracer::measure(Place& place) {
+bool Tracer::measure(Place& place) {
   evaluate(monitors_, *main_, place);
-  if (!events_->changes_sign(s_.here, place)) return;
+  if (!events_->changes_sign(s_.here, place)) return true;
   main_->border_row(place.tangent, v_);
-  if (main_->linearize(place.v, v_) && settle(*main_, place)) evaluate(monitors_, *main_, place);
+  if (!main_->linearize(place.v, v_) || !settle(*main_, place)) return false;
+  evaluate(monitors_, *main_, place);
+  return true;
 }
 
 // Whether the change of each monitored quantity is that of its slopes at both ends, by the trapezoid. Beside
@@ -337,8 +342,7 @@ Tracer::Attempt Tracer::attempt() {
   bool kink = false;
   if (turn > options_.step.largest_angle) {
     kink = is_kink(turn, next_);
-    if (!kink) return Attempt::rejected;
-    if (next_.orientation != s_.here.orientation) next_.reverse();
+    if (!kink || next_.orientation != s_.here.orientation) return Attempt::rejected;
   } else if (next_.orientation != s_.here.orientation) {
     // A jump to a branch near by, unless branches cross here, or it stays however short the step.
     next_.arclength = s_.here.arclength + length;
@@ -346,7 +350,7 @@ Tracer::Attempt Tracer::attempt() {
     if (!crossing_ && s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v))) return Attempt::rejected;
     if (!crossing_) crossing_ = unlocated_branch_point(s_.here, next_);
   }
-  measure(next_);
+  if (!measure(next_)) return Attempt::rejected;
   curve_error_ = curve_error(length);
   if (curve_error_ > 1 || !resolved(s_.here, next_, length)) return Attempt::unresolved;
   const double next_ds = kink ? s_.turn.step * kink_step : choose_step(turn, correction);
@@ -391,7 +395,7 @@ bool Tracer::corner() {
       angle_between(main_->dot(next_.tangent, beyond)) > options_.step.largest_angle ||
       angle_between(main_->dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
-  measure(next_);
+  if (!measure(next_)) return false;
   has_sides = has_sides && look_beside(kink, beyond, corner_step * s_.step, sides.beyond) &&
               sides.beyond.piece != s_.here.piece;
   if (has_sides && !resolved(sides.beyond, next_, length)) return false;
@@ -414,9 +418,15 @@ bool Tracer::look_beside(const Place& kink, const Vector& tangent, double way, P
 Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Correction& correction,
                              const Corner* corner) {
   next_.arclength = s_.here.arclength + length;
-  const double p = next_.v[n_], bound = std::clamp(p, options_.lower, options_.upper);
-  if (p != bound) {
-    if (!to_boundary(next_, bound)) return Attempt::rejected;
+  if (const auto [share, bound] = leaves_window(kink ? 0 : length); share <= 1) {
+    if (!to_boundary(next_, bound, share)) {
+      const double left = std::abs(bound - s_.here.v[n_]);
+      if (left > singular_bound * std::max(std::abs(bound), main_->parameter_scale()))
+        return Attempt::rejected;
+      end(StopReason::boundary, s_.here.v[n_], bound,
+          "reached the end of the window at " + text(bound) + ", a singular point");
+      return Attempt::ended;
+    }
     if (crossing_ && (crossing_->place.v[n_] < options_.lower || crossing_->place.v[n_] > options_.upper))
       crossing_.reset();
     if (accept(std::move(next_), correction))
@@ -429,8 +439,7 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
     main_->border_row(s_.start.tangent, row_);
     const bool converged = main_->correct(v_, row_, false).converged;
     const double miss = distance(*main_, v_, s_.start.v);
-    const double size = 1 + main_->norm_u(s_.start.v) + std::abs(s_.start.v[n_]) / main_->parameter_scale();
-    const double rounding = home_rounding * options_.newton.rounding_level * size;
+    const double rounding = rounding_of_home();
     if (converged && miss <= rounding) {
       next_ = s_.start;
       next_.arclength = s_.here.arclength + distance(*main_, s_.here.v, next_.v);
@@ -441,6 +450,15 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
     main_->border_row(next_.tangent, row_);
     if (!main_->linearize(next_.v, row_)) return Attempt::rejected;
   }
+  if (corner && s_.here.arclength > 0 &&
+      distance(*main_, corner->before.v, s_.start.v) <= rounding_of_home()) {
+    next_ = s_.start;
+    next_.arclength = corner->before.arclength;
+    if (accept(std::move(next_), correction))
+      end(StopReason::closed, distance(*main_, corner->before.v, s_.start.v), rounding_of_home(),
+          "came back to the start, a kink: the branch is closed");
+    return Attempt::ended;
+  }
   s_.last_step = length;
   s_.has_before = !kink;
   factors_fit_ = !kink;
@@ -449,16 +467,29 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   return within_limits() ? Attempt::accepted : Attempt::ended;
 }
 
-// Whether the start may lie on the step from here to next_: beside their cubic, of which v_ is the point next
-// to it, by a small part of its length.
+// Whether the start may lie on the step from here to next_: v_ is where their cubic meets its plane.
 bool Tracer::comes_home(double length) const {
   if (s_.here.arclength == 0) return false;
-  v_ = s_.start.v - s_.here.v;
-  const double share = main_->dot(v_, s_.here.tangent) / length;
-  if (!(share > 0 && share <= 1 + home)) return false;
-  if (main_->dot(s_.start.tangent, next_.tangent) < std::cos(options_.step.largest_angle)) return false;
-  hermite(s_.here.v, s_.here.tangent, next_.v, next_.tangent, length, share, v_);
-  return distance(*main_, v_, s_.start.v) <= home * length;
+  const Place& start = s_.start;
+  const auto ahead = [&](const Vector& v) { return main_->dot(start.v - v, start.tangent); };
+  double lower = 0, upper = 1, a = ahead(s_.here.v), b = ahead(next_.v);
+  if (!(a > 0 && b <= home * length) || distance(*main_, s_.here.v, start.v) > (1 + home) * length)
+    return false;
+  if (main_->dot(start.tangent, next_.tangent) < std::cos(options_.step.largest_angle)) return false;
+  v_ = next_.v;
+  for (int k = 0; k < home_bisections && b < 0; ++k) {
+    const double middle = lower + (upper - lower) * std::clamp(a / (a - b), 0.1, 0.9);
+    hermite(s_.here.v, s_.here.tangent, next_.v, next_.tangent, length, middle, v_);
+    const double at = ahead(v_);
+    (at > 0 ? lower : upper) = middle;
+    (at > 0 ? a : b) = at;
+  }
+  return distance(*main_, v_, start.v) <= home * length;
+}
+
+double Tracer::rounding_of_home() const {
+  const double size = 1 + main_->norm_u(s_.start.v) + std::abs(s_.start.v[n_]) / main_->parameter_scale();
+  return home_rounding * options_.newton.rounding_level * size;
 }
 
 bool Tracer::within_limits() {
@@ -506,9 +537,10 @@ double Tracer::choose_step(double angle, const Correction& correction) const {
 }
 
 // From `place`, beyond the window, back to p = bound.
-bool Tracer::to_boundary(Place& place, double bound) {
-  const double share = (bound - s_.here.v[n_]) / (place.v[n_] - s_.here.v[n_]);
-  place.v = s_.here.v + share * (place.v - s_.here.v);
+bool Tracer::to_boundary(Place& place, double bound, double share) {
+  hermite(s_.here.v, s_.here.tangent, place.v, place.tangent, distance(*main_, s_.here.v, place.v), share,
+          v_);
+  place.v = v_;
   place.v[n_] = bound;
   v_.setZero();
   v_[n_] = 1;
@@ -517,8 +549,37 @@ bool Tracer::to_boundary(Place& place, double bound) {
   if (!settle(*main_, place)) return false;
   if (main_->dot(place.tangent, s_.here.tangent) < 0) place.reverse();
   place.arclength = s_.here.arclength + distance(*main_, s_.here.v, place.v);
-  measure(place);
-  return true;
+  return measure(place);
+}
+
+// Where the cubic from here to next_, of that length, first leaves the window: as a share of it, with the
+// bound. Beyond 1: nowhere. Length 0: the straight line, for a step with a kink.
+std::pair<double, double> Tracer::leaves_window(double length) const {
+  const double p0 = s_.here.v[n_], p1 = next_.v[n_];
+  const double t0 = length * s_.here.tangent[n_], t1 = length * next_.tangent[n_];
+  const auto p = [&](double x) {
+    const double y = 1 - x;
+    return y * y * (1 + 2 * x) * p0 + x * x * (3 - 2 * x) * p1 + x * y * (y * t0 - x * t1);
+  };
+  const double p_end = std::clamp(p1, options_.lower, options_.upper);
+  if (p1 == p_end && t0 * t1 >= 0) return {2, 0};
+  if (length == 0) return p1 == p_end ? std::pair{2.0, 0.0} : std::pair{(p_end - p0) / (p1 - p0), p_end};
+  double inside = 0;
+  for (int k = 1; k <= window_samples; ++k) {
+    const double share = static_cast<double>(k) / window_samples, at = k == window_samples ? p1 : p(share);
+    const double bound = std::clamp(at, options_.lower, options_.upper);
+    if (at == bound) {
+      inside = share;
+      continue;
+    }
+    double outside = share;
+    for (int bisection = 0; bisection < 50; ++bisection) {
+      const double middle = 0.5 * (inside + outside), here = p(middle);
+      (here == std::clamp(here, options_.lower, options_.upper) ? inside : outside) = middle;
+    }
+    return {outside, bound};
+  }
+  return {2, 0};
 }
 
 // In the order of arclength: an event may have waited for a few points until it was certain.

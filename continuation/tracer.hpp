@@ -18,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -74,7 +75,7 @@ class Tracer {
                const Corner* corner = nullptr);
   void predict(Vector& v) const;
   bool went_back(const Place& next) const;
-  void measure(Place& place);
+  bool measure(Place& place);
   bool resolved(const Place& from, const Place& to, double length);
   bool is_kink(double turn, const Place& next);
   bool comes_home(double length) const;
@@ -90,7 +91,9 @@ class Tracer {
   double curve_error(double length);
   double choose_step(double angle, const Correction& correction) const;
   double limited(double ds) const;
-  bool to_boundary(Place& place, double bound);
+  bool to_boundary(Place& place, double bound, double share);
+  std::pair<double, double> leaves_window(double length) const;
+  double rounding_of_home() const;
   bool end(StopReason reason, double value, double limit, std::string message);
 
   std::shared_ptr<const Problem> problem_;
