@@ -133,14 +133,16 @@ class Curves {
     return monitors;
   }
 
-  // Where a cusp is, the curve turns in everything: that is no event of its own.
-  bool is_of_a_cusp(const SpecialCurve& curve, const SpecialCurve::EventAt& turn) const {
-    return std::any_of(curve.events.begin(), curve.events.end(), [&](const auto& other) {
-      const auto &a = other.event.point, &b = turn.event.point;
-      return other.event.kind == "cusp" && turn.event.kind != "cusp" &&
-             std::abs(a.omega - b.omega) <= same * a.omega &&
-             std::abs(a.over - b.over) <= same * (way_.upper() - way_.lower());
-    });
+  // At a cusp a curve of folds turns in everything, and where a curve of peaks turns, dA/ds = dA/dp dp/ds is
+  // zero: neither is an event of its own.
+  bool belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const {
+    const char* first = peaks_ ? "fold" : "cusp";
+    return each.event.kind != first && each.event.kind != "corner" &&
+           std::any_of(curve.events.begin(), curve.events.end(), [&](const auto& other) {
+             const auto &a = other.event.point, &b = each.event.point;
+             return other.event.kind == first && std::abs(a.omega - b.omega) <= same * a.omega &&
+                    std::abs(a.over - b.over) <= same * (way_.upper() - way_.lower());
+           });
   }
 
   // A curve of peaks turns where a peak meets a minimum of the amplitude over the frequency, which the curve
@@ -167,7 +169,7 @@ class Curves {
       if (part.points.empty() || (peaks_ && others > peaks)) continue;
       for (std::size_t i = 0; i < curve.events.size(); ++i) {
         const auto& each = curve.events[i];
-        if (each.arclength < begin || each.arclength > end || is_of_a_cusp(curve, each)) continue;
+        if (each.arclength < begin || each.arclength > end || belongs_to_another(curve, each)) continue;
         const bool extreme = each.event.kind == "minimum" || each.event.kind == "maximum";
         if (extreme && !departs(course, each.arclength, each.event.point.amplitude)) continue;
         part.events.push_back(each.event);
@@ -200,7 +202,8 @@ class Curves {
       const ResponsePoint& last = part.points.back();
       part.status = Status::complete;
       part.stop = {"unbounded", last.over, last.over,
-                   curve.unbounded + ", near " + way_.name + " = " + text(last.over)};
+                   "the " + what_ + " grows without bound near " + way_.name + " = " + text(last.over) +
+                       ", and beyond " + curve.unbounded};
     } else if (curve.left_window) {
       const ResponsePoint& last = part.points.back();
       part.status = Status::complete;

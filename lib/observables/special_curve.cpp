@@ -17,7 +17,7 @@ using continuation::StopReason;
 using continuation::Vector;
 
 constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
-constexpr double grown = 1e3;   // |u| in scales: where it is asked whether a response just ahead is unbounded
+constexpr double grown = 1e5;   // |u| in scales: where it is asked whether a response just ahead is unbounded
 constexpr double ahead = 1e-2;  // of the parameter
 constexpr const char* window_event = "window";
 constexpr const char* fold_event = "fold";
@@ -25,6 +25,8 @@ constexpr const char* stick_event = "stick";  // the slope vanishes on this side
 constexpr const char* slip_event = "slip";
 constexpr double near_corner = 1e-3;    // relative: where a corner is looked for
 constexpr double beside_corner = 1e-6;  // of the parameter: from one part of the curve to the next
+constexpr double least_departure =
+    1e-2;  // of a smooth part from the corner, relative to the parameter's change
 constexpr int most_parts = 64;
 
 Monitor window_monitor(const FrequencyWindow& window) {
@@ -169,7 +171,7 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
     result_.points.push_back({arclength, corner ? 0 : second(now), section_->observe(now)});
     if (terminal) return true;
     const double omega = now.u[now.u.size() - 1];
-    if (now.u.norm() > grown * problem_->displacement()) {
+    if (now.u.head(problem_->size()).norm() > grown * problem_->displacement()) {
       Vector p = parameters(now.u, now.parameter);
       p[way_.index] *= 1 + (now.tangent[now.u.size()] < 0 ? -ahead : ahead);
       if (const auto growth = unboundedness(*problem_, p, now.u.head(problem_->size())); growth.unbounded) {
@@ -256,13 +258,15 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const P
   Vector dh(n), guess = at.x;
   if (!limit.at(at.x.head(n), parameters(at.x, at.over), dh)) return {};
   dh *= (slip ? 1 : -1) * limit.limit() / dh.squaredNorm();
-  for (const double beside : {1.0, 10.0, 100.0})
+  for (const double beside : {1.0, 10.0, 100.0, 1000.0})
     for (const int direction : {at.direction, -at.direction}) {
       const double over = at.over * (1 + direction * beside * beside_corner);
       if (!inside(over)) continue;
       guess.head(n) = at.x.head(n) + beside * beside_corner * dh;
       const auto x = corrected(*smooth_, guess, over);
-      if (x && (excess(at.element, *x, over) > 0) == slip) return Place{*x, over, direction};
+      // Away from the corner as the parameter goes on, not along it.
+      if (x && (slip ? 1 : -1) * excess(at.element, *x, over) > least_departure * beside * beside_corner)
+        return Place{*x, over, direction};
     }
   return {};
 }

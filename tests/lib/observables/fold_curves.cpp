@@ -84,12 +84,19 @@ TEST_CASE("folds of the Jenkins and Duffing oscillator over the load, and where 
   CHECK(std::abs(turns[0].omega - 1.911489205) < 1e-9);
   CHECK(std::abs(turns[0].over - 1.215318824) < 1e-8);
   CHECK(branches[0].status == observables::Status::complete);
-  for (const auto& b : branches) {
-    std::printf("%s %s %zu points, %g..%g, omega %.12g .. %.12g\n", b.stop.reason.c_str(),
-                b.stop.message.c_str(), b.points.size(), b.points.front().over, b.points.back().over,
-                b.points.front().omega, b.points.back().omega);
-    for (const auto& e : b.events)
-      std::printf("  %s %d %.12g %.12g A %.9g\n", e.kind.c_str(), e.nonsmooth, e.point.over, e.point.omega,
-                  e.point.amplitude);
-  }
+  // The other fold goes through a cusp and along the corner to full stick, which no load changes any more: it
+  // is the upper fold of x'' + 0.02 x' + 1.5 x + 0.5 x^3, whose amplitude is where it leaves the corner.
+  const ResponseBranch& stuck = branches[1];
+  CAPTURE(stuck.stop.message);
+  CHECK(stuck.status == observables::Status::complete);
+  std::vector<std::string> kinds;
+  for (const auto& event : stuck.events) kinds.push_back(event.kind);
+  CHECK(kinds == std::vector<std::string>{"cusp", "corner", "corner"});
+  const auto& end = stuck.points.back();
+  CHECK(end.over == 3);
+  const double y = end.amplitude * end.amplitude, w2 = end.omega * end.omega;
+  const double detuning = 1.5 - w2 + 0.375 * y;
+  CHECK(std::abs(y * (detuning * detuning + 4e-4 * w2) / 0.25 - 1) < 1e-9);
+  CHECK(std::abs(detuning * detuning + 4e-4 * w2 + 0.75 * y * detuning) < 1e-9);
+  CHECK(end.elements[1].stick_percent == 100);
 }

@@ -104,7 +104,8 @@ TEST_CASE("without damping the peaks go to infinity at Fn = pi f0/(4 mu), where 
   CHECK(branch.status == observables::Status::complete);
   CHECK(branch.stop.reason == "unbounded");
   CHECK(branch.points.front().over == 100);
-  CHECK(std::abs(branch.points.back().over - pi / 2) < 1e-5);
+  CHECK(branch.points.back().over > pi / 2);
+  CHECK(reference::error(branch.points.back().over, pi / 2) < 1e-4);
 }
 
 TEST_CASE("from full stick on the peak is that of the stuck oscillator: no slip above kd A/mu") {
@@ -170,8 +171,10 @@ TEST_CASE(
   CHECK(corners >= 4);  // peaks that sit, for a range of loads, where an element passes from stick to slip
 }
 
-TEST_CASE("two masses: peaks over a stiffness beyond the elements are those of frequency responses") {
+TEST_CASE(
+    "peaks over a stiffness that no element sees, of a mass that no element sees, are those of responses") {
   scene::Scene s = scenes::chain(5, false);
+  scene::set(s, "s.stiffness", 0);  // so that there is one response at each frequency
   int corners = 0;
   for (double stiffness : {0.55, 0.7, 0.9, 1.2, 1.5}) {
     CAPTURE(stiffness);
@@ -191,17 +194,16 @@ TEST_CASE("a peak that meets a minimum of the amplitude ends there, and the curv
     ended = true;
     CHECK(curve.status == observables::Status::complete);
     REQUIRE_FALSE(events(curve, "fold").empty());
-    const ResponsePoint last = events(curve, "fold").back().point;
-    CHECK(curve.points.back().over == last.over);
-    // Just below there is that peak, just above none.
-    for (const auto& [share, there] : {std::pair(1 - 1e-5, true), std::pair(1 + 1e-5, false)}) {
+    const double last = events(curve, "fold").back().point.over;
+    CHECK(curve.points.back().over == last);
+    CHECK(events(curve, "minimum").empty());  // A falls along the whole curve
+    // Beyond there is one peak less than before.
+    const auto peaks = [&](double load) {
       scene::Scene at = s;
-      scene::set(at, study.over, last.over * share);
-      double nearest = 1;
-      for (const auto& event : observables::frequency_response(at, at.studies[0]).front().events)
-        nearest = std::min(nearest, distance(event.point, last));
-      CHECK((nearest < 2e-3) == there);
-    }
+      scene::set(at, study.over, load);
+      return events(observables::frequency_response(at, at.studies[0]).front(), "peak").size();
+    };
+    CHECK(peaks(0.99 * last) == peaks(1.01 * last) + 1);
   }
   CHECK(ended);
 }
