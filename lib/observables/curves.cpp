@@ -220,7 +220,13 @@ class Curves {
       part.stop.message = "no curve was begun from the " + what_ + " at " + way_.name + " = " +
                           text(way_.from) + ": " + stop.message;
     } else {
-      part.stop.message += ", near " + way_.name + " = " + text(part.points.back().over);
+      const std::string where = way_.name + " = " + text(part.points.back().over);
+      if (stop.reason == StopReason::step_too_small)
+        part.stop.message =
+            "the curve could not be followed beyond " + where + ": probably the " + what_ +
+            " sits there at a corner of the response, where a phase of friction begins or ends";
+      else
+        part.stop.message += ", near " + where;
     }
   }
 

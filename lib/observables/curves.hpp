@@ -19,13 +19,19 @@ std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const 
                                                const ProgressCallback& progress = {});
 
 /// study.kind peaks: the curves of resonance peaks, dA/ds = 0 along the frequency, over study.over; one for
-/// each peak in the frequency window at study.from. Events: "minimum" and "maximum" of the peak amplitude
-/// over the parameter, and "fold", where the curve turns in it.
+/// each peak in the frequency window at study.from. Where the resonance is unbounded there, they begin at
+/// study.to. A curve ends at the end of the range, where the peak leaves the window, where it grows without
+/// bound ("unbounded"), or where it meets a minimum of the amplitude ("fold"); where the curve beyond comes
+/// to a peak again, that is another branch. Events: "minimum" and "maximum" of the peak amplitude over the
+/// parameter, "fold", where the curve turns in it, and "corner", where the peak comes to a corner of the
+/// response, at which an element begins to slip, or leaves it.
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const scene::Study& study,
                                             const ProgressCallback& progress = {});
 
 /// study.kind folds: the curves of folds in frequency over study.over; one for each fold in the frequency
-/// window. Events: "cusp", and "fold", where the curve turns in the parameter.
+/// window, or for both of them where one curve goes through both. Events: "cusp", "fold", where the curve
+/// turns in the parameter, "turn", where it turns in the frequency (folds in the parameter at fixed frequency
+/// begin or end there), and "corner" as on peaks.
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const scene::Study& study,
                                         const ProgressCallback& progress = {});
 

@@ -35,7 +35,7 @@ struct ResponsePoint {
 };
 
 struct ResponseEvent {
-  std::string kind;        // "peak", "fold"; on curves of peaks "minimum", "maximum", "fold"; of folds "cusp"
+  std::string kind;        // "peak", "fold"; over a parameter "minimum", "maximum", "cusp", "turn", "corner"
   bool nonsmooth = false;  // at a kink of the branch
   bool located = true;     // false: the corrector failed at it; the point is the nearest one of the branch
   ResponsePoint point;
