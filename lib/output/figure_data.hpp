@@ -29,7 +29,8 @@ struct FigureColumn {
 using Record = std::vector<double>;  // a value for each column, NaN where there is none
 
 /// The kinds of events that are drawn, in the order of the data.
-inline constexpr std::array<std::string_view, 5> mark_kinds = {"peak", "fold", "maximum", "minimum", "cusp"};
+inline constexpr std::array<std::string_view, 6> mark_kinds = {"peak",    "fold", "maximum",
+                                                               "minimum", "cusp", "turn"};
 
 struct FigureMark {
   std::string kind;

@@ -22,7 +22,7 @@ std::string rounded(double value) {
 /// Tics of a logarithmic axis: decades, or 1, 2, 5 where there are few of them.
 void write_logarithmic_tics(std::ostream& out, char axis, const Range& range) {
   const double decades = std::log10(range.upper / range.lower);
-  if (decades > 2) {
+  if (decades > 2.5) {
     out << "set " << axis << "tics " << (decades > 12 ? "1e3" : "10") << "\nset m" << axis
         << "tics 10\nset format " << axis << " '10^{%T}'\n";
     return;

@@ -19,8 +19,9 @@ constexpr std::size_t most_in_key = 24;  // lines that a key has room for
 
 /// How the marks of a kind look, in the order of mark_kinds.
 constexpr std::array<const char*, mark_kinds.size()> mark_styles = {
-    "pointtype 7 pointsize 0.8", "pointtype 4 pointsize 1 linewidth 1.5", "pointtype 9 pointsize 1",
-    "pointtype 11 pointsize 1", "pointtype 13 pointsize 1.1"};
+    "pointtype 7 pointsize 0.8",  "pointtype 4 pointsize 1 linewidth 1.5",
+    "pointtype 9 pointsize 1",    "pointtype 11 pointsize 1",
+    "pointtype 13 pointsize 1.1", "pointtype 5 pointsize 0.7"};
 
 /// Whether marks of this kind carry the label of their line: folds come in pairs that would repeat it.
 bool is_labelled(const std::string& kind) {
