@@ -163,13 +163,20 @@ Field read_over(const Keys& keys, const Parameters& all, Study& study, Faults& f
         "found \"frequency\", must be another parameter; over the frequency is a study of kind \"frf\"");
     return any;
   }
+  if (std::find(result_names.begin(), result_names.end(), *over) != result_names.end()) {
+    faults.add(place.pointer,
+               "found " + shown(*over) +
+                   ", by which results name a quantity of their own; must be a tie of another name");
+    return any;
+  }
   const auto fields = fields_of(*over, place.pointer, all, faults);
   const bool known = !fields.empty() && std::find(fields.begin(), fields.end(), nullptr) == fields.end();
   return known ? common(fields) : any;
 }
 
-void read_window(const Place& place, const Field& bounds, Study& study, Faults& faults) {
+void read_window(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
   const std::string wanted = "a window [lower, upper] of two frequencies, each " + allowed_text(bounds);
+  const Place place = keys.require("frequency", wanted, faults);
   const Node::List* list = read_list(place, wanted, faults);
   if (list == nullptr) {
     return;
@@ -189,21 +196,14 @@ void read_window(const Place& place, const Field& bounds, Study& study, Faults& 
   }
 }
 
-// "frequency": one for a trace, a window else.
-void read_frequency(const Keys& keys, FrequencyUnit unit, Study& study, Faults& faults) {
-  const Field bounds = frequency_field(unit);
-  if (study.kind != StudyKind::trace) {
-    const std::string wanted = "a window [lower, upper] of two frequencies, each " + allowed_text(bounds);
-    read_window(keys.require("frequency", wanted, faults), bounds, study, faults);
-    return;
-  }
-  const Place place = keys.require("frequency", "one frequency, " + allowed_text(bounds), faults);
+void read_one_frequency(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
+  const std::string wanted = "one frequency, " + allowed_text(bounds);
+  const Place place = keys.require("frequency", wanted, faults);
   if (place.node != nullptr && place.node->get<Node::List>() != nullptr) {
-    add_wrong_type(place, "one frequency, " + allowed_text(bounds), faults);
+    add_wrong_type(place, wanted, faults);
     return;
   }
-  const auto frequency = read_number(place, bounds, faults);
-  study.frequency_from = study.frequency_to = frequency.value_or(0);
+  study.frequency_from = study.frequency_to = read_number(place, bounds, faults).value_or(0);
 }
 
 // Says of a key of other kinds which ones these are.
@@ -279,11 +279,12 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const st
       }
       study.name = *text;
     }
+    const Field frequency = frequency_field(unit);
     if (study.kind == StudyKind::frf) {
-      read_range(keys, frequency_field(unit), study, faults);
+      read_range(keys, frequency, study, faults);
     } else {
       read_range(keys, read_over(keys, all, study, faults), study, faults);
-      read_frequency(keys, unit, study, faults);
+      (study.kind == StudyKind::trace ? read_one_frequency : read_window)(keys, frequency, study, faults);
     }
     read_for_each(keys.find("for_each"), all, study, faults);
   }

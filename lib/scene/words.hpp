@@ -28,6 +28,22 @@ inline constexpr std::array<Word<StudyKind>, 4> study_kinds = {{{"frf", StudyKin
                                                                 {"peaks", StudyKind::peaks},
                                                                 {"folds", StudyKind::folds}}};
 
+/// What results call their own quantities, beside which the parameter of a study stands by its name.
+inline constexpr std::array<std::string_view, 14> result_names = {"kind",
+                                                                  "nonsmooth",
+                                                                  "located",
+                                                                  "omega",
+                                                                  "amplitude",
+                                                                  "unbounded",
+                                                                  "phase",
+                                                                  "truncation_estimate",
+                                                                  "truncation_flagged",
+                                                                  "energy_friction",
+                                                                  "energy_viscous",
+                                                                  "stick_percent",
+                                                                  "elements",
+                                                                  "coefficients"};
+
 /// The keys of a study of some kind, in the order in which they are written.
 inline std::vector<std::string> study_keys(StudyKind kind) {
   if (kind == StudyKind::frf) {

@@ -436,6 +436,14 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
                                   "\"ties\": {\"t\": [\"d.normal_load\"]}, \"studies\": [{" + kind + over +
                                       range + window + "}]"),
                   "/studies/0/over", "found \"d.normal_load\", which is tied; must be its tie \"t\""});
+  rows.push_back(
+      {"over a tie with the name of a result",
+       good_scene_with("\"studies\": [{\"kind\": \"frf\", \"from\": 1, \"to\": 2, "
+                       "\"for_each\": {\"d.normal_load\": [1, 2]}}]",
+                       "\"ties\": {\"phase\": [\"d.normal_load\"]}, \"studies\": [{" + kind +
+                           "\"over\": \"phase\", " + range + window + "}]"),
+       "/studies/0/over",
+       "found \"phase\", by which results name a quantity of their own; must be a tie of another name"});
   add("over the same parameter as for_each",
       kind + over + range + window + ", \"for_each\": {\"d.normal_load\": [1, 2]}", "for_each/d.normal_load",
       "found \"d.normal_load\", which the study is \"over\"; must be another parameter");
