@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -88,6 +90,128 @@ TEST_CASE("frf takes its range from the command where the scene has no study") {
   CHECK(Json::parse(ended.out)["branches"].size() == 1);
 }
 
+TEST_CASE("peaks finds the load of the least peak, and prints it as a table or as JSON") {
+  const Workplace place;
+  const Ended table = run(place, {"peaks", "scene.json", "--csv", "peaks.csv"});
+  CHECK(table.exit_code == 0);
+  CHECK(table.err.empty());
+  CHECK(table.out.find(
+            "damper.normal_load (N)    event  frequency (Hz)       A_max (m)  stick (%)    branch\n") == 0);
+  CHECK(table.out.find(" minimum ") != std::string::npos);
+  CHECK(place.read("peaks.csv").find("damper.normal_load (N),branch,event,frequency (Hz)") == 0);
+
+  const Ended json = run(place, {"peaks", "scene.json", "--json", "-"});
+  CHECK(json.exit_code == 0);
+  const Json branches = Json::parse(json.out)["branches"];
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0]["status"] == "complete");
+  CHECK(branches[0]["over"] == "damper.normal_load");
+  CHECK(branches[0]["points"][0]["damper.normal_load"] == 0.01);
+  CHECK(branches[0]["points"].back()["damper.normal_load"] == 500.0);
+  REQUIRE(branches[0]["events"].size() == 1);
+  const Json& least = branches[0]["events"][0];
+  CHECK(least["kind"] == "minimum");
+  // exact_1dof.json, "optima"; 55 harmonics leave some 1e-7 of the amplitude
+  CHECK(least["amplitude"].get<double>() == Approx(0.000884191062245254).epsilon(1e-7));
+  CHECK(least["damper.normal_load"].get<double>() == Approx(3.0898688585349).epsilon(1e-6));
+  CHECK(least["frequency"].get<double>() == Approx(20.029272275727).epsilon(1e-6));
+}
+
+TEST_CASE("peaks takes from its options what they say, and the rest from the scene's study") {
+  const Workplace place;
+  const Ended part =
+      run(place, {"peaks", "scene.json", "--harmonics", "7", "--from", "5", "--to", "50", "--json", "-"});
+  CHECK(part.exit_code == 0);
+  const Json branch = Json::parse(part.out)["branches"][0];
+  CHECK(branch["points"][0]["damper.normal_load"] == 5.0);
+  CHECK(branch["points"].back()["damper.normal_load"] == 50.0);
+  CHECK(branch["events"].empty());
+
+  const Ended another = run(place, {"peaks", "scene.json", "--harmonics", "7", "--over", "c.value", "--from",
+                                    "0.1", "--to", "0.2", "--json", "-"});
+  CHECK(another.exit_code == 0);
+  const Json over_damping = Json::parse(another.out)["branches"][0];
+  CHECK(over_damping["over"] == "c.value");
+  CHECK(over_damping["points"].back()["c.value"] == 0.2);
+}
+
+TEST_CASE("trace goes to the exact response at another load") {
+  const Workplace place;
+  const Ended ended = run(place, {"trace", "scene.json", "--over", "damper.normal_load", "--from", "0.5",
+                                  "--to", "1", "--frequency", "18.5", "--json", "-"});
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.err.empty());
+  const Json points = Json::parse(ended.out)["branches"][0]["points"];
+  // exact_1dof.json, "fixed_frequency"; 55 harmonics leave some 1e-7
+  CHECK(points[0]["amplitude"].get<double>() == Approx(0.000728056213083).epsilon(1e-7));
+  CHECK(points.back()["amplitude"].get<double>() == Approx(0.000406643184661).epsilon(1e-7));
+  CHECK(points.back()["damper.normal_load"] == 1.0);
+}
+
+TEST_CASE("folds begins at the folds that are known in closed form") {
+  const Workplace place;
+  std::filesystem::copy_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json", place / "duffing.json");
+  const Ended ended = run(place, {"folds", "duffing.json", "--set", "c.value=0.1", "--set",
+                                  "hardening.stiffness=1", "--harmonics", "1", "--over", "force.cosine",
+                                  "--from", "0.1", "--to", "0.2", "--frequency", "0.5", "2", "--json", "-"});
+  CHECK(ended.exit_code == 0);
+  const Json branches = Json::parse(ended.out)["branches"];
+  REQUIRE(branches.size() == 2);
+  for (const double omega : {1.227095772, 1.157717746}) {  // continuation.json, "duffing_1harmonic"
+    CAPTURE(omega);
+    CHECK(std::any_of(branches.begin(), branches.end(), [&](const Json& branch) {
+      return std::abs(branch["points"][0]["omega"].get<double>() - omega) < 1e-9;
+    }));
+  }
+}
+
+TEST_CASE("with one harmonic the folds of examples/duffing_jenkins are those of its describing function") {
+  const Workplace place;  // the numbers: continuation.json, "duffing_jenkins_1harmonic"
+  std::filesystem::copy_file(ARCSLIP_SOURCE_DIR "/examples/duffing_jenkins/scene.json", place / "dj.json");
+  const auto events = [&](const std::string& verb) {
+    const Ended ended = run(place, {verb, "dj.json", "--harmonics", "1", "--json", "-"});
+    CHECK(ended.exit_code == 0);
+    Json all = Json::array();
+    const Json branches = Json::parse(ended.out)["branches"];
+    for (const Json& branch : branches) {
+      all.insert(all.end(), branch["events"].begin(), branch["events"].end());
+    }
+    return all;
+  };
+  const Json turns = events("folds");
+  REQUIRE(turns.size() == 1);
+  CHECK(turns[0]["kind"] == "turn");
+  CHECK(std::abs(turns[0]["omega"].get<double>() - 1.911489205) < 1e-8);
+  CHECK(std::abs(turns[0]["damper.normal_load"].get<double>() - 1.215318824) < 1e-7);
+  const Json folds = events("trace");
+  const auto fold =
+      std::find_if(folds.begin(), folds.end(), [](const Json& e) { return e["kind"] == "fold"; });
+  REQUIRE(fold != folds.end());
+  CHECK(std::abs((*fold)["damper.normal_load"].get<double>() - 0.9169049045) < 1e-9);
+}
+
+TEST_CASE("the resolved scene that peaks leaves gives the same curve again, with the same hash") {
+  const Workplace place;
+  CHECK(run(place, {"peaks", "scene.json", "--harmonics", "7", "--from", "1", "--to", "10", "--out", "first"},
+            {{"PATH", "/nonexistent"}})
+            .exit_code == 0);
+  CHECK(run(place, {"peaks", "first/peaks.scene.json", "--out", "second"}, {{"PATH", "/nonexistent"}})
+            .exit_code == 0);
+  const Json first = Json::parse(place.read("first/peaks.json"));
+  const Json second = Json::parse(place.read("second/peaks.json"));
+  CHECK(first["scene_hash"] == second["scene_hash"]);
+  CHECK(first["branches"][0]["points"] == second["branches"][0]["points"]);
+}
+
+TEST_CASE("a study over a parameter that cannot begin is told, with exit code 3 and whole files") {
+  const Workplace place;
+  const Ended ended = run(place, {"folds", "scene.json", "--harmonics", "3", "--over", "damper.normal_load",
+                                  "--from", "1", "--to", "2", "--frequency", "18", "22", "--json", "a.json"});
+  CHECK(ended.exit_code == 3);  // the paper's oscillator has no fold
+  CHECK(ended.err.find("arcslip: branch 1 failed: no fold was found") == 0);
+  CHECK(Json::parse(place.read("a.json"))["branches"][0]["status"] == "failed");
+}
+
 TEST_CASE("the resolved scene that run leaves gives the same results again, with the same hash") {
   const Workplace place;
   const std::vector<std::string> changes{"--set", "damper.normal_load=3", "--harmonics", "7"};
@@ -123,7 +247,11 @@ TEST_CASE("run writes every study into out/NAME and tells the places of the file
       CHECK(ended.out.find("\n" + path + "\n") != std::string::npos);
     }
   }
-  CHECK(place.files().size() == 2 + 2 + 18);  // scenes, folders, results
+  for (const char* figure : {"_amplitude", "_frequency", "_amplitude_over_stick"}) {
+    CAPTURE(figure);
+    CHECK(std::filesystem::exists(place / ("out/two/peaks" + std::string(figure) + ".svg")));
+  }
+  CHECK(place.files().size() == 2 + 2 + 18 + 11);  // scenes, folders, results
   CHECK(Json::parse(place.read("out/two/frf.json"))["branches"].size() == 12);
 }
 
@@ -132,9 +260,11 @@ TEST_CASE("without gnuplot run says so, writes the data all the same, and is don
   const Ended ended = run(place, {"run", "scene.json", "--harmonics", "1"}, {{"PATH", "/nonexistent"}});
   CHECK(ended.exit_code == 0);
   CHECK(ended.err.find("arcslip: figures need gnuplot (Debian package gnuplot-nox)") == 0);
-  CHECK(place.files() == std::vector<std::string>{
-                             "out", "out/scene", "out/scene/frf.csv", "out/scene/frf.dat", "out/scene/frf.gp",
-                             "out/scene/frf.json", "out/scene/frf.scene.json", "scene.json"});
+  CHECK(place.files() ==
+        std::vector<std::string>{"out", "out/scene", "out/scene/frf.csv", "out/scene/frf.dat",
+                                 "out/scene/frf.gp", "out/scene/frf.json", "out/scene/frf.scene.json",
+                                 "out/scene/peaks.csv", "out/scene/peaks.dat", "out/scene/peaks.gp",
+                                 "out/scene/peaks.json", "out/scene/peaks.scene.json", "scene.json"});
 }
 
 TEST_CASE("check prints the resolved scene, which is a fixed point") {
@@ -158,8 +288,13 @@ TEST_CASE("help and version stand on standard output") {
   CHECK(version.exit_code == 0);
   CHECK(version.out.find("arcslip ") == 0);
   CHECK(version.err.empty());
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"frf", "-h"}, {"check", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"run", "--help"},
+                                                    {"frf", "-h"},
+                                                    {"trace", "-h"},
+                                                    {"peaks", "-h"},
+                                                    {"folds", "-h"},
+                                                    {"check", "--help"}}) {
     const Ended help = run(place, arguments);
     CHECK(help.exit_code == 0);
     CHECK(help.out.find("Usage: arcslip") != std::string::npos);

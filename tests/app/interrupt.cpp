@@ -13,14 +13,17 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// A study that takes minutes, in small steps.
+/// Studies that take minutes, in small steps.
 void write_long_scene(const Workplace& place) {
   Json scene = Json::parse(place.read("scene.json"));
   Json loads = Json::array();
+  Json stiffnesses = Json::array();
   for (int i = 0; i < 20'000; ++i) {
     loads.push_back(2 + 1e-4 * i);
+    stiffnesses.push_back(17'890 + 1e-3 * i);
   }
   scene["studies"][0]["for_each"]["damper.normal_load"] = loads;
+  scene["studies"][1]["for_each"]["k.value"] = stiffnesses;
   place.write("long.json", scene.dump());
 }
 
