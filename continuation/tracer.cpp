@@ -20,6 +20,7 @@ constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
 constexpr double branch_point_step = 1e-7;   // relative to 1 + |u|: no shorter step tells two branches apart
 constexpr double parameter_rounding = 1e-9;  // relative changes of p below tell no direction
 constexpr double largest_extrapolation = 2.5;  // in last steps, for the cubic predictor
+constexpr double parameter_overrun = 1.5;      // of the largest |dp| of a step
 constexpr double unresolved_rejection = 0.5;   // of the step where a quantity is not told by its slopes
 constexpr double unresolved_change = 0.5;      // of a quantity, against its slopes
 constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
@@ -210,13 +211,16 @@ bool Tracer::begin() {
   return within_limits();
 }
 
+double Tracer::largest_parameter_step() const {
+  const double relative = options_.step.relative_parameter * std::abs(s_.here.v[n_]);
+  const double limit = options_.step.largest_parameter;
+  return relative > 0 ? std::min(limit, relative) : limit;  // at p = 0 there is no relative limit
+}
+
 double Tracer::limited(double ds) const {
   ds = std::min(ds, options_.step.relative_state * (1 + main_->norm_u(s_.here.v)));
   if (options_.step.largest > 0) ds = std::min(ds, options_.step.largest);
-  const double along = std::abs(s_.here.tangent[n_]);
-  double limit = options_.step.largest_parameter;
-  const double relative = options_.step.relative_parameter * std::abs(s_.here.v[n_]);
-  if (relative > 0) limit = std::min(limit, relative);  // at p = 0 there is no such limit
+  const double along = std::abs(s_.here.tangent[n_]), limit = largest_parameter_step();
   return along * ds > limit ? limit / along : ds;
 }
 
@@ -326,6 +330,7 @@ bool Tracer::is_kink(double turn, const Place& next) {
 
 Tracer::Attempt Tracer::attempt() {
   crossing_.reset();
+  curve_error_ = 0;
   predict(next_.v);
   main_->border_row(s_.here.tangent, row_);
   const Correction correction = main_->correct(next_.v, row_, factors_fit_, options_.newton.corrector);
@@ -350,8 +355,11 @@ Tracer::Attempt Tracer::attempt() {
     if (!crossing_ && s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v))) return Attempt::rejected;
     if (!crossing_) crossing_ = unlocated_branch_point(s_.here, next_);
   }
+  // The tangent may turn towards the parameter within the step.
+  const double moved = std::abs(next_.v[n_] - s_.here.v[n_]);
+  if (!kink && moved > parameter_overrun * largest_parameter_step()) return Attempt::unresolved;
   if (!measure(next_)) return Attempt::rejected;
-  curve_error_ = curve_error(length);
+  if (next_.piece == s_.here.piece) curve_error_ = curve_error(length);
   if (curve_error_ > 1 || !resolved(s_.here, next_, length)) return Attempt::unresolved;
   const double next_ds = kink ? s_.turn.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);
@@ -361,6 +369,7 @@ Tracer::Attempt Tracer::attempt() {
 // along the tangent there, whose direction the sign of the determinant tells.
 bool Tracer::corner() {
   crossing_.reset();
+  curve_error_ = 0;
   v_ = s_.here.v + s_.step * s_.here.tangent;
   if (!main_->move_to(v_) || main_->evaluator().piece() == s_.here.piece) return false;
   Place kink;
@@ -641,6 +650,7 @@ std::vector<LocatedEvent> Tracer::with_crossing(std::vector<LocatedEvent>&& foun
     found.insert(place, std::move(*crossing_));
   }
   crossing_.reset();
+  curve_error_ = 0;
   return std::move(found);
 }
 

@@ -90,6 +90,7 @@ class Tracer {
   bool within_limits();
   double curve_error(double length);
   double choose_step(double angle, const Correction& correction) const;
+  double largest_parameter_step() const;
   double limited(double ds) const;
   bool to_boundary(Place& place, double bound, double share);
   std::pair<double, double> leaves_window(double length) const;

@@ -95,6 +95,25 @@ TEST_CASE(
   CHECK(points_before < 700);
 }
 
+TEST_CASE("a kink too small to turn the branch is passed whatever curve_tolerance asks beside it") {
+  const auto slope = [](double u) { return u < 0 ? 1.0 : 1.5; };
+  const auto problem =
+      from_functions({.size = 1,
+                      .parameters = {parameter("p", 0)},
+                      .residual = [=](In u, In p, Out F) { F[0] = slope(u[0]) * u[0] - std::sin(p[0]); },
+                      .jacobian = [=](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = slope(u[0]); },
+                      .derivative = [](In, In p, int, Out dF) { dF[0] = -std::cos(p[0]); },
+                      .piece = [](In u, In) { return u[0] < 0 ? 1 : 2; }});
+  for (double tolerance : {1e-4, 1e-7, 1e-10}) {
+    Options options = window(-1, 1);
+    options.step.curve_tolerance = tolerance;
+    const Branch branch = trace(problem, {Vector{{std::sin(-0.913)}}, Vector{{-0.913}}, 0, 1}, options);
+    CAPTURE(tolerance, branch.stop.message);
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.counts.rejected_steps < 10);
+  }
+}
+
 TEST_CASE("no point of a branch lies between its ends' arclengths and beyond") {
   const Branch branch = cusp_branch(window(-1, 1));
   CHECK_THROWS_AS(interpolate(branch, -1e-3), std::out_of_range);
@@ -158,4 +177,21 @@ TEST_CASE("a helix that passes its start nearer than steps are long is not close
     CHECK(std::abs(branch.points.back().u[0] - 0.5) > 12);
     for (const Point& point : branch.points) CHECK(std::abs(point.parameter - std::cos(point.u[0])) < 1e-8);
   }
+}
+
+TEST_CASE("the parameter moves no further in a step than asked for, where the branch turns towards it too") {
+  // p = 5 u^2, from its vertex, in a scale in which it is flat there.
+  const auto problem =
+      from_functions({.size = 1,
+                      .parameters = {parameter("p", 0, 100)},
+                      .residual = [](In u, In p, Out F) { F[0] = p[0] - 5 * u[0] * u[0]; },
+                      .jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = -10 * u[0]; },
+                      .derivative = [](In, In, int, Out dF) { dF[0] = 1; }});
+  Options options = window(-1, 3);
+  options.step.largest_parameter = 0.02;
+  options.step.initial = 0.4;
+  const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1, Vector{{1.0, 0.0}}}, options);
+  CHECK(branch.stop.reason == StopReason::boundary);
+  for (std::size_t k = 1; k < branch.points.size(); ++k)
+    CHECK(branch.points[k].parameter - branch.points[k - 1].parameter < 0.031);
 }
