@@ -14,8 +14,8 @@
 //   F(u, p) + beta b_0 = 0,   g_1 = g_2 = 0
 //
 // are n + 2 equations in (u, p_a, beta) that are regular where the branches cross transversally (Griewank and
-// Reddien, IMA J. Numer. Anal. 4, 1984; Govaerts 2000, chapter 3 and 5). Where beta = 0 two branches of F = 0
-// cross; a symmetry keeps it there. The gradients are
+// Reddien, SIAM J. Numer. Anal. 21, 1984; Govaerts 2000, chapters 3 and 5). Where beta = 0 two branches of F
+// = 0 cross; a symmetry keeps it there. The gradients are
 //
 //   dg_j = -w . dA V_j,
 //

@@ -56,7 +56,8 @@ struct DiagramBranch {
 struct Diagram {
   std::vector<DiagramBranch> branches;
   std::vector<Junction> branch_points;
-  bool complete = true;  // every half-branch within the depth was followed
+  bool complete = true;  // every half-branch of the branch points found within the depth was followed; an
+                         // even number of them in one step, or of even multiplicity, is not found
   std::string message;   // what is missing, and why
 };
 

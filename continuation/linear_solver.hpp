@@ -79,8 +79,8 @@ std::unique_ptr<LinearSolver> dense_lu();
 /// Sparse Jacobians.
 std::unique_ptr<LinearSolver> klu();
 
-/// The same by UMFPACK, better where factors fill up, as those of two-dimensional grids do.
-/// Throws std::runtime_error in a build without UMFPACK (it is GPL: ARCSLIP_WITH_UMFPACK).
+/// The same by UMFPACK, whose fronts are for factors that fill up; it needs a fast BLAS to be faster than
+/// KLU. Throws std::runtime_error in a build without UMFPACK (it is GPL: ARCSLIP_WITH_UMFPACK).
 std::unique_ptr<LinearSolver> umfpack();
 bool has_umfpack();
 

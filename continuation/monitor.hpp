@@ -12,7 +12,8 @@ namespace arcslip::continuation {
 
 /// An accepted solution with all that was computed for it. `at` and `bordered`, the factors of [J F_p; r^T],
 /// stand where the last correction began: within the corrector's tolerance of (u, p). An observer finds `at`
-/// at (u, p) itself.
+/// at (u, p) itself. At a branch point, whose own matrix may be singular to the last bit, `bordered` is that
+/// of the next point of the branch.
 struct Accepted {
   In u;        // n
   In p;        // all parameters
