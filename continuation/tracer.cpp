@@ -547,15 +547,14 @@ double Tracer::choose_step(double angle, const Correction& correction) const {
 
 // From `place`, beyond the window, back to p = bound.
 bool Tracer::to_boundary(Place& place, double bound, double share) {
-  hermite(s_.here.v, s_.here.tangent, place.v, place.tangent, distance(*main_, s_.here.v, place.v), share,
-          v_);
+  const double length = distance(*main_, s_.here.v, place.v);
+  hermite(s_.here.v, s_.here.tangent, place.v, place.tangent, length, share, v_);
+  v_[n_] = bound;
   place.v = v_;
+  row_ = Vector::Unit(n_ + 1, n_);
+  if (!main_->correct(place.v, row_, false).converged) return false;
   place.v[n_] = bound;
-  v_.setZero();
-  v_[n_] = 1;
-  if (!main_->correct(place.v, v_, false).converged) return false;
-  place.v[n_] = bound;
-  if (!settle(*main_, place)) return false;
+  if (distance(*main_, v_, place.v) > length || !settle(*main_, place)) return false;  // on another branch
   if (main_->dot(place.tangent, s_.here.tangent) < 0) place.reverse();
   place.arclength = s_.here.arclength + distance(*main_, s_.here.v, place.v);
   return measure(place);
