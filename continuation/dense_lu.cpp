@@ -8,6 +8,8 @@
 namespace arcslip::continuation {
 namespace {
 
+constexpr double smallest = 1e-150;  // of J, a border that is balanced
+
 class DenseLU final : public LinearSolver {
  public:
   const char* name() const override { return "dense LU"; }
@@ -21,19 +23,12 @@ class DenseLU final : public LinearSolver {
       lu_ = Eigen::PartialPivLU<Matrix>(n + m);
       work_.resize(n + m);
     }
-    // Rows of equal magnitude: partial pivoting compares entries of J with entries of the border, and a J of
-    // a single entry may vanish beside its columns.
-    const double largest = m > 0 && n > 0 ? borders.rows.cwiseAbs().maxCoeff() : 0;
-    double magnitude = n > 0 ? J->cwiseAbs().maxCoeff() : 0;
-    if (n == 1 && m > 0) magnitude = std::max(magnitude, borders.columns.cwiseAbs().maxCoeff());
-    row_scale_ = largest > 0 && magnitude > 0 ? magnitude / largest : 1.0;
-    if (!std::isfinite(row_scale_)) return false;
+    balance(*J, borders);
     matrix_.topLeftCorner(n, n) = *J;
-    matrix_.topRightCorner(n, m) = borders.columns;
-    matrix_.bottomLeftCorner(m, n) = row_scale_ * borders.rows.transpose();
-    matrix_.bottomRightCorner(m, m) = row_scale_ * borders.corner;
+    matrix_.topRightCorner(n, m) = borders.columns * columns_.asDiagonal();
+    matrix_.bottomLeftCorner(m, n) = rows_.asDiagonal() * borders.rows.transpose();
+    matrix_.bottomRightCorner(m, m) = rows_.asDiagonal() * borders.corner * columns_.asDiagonal();
     lu_.compute(matrix_);
-    borders_ = m;
 
     double sign = lu_.permutationP().determinant() > 0 ? 1 : -1;
     const auto pivots = lu_.matrixLU().diagonal();
@@ -47,31 +42,55 @@ class DenseLU final : public LinearSolver {
 
   void solve(Out x) const override {
     work_.noalias() = lu_.permutationP() * x;
-    // The last equations were multiplied by row_scale_; their places after the permutation hold g.
+    const Eigen::Index n = x.size() - rows_.size();
     const auto& to = lu_.permutationP().indices();
-    for (Eigen::Index i = x.size() - borders_; i < x.size(); ++i) work_[to[i]] *= row_scale_;
+    for (Eigen::Index i = 0; i < rows_.size(); ++i) work_[to[n + i]] *= rows_[i];
     lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(work_);
     lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(work_);
     x = work_;
+    x.tail(columns_.size()).array() *= columns_.array();
   }
 
   bool solve_transposed(Out x) const override {
     work_ = x;
+    work_.tail(columns_.size()).array() *= columns_.array();
     lu_.matrixLU().triangularView<Eigen::Upper>().transpose().solveInPlace(work_);
     lu_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(work_);
     x.noalias() = lu_.permutationP().transpose() * work_;
-    x.tail(borders_) *= row_scale_;
+    x.tail(rows_.size()).array() *= rows_.array();
     return true;
   }
 
   std::optional<int> determinant_sign() const override { return sign_; }
 
  private:
+  // Partial pivoting compares the entries of J with those of the border's rows, and a row that is large only
+  // in its corner, where the parameter moves nothing, would drown J if it were taken for a pivot: each border
+  // is made as large as J, its columns first. A J of a single entry may vanish beside its columns.
+  void balance(const Matrix& J, const Borders& borders) {
+    const Eigen::Index n = J.rows(), m = borders.width();
+    rows_.setOnes(m);
+    columns_.setOnes(m);
+    if (n == 0 || m == 0) return;
+    double magnitude = J.cwiseAbs().maxCoeff();
+    if (n == 1) magnitude = std::max(magnitude, borders.columns.cwiseAbs().maxCoeff());
+    if (!(magnitude > 0)) return;
+    for (Eigen::Index j = 0; j < m; ++j) {
+      const double largest = borders.columns.col(j).cwiseAbs().maxCoeff();
+      if (largest > smallest * magnitude) columns_[j] = magnitude / largest;
+    }
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const double largest =
+          std::max(borders.rows.col(i).cwiseAbs().maxCoeff(),
+                   (borders.corner.row(i).transpose().array() * columns_.array()).abs().maxCoeff());
+      if (largest > smallest * magnitude) rows_[i] = magnitude / largest;
+    }
+  }
+
   Matrix matrix_;
   Eigen::PartialPivLU<Matrix> lu_{0};
   mutable Vector work_;
-  double row_scale_ = 1;
-  Eigen::Index borders_ = 0;
+  Vector rows_, columns_;  // factors of the last equations and of the last unknowns
   int sign_ = 1;
 };
 

@@ -95,3 +95,21 @@ TEST_CASE("a single entry of J that vanishes beside its columns leaves the borde
     CHECK(std::abs(x[2] + tiny * x[0] + 2e-31 * x[1]) < 1e-15 * std::abs(x[2]));
   }
 }
+
+TEST_CASE(
+    "a parameter that moves nothing leaves the unknowns at rest, however small their part of the border") {
+  const int n = 12;
+  const Matrix J = 4 * Matrix::Identity(n, n) + Matrix::Random(n, n);
+  for (double part : {0.0, 1e-17, 1e-8, 1.0}) {
+    Borders borders(n, 1);
+    borders.columns.setZero();
+    borders.rows = part * Matrix::Random(n, 1);
+    borders.corner << 5.0;
+    const auto lu = dense_lu();
+    REQUIRE(lu->factorize(J, borders));
+    Vector x = Vector::Unit(n + 1, n);
+    lu->solve(x);
+    CHECK(x.head(n).norm() < 1e-14 * x[n]);
+    CHECK(std::abs(x[n] - 0.2) < 1e-16);
+  }
+}

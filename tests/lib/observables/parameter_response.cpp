@@ -97,6 +97,21 @@ TEST_CASE("the Jenkins and Duffing oscillator folds in the load where its descri
   }
 }
 
+TEST_CASE("through full stick, where the load moves nothing, no branch over the load is lost") {
+  const auto s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing_jenkins/scene.json");
+  for (const int order : {5, 15})
+    for (const double frequency : {1.2, 1.6, 2.0}) {
+      CAPTURE(order, frequency);
+      scene::Scene with = s;
+      with.harmonics.order = order;
+      const auto branches =
+          observables::parameter_response(with, over("damper.normal_load", frequency, 0.01, 3));
+      CHECK(branches[0].points.back().over == 3);
+      CHECK(branches[0].points.back().elements[1].stick_percent == 100);
+      for (const auto& branch : branches) CHECK(branch.status == observables::Status::complete);
+    }
+}
+
 TEST_CASE("over a tie both of its fields change") {
   scene::Scene s = scenes::paper(7);
   s.elements.push_back(s.elements.front());
