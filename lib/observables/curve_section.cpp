@@ -64,8 +64,9 @@ ResponsePoint CurveSection::observe(const Accepted& now) {
 double CurveSection::amplitude_slope(const Accepted& now) {
   if (!move_to(now, Needs::residual)) return std::nan("");
   const Eigen::Index n = u_.size();
-  return observer_.amplitude_change(*evaluator_, u_, now.tangent.head(n),
-                                    {{model::frequency, now.tangent[n]}, {over_, now.tangent[n + 1]}});
+  return observer_.amplitude_change(
+      *evaluator_, u_, now.tangent.head(n),
+      {{model::frequency, now.tangent[n]}, {over_, now.tangent[now.tangent.size() - 1]}});
 }
 
 namespace {

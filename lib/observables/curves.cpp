@@ -93,6 +93,7 @@ class Curves {
 
   SpecialCurve trace(const std::shared_ptr<const hbm::HbmProblem>& problem, const SpecialPoint& start) {
     const auto section = std::make_shared<CurveSection>(problem, way_.index);
+    const Eigen::Index n = problem->size();
     long points = 0;
     double last = start.x[start.x.size() - 1];
     const auto progress = [&](double over, double omega) {
@@ -104,8 +105,8 @@ class Curves {
       return !report_ || report_(progress_);
     };
     return SpecialCurveTracer(problem, peaks_ ? peak_kind(problem) : fold_kind(), way_, window_,
-                              with_folds(peaks_ ? peak_monitors(section) : fold_monitors()),
-                              peaks_ ? peak_monitors(section) : turn_monitors(), section, progress)
+                              with_folds(peaks_ ? peak_monitors(section) : fold_monitors(n)),
+                              peaks_ ? peak_monitors(section) : turn_monitors(n), section, progress)
         .run(start);
   }
 
@@ -116,14 +117,15 @@ class Curves {
             {"maximum", slope, Crossing::falling, amplitude}};
   }
 
-  static std::vector<Monitor> turn_monitors() {
-    const auto slope = [](const Accepted& now) { return now.tangent[now.u.size() - 1]; };
-    const auto frequency = [](const Accepted& now) { return now.u[now.u.size() - 1]; };
+  // n: where the frequency stands among the unknowns.
+  static std::vector<Monitor> turn_monitors(Eigen::Index n) {
+    const auto slope = [n](const Accepted& now) { return now.tangent[n]; };
+    const auto frequency = [n](const Accepted& now) { return now.u[n]; };
     return {{"turn", slope, Crossing::any, frequency}};
   }
 
-  static std::vector<Monitor> fold_monitors() {
-    auto monitors = turn_monitors();
+  static std::vector<Monitor> fold_monitors(Eigen::Index n) {
+    auto monitors = turn_monitors(n);
     monitors.push_back(continuation::cusp_monitor());
     return monitors;
   }
@@ -150,20 +152,26 @@ class Curves {
   std::vector<ResponseBranch> split(const SpecialCurve& curve) const {
     std::vector<ResponseBranch> parts;
     std::vector<double> turns;
-    if (peaks_)
+    if (peaks_) {
+      turns = curve.turns;
       for (const auto& each : curve.events)
         if (each.event.kind == "fold") turns.push_back(each.arclength);
+      std::sort(turns.begin(), turns.end());
+    }
     turns.push_back(HUGE_VAL);
     std::vector<std::pair<double, double>> course;
     for (const auto& at : curve.points) course.emplace_back(at.arclength, at.point.amplitude);
     double begin = -HUGE_VAL;
     for (std::size_t k = 0; k < turns.size(); begin = turns[k++]) {
       const double end = turns[k];
-      long peaks = 0, others = 0;
+      double peaks = 0, others = 0;  // arclengths
+      const SpecialCurve::At* before = nullptr;
       ResponseBranch part = described(*way_.model, set_, way_.name);
       for (const auto& at : curve.points) {
         if (!(at.arclength >= begin && at.arclength < end)) continue;
-        ++(at.second <= 0 ? peaks : others);
+        const double length = before ? at.arclength - before->arclength : 0;
+        (at.second <= 0 ? peaks : others) += length;
+        before = &at;
         part.points.push_back(at.point);
       }
       if (part.points.empty() || (peaks_ && others > peaks)) continue;
@@ -190,7 +198,7 @@ class Curves {
     const continuation::Stop& stop = curve.stop;
     part.status = status_of(stop.reason);
     part.stop = {name(stop.reason), stop.value, stop.limit, stop.message};
-    if (end < HUGE_VAL || curve.vanishes) {
+    if (!part.points.empty() && (end < HUGE_VAL || curve.vanishes)) {
       const ResponsePoint& last = part.points.back();
       part.status = Status::complete;
       part.stop = {
@@ -222,9 +230,10 @@ class Curves {
     } else {
       const std::string where = way_.name + " = " + text(part.points.back().over);
       if (stop.reason == StopReason::step_too_small)
-        part.stop.message =
-            "the curve could not be followed beyond " + where + ": probably the " + what_ +
-            " sits there at a corner of the response, where a phase of friction begins or ends";
+        part.stop.message = "the curve could not be followed beyond " + where + ": probably the " + what_ +
+                            " sits there at a corner of the response, where a phase of friction begins or "
+                            "ends or the largest "
+                            "displacement passes from one instant of the period to another";
       else
         part.stop.message += ", near " + where;
     }

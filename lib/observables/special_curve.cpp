@@ -23,17 +23,19 @@ constexpr const char* window_event = "window";
 constexpr const char* fold_event = "fold";
 constexpr const char* stick_event = "stick";  // the slope vanishes on this side of a corner
 constexpr const char* slip_event = "slip";
-constexpr double near_corner = 1e-3;    // relative: where a corner is looked for
-constexpr double beside_corner = 1e-6;  // of the parameter: from one part of the curve to the next
-constexpr double least_departure =
-    1e-2;  // of a smooth part from the corner, relative to the parameter's change
+constexpr double near_corner = 1e-3;  // relative: where a corner is looked for
+constexpr double besides[] = {1e-6, 1e-5, 1e-4,
+                              1e-3};  // of the parameter: from one part of the curve to the next
+constexpr double least_change =
+    1e-12;  // of the parameter, from a corner to the smooth part that begins there
 constexpr int most_parts = 64;
 
-Monitor window_monitor(const FrequencyWindow& window) {
+// n: where the frequency stands among the unknowns.
+Monitor window_monitor(const FrequencyWindow& window, Eigen::Index n) {
   Monitor monitor;
   monitor.name = window_event;
-  monitor.value = [window](const Accepted& now) {
-    const double omega = now.u[now.u.size() - 1], width = window.upper - window.lower;
+  monitor.value = [window, n](const Accepted& now) {
+    const double omega = now.u[n], width = window.upper - window.lower;
     return std::min(omega - window.lower, window.upper - omega) / width;
   };
   monitor.terminal = true;
@@ -101,12 +103,12 @@ SpecialCurveTracer::SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> pr
       smooth_(continuation::stationary_points(problem_, model::frequency, kind_.quantity)) {}
 
 SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start) {
-  Place at{start.x, way_.from, way_.direction()};
+  Place at{start.x, way_.from, way_.direction(), {}};
   if (start.nonsmooth) {
     const auto corner = to_corner(at);
     if (!corner) {
       result_.stop.reason = StopReason::start_failed;
-      result_.stop.message = "it is a corner of the response, but not one where an element begins to slip";
+      result_.stop.message = "it is a corner of the response, but none where an element begins to slip";
       return std::move(result_);
     }
     at = *corner;
@@ -116,19 +118,21 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start) {
     result_.stop = branch.stop;
     if (branch.points.empty()) break;
     const continuation::Point& last = branch.points.back();
-    result_.end = last.u;
+    result_.end = last.u.head(problem_->size() + 1);
     const bool leaves = branch.stop.reason == StopReason::event;
     const std::string by = leaves ? branch.events.back().monitor : "";
     const bool passes = leaves ? by == stick_event || by == slip_event
-                               : at.element < 0 && branch.stop.reason == StopReason::step_too_small;
+                               : !at.corner && branch.stop.reason == StopReason::step_too_small;
     result_.left_window = by == window_event;
     result_.vanishes = by == fold_event;
     if (!passes) break;
     const double before = last.tangent[last.tangent.size() - 1];
-    const Place end{last.u, last.parameter, before < 0 ? -1 : 1, at.element};
+    Place end{result_.end, last.parameter, before < 0 ? -1 : 1, at.corner};
+    if (end.corner) end.corner = at_angles(*end.corner, last.u);
     const auto next = leaves ? from_corner(end, by == slip_event) : to_corner(end);
     if (!next) break;
     result_.events.push_back({arclength_, {"corner", true, true, result_.points.back().point}});
+    if (next->direction != end.direction) result_.turns.push_back(arclength_);
     at = *next;
   }
   std::stable_sort(result_.events.begin(), result_.events.end(),
@@ -137,14 +141,15 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start) {
 }
 
 continuation::Branch SpecialCurveTracer::trace(const Place& from) {
-  const bool corner = from.element >= 0;
+  const Eigen::Index n = problem_->size();
+  const bool corner = from.corner.has_value();
   auto monitors = corner ? corner_monitors_ : smooth_monitors_;
-  monitors.push_back(window_monitor(window_));
+  monitors.push_back(window_monitor(window_, n));
   if (corner) {
     // Where the curve turns, the branch over the frequency touches the corner.
     monitors.push_back(continuation::fold_monitor());
     monitors.back().terminal = true;
-    const auto slopes = std::make_shared<hbm::Corner>(problem_, from.element, kind_.quantity);
+    const auto slopes = std::make_shared<hbm::CornerSides>(problem_, *from.corner, kind_.quantity);
     const auto add = [&](const char* name, double hbm::CornerSlopes::*side) {
       Monitor monitor;
       monitor.name = name;
@@ -170,11 +175,11 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
     if (std::exchange(first, false)) return true;
     result_.points.push_back({arclength, corner ? 0 : second(now), section_->observe(now)});
     if (terminal) return true;
-    const double omega = now.u[now.u.size() - 1];
-    if (now.u.head(problem_->size()).norm() > grown * problem_->displacement()) {
+    const double omega = now.u[n];
+    if (now.u.head(n).norm() > grown * problem_->displacement()) {
       Vector p = parameters(now.u, now.parameter);
       p[way_.index] *= 1 + (now.tangent[now.u.size()] < 0 ? -ahead : ahead);
-      if (const auto growth = unboundedness(*problem_, p, now.u.head(problem_->size())); growth.unbounded) {
+      if (const auto growth = unboundedness(*problem_, p, now.u.head(n)); growth.unbounded) {
         result_.unbounded = growth.message;
         return false;
       }
@@ -182,9 +187,10 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
     return progress_(now.parameter, omega);
   };
   continuation::Branch branch =
-      continuation::trace(corner ? hbm::stick_limit_points(problem_, from.element) : smooth_,
-                          {from.x, parameters(from.x, from.over), way_.index, from.direction}, way_.options(),
-                          std::move(monitors), record);
+      continuation::trace(corner ? hbm::slip_corner_points(problem_, *from.corner) : smooth_,
+                          {corner ? with_angles(from.x, *from.corner) : from.x, parameters(from.x, from.over),
+                           way_.index, from.direction},
+                          way_.options(), std::move(monitors), record);
   if (!branch.points.empty()) {  // what was seen beyond a terminal event is none of it
     arclength_ = begin + branch.points.back().arclength;
     const auto beyond = [&](const auto& each) { return each.arclength > arclength_; };
@@ -202,72 +208,87 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
 }
 
 Vector SpecialCurveTracer::parameters(const Vector& x, double over) const {
-  Vector p = hbm::parameters_at(*problem_, x[x.size() - 1]);
+  Vector p = hbm::parameters_at(*problem_, x[problem_->size()]);
   p[way_.index] = over;
   return p;
 }
 
+// The solution near (x, over) in the plane row . ((x, over)' - (x, over)) = 0.
 std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem& problem, const Vector& x,
-                                                    double over) const {
+                                                    double over, const Vector& row) const {
   continuation::Counts counts;
   continuation::Corrector corrector(problem, parameters(x, over), way_.index, {}, counts);
   const Eigen::Index n = x.size();
-  Vector v(n + 1);
+  Vector v(n + 1), scales(n + 1);
   v << x, over;
-  if (!corrector.correct(v, Vector::Unit(n + 1, n), false).converged) return {};
-  if ((v.head(n) - x).cwiseQuotient(smooth_->scales()).norm() >
-      near_corner * (1 + x.cwiseQuotient(smooth_->scales()).norm()))
+  scales << problem.scales(), over;
+  const Vector guess = v;
+  if (!corrector.correct(v, row, false).converged) return {};
+  if ((v - guess).cwiseQuotient(scales).norm() > near_corner * (1 + guess.cwiseQuotient(scales).norm()))
     return {};
-  return v.head(n);
+  return v;
 }
 
-// (k_d (max w - min w)/2 - mu F_n) / (mu F_n)
-double SpecialCurveTracer::excess(int element, const Vector& x, double over) const {
-  hbm::StickLimit limit(*problem_, element);
-  Vector dh(problem_->size());
-  const auto h = limit.at(x.head(problem_->size()), parameters(x, over), dh);
-  return h && limit.limit() > 0 ? *h / limit.limit() : HUGE_VAL;
+Vector SpecialCurveTracer::with_angles(const Vector& x, const hbm::SlipCorner& corner) {
+  Vector all(x.size() + 2);
+  all << x, corner.anchor, corner.reversal;
+  return all;
 }
 
-bool SpecialCurveTracer::is_special(int element, const Vector& x, double over) {
-  const auto slopes = hbm::Corner(problem_, element, kind_.quantity).slopes(x, parameters(x, over));
-  return kind_.maximum ? slopes.is_maximum() : slopes.is_extreme();
+hbm::SlipCorner SpecialCurveTracer::at_angles(hbm::SlipCorner corner, const Vector& all) {
+  corner.anchor = all[all.size() - 2];
+  corner.reversal = all[all.size() - 1];
+  return corner;
 }
 
-// The corner beside a place, and which way it is special.
+// The corner beside a place, and which way it is special. On one side of it the slope is near zero; where the
+// corner is special neither before nor behind the place where that changes its sign, the special point ends.
 std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Place& at) {
-  const auto& elements = problem_->model().elements;
-  for (int e = 0; e < static_cast<int>(elements.size()); ++e) {
-    if (elements[static_cast<std::size_t>(e)].law != model::Law::jenkins) continue;
-    if (!(std::abs(excess(e, at.x, at.over)) < near_corner)) continue;
-    const auto corner = hbm::stick_limit_points(problem_, e);
-    for (const int direction : {at.direction, -at.direction}) {
-      const double over = at.over * (1 + direction * beside_corner);
-      if (!inside(over)) continue;
-      const auto x = corrected(*corner, at.x, over);
-      if (x && is_special(e, *x, over)) return Place{*x, over, direction, e};
+  const Eigen::Index n = problem_->size();
+  for (const auto& corner :
+       hbm::slip_corners_near(*problem_, at.x.head(n), parameters(at.x, at.over), near_corner)) {
+    const auto points = hbm::slip_corner_points(problem_, corner);
+    hbm::CornerSides sides(problem_, corner, kind_.quantity);
+    for (const double beside : besides) {
+      std::vector<hbm::CornerSlopes> found;
+      for (const int direction : {at.direction, -at.direction}) {
+        const double over = at.over * (1 + direction * beside);
+        if (!inside(over)) continue;
+        const auto v = corrected(*points, with_angles(at.x, corner), over, Vector::Unit(n + 4, n + 3));
+        if (!v) continue;
+        const Vector all = v->head(n + 3);
+        found.push_back(sides.slopes(all, parameters(all, over)));
+        if (kind_.maximum ? found.back().is_maximum() : found.back().is_extreme())
+          return Place{all.head(n + 1), over, direction, at_angles(corner, all)};
+      }
+      if (found.size() == 2 && (found[0].stick * found[1].stick < 0) != (found[0].slip * found[1].slip < 0)) {
+        result_.vanishes = true;
+        return {};
+      }
     }
   }
   return {};
 }
 
-// The smooth curve that begins where the slope vanishes on one side of a corner.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const Place& at, bool slip) {
+// The smooth curve that begins where the slope vanishes on one side of a corner. There h is given, not the
+// parameter, which may change with h by any power.
+std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const Place& at, bool slip) const {
   const Eigen::Index n = problem_->size();
-  hbm::StickLimit limit(*problem_, at.element);
-  Vector dh(n), guess = at.x;
-  if (!limit.at(at.x.head(n), parameters(at.x, at.over), dh)) return {};
-  dh *= (slip ? 1 : -1) * limit.limit() / dh.squaredNorm();
-  for (const double beside : {1.0, 10.0, 100.0, 1000.0})
-    for (const int direction : {at.direction, -at.direction}) {
-      const double over = at.over * (1 + direction * beside * beside_corner);
-      if (!inside(over)) continue;
-      guess.head(n) = at.x.head(n) + beside * beside_corner * dh;
-      const auto x = corrected(*smooth_, guess, over);
-      // Away from the corner as the parameter goes on, not along it.
-      if (x && (slip ? 1 : -1) * excess(at.element, *x, over) > least_departure * beside * beside_corner)
-        return Place{*x, over, direction};
-    }
+  const Vector p = parameters(at.x, at.over);
+  Vector dh(n), guess = at.x, row = Vector::Zero(n + 2);
+  hbm::slip_excess_gradient(*problem_, *at.corner, p, dh);
+  row.head(n) = dh;
+  row[n + 1] = hbm::slip_excess_derivative(*problem_, *at.corner, at.x.head(n), p, way_.index);
+  row /= row.norm();
+  dh *= (slip ? 1 : -1) * hbm::slip_limit(*problem_, at.corner->element, p) / dh.squaredNorm();
+  for (const double beside : besides) {
+    guess.head(n) = at.x.head(n) + beside * dh;
+    const auto v = corrected(*smooth_, guess, at.over, row);
+    if (!v) continue;
+    const double over = (*v)[n + 1];
+    if (inside(over) && std::abs(over - at.over) > least_change * at.over)
+      return Place{v->head(n + 1), over, over > at.over ? 1 : -1, {}};
+  }
   return {};
 }
 

@@ -3,11 +3,11 @@
 // peaks and folds. Found on the branch at the range's beginning, followed by continuation of the equations
 // that define them (continuation/stationary.hpp).
 //
-// A special point may come to a corner of the branches, where a friction element passes from full stick to
-// slip, and sit there while the parameter goes on: the slope has opposite signs on the two sides. The curve
-// then follows the corner (hbm/stick_limit.hpp), until the slope vanishes on one of the sides.
+// A special point may come to a corner of the branches, where a friction element begins to slip at a reversal
+// of its motion, and sit there while the parameter goes on: the slope has opposite signs on the two sides.
+// The curve then follows the corner (hbm/slip_corner.hpp), until the slope vanishes on one of the sides.
 
-#include <arcslip/hbm/stick_limit.hpp>
+#include <arcslip/hbm/slip_corner.hpp>
 #include <arcslip/observables/curve_section.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
@@ -62,6 +62,7 @@ struct SpecialCurve {
   std::vector<At> points;
   std::vector<EventAt>
       events;  // those of the monitors, and "corner" where the curve comes to one or leaves it
+  std::vector<double> turns;  // arclengths of the corners where the parameter turns back
   continuation::Stop stop;
   continuation::Counts counts;
   continuation::Vector end;  // unknowns and frequency at the last point
@@ -88,17 +89,18 @@ class SpecialCurveTracer {
     continuation::Vector x;  // unknowns and frequency
     double over = 0;
     int direction = 1;
-    int element = -1;  // at whose corner; none on smooth parts
-    int side = 0;      // where a corner was left: -1 stick, +1 slip
+    std::optional<hbm::SlipCorner> corner;  // none on smooth parts
   };
 
   continuation::Branch trace(const Place& from);
   std::optional<Place> to_corner(const Place& at);
-  std::optional<Place> from_corner(const Place& at, bool slip);
+  std::optional<Place> from_corner(const Place& at, bool slip) const;
   std::optional<continuation::Vector> corrected(const continuation::Problem& problem,
-                                                const continuation::Vector& x, double over) const;
-  bool is_special(int element, const continuation::Vector& x, double over);
-  double excess(int element, const continuation::Vector& x, double over) const;
+                                                const continuation::Vector& x, double over,
+                                                const continuation::Vector& row) const;
+  // The unknowns at a corner: those of the smooth parts, and its two angles.
+  static continuation::Vector with_angles(const continuation::Vector& x, const hbm::SlipCorner& corner);
+  static hbm::SlipCorner at_angles(hbm::SlipCorner corner, const continuation::Vector& all);
   continuation::Vector parameters(const continuation::Vector& x, double over) const;
   bool inside(double over) const { return over >= way_.lower() && over <= way_.upper(); }
 

@@ -6,6 +6,8 @@
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/observables/curves.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,7 +98,57 @@ void check_scenes(random_scenes::Excitation excitation) {
   }
 }
 
+/// Whether the frequency response has a peak there, at this value of the parameter.
+bool is_peak(scene::Scene s, const std::string& over, const ResponsePoint& point) {
+  scene::set(s, over, point.over);
+  scene::Study study = s.studies.front();
+  study.for_each.clear();
+  const double frequency = point.omega / scenes::hertz;
+  study.from = std::max(study.from, 0.98 * frequency);
+  study.to = std::min(study.to, 1.02 * frequency);
+  const auto branches = observables::frequency_response(s, study);
+  return std::any_of(branches.begin(), branches.end(), [&](const ResponseBranch& branch) {
+    return std::any_of(branch.events.begin(), branch.events.end(), [&](const auto& event) {
+      return event.kind == "peak" && std::abs(event.point.omega / point.omega - 1) < 1e-5 &&
+             std::abs(event.point.amplitude / point.amplitude - 1) < 1e-7;
+    });
+  });
+}
+
 }  // namespace
+
+TEST_CASE(
+    "random structures: every point of a curve of peaks over a load is a peak of the frequency response") {
+  long curves = 0, failed = 0;
+  for (std::uint64_t seed = 0; seed < scenes_of_each_kind(); ++seed) {
+    const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first);
+    scene::Study study = s.studies.front();
+    study.kind = scene::StudyKind::peaks;
+    study.over = s.elements.front().name + ".normal_load";
+    study.frequency_from = study.from;
+    study.frequency_to = study.to;
+    study.from = 0.01;
+    study.to = 100;
+    for (const ResponseBranch& branch : observables::resonance_peaks(s, study)) {
+      if (branch.points.empty()) continue;  // there is no peak in the window
+      ++curves;
+      failed += branch.status != observables::Status::complete;
+      CAPTURE(seed, branch.stop.message);
+      // Not next to the ends, where the peak vanishes or the curve leaves the window.
+      const double first = branch.points.front().over, last = branch.points.back().over;
+      if (std::abs(std::log(last / first)) < 0.01) continue;
+      for (const double share : {0.25, 0.5, 0.75}) {
+        const double over = first * std::pow(last / first, share);
+        const ResponsePoint& point = *std::min_element(
+            branch.points.begin(), branch.points.end(),
+            [&](const auto& p, const auto& q) { return std::abs(p.over - over) < std::abs(q.over - over); });
+        CAPTURE(point.over, point.omega / scenes::hertz);
+        CHECK(is_peak(s, study.over, point));
+      }
+    }
+  }
+  CHECK(failed <= curves / 20);
+}
 
 TEST_CASE("random structures excited in one harmonic: whole branches, continuous, with all of their peaks") {
   check_scenes(random_scenes::Excitation::first);

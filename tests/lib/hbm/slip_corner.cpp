@@ -1,0 +1,124 @@
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/hbm/slip_corner.hpp>
+
+using namespace arcslip;
+using continuation::Vector;
+
+namespace {
+
+// Of the paper's oscillator, stuck, in steady state at omega.
+Vector stuck_response(const hbm::HbmProblem& problem, double omega) {
+  const std::complex<double> X = 1.0 / std::complex<double>(21390 - 1.24 * omega * omega, 0.134 * omega);
+  Vector u = Vector::Zero(problem.size());
+  u[problem.harmonics().cosine_index(1)] = X.real();
+  u[problem.harmonics().sine_index(1)] = -X.imag();
+  return u;
+}
+
+}  // namespace
+
+TEST_CASE("the paper's oscillator is at the slip limit where the stuck oscillator's amplitude is mu Fn/kd") {
+  // h = kd A - mu Fn with A = f0/|k + kd - m w^2 + i c w|.
+  const auto model = std::make_shared<const model::Model>(model::build(scenes::paper(7, 3)));
+  const hbm::HbmProblem problem(model, model->harmonics, 1e-3, 1);
+  for (const double w : {110.0, 125.0, 140.0}) {
+    const Vector p = hbm::parameters_at(problem, w);
+    const Vector stuck = stuck_response(problem, w);
+    const auto near = hbm::slip_corners_near(problem, stuck, p, 1e3);
+    const double exact = 3500 * stuck.norm() - 1.5;
+    REQUIRE_FALSE(near.empty());
+    for (hbm::SlipCorner corner : near) {
+      const auto h = hbm::slip_excess(problem, corner, stuck, p);
+      REQUIRE(h);
+      CHECK(std::abs(*h - exact) < 1e-12);
+    }
+    CHECK(hbm::slip_limit(problem, 0, p) == 1.5);
+    CHECK(hbm::slip_corners_near(problem, stuck, p, 0.99 * std::abs(exact) / 1.5).empty());
+    CHECK_FALSE(hbm::slip_corners_near(problem, stuck, p, 1.01 * std::abs(exact) / 1.5).empty());
+  }
+}
+
+TEST_CASE("a corner is where a slip phase is born, whichever reversals it lies between") {
+  // On one side a phase of zero length is there, on the other none: the piece changes from h < 0 to h > 0.
+  for (const bool even : {false, true}) {
+    const auto model = std::make_shared<const model::Model>(model::build(scenes::chain(4, even)));
+    const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+    const int n = problem.size();
+    std::srand(3);
+    int crossed = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+      const Vector u = 2 * Vector::Random(n), p = hbm::parameters_at(problem, 0.8);
+      for (hbm::SlipCorner corner : hbm::slip_corners_near(problem, u, p, 0.2)) {
+        Vector dh(n), at = u;
+        for (int k = 0; k < 8; ++k) {  // onto h = 0
+          const auto h = hbm::slip_excess(problem, corner, at, p);
+          if (!h) break;
+          hbm::slip_excess_gradient(problem, corner, p, dh);
+          at -= *h / dh.squaredNorm() * dh;
+        }
+        const auto h = hbm::slip_excess(problem, corner, at, p);
+        if (!h || std::abs(*h) > 1e-13) continue;
+        const auto evaluator = problem.hbm_evaluator();
+        const auto slip_phases = [&](double side) {
+          evaluator->move_to(at + side * 1e-7 / dh.norm() * dh, p, continuation::Needs::jacobian);
+          elements::FrictionState state;
+          evaluator->element(static_cast<std::size_t>(corner.element)).friction(state);
+          return state.slip_onsets.size();
+        };
+        CAPTURE(even, trial, corner.element, corner.anchor, corner.reversal);
+        CHECK(slip_phases(1) > slip_phases(-1));
+        ++crossed;
+      }
+    }
+    CHECK(crossed > 10);
+  }
+}
+
+TEST_CASE("the derivatives of the equations of a corner are those of differences") {
+  for (const bool even : {false, true}) {
+    const auto model = std::make_shared<const model::Model>(model::build(scenes::chain(4, even)));
+    const auto problem = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1, 1);
+    const int n = problem->size();
+    std::srand(5);
+    const Vector u = Vector::Random(n), p = hbm::parameters_at(*problem, 0.8);
+    for (const hbm::SlipCorner& corner : hbm::slip_corners_near(*problem, u, p, 1e3)) {
+      CAPTURE(even, corner.element, corner.anchor, corner.reversal);
+      Vector x(n + 3);
+      x << u, 0.8, corner.anchor + 0.1, corner.reversal - 0.1;
+      const auto check = continuation::check_jacobian(*hbm::slip_corner_points(problem, corner), x, p);
+      CHECK(check.message == "");
+      Vector dh(n);
+      hbm::slip_excess_gradient(*problem, corner, p, dh);
+      hbm::SlipCorner moved = corner;
+      for (int i = 0; i < n; ++i) {
+        const auto excess = [&](double step) {
+          moved = corner;
+          return *hbm::slip_excess(*problem, moved, u + step * Vector::Unit(n, i), p);
+        };
+        CHECK(std::abs(dh[i] - (excess(1e-6) - excess(-1e-6)) / 2e-6) < 1e-8);
+      }
+      const int load =
+          model::parameter_index(*model, (corner.element == 0 ? "d1.normal_load" : "d2.normal_load"));
+      moved = corner;
+      const double by_load = hbm::slip_excess_derivative(*problem, corner, u, p, load);
+      const Vector dp = 1e-3 * Vector::Unit(p.size(), load);
+      CHECK(std::abs(by_load - (*hbm::slip_excess(*problem, moved, u, p + dp) -
+                                *hbm::slip_excess(*problem, moved, u, p - dp)) /
+                                   2e-3) < 1e-10);
+    }
+  }
+}
+
+TEST_CASE("a motion without the reversals of a corner has no excess there") {
+  const auto model = std::make_shared<const model::Model>(model::build(scenes::paper(7, 3)));
+  const hbm::HbmProblem problem(model, model->harmonics, 1e-3, 1);
+  const Vector p = hbm::parameters_at(problem, 125);
+  const Vector stuck = stuck_response(problem, 125);
+  auto corner = hbm::slip_corners_near(problem, stuck, p, 1e3).front();
+  corner.reversal += 1.5;
+  CHECK_FALSE(hbm::slip_excess(problem, corner, stuck, p));
+}
