@@ -310,4 +310,26 @@ double DynamicStiffness::viscous_energy(In u, double force_factor) const {
   return energy;
 }
 
+QuadraticForms DynamicStiffness::quadratic_forms(int n, In u, double force_factor) const {
+  const int h = harmonics_.cosine_index(n);
+  gather(u, h, q_);
+  expand(q_, h, force_factor, y_);
+  QuadraticForms forms;
+  for (Eigen::Index i = 0; i < y_.size(); ++i)
+    for (Eigen::Index j = 0; j < y_.size(); ++j) {
+      const double product = (std::conj(y_[i]) * y_[j]).real();
+      forms.mass += M_(i, j) * product;
+      forms.damping += C_(i, j) * product;
+      forms.stiffness += K_(i, j) * product;
+    }
+  for (std::size_t which = 0; which < model_.forces.size(); ++which) {
+    const model::Force& force = model_.forces[which];
+    if (force.harmonic != n) continue;
+    const Complex amplitude(last_p_[force.cosine], n == 0 ? 0.0 : -last_p_[force.sine]);
+    for (Eigen::Index i = 0; i < y_.size(); ++i)
+      forms.force += force_factor * amplitude * std::conj(y_[i]) * force_directions_[which][i];
+  }
+  return forms;
+}
+
 }  // namespace arcslip::hbm

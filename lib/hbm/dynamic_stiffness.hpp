@@ -21,6 +21,12 @@ using elements::Harmonics;
 using elements::In;
 using elements::Out;
 
+/// What the linear parts and the forces do in one harmonic of the motion of all degrees of freedom, x.
+struct QuadraticForms {
+  double mass = 0, damping = 0, stiffness = 0;  // x^H M x, x^H C x, x^H K x
+  std::complex<double> force;                   // x^H f
+};
+
 /// Mutable, one for each evaluator. Layout of u and R: r coordinates one after another, each as in
 /// harmonics.hpp.
 class DynamicStiffness {
@@ -29,6 +35,7 @@ class DynamicStiffness {
 
   /// False where the linear coordinates resonate by themselves, undamped: the condensed stiffness has a pole.
   bool move_to(In p);
+  double omega() const { return omega_; }  // rad/s, at the last place
 
   void residual(In u, double force_factor, Out R) const;                      // R = Z u - force_factor f
   void add_to(Eigen::MatrixXd& J) const;                                      // J += Z
@@ -43,6 +50,8 @@ class DynamicStiffness {
 
   /// Energy dissipated by the dampers in a period: pi omega sum n^2 (a^T C a + b^T C b), J.
   double viscous_energy(In u, double force_factor) const;
+  /// Of order n, one of the harmonics, at the last place.
+  QuadraticForms quadratic_forms(int n, In u, double force_factor) const;
 
  private:
   using Complex = std::complex<double>;

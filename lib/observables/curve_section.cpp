@@ -56,7 +56,7 @@ ResponsePoint CurveSection::observe(const Accepted& now) {
   move_to(now, Needs::jacobian);
   linearize();
   ResponsePoint point =
-      observer_.observe({u_, p_, tangent_, now.arclength, *evaluator_, *solver_, p_[model::frequency]});
+      observer_.observe({u_, p_, tangent_, now.arclength, *evaluator_, *solver_, p_[model::frequency]}, true);
   point.over = now.parameter;
   return point;
 }

@@ -57,7 +57,8 @@ class Sweep {
     const auto record = [&](Observer& observer, const continuation::Accepted& now,
                             const continuation::Event* event) {
       if (event) {
-        result.events.push_back({event->monitor, event->nonsmooth, event->located, observer.observe(now)});
+        result.events.push_back(
+            {event->monitor, event->nonsmooth, event->located, observer.observe(now, true)});
         return true;
       }
       const double omega = now.p[model::frequency];

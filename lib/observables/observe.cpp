@@ -1,8 +1,9 @@
 #include <arcslip/observables/observe.hpp>
 
+#include <arcslip/observables/energies.hpp>
+
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <utility>
 
 namespace arcslip::observables {
@@ -10,16 +11,6 @@ namespace {
 
 const hbm::HbmEvaluator& evaluator_of(const continuation::Accepted& now) {
   return static_cast<const hbm::HbmEvaluator&>(now.at);
-}
-
-// Work done against the element over a period: pi sum n (F_c b - F_s a).
-double element_energy(const elements::Harmonics& h, const continuation::Vector& w, const Eigen::VectorXd& F) {
-  double sum = 0;
-  for (int j = 0; j < h.sines(); ++j) {
-    const int n = h.sine_order(j), c = h.cosine_index(n), s = h.sine_index(n);
-    sum += n * (F[c] * w[s] - F[s] * w[c]);
-  }
-  return std::numbers::pi * sum;
 }
 
 }  // namespace
@@ -70,7 +61,7 @@ double Observer::phase(const continuation::Accepted& now) const {
   return 0;
 }
 
-ResponsePoint Observer::observe(const continuation::Accepted& now) {
+ResponsePoint Observer::observe(const continuation::Accepted& now, bool with_maxima) {
   const auto& at = evaluator_of(now);
   const auto& h = problem_->harmonics();
   ResponsePoint point;
@@ -83,7 +74,10 @@ ResponsePoint Observer::observe(const continuation::Accepted& now) {
   point.truncation_estimate = truncation.amplitude;
   point.truncation_flagged = truncation.flagged;
   point.energy_viscous = at.stiffness().viscous_energy(now.u, at.force_factor());
+  point.energy_input = input_energy(*problem_, at, now.u);
+  point.forces = force_components(*problem_, at, x_);
   elements::FrictionState state;
+  point.elements.reserve(at.element_count());
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     ElementResponse response;
     response.name = problem_->model().elements[e].name;
@@ -95,13 +89,21 @@ ResponsePoint Observer::observe(const continuation::Accepted& now) {
       response.energy =
           state.slip_onsets.empty() ? 0 : element_energy(h, at.element_motion(e), at.element(e).force());
       point.energy_friction += response.energy;
+      set_contact_angles(h, at.element_motion(e), response);
     }
+    set_fundamental(*problem_, at, e, response);
     point.elements.push_back(std::move(response));
   }
+  point.coefficients.reserve(static_cast<std::size_t>(2 * h.cosines()));
   for (int i = 0; i < h.cosines(); ++i) {
     const int n = h.cosine_order(i);
     point.coefficients.push_back(x_[i]);
     point.coefficients.push_back(n == 0 ? 0.0 : x_[h.sine_index(n)]);
+  }
+  point.unknowns.assign(now.u.data(), now.u.data() + now.u.size());
+  if (with_maxima) {
+    if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
+    maxima_->add_to(point, at, x_);
   }
   return point;
 }

@@ -4,6 +4,7 @@
 #include <arcslip/continuation/monitor.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/amplitude.hpp>
+#include <arcslip/observables/force_components.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/observables/truncation.hpp>
 
@@ -21,8 +22,8 @@ class Observer {
 
   const hbm::HbmProblem& problem() const { return *problem_; }
 
-  /// Everything at one point.
-  ResponsePoint observe(const continuation::Accepted& now);
+  /// Everything at one point; its maxima, which take as long as all else, only `with_maxima`.
+  ResponsePoint observe(const continuation::Accepted& now, bool with_maxima = false);
 
   /// Largest |x| of the observed coordinate, for unknowns u at the parameters of an evaluator.
   Extreme extreme(const hbm::HbmEvaluator& at, continuation::In u);
@@ -44,6 +45,7 @@ class Observer {
   int free_;
   Amplitude amplitude_;
   std::unique_ptr<Truncation> truncation_;  // made at the first observe()
+  std::unique_ptr<Maxima> maxima_;          // when first asked for
   continuation::Vector x_, dx_, by_parameter_;
   double last_amplitude_ = 0;
 };

@@ -1,11 +1,26 @@
 #pragma once
 // What an engineer reads off a branch of periodic responses, as plain data.
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace arcslip::observables {
+
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+/// A force relative to a displacement of the same harmonic: in phase with it, and a quarter period ahead.
+struct PhaseParts {
+  double in_phase = 0, out_of_phase = 0;
+};
+
+/// Largest absolute values over the period of an element's force, as the series of the harmonics kept, and of
+/// its cosine and sine parts, N: ||f_nl||, F_nlcos and F_nlsin of Al Sayed et al. (2011, Eqs. 17 to 21).
+/// no_value where they were not asked for (force_components.hpp).
+struct ForceMaxima {
+  double force = no_value, cosine = no_value, sine = no_value;
+};
 
 /// What one nonlinear element does over a period. Empty vectors and zeros where it has no such thing.
 struct ElementResponse {
@@ -15,6 +30,44 @@ struct ElementResponse {
   std::vector<double> slip_angles;      // onset of each slip phase, rad in [0, 2 pi)
   std::vector<double> reversal_angles;  // end of each slip phase, rad in [0, 2 pi)
   double energy = 0;                    // dissipated per period, J
+
+  // Where there is one stick and one slip phase in each half period: theta_0 in [0, 2 pi), where the
+  // element's displacement is largest and stick begins; theta_star in (theta_0, theta_0 + 2 pi), the next
+  // onset of slip, rad. Antisymmetric motion: stick_percent = 100 (theta_star - theta_0)/pi.
+  double theta_0 = no_value, theta_star = no_value;
+
+  // The fundamental of the force relative to that of the element's own displacement, of amplitude X at the
+  // frequency w: N; k_eq = in_phase/X, N/m; c_eq = out_of_phase/(w X), N s/m.
+  PhaseParts fundamental{no_value, no_value};
+  double equivalent_stiffness = no_value, equivalent_damping = no_value;
+
+  ForceMaxima maxima{};
+};
+
+/// The equation of motion of the fundamental, of order n, along the motion itself and per unit displacement
+/// of the response, N/m (force_components.hpp):
+///   F_p/x: inertia + spring + in-phase parts of contact and nonlinear_spring = in-phase part of excitation
+///   F_o/x: viscous + out-of-phase parts of contact and nonlinear_spring = out-of-phase part of excitation
+/// One mass: inertia = -m (n omega)^2, spring = k, viscous = c n omega. no_value where the response has no
+/// fundamental.
+struct ForceComponents {
+  double inertia = no_value, spring = no_value, viscous = no_value;
+  PhaseParts contact{}, nonlinear_spring{};  // of the friction elements; of the cubic springs
+  PhaseParts excitation{};
+
+  /// F_p/x and F_o/x.
+  PhaseParts total() const {
+    return {inertia + spring + contact.in_phase + nonlinear_spring.in_phase,
+            viscous + contact.out_of_phase + nonlinear_spring.out_of_phase};
+  }
+};
+
+/// Largest absolute values over the period, of all harmonics: of the response's velocity (m/s) and
+/// acceleration (m/s^2) and, for one degree of freedom, the sums of maxima by which Al Sayed et al. (2011,
+/// Eqs. 22, 23) define F_p/x and F_o/x, N/m. no_value where they were not asked for.
+struct MotionMaxima {
+  double velocity = no_value, acceleration = no_value;
+  PhaseParts force_per_displacement{no_value, no_value};
 };
 
 /// One periodic response.
@@ -31,7 +84,17 @@ struct ResponsePoint {
   bool unbounded = false;      // the amplitude grows without bound here; `amplitude` has no meaning
   std::vector<ElementResponse> elements;
   std::vector<double>
-      coefficients;  // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
+      coefficients;              // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
+  std::vector<double> unknowns;  // all of the motion, as hbm/problem.hpp has it: see histories.hpp
+  double energy_input = 0;       // work of the excitation, J per period; equals energy_total()
+  ForceComponents forces{};
+  MotionMaxima maxima{};
+
+  double energy_total() const { return energy_friction + energy_viscous; }
+  /// Share of friction in the energy dissipated, 0 to 100; no_value where there is none.
+  double friction_percent() const {
+    return energy_total() > 0 ? 100 * energy_friction / energy_total() : no_value;
+  }
 };
 
 struct ResponseEvent {

@@ -5,6 +5,7 @@
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <ostream>
@@ -65,6 +66,9 @@ Columns columns_of(std::span<const ResponseBranch> branches) {
   return columns;
 }
 
+constexpr std::array<const char*, 4> of_friction_elements = {
+    "theta_0 (rad)", "theta_star (rad)", "equivalent_stiffness (N/m)", "equivalent_damping (N s/m)"};
+
 std::vector<std::string> header(const scene::Scene& scene, const Columns& columns) {
   std::vector<std::string> cells;
   for (const std::string& name : columns.parameters) {
@@ -77,8 +81,22 @@ std::vector<std::string> header(const scene::Scene& scene, const Columns& column
     cells.push_back(columns.friction.size() == 1 ? "stick (%)" : name + ".stick (%)");
   }
   cells.insert(cells.end(), {"truncation_estimate (m)", "truncation_flagged", "energy_friction (J)",
-                             "energy_viscous (J)"});
+                             "energy_viscous (J)", "energy_total (J)", "energy_input (J)", "friction (%)",
+                             "force_in_phase (N/m)", "force_out_of_phase (N/m)"});
+  for (const std::string& name : columns.friction) {
+    const std::string of = columns.friction.size() == 1 ? "" : name + ".";
+    for (const char* quantity : of_friction_elements) {
+      cells.push_back(of + quantity);
+    }
+  }
   return cells;
+}
+
+/// An element of a point by its name; without values where there is none.
+observables::ElementResponse element(const ResponsePoint& point, const std::string& name) {
+  const auto found = std::find_if(point.elements.begin(), point.elements.end(),
+                                  [&](const auto& candidate) { return candidate.name == name; });
+  return found == point.elements.end() ? observables::ElementResponse{} : *found;
 }
 
 /// The value of a parameter at a point: where the branch has come, what is set for it, or the scene's own.
@@ -97,8 +115,8 @@ double parameter(const ResponseBranch& branch, const ResponsePoint& point, const
 }
 
 std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, const ResponseBranch& branch,
-                             std::size_t branch_number, const std::string& event,
-                             const ResponsePoint& point) {
+                             std::size_t branch_number, const std::string& event, const ResponsePoint& point,
+                             std::size_t count) {
   std::vector<std::string> cells;
   for (const std::string& name : columns.parameters) {
     cells.push_back(number(parameter(branch, point, name)));
@@ -108,7 +126,7 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
   cells.push_back(number(in_scene_unit(scene, point.omega)));
   if (point.unbounded) {  // nothing but its place is known
     cells.emplace_back("inf");
-    cells.resize(cells.size() + 5 + columns.friction.size());
+    cells.resize(count);
     return cells;
   }
   cells.push_back(number(point.amplitude));
@@ -119,7 +137,17 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
   cells.push_back(number(point.truncation_estimate));
   cells.emplace_back(point.truncation_flagged ? "yes" : "no");
   cells.push_back(number(point.energy_friction));
-  cells.push_back(number(point.energy_viscous));
+  const observables::PhaseParts force = point.forces.total();
+  for (const double value : {point.energy_viscous, point.energy_total(), point.energy_input,
+                             point.friction_percent(), force.in_phase, force.out_of_phase}) {
+    cells.push_back(number(value));
+  }
+  for (const std::string& name : columns.friction) {
+    const observables::ElementResponse of = element(point, name);
+    for (const double value : {of.theta_0, of.theta_star, of.equivalent_stiffness, of.equivalent_damping}) {
+      cells.push_back(number(value));
+    }
+  }
   return cells;
 }
 
@@ -127,7 +155,8 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
 
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const ResponseBranch> branches) {
   const Columns columns = columns_of(branches);
-  write_row(out, header(scene, columns));
+  const std::vector<std::string> heads = header(scene, columns);
+  write_row(out, heads);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const ResponseBranch& branch = branches[b];
     const std::vector<std::size_t> before = points_before_events(branch);
@@ -135,10 +164,10 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Res
     for (std::size_t i = 0; i <= branch.points.size(); ++i) {
       for (; event < branch.events.size() && before[event] == i; ++event) {
         const observables::ResponseEvent& found = branch.events[event];
-        write_row(out, row(scene, columns, branch, b + 1, found.kind, found.point));
+        write_row(out, row(scene, columns, branch, b + 1, found.kind, found.point, heads.size()));
       }
       if (i < branch.points.size()) {
-        write_row(out, row(scene, columns, branch, b + 1, "", branch.points[i]));
+        write_row(out, row(scene, columns, branch, b + 1, "", branch.points[i], heads.size()));
       }
     }
   }

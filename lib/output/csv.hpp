@@ -12,8 +12,10 @@ namespace arcslip::output {
 /// A header with units, then a row a point and a row an event, in the order of the branches. Columns: one for
 /// each parameter that a branch sets or is over, "damper.normal_load (N)"; branch (from 1); event (empty,
 /// "peak", "fold", "maximum", ...); frequency; amplitude (m); phase (rad); stick (%) of each friction
-/// element; the truncation estimate; energies per period (J). An unbounded amplitude reads "inf", what has no
-/// value is empty.
+/// element; the truncation estimate; energies per period (J); friction (%), the share of friction in what is
+/// dissipated; F_p/x and F_o/x (N/m); theta_0 and theta_star (rad), equivalent stiffness (N/m) and damping
+/// (N s/m) of each friction element. See observables/response.hpp. New columns come last. An unbounded
+/// amplitude reads "inf", what has no value is empty.
 void write_csv(std::ostream& out, const scene::Scene& scene,
                std::span<const observables::ResponseBranch> branches);
 

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
+#include <utility>
 
 namespace arcslip::output {
 namespace {
@@ -30,8 +32,48 @@ Json elements(const ResponsePoint& point) {
       json["reversal_angles"] = element.reversal_angles;
     }
     json["energy"] = element.energy;
+    if (element.has_stick) {
+      json["theta_0"] = element.theta_0;
+      json["theta_star"] = element.theta_star;
+    }
+    json["in_phase"] = element.fundamental.in_phase;
+    json["out_of_phase"] = element.fundamental.out_of_phase;
+    json["equivalent_stiffness"] = element.equivalent_stiffness;
+    json["equivalent_damping"] = element.equivalent_damping;
+    if (!std::isnan(element.maxima.force)) {
+      json["maxima"] = {
+          {"force", element.maxima.force}, {"cosine", element.maxima.cosine}, {"sine", element.maxima.sine}};
+    }
   }
   return all;
+}
+
+Json force_per_displacement(const ResponsePoint& point) {
+  const observables::ForceComponents& forces = point.forces;
+  const observables::PhaseParts total = forces.total();
+  Json in_phase = {{"total", total.in_phase},
+                   {"inertia", forces.inertia},
+                   {"spring", forces.spring},
+                   {"contact", forces.contact.in_phase}};
+  Json out_of_phase = {
+      {"total", total.out_of_phase}, {"viscous", forces.viscous}, {"contact", forces.contact.out_of_phase}};
+  const auto is_spring = [](const observables::ElementResponse& element) { return !element.has_stick; };
+  if (std::any_of(point.elements.begin(), point.elements.end(), is_spring)) {
+    in_phase["nonlinear_spring"] = forces.nonlinear_spring.in_phase;
+    out_of_phase["nonlinear_spring"] = forces.nonlinear_spring.out_of_phase;
+  }
+  in_phase["excitation"] = forces.excitation.in_phase;
+  out_of_phase["excitation"] = forces.excitation.out_of_phase;
+  return {{"in_phase", std::move(in_phase)}, {"out_of_phase", std::move(out_of_phase)}};
+}
+
+Json maxima(const observables::MotionMaxima& maxima) {
+  Json json = {{"velocity", maxima.velocity}, {"acceleration", maxima.acceleration}};
+  if (!std::isnan(maxima.force_per_displacement.in_phase)) {
+    json["in_phase"] = maxima.force_per_displacement.in_phase;
+    json["out_of_phase"] = maxima.force_per_displacement.out_of_phase;
+  }
+  return json;
 }
 
 /// The point's fields, put after those that `json` has.
@@ -52,10 +94,19 @@ Json with_point(Json json, const scene::Scene& scene, const std::string& over, c
   json["truncation_flagged"] = point.truncation_flagged;
   json["energy_friction"] = known(point.energy_friction);
   json["energy_viscous"] = known(point.energy_viscous);
+  json["energy_total"] = known(point.energy_total());
+  json["energy_input"] = known(point.energy_input);
+  json["friction_percent"] = known(point.friction_percent());
   const auto has_stick = [](const observables::ElementResponse& element) { return element.has_stick; };
   if (std::count_if(point.elements.begin(), point.elements.end(), has_stick) == 1) {
     json["stick_percent"] =
         std::find_if(point.elements.begin(), point.elements.end(), has_stick)->stick_percent;
+  }
+  if (!point.unbounded) {
+    json["force_per_displacement"] = force_per_displacement(point);
+  }
+  if (!std::isnan(point.maxima.velocity)) {
+    json["maxima"] = maxima(point.maxima);
   }
   json["elements"] = elements(point);
   if (options.coefficients) {

@@ -19,10 +19,13 @@ struct JsonOptions {
 ///        "events", "solver"};
 /// "over" only where the branch is over a parameter, whose value each point and event holds by its name then.
 /// Points and events hold omega (rad/s), frequency (scene's unit), amplitude (m), phase (rad),
-/// truncation_estimate (m), energies (J per period), and under "elements" what each element has (angles in
-/// rad). Numbers are the shortest that read back exactly; what is not finite is null. Where the amplitude is
-/// unbounded it is null, as is all that depends on it, and "unbounded" is true. A point a line; written as it
-/// goes.
+/// truncation_estimate (m), energies (J per period), friction_percent (share of friction in energy_total),
+/// force_per_displacement (N/m; F_p/x and F_o/x with their parts), and under "elements" what each element has
+/// (angles in rad, forces in N, equivalent_stiffness in N/m, equivalent_damping in N s/m). Events and curves
+/// of peaks and folds also hold "maxima" over the period: of the response (m/s, m/s^2, N/m), and of each
+/// friction element's force (N). All are defined in observables/response.hpp. Numbers are the shortest that
+/// read back exactly; what is not finite is null. Where the amplitude is unbounded it is null, as is all that
+/// depends on it, and "unbounded" is true. A point a line; written as it goes.
 void write_json(std::ostream& out, const scene::Scene& scene,
                 std::span<const observables::ResponseBranch> branches, const JsonOptions& options = {});
 

@@ -29,7 +29,7 @@ inline constexpr std::array<Word<StudyKind>, 4> study_kinds = {{{"frf", StudyKin
                                                                 {"folds", StudyKind::folds}}};
 
 /// What results call their own quantities, beside which the parameter of a study stands by its name.
-inline constexpr std::array<std::string_view, 14> result_names = {"kind",
+inline constexpr std::array<std::string_view, 19> result_names = {"kind",
                                                                   "nonsmooth",
                                                                   "located",
                                                                   "omega",
@@ -40,6 +40,11 @@ inline constexpr std::array<std::string_view, 14> result_names = {"kind",
                                                                   "truncation_flagged",
                                                                   "energy_friction",
                                                                   "energy_viscous",
+                                                                  "energy_total",
+                                                                  "energy_input",
+                                                                  "friction_percent",
+                                                                  "force_per_displacement",
+                                                                  "maxima",
                                                                   "stick_percent",
                                                                   "elements",
                                                                   "coefficients"};

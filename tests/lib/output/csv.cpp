@@ -30,15 +30,18 @@ std::vector<std::string> lines(const scene::Scene& scene,
 TEST_CASE("the header of CSV carries units") {
   CHECK(lines(support::scene(), {support::branch()}).at(0) ==
         "damper.normal_load (N),branch,event,frequency (Hz),amplitude (m),phase (rad),stick (%),"
-        "truncation_estimate (m),truncation_flagged,energy_friction (J),energy_viscous (J)");
+        "truncation_estimate (m),truncation_flagged,energy_friction (J),energy_viscous (J),"
+        "energy_total (J),energy_input (J),friction (%),force_in_phase (N/m),force_out_of_phase (N/m),"
+        "theta_0 (rad),theta_star (rad),equivalent_stiffness (N/m),equivalent_damping (N s/m)");
 }
 
 TEST_CASE("CSV has a row a point, with the events in order") {
   const auto rows = lines(support::scene(), {support::branch(3), support::branch(0.5)});
   REQUIRE(rows.size() == 1 + 2 * 6);
-  CHECK(rows[1] == "3,1,,1,0.01,0.5,100,1e-09,no,0.25,0.125");
-  CHECK(rows[3] == "3,1,peak,1.5,0.1,0.5,40,1e-09,no,0.25,0.125");
-  CHECK(rows[9] == "0.5,2,peak,1.5,0.1,0.5,40,1e-09,no,0.25,0.125");
+  const std::string more = ",0.375,0.375,66.66666666666667,0,8,0.5,1.5,10,0.75";
+  CHECK(rows[1] == "3,1,,1,0.01,0.5,100,1e-09,no,0.25,0.125" + more);
+  CHECK(rows[3] == "3,1,peak,1.5,0.1,0.5,40,1e-09,no,0.25,0.125" + more);
+  CHECK(rows[9] == "0.5,2,peak,1.5,0.1,0.5,40,1e-09,no,0.25,0.125" + more);
 }
 
 TEST_CASE("the parameter that a branch is over has a column with its unit, after those that are set") {
@@ -77,7 +80,7 @@ TEST_CASE("an unbounded peak in CSV has its frequency, inf, and nothing else") {
   branch.events[0].point.unbounded = true;
   branch.events[0].point.elements.clear();
   branch.points.resize(2);
-  CHECK(lines(support::scene(), {branch}).back() == "3,1,peak,1.5,inf,,,,,,");
+  CHECK(lines(support::scene(), {branch}).back() == "3,1,peak,1.5,inf" + std::string(15, ','));
 }
 
 TEST_CASE("several friction elements have a column each") {
@@ -88,6 +91,8 @@ TEST_CASE("several friction elements have a column each") {
   }
   const auto rows = lines(support::scene(), {branch});
   CHECK(rows[0].find(",damper.stick (%),tip.stick (%),") != std::string::npos);
+  CHECK(rows[0].find(",damper.theta_0 (rad),") < rows[0].find(",tip.equivalent_damping (N s/m)"));
+  CHECK(rows[1].find(",10,0.75,,,,") != std::string::npos);  // of the tip nothing is known
   CHECK(rows[1].find(",100,12.5,") != std::string::npos);
 }
 

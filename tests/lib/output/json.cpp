@@ -58,7 +58,22 @@ TEST_CASE("a branch in JSON has its status, stop, parameters, points, events and
   CHECK(point["elements"]["damper"] == Json{{"stick_percent", 100.0},
                                             {"slip_angles", {1.5, 4.5}},
                                             {"reversal_angles", {0.5, 3.5}},
-                                            {"energy", 0.25}});
+                                            {"energy", 0.25},
+                                            {"theta_0", 0.5},
+                                            {"theta_star", 1.5},
+                                            {"in_phase", 1.0},
+                                            {"out_of_phase", 0.6},
+                                            {"equivalent_stiffness", 10.0},
+                                            {"equivalent_damping", 0.75}});
+  CHECK(point["energy_total"] == 0.375);
+  CHECK(point["energy_input"] == 0.375);
+  CHECK(point["friction_percent"].get<double>() == Approx(200.0 / 3).epsilon(1e-15));
+  CHECK(point["force_per_displacement"] ==
+        Json{{"in_phase",
+              {{"total", 0.0}, {"inertia", -40.0}, {"spring", 30.0}, {"contact", 10.0}, {"excitation", 0.5}}},
+             {"out_of_phase", {{"total", 8.0}, {"viscous", 2.0}, {"contact", 6.0}, {"excitation", 8.0}}}});
+  CHECK_FALSE(point.contains("maxima"));
+  CHECK_FALSE(point["elements"]["damper"].contains("maxima"));
   CHECK_FALSE(point.contains("coefficients"));
   REQUIRE(branch["events"].size() == 1);
   CHECK(branch["events"][0]["kind"] == "peak");
@@ -104,6 +119,28 @@ TEST_CASE("coefficients come with their harmonics when they are asked for") {
   const Json json = written(support::scene(), {support::branch()}, {.coefficients = true});
   CHECK(json["branches"][0]["harmonics"] == Json{1, 3});
   CHECK(json["branches"][0]["points"][1]["coefficients"] == Json{0.05, 0.0, 0.0, -0.05});
+}
+
+TEST_CASE("maxima over the period are written where there are any") {
+  auto branch = support::branch();
+  auto& event = branch.events[0].point;
+  event.maxima = {1.5, 20, {}};
+  event.maxima.force_per_displacement = {3, 4};
+  event.elements[0].maxima = {1, 0.5, 0.75};
+  const Json json = written(support::scene(), {branch})["branches"][0]["events"][0];
+  CHECK(json["maxima"] ==
+        Json{{"velocity", 1.5}, {"acceleration", 20.0}, {"in_phase", 3.0}, {"out_of_phase", 4.0}});
+  CHECK(json["elements"]["damper"]["maxima"] == Json{{"force", 1.0}, {"cosine", 0.5}, {"sine", 0.75}});
+}
+
+TEST_CASE("with a nonlinear spring its part of the forces is written, and no angles of contact for it") {
+  auto branch = support::branch();
+  branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
+  branch.points[0].forces.nonlinear_spring = {7, 0};
+  const Json json = written(support::scene(), {branch})["branches"][0]["points"][0];
+  CHECK(json["force_per_displacement"]["in_phase"]["nonlinear_spring"] == 7.0);
+  CHECK(json["elements"]["spring"]["equivalent_stiffness"].is_null());
+  CHECK_FALSE(json["elements"]["spring"].contains("theta_0"));
 }
 
 TEST_CASE("an unbounded amplitude is null and said to be unbounded") {

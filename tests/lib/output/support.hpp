@@ -69,6 +69,14 @@ inline arcslip::observables::ResponsePoint point(double hertz, double amplitude,
   point.energy_viscous = 0.125;
   point.elements.push_back({"damper", true, stick_percent, {1.5, 4.5}, {0.5, 3.5}, 0.25});
   point.coefficients = {amplitude, 0, 0, -amplitude};
+  point.energy_input = 0.375;
+  point.forces = {-40, 30, 2, {10, 6}, {}, {0.5, 8}};
+  auto& damper = point.elements.back();
+  damper.theta_0 = 0.5;
+  damper.theta_star = 1.5;
+  damper.fundamental = {1, 0.6};
+  damper.equivalent_stiffness = 10;
+  damper.equivalent_damping = 0.75;
   return point;
 }
 

@@ -1,0 +1,128 @@
+#include <arcslip/observables/histories.hpp>
+
+#include <arcslip/elements/jenkins_force.hpp>
+#include <arcslip/hbm/problem.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::Vector;
+
+constexpr double turn = 2 * std::numbers::pi;
+
+scene::Scene scene_at(scene::Scene scene, const ResponseBranch& branch, const ResponsePoint& point) {
+  for (const auto& [name, value] : branch.set) scene::set(scene, name, value);
+  if (!branch.over.empty()) scene::set(scene, branch.over, point.over);
+  return scene;
+}
+
+Vector as_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+ElementHistory element_history(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at, const Vector& p,
+                               std::size_t e, std::span<const double> angles) {
+  const auto& h = problem.harmonics();
+  const model::NonlinearPart& part = problem.model().elements[e];
+  const Vector& u = at.element_motion(e);
+  const Vector& F = at.element(e).force();
+  Vector cosines = F, sines = F;
+  cosines.tail(h.sines()).setZero();
+  sines.head(h.cosines()).setZero();
+  ElementHistory result;
+  result.name = part.name;
+  for (double theta : angles) {
+    const elements::Values x = elements::series_values(h, u, theta);
+    result.displacement.push_back(x.x);
+    result.velocity.push_back(at.stiffness().omega() * x.d1);
+    result.cosine.push_back(elements::series_values(h, cosines, theta).x);
+    result.sine.push_back(elements::series_values(h, sines, theta).x);
+    result.series.push_back(result.cosine.back() + result.sine.back());
+  }
+  const auto field = [&](std::size_t k) { return p[part.parameters[k]]; };
+  if (part.law == model::Law::jenkins) {
+    result.force = elements::jenkins_force(h, u, field(0), field(1) * field(2), angles);
+  } else {
+    for (double x : result.displacement) result.force.push_back(field(0) * x * x * x);
+  }
+  return result;
+}
+
+}  // namespace
+
+History history(const scene::Scene& scene, const ResponseBranch& branch, const ResponsePoint& point,
+                std::span<const double> angles) {
+  const auto model = std::make_shared<const model::Model>(model::build(scene_at(scene, branch, point)));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  if (point.unbounded) throw std::invalid_argument("no history of an unbounded response");
+  if (static_cast<int>(point.unknowns.size()) != problem.size())
+    throw std::invalid_argument("a point with " + std::to_string(point.unknowns.size()) +
+                                " unknowns is none of this scene, which has " +
+                                std::to_string(problem.size()));
+  const Vector p = hbm::parameters_at(problem, point.omega), u = as_vector(point.unknowns);
+  const auto at = problem.hbm_evaluator();
+  if (at->move_to(u, p, continuation::Needs::residual) != continuation::Evaluated::ok)
+    throw std::invalid_argument("the response cannot be evaluated at this point");
+  History result;
+  result.omega = point.omega;
+  result.angle.assign(angles.begin(), angles.end());
+  Vector x(problem.harmonics().size());
+  at->stiffness().response(u, at->force_factor(), x);
+  for (double theta : angles) {
+    const elements::Values values = elements::series_values(problem.harmonics(), x, theta);
+    result.displacement.push_back(values.x);
+    result.velocity.push_back(point.omega * values.d1);
+  }
+  for (std::size_t e = 0; e < at->element_count(); ++e)
+    result.elements.push_back(element_history(problem, *at, p, e, angles));
+  return result;
+}
+
+std::vector<double> even_angles(int count) {
+  std::vector<double> angles(static_cast<std::size_t>(std::max(count, 0)));
+  for (std::size_t k = 0; k < angles.size(); ++k) angles[k] = turn * static_cast<double>(k) / count;
+  return angles;
+}
+
+std::vector<double> loop_angles(const ResponsePoint& point, int count) {
+  std::vector<double> angles = even_angles(count);
+  angles.push_back(turn);
+  for (const ElementResponse& element : point.elements) {
+    angles.insert(angles.end(), element.slip_angles.begin(), element.slip_angles.end());
+    angles.insert(angles.end(), element.reversal_angles.begin(), element.reversal_angles.end());
+  }
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+
+const ResponsePoint* point_at_frequency(const ResponseBranch& branch, double omega) {
+  const auto nearest = std::min_element(branch.points.begin(), branch.points.end(),
+                                        [omega](const ResponsePoint& a, const ResponsePoint& b) {
+                                          return std::abs(a.omega - omega) < std::abs(b.omega - omega);
+                                        });
+  return nearest == branch.points.end() ? nullptr : &*nearest;
+}
+
+ForceDifference force_difference(std::span<const double> force, std::span<const double> reference) {
+  if (force.size() != reference.size() || force.empty())
+    throw std::invalid_argument("forces to compare have " + std::to_string(force.size()) + " and " +
+                                std::to_string(reference.size()) + " values");
+  double largest = 0, largest_reference = 0, apart = 0, square = 0, square_reference = 0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    const double f = force[i], g = reference[i];
+    largest = std::max(largest, std::abs(f));
+    largest_reference = std::max(largest_reference, std::abs(g));
+    apart = std::max(apart, std::abs(f - g));
+    square += (f - g) * (f - g);
+    square_reference += g * g;
+  }
+  return {std::abs(largest - largest_reference) / largest_reference, apart / largest_reference,
+          std::sqrt(square / square_reference)};
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,175 @@
+// Motion and forces over one period.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+
+#include <arcslip/observables/histories.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+using namespace arcslip;
+using observables::History;
+using observables::ResponseBranch;
+using observables::ResponsePoint;
+constexpr double pi = std::numbers::pi;
+
+namespace {
+
+ResponseBranch beginning_at(const scene::Scene& s, double frequency) {
+  scene::Study study;
+  study.from = frequency;
+  study.to = 1.001 * frequency;
+  return observables::frequency_response(s, study, [](const observables::Progress&) { return false; })
+      .front();
+}
+
+// Area of the polygon through a loop, against the clock as friction goes round it.
+double area(const observables::ElementHistory& loop) {
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < loop.force.size(); ++k)
+    sum += 0.5 * (loop.force[k] + loop.force[k + 1]) * (loop.displacement[k + 1] - loop.displacement[k]);
+  return sum;
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("the force stays within mu Fn, reaches it where slip begins and ends, and its loop is the energy") {
+  for (const auto& [s, frequency] : std::vector<std::pair<scene::Scene, double>>{
+           {scenes::paper(55, 3), 20.0}, {scenes::paper(401, 0.1), 0.2}, {scenes::chain(8, true), 0.8}}) {
+    const auto branch = beginning_at(s, frequency);
+    const ResponsePoint& point = branch.points.front();
+    const History history = observables::history(s, branch, point, observables::loop_angles(point, 20000));
+    for (std::size_t e = 0; e < point.elements.size(); ++e) {
+      const auto& element = point.elements[e];
+      if (!element.has_stick) continue;
+      CAPTURE(frequency, element.name);
+      const double p = scene::value(s, element.name + ".friction_coefficient") *
+                       scene::value(s, element.name + ".normal_load");
+      CHECK(largest(history.elements[e].force) <= p * (1 + 1e-13));
+      CHECK(std::abs(area(history.elements[e]) - element.energy) <= 1e-6 * element.energy + 1e-15);
+      for (const auto* angles : {&element.slip_angles, &element.reversal_angles}) {
+        const History corners = observables::history(s, branch, point, *angles);
+        for (double f : corners.elements[e].force) CHECK(std::abs(std::abs(f) - p) < 1e-9 * p);
+      }
+    }
+  }
+}
+
+TEST_CASE("the series of the force is that of the force itself") {
+  for (const auto& [s, frequency] : std::vector<std::pair<scene::Scene, double>>{
+           {scenes::paper(9, 3), 20.0}, {scenes::paper(3, 3), 18.5}, {scenes::chain(6, true), 0.8}}) {
+    const auto branch = beginning_at(s, frequency);
+    const History history =
+        observables::history(s, branch, branch.points.front(), observables::even_angles(8192));
+    const double M = 8192;
+    for (const auto& element : history.elements)
+      for (int n = 0; n <= s.harmonics.order; ++n) {
+        double c = 0, sn = 0;
+        for (std::size_t k = 0; k < history.angle.size(); ++k) {
+          const double apart = element.force[k] - element.series[k];
+          c += 2 / M * apart * std::cos(n * history.angle[k]);
+          sn += 2 / M * apart * std::sin(n * history.angle[k]);
+        }
+        CAPTURE(frequency, element.name, n);
+        CHECK(std::abs(c) + std::abs(sn) < 1e-6 * largest(element.force));
+      }
+  }
+}
+
+TEST_CASE("motion and series fulfil the equation of motion at every instant") {
+  const scene::Scene s = scenes::paper(15, 3);
+  const auto branch = beginning_at(s, 20);
+  const int M = 64;
+  const History history = observables::history(s, branch, branch.points.front(), observables::even_angles(M));
+  // x'' by the discrete Fourier series, which has all harmonics up to 15.
+  for (int k = 0; k < M; ++k) {
+    double acceleration = 0;
+    for (int n = 1; n <= 15; ++n)
+      for (int j = 0; j < M; ++j)
+        acceleration -= 2.0 / M * n * n * history.displacement[static_cast<std::size_t>(j)] *
+                        std::cos(2 * pi * n * (k - j) / M);
+    const auto i = static_cast<std::size_t>(k);
+    const double residual = 1.24 * history.omega * history.omega * acceleration +
+                            0.134 * history.velocity[i] + 17890 * history.displacement[i] +
+                            history.elements[0].series[i] - std::cos(history.angle[i]);
+    CHECK(std::abs(residual) < 1e-10);
+  }
+}
+
+TEST_CASE("cosine and sine parts make the series, and the first is even in the angle") {
+  const scene::Scene s = scenes::chain(6, true);
+  const auto branch = beginning_at(s, 0.8);
+  const History history =
+      observables::history(s, branch, branch.points.front(), std::vector<double>{-1.1, 1.1});
+  for (const auto& element : history.elements) {
+    CHECK(std::abs(element.cosine[0] - element.cosine[1]) < 1e-14);
+    CHECK(std::abs(element.sine[0] + element.sine[1]) < 1e-14);
+    for (std::size_t k : {0u, 1u})
+      CHECK(std::abs(element.cosine[k] + element.sine[k] - element.series[k]) < 1e-14);
+  }
+}
+
+TEST_CASE("a history follows what its branch sets and is over") {
+  scene::Scene s = scenes::paper(15);
+  scene::Study study;
+  study.kind = scene::StudyKind::frf;
+  study.from = 20;
+  study.to = 20.01;
+  study.for_each = {{"damper.normal_load", {1, 2}}};
+  for (const auto& branch : observables::frequency_response(s, study)) {
+    const History history =
+        observables::history(s, branch, branch.points.front(), observables::even_angles(360));
+    CHECK(reference::error(largest(history.elements[0].force), 0.5 * branch.set[0].second) < 1e-12);
+  }
+}
+
+TEST_CASE("sampled friction: the history's force is that of the exact law, near the sampled series") {
+  scene::Scene s = scenes::paper(55, 3);
+  s.harmonics.friction = scene::Friction::sampled;
+  s.harmonics.samples = 4096;
+  const auto branch = beginning_at(s, 20);
+  const History history =
+      observables::history(s, branch, branch.points.front(), observables::even_angles(1000));
+  CHECK(reference::error(largest(history.elements[0].force), 1.5) < 1e-12);
+  CHECK(observables::force_difference(history.elements[0].series, history.elements[0].force).rms < 2e-3);
+}
+
+TEST_CASE("no history is made of an unbounded response, nor of a point of another scene") {
+  const scene::Scene s = scenes::paper(5, 3);
+  auto branch = beginning_at(s, 20);
+  const auto angles = observables::even_angles(10);
+  CHECK_THROWS_AS(observables::history(scenes::paper(7, 3), branch, branch.points.front(), angles),
+                  std::invalid_argument);
+  branch.points.front().unbounded = true;
+  CHECK_THROWS_AS(observables::history(s, branch, branch.points.front(), angles), std::invalid_argument);
+}
+
+TEST_CASE("the point nearest in frequency is chosen, and none of an empty branch") {
+  const scene::Scene s = scenes::paper(3, 3);
+  const auto branch = observables::frequency_response(s, s.studies.front()).front();
+  const auto* point = observables::point_at_frequency(branch, 20 * scenes::hertz);
+  REQUIRE(point);
+  for (const auto& other : branch.points)
+    CHECK(std::abs(point->omega - 20 * scenes::hertz) <= std::abs(other.omega - 20 * scenes::hertz));
+  CHECK(observables::point_at_frequency({}, 1) == nullptr);
+}
+
+TEST_CASE("forces differ by what is stated, and only forces at the same angles are compared") {
+  const std::vector<double> f{3, 0, -1}, g{2, 0, -2};
+  const auto difference = observables::force_difference(f, g);
+  CHECK(difference.amplitude == 0.5);
+  CHECK(difference.maximum == 0.5);
+  CHECK(std::abs(difference.rms - 0.5) < 1e-15);
+  CHECK_THROWS_AS(observables::force_difference(f, std::vector<double>{1}), std::invalid_argument);
+  CHECK_THROWS_AS(observables::force_difference({}, {}), std::invalid_argument);
+}
