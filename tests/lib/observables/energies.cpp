@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 
+#include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
@@ -88,6 +89,17 @@ TEST_CASE("what the excitation puts in, friction and dampers take out, at every 
   }
 }
 
+TEST_CASE("random structures: the energies balance within the tolerance of Newton's last correction, 1e-9") {
+  for (const auto excitation : {random_scenes::Excitation::first, random_scenes::Excitation::first_and_third,
+                                random_scenes::Excitation::first_and_second})
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const scene::Scene s = random_scenes::make(seed, excitation);
+      CAPTURE(seed);
+      for (const auto& branch : observables::frequency_response(s, s.studies.front()))
+        CHECK(imbalance(branch) < 1e-9);
+    }
+}
+
 TEST_CASE("friction takes more than 95 % at the peaks from 1.611 N to 18.31 N, and less beyond") {
   for (double load : {1.611, 1.7, 2.0, 3.0, 5.0, 10.0, 18.31}) {
     CAPTURE(load);
@@ -143,6 +155,16 @@ TEST_CASE("over the load the friction energy of the peak has two maxima and a mi
     CAPTURE(k, found.over);
     CHECK(reference::error(found.over, exact["normal_load"]) < 5e-5);
     CHECK(reference::error(found.energy_friction, exact["energy_friction"]) < 1e-7);
+  }
+}
+
+TEST_CASE("at both maxima friction takes half of it all, pi f0^2/(4 c w)") {
+  // Of the fundamental alone, E = pi X (f0 - c w X) at a phase of pi/2: greatest where c w X = f0/2.
+  for (double load : {0.7882, 198.0747}) {
+    const auto peak = peak_at(load);
+    CAPTURE(load);
+    CHECK(std::abs(peak.friction_percent() - 50) < 0.02);
+    CHECK(reference::error(peak.energy_friction, pi / (4 * 0.134 * peak.omega)) < 1e-5);
   }
 }
 
