@@ -73,6 +73,12 @@ TEST_CASE("what the excitation puts in, friction and dampers take out, at every 
   low.studies.front().from = 0.2;
   low.studies.front().to = 2;
   all.emplace_back("low frequencies", low);
+  scene::Scene forces = scenes::chain(5, false);  // two in one harmonic
+  forces.excitation.push_back(forces.excitation.front());
+  forces.excitation.back().name = "h";
+  forces.excitation.back().direction = {{0, 0.7}};
+  forces.excitation.back().values = {0.3, -0.5};
+  all.emplace_back("two forces", forces);
   scene::Scene tied = scenes::chain(5, false);
   tied.ties.push_back({"friction", {"d1.normal_load", "d2.normal_load"}});
   scene::set(tied, "friction", 0.6);
