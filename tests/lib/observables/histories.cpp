@@ -5,6 +5,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/histories.hpp>
 
 #include <algorithm>
@@ -130,6 +131,43 @@ TEST_CASE("a history follows what its branch sets and is over") {
     const History history =
         observables::history(s, branch, branch.points.front(), observables::even_angles(360));
     CHECK(reference::error(largest(history.elements[0].force), 0.5 * branch.set[0].second) < 1e-12);
+  }
+}
+
+TEST_CASE("on a curve of peaks over the load each history has its own load") {
+  const scene::Scene s = scenes::paper(15);
+  scene::Study study;
+  study.kind = scene::StudyKind::peaks;
+  study.over = "damper.normal_load";
+  study.from = 2;
+  study.to = 6;
+  study.frequency_from = 18;
+  study.frequency_to = 22;
+  const auto curve = observables::resonance_peaks(s, study).front();
+  REQUIRE(curve.events.size() == 1);
+  for (const ResponsePoint* point :
+       {&curve.points.front(), &curve.events.front().point, &curve.points.back()}) {
+    const History history = observables::history(s, curve, *point, observables::loop_angles(*point, 5000));
+    CHECK(reference::error(largest(history.elements[0].force), 0.5 * point->over) < 1e-12);
+    CHECK(std::abs(largest(history.displacement) / point->amplitude - 1) < 1e-12);
+    CHECK(reference::error(area(history.elements[0]), point->energy_friction) < 1e-6);
+  }
+}
+
+TEST_CASE("the displacement of a history is the series of the response, masses without elements included") {
+  const scene::Scene s = scenes::chain(5, true);
+  const auto branch = beginning_at(s, 0.7);
+  const ResponsePoint& point = branch.points.front();
+  const History history = observables::history(s, branch, point, std::vector<double>{0.3, 4.0});
+  for (std::size_t k : {0u, 1u}) {
+    double x = 0, v = 0;
+    for (std::size_t i = 0; i < branch.harmonics.size(); ++i) {
+      const double n = branch.harmonics[i], a = point.coefficients[2 * i], b = point.coefficients[2 * i + 1];
+      x += a * std::cos(n * history.angle[k]) + b * std::sin(n * history.angle[k]);
+      v += 0.7 * n * (b * std::cos(n * history.angle[k]) - a * std::sin(n * history.angle[k]));
+    }
+    CHECK(std::abs(history.displacement[k] - x) < 1e-13);
+    CHECK(std::abs(history.velocity[k] - v) < 1e-13);
   }
 }
 
