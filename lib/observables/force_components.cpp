@@ -69,7 +69,7 @@ void set_contact_angles(const elements::Harmonics& h, elements::In motion, Eleme
 }
 
 Maxima::Maxima(const hbm::HbmProblem& problem)
-    : problem_(problem), amplitude_(problem.harmonics()), v_(problem.harmonics().size()) {}
+    : problem_(problem), largest_(problem.harmonics()), v_(problem.harmonics().size()) {}
 
 void Maxima::add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements::In x) {
   const auto& h = problem_.harmonics();
@@ -81,24 +81,24 @@ void Maxima::add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements:
     v_[h.cosine_index(n)] = n * x[h.sine_index(n)];
     v_[h.sine_index(n)] = -n * x[h.cosine_index(n)];
   }
-  point.maxima.velocity = point.omega * of(v_);
+  point.maxima.velocity = point.omega * largest_.of(v_);
   for (int j = 0; j < ns; ++j) {
     const int n = h.sine_order(j);
     v_[h.cosine_index(n)] = n * n * x[h.cosine_index(n)];
     v_[h.sine_index(n)] = n * n * x[h.sine_index(n)];
   }
   if (!h.odd) v_[0] = 0;
-  point.maxima.acceleration = point.omega * point.omega * of(v_);
+  point.maxima.acceleration = point.omega * point.omega * largest_.of(v_);
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     ElementResponse& element = point.elements[e];
     if (!element.has_stick) continue;
     v_ = at.element(e).force();
-    element.maxima.force = of(v_);
+    element.maxima.force = largest_.of(v_);
     v_.tail(ns).setZero();
-    element.maxima.cosine = of(v_);
+    element.maxima.cosine = largest_.of(v_);
     v_ = at.element(e).force();
     v_.head(nc).setZero();
-    element.maxima.sine = of(v_);
+    element.maxima.sine = largest_.of(v_);
   }
   if (model.dofs != 1 || model.elements.size() != 1 || !point.elements[0].has_stick) return;
   const double omega = model.force_harmonic * point.omega;

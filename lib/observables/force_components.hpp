@@ -18,8 +18,8 @@
 // et al. (2011, Eqs. 18 to 24) taken of the fundamental, for which their Eqs. 26 and 27 hold. Their own
 // definition by maxima over the period is MotionMaxima.
 
+#include <arcslip/elements/largest_value.hpp>
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/observables/amplitude.hpp>
 #include <arcslip/observables/response.hpp>
 
 namespace arcslip::observables {
@@ -34,8 +34,8 @@ void set_fundamental(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at
 /// Sets theta_0 and theta_star from the angles of slip. motion: of the element, harmonics.size().
 void set_contact_angles(const elements::Harmonics& harmonics, elements::In motion, ElementResponse& element);
 
-/// The maxima of motion and forces. Each is found like the amplitude, which costs as much as all else at a
-/// point: not made unless asked for. Owns its buffers.
+/// The maxima of motion and forces. They take longer than all else at a point: not made unless asked for.
+/// Owns its buffers.
 class Maxima {
  public:
   explicit Maxima(const hbm::HbmProblem& problem);
@@ -45,10 +45,8 @@ class Maxima {
   void add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements::In x);
 
  private:
-  double of(elements::In coefficients) { return amplitude_.of(coefficients).amplitude; }
-
   const hbm::HbmProblem& problem_;
-  Amplitude amplitude_;
+  elements::LargestValue largest_;
   continuation::Vector v_;
 };
 

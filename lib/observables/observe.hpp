@@ -22,7 +22,7 @@ class Observer {
 
   const hbm::HbmProblem& problem() const { return *problem_; }
 
-  /// Everything at one point; its maxima, which take as long as all else, only `with_maxima`.
+  /// Everything at one point; its maxima, which take longer than all else, only `with_maxima`.
   ResponsePoint observe(const continuation::Accepted& now, bool with_maxima = false);
 
   /// Largest |x| of the observed coordinate, for unknowns u at the parameters of an evaluator.
