@@ -41,6 +41,7 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
   for (const model::Force& part : model.forces)
     equation.forces.push_back({part.direction, part.harmonic, p[part.cosine], p[part.sine]});
   equation.response = model.response;
+  equation.dof_names = model.dof_names;
   return equation;
 }
 

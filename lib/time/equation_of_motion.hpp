@@ -45,6 +45,7 @@ struct EquationOfMotion {
   std::vector<HarmonicForce> forces;
   Vector response;  // direction whose motion is observed
   int sliders = 0;
+  std::vector<std::string> dof_names;  // for messages; may be empty
 
   int dofs() const { return static_cast<int>(M.rows()); }
   /// Of the excitation, 2 pi/omega, s.
