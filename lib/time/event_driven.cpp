@@ -170,7 +170,9 @@ PeriodMap EventDriven::map(const State& start, double to) {
   const auto& frictions = march_->frictions();
   std::vector<Range> ranges(frictions.size());
   Extremes extremes;
+  PeriodMap map;
   while (march_->find(to)) {
+    map.size = std::max(map.size, march_->size());
     const LinearMotion& piece = march_->piece();
     for (std::size_t i = 0; i < frictions.size() && march_->s() > 0; ++i) {
       Range& range = ranges[i];
@@ -185,7 +187,6 @@ PeriodMap EventDriven::map(const State& start, double to) {
     }
     march_->finish();
   }
-  PeriodMap map;
   map.done = march_->reason() == EndReason::reached;
   map.message = march_->message();
   map.end = march_->state();

@@ -150,6 +150,10 @@ State March::state() const {
   return state;
 }
 
+double March::size() const {
+  return std::hypot(X_.col(0).norm(), V_.col(0).norm() / equation_.omega);
+}
+
 Matrix March::monodromy() const {
   const Eigen::Index n = X_.rows(), sliders = Z_.rows();
   Matrix M(2 * n + sliders, 2 * n + sliders);

@@ -42,6 +42,7 @@ class March {
   const ContactEvent* event() const { return event_ && recorded_ ? &*event_ : nullptr; }
 
   State state() const;
+  double size() const;                                      // |(x, x'/omega)|
   Matrix monodromy() const;                                 // 2 dofs + sliders
   double slider(const Friction& friction, double q) const;  // z where the element is at q
   double force(const Friction& friction, double q) const;

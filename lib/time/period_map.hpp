@@ -22,6 +22,7 @@ struct PeriodMap {
   bool done = false;
   std::string message;  // where it is not done: why
   State end;
+  double size = 0;   // largest |(x, x'/omega)| on the way, m: what rounding and tolerances are relative to
   Matrix monodromy;  // d end/d start in (x, x', z)
   std::vector<RestingSlider> resting;
 };

@@ -1,0 +1,66 @@
+#pragma once
+// Periodic motions by shooting: X = Phi(X) for the state X = (x, x', z) after one period (or several), by
+// Newton's method with the monodromy matrix M = dPhi/dX:
+//
+//   (I - M) dX = Phi(X) - X
+//
+// A slider that rests throughout gives z = z, a row of zeros; its row asks for the centred offset instead
+// (RestingSlider). Phi is piecewise smooth: a step is halved until the defect falls, and where no step does,
+// the motion itself goes on for some periods, which friction and damping make a contraction, before Newton's
+// method is tried again.
+//
+// Floquet multipliers: the eigenvalues of M without the sliders that rest throughout, each of which would add
+// one multiplier 1. A slider that slips at some time adds a multiplier 0.
+
+#include <arcslip/time/event_driven.hpp>
+#include <arcslip/time/period_map.hpp>
+
+#include <complex>
+
+namespace arcslip::time {
+
+struct ShootingOptions {
+  int periods = 1;          // of the excitation, in one period of the motion
+  int transients = 3;       // periods of the motion before the first step of Newton's method
+  int iterations = 50;      // Newton steps and runs of the motion itself
+  double tolerance = 1e-9;  // of the last correction, relative; it is applied, and leaves its square
+};
+
+enum class ShootingEnd {
+  converged,    // last correction <= tolerance, or defect at rounding
+  iterations,   // their number >= ShootingOptions::iterations
+  flow_failed,  // the integration over a period ended early
+  not_finite,   // the correction is not finite
+};
+
+struct ShootingResult {
+  ShootingEnd reason = ShootingEnd::converged;
+  std::string message;
+  State start;                                    // on the periodic motion, t = 0
+  double correction = 0;                          // the last one, relative to the state
+  double defect = 0;                              // |Phi(X) - X| before it, relative to the state
+  int iterations = 0;                             // Newton steps
+  int maps = 0;                                   // periods integrated
+  PeriodMap map;                                  // the last one
+  std::vector<std::complex<double>> multipliers;  // by falling modulus
+  bool stable = false;  // all multipliers within the unit circle, by more than 1e-10
+
+  bool converged() const { return reason == ShootingEnd::converged; }
+};
+
+/// omega: rad/s, makes velocities comparable with displacements.
+ShootingResult shoot(const Flow& flow, const State& start, double omega, const ShootingOptions& options = {});
+
+/// A periodic motion of a structure with friction, exact.
+struct PeriodicMotion {
+  ShootingResult shooting;
+  EventDrivenMotion period;  // from shooting.start over one period of the motion: events, energies, amplitude
+
+  bool converged() const { return shooting.converged(); }
+};
+
+/// By event-driven integration. instants: ascending, s, in [0, periods 2 pi/omega], for the history.
+PeriodicMotion periodic_motion(EventDriven& integrator, const State& start,
+                               const ShootingOptions& options = {}, std::span<const double> instants = {});
+
+}  // namespace arcslip::time

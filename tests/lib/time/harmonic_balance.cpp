@@ -1,0 +1,126 @@
+// Harmonic balance against the exact periodic motion, at every instant.
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/time/from_harmonics.hpp>
+#include <arcslip/time/shooting.hpp>
+
+using namespace arcslip;
+
+namespace {
+
+struct Pair {
+  std::shared_ptr<const hbm::HbmProblem> problem;
+  continuation::Vector p, u;
+  time::EquationOfMotion equation;
+};
+
+Pair balanced(const scene::Scene& scene, double frequency) {
+  const auto model = std::make_shared<const model::Model>(model::build(scene));
+  Pair pair{std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-4, 25), {}, {}, {}};
+  pair.p = hbm::parameters_at(*pair.problem, frequency * scene::to_rad_per_s(scene.frequency_unit));
+  const auto u = hbm::steady_state(pair.problem, pair.p);
+  REQUIRE(u);
+  pair.u = *u;
+  pair.equation = time::equation_of_motion(*model, pair.p);
+  return pair;
+}
+
+std::vector<double> over_period(const time::EquationOfMotion& equation, int count) {
+  std::vector<double> t;
+  for (int i = 0; i < count; ++i) t.push_back(equation.period() * i / count);
+  return t;
+}
+
+struct Difference {
+  double displacement;  // largest over the period, relative to the exact amplitude
+  time::PeriodicMotion exact;
+};
+
+Difference difference(const Pair& pair, int instants) {
+  time::EventDriven integrator(pair.equation);
+  const auto t = over_period(pair.equation, instants);
+  Difference result{0,
+                    time::periodic_motion(integrator, time::state_of(*pair.problem, pair.u, pair.p), {}, t)};
+  REQUIRE(result.exact.converged());
+  const time::Matrix coefficients = time::dof_coefficients(*pair.problem, pair.u, pair.p);
+  const time::Vector response = coefficients * pair.equation.response;
+  const auto& history = result.exact.period.history;
+  REQUIRE(history.time.size() == t.size());
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double x =
+        elements::series_values(pair.problem->harmonics(), response, pair.equation.omega * t[i]).x;
+    result.displacement = std::max(result.displacement, std::abs(x - history.displacement[i]));
+  }
+  result.displacement /= result.exact.period.amplitude;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "harmonic balance with 55, 101 and 201 is within 1.5e-7, 2.5e-8 and 4e-9 of A_max at every instant") {
+  const std::pair<int, double> bounds[] = {{55, 1.5e-7}, {101, 2.5e-8}, {201, 4e-9}};
+  for (const double hertz : {20.0, 19.9952846841786})  // the second: the peak
+    for (const auto& [order, bound] : bounds) {
+      CAPTURE(hertz, order);
+      CHECK(difference(balanced(scenes::paper(order), hertz), 4001).displacement < bound);
+    }
+}
+
+TEST_CASE("at 0.2 Hz and 0.1 N the exact motion slips ten times in a period, and so does harmonic balance") {
+  const auto pair = balanced(scenes::paper(401, 0.1), 0.2);
+  const auto found = difference(pair, 20001);
+  const auto& period = found.exact.period;
+  CHECK(period.events.size() == 20);
+  CHECK(std::abs(100 * period.friction[0].stick_time / period.time - 41.4) < 0.05);
+  CHECK(found.displacement < 3e-6);  // the structure's resonance is near the 100th harmonic: like 4 of 1
+  CHECK(difference(balanced(scenes::paper(801, 0.1), 0.2), 20001).displacement < 3e-6 / 8);
+  const auto at = pair.problem->hbm_evaluator();
+  at->move_to(pair.u, pair.p, continuation::Needs::residual);
+  elements::FrictionState contact;
+  at->element(0).friction(contact);
+  std::vector<double> onsets;
+  for (const auto& event : period.events)
+    if (event.kind == time::EventKind::slip_onset) onsets.push_back(pair.equation.omega * event.time);
+  REQUIRE(contact.slip_onsets.size() == onsets.size());
+  for (std::size_t i = 0; i < onsets.size(); ++i) CHECK(std::abs(contact.slip_onsets[i] - onsets[i]) < 1e-4);
+}
+
+TEST_CASE("next to full stick and full slip harmonic balance and the exact motion agree") {
+  const double w = 20 * scenes::hertz;
+  const double limit = 3500 / std::hypot(21390 - 1.24 * w * w, 0.134 * w) / 0.5;
+  for (const double load : {limit * (1 - 1e-3), limit * (1 + 1e-3), limit * (1 - 1e-6), limit * (1 + 1e-6),
+                            limit * (1 - 1e-9), limit * (1 + 1e-9), 1e-3, 1e-6, 1e-9}) {
+    CAPTURE(load);
+    CHECK(difference(balanced(scenes::paper(55, load), 20), 999).displacement < 1e-7);
+  }
+}
+
+TEST_CASE(
+    "with even harmonics a resting slider has the same centre in harmonic balance and in the exact motion") {
+  const auto chain = [](double load) {
+    return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"dofs": ["a", "b"],
+        "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 0.6}],
+        "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 0.8}],
+        "dampers": [{"name": "ca", "at": "a", "value": 0.1}, {"name": "cb", "at": "b", "value": 0.05}]},
+      "elements": [
+        {"name": "d1", "type": "jenkins", "at": "a", "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": )" +
+                         std::to_string(load) + R"(},
+        {"name": "d2", "type": "jenkins", "between": ["a", "b"], "stiffness": 0.3, "friction_coefficient": 0.5,
+         "normal_load": 20}],
+      "excitation": [{"name": "f", "at": "b", "cosine": 1, "sine": 0.3},
+                     {"name": "g", "at": "a", "harmonic": 2, "cosine": 0.4}],
+      "harmonics": {"order": 60}, "response": {"at": "b"}, "studies": [{"kind": "frf", "from": 0.3, "to": 2.2}]})");
+  };
+  for (const double load : {20.0, 0.5}) {
+    CAPTURE(load);
+    const auto found = difference(balanced(chain(load), 0.7), 2001);
+    CHECK(found.exact.period.events.empty() == (load == 20));
+    CHECK(found.exact.shooting.multipliers.size() == (load == 20 ? 4 : 5));
+    CHECK(found.displacement < (load == 20 ? 1e-12 : 1e-6));
+  }
+}
