@@ -60,7 +60,7 @@ void March::begin(const State& start, double time, bool derivatives) {
 bool March::find(double to) {
   if (!(t_ < to)) return false;
   if (events_ >= limits_.events) reason_ = EndReason::events;
-  if (pieces_++ >= limits_.pieces) reason_ = EndReason::pieces;
+  if (pieces_++ >= limits_.pieces || !(t_ + linear_.longest() > t_)) reason_ = EndReason::pieces;
   if (!X_.allFinite() || !V_.allFinite()) reason_ = EndReason::not_finite;
   if (reason_ != EndReason::reached) return false;
   end_ = std::min(t_ + linear_.longest(), to);
@@ -178,7 +178,8 @@ std::string March::message() const {
            << " s: the contact chatters, or the interval is long";
       break;
     case EndReason::pieces:
-      text << limits_.pieces << " pieces (the limit) up to " << t_ << " s, each at most " << linear_.longest()
+      text << pieces_ - 1 << " pieces (limit " << limits_.pieces << ") up to " << t_ << " s, each at most "
+           << linear_.longest()
            << " s: the fastest mode or the strongest damper is much faster than the interval";
       break;
     case EndReason::not_finite:

@@ -262,8 +262,12 @@ TEST_CASE("an event-driven integration that is too long ends with the limit that
   CHECK(events.message.find("7 events (the limit)") == 0);
   const auto pieces = few_pieces.integrate(at_rest(equation), 0, 1e3);
   CHECK(pieces.reason == EndReason::pieces);
-  CHECK(pieces.message.find("50 pieces (the limit)") == 0);
+  CHECK(pieces.message.find("50 pieces (limit 50)") == 0);
   CHECK(relative_defect(pieces.energy) < 1e-12);
+  EventDriven stiff(oscillator(1, 0, 1e40));  // a piece is shorter than the rounding of the time
+  const auto none = stiff.integrate({Vector::Ones(1), Vector::Zero(1), Vector()}, 1, 2);
+  CHECK(none.reason == EndReason::pieces);
+  CHECK(none.time == 1);
 }
 
 TEST_CASE("a motion that grows beyond all numbers ends as not finite") {

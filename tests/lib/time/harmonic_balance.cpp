@@ -2,63 +2,12 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
-
-#include <arcslip/hbm/steady_state.hpp>
-#include <arcslip/time/from_harmonics.hpp>
-#include <arcslip/time/shooting.hpp>
+#include "lib/time/beside_exact.hpp"
 
 using namespace arcslip;
 
-namespace {
-
-struct Pair {
-  std::shared_ptr<const hbm::HbmProblem> problem;
-  continuation::Vector p, u;
-  time::EquationOfMotion equation;
-};
-
-Pair balanced(const scene::Scene& scene, double frequency) {
-  const auto model = std::make_shared<const model::Model>(model::build(scene));
-  Pair pair{std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-4, 25), {}, {}, {}};
-  pair.p = hbm::parameters_at(*pair.problem, frequency * scene::to_rad_per_s(scene.frequency_unit));
-  const auto u = hbm::steady_state(pair.problem, pair.p);
-  REQUIRE(u);
-  pair.u = *u;
-  pair.equation = time::equation_of_motion(*model, pair.p);
-  return pair;
-}
-
-std::vector<double> over_period(const time::EquationOfMotion& equation, int count) {
-  std::vector<double> t;
-  for (int i = 0; i < count; ++i) t.push_back(equation.period() * i / count);
-  return t;
-}
-
-struct Difference {
-  double displacement;  // largest over the period, relative to the exact amplitude
-  time::PeriodicMotion exact;
-};
-
-Difference difference(const Pair& pair, int instants) {
-  time::EventDriven integrator(pair.equation);
-  const auto t = over_period(pair.equation, instants);
-  Difference result{0,
-                    time::periodic_motion(integrator, time::state_of(*pair.problem, pair.u, pair.p), {}, t)};
-  REQUIRE(result.exact.converged());
-  const time::Matrix coefficients = time::dof_coefficients(*pair.problem, pair.u, pair.p);
-  const time::Vector response = coefficients * pair.equation.response;
-  const auto& history = result.exact.period.history;
-  REQUIRE(history.time.size() == t.size());
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    const double x =
-        elements::series_values(pair.problem->harmonics(), response, pair.equation.omega * t[i]).x;
-    result.displacement = std::max(result.displacement, std::abs(x - history.displacement[i]));
-  }
-  result.displacement /= result.exact.period.amplitude;
-  return result;
-}
-
-}  // namespace
+using beside_exact::balanced;
+using beside_exact::difference;
 
 TEST_CASE(
     "harmonic balance with 55, 101 and 201 is within 1.5e-7, 2.5e-8 and 4e-9 of A_max at every instant") {

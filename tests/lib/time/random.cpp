@@ -1,0 +1,79 @@
+// Random structures with friction: exact periodic motions of all of them, and harmonic balance beside them.
+// ARCSLIP_SCENES is how many of each kind of excitation; by default 40, or 1000 with ARCSLIP_FULL=1.
+#include "catch.hpp"
+
+#include "lib/hbm/random_scenes.hpp"
+#include "lib/time/beside_exact.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+using namespace arcslip;
+using random_scenes::Excitation;
+
+namespace {
+
+constexpr Excitation kinds[] = {Excitation::first, Excitation::first_and_third, Excitation::first_and_second};
+
+std::uint64_t scenes_of_each_kind() {
+  if (const char* count = std::getenv("ARCSLIP_SCENES")) return std::strtoull(count, nullptr, 10);
+  return std::getenv("ARCSLIP_FULL") ? 1000 : 40;
+}
+
+double frequency(const scene::Scene& s, double part) {
+  const auto& study = s.studies.front();
+  return study.from + part * (study.to - study.from);
+}
+
+}  // namespace
+
+TEST_CASE("every random structure has a stable periodic motion, found from rest, whose energies balance") {
+  for (std::uint64_t seed = 0; seed < scenes_of_each_kind(); ++seed)
+    for (const Excitation kind : kinds)
+      for (const double part : {0.2, 0.4, 0.6, 0.8}) {
+        const auto s = random_scenes::make(seed, kind);
+        CAPTURE(seed, static_cast<int>(kind), part);
+        const auto model = model::build(s);
+        continuation::Vector p(static_cast<Eigen::Index>(model.parameters.size()));
+        for (Eigen::Index k = 0; k < p.size(); ++k)
+          p[k] = model.parameters[static_cast<std::size_t>(k)].value;
+        p[model::frequency] = frequency(s, part) * scene::to_rad_per_s(s.frequency_unit);
+        const auto equation = time::equation_of_motion(model, p);
+        time::EventDriven integrator(equation);
+        const auto motion = time::periodic_motion(integrator, time::at_rest(equation));
+        REQUIRE(motion.converged());
+        CHECK(motion.shooting.stable);
+        CHECK(motion.shooting.maps < 100);
+        const auto& energy = motion.period.energy;
+        CHECK(std::abs(energy.defect()) < 1e-12 * energy.input);
+        CHECK(std::abs(energy.stored) < 1e-9 * energy.input);
+      }
+}
+
+TEST_CASE("harmonic balance of random structures converges to the exact motion at least like N^-3") {
+  double logarithms = 0;
+  int count = 0;
+  for (std::uint64_t seed = 0; seed < scenes_of_each_kind() / 2; ++seed)
+    for (const Excitation kind : kinds)
+      for (const double part : {0.3, 0.7}) {
+        auto s = random_scenes::make(seed, kind);
+        CAPTURE(seed, static_cast<int>(kind), part);
+        s.harmonics.order = 41;
+        const double coarse =
+            beside_exact::difference(beside_exact::balanced(s, frequency(s, part)), 500).displacement;
+        s.harmonics.order = 81;
+        const double fine =
+            beside_exact::difference(beside_exact::balanced(s, frequency(s, part)), 500).displacement;
+        CHECK(coarse < 1e-4);
+        CHECK(fine < 1e-5);
+        if (coarse < 1e-10) continue;  // stuck: no truncation
+        logarithms += std::log(coarse / fine);
+        ++count;
+      }
+  // Single scenes scatter, since errors change their sign with N; above resonances they fall faster, like
+  // 1/(n^2 - a).
+  const double ratio = std::exp(logarithms / count), third_power = std::pow(81.0 / 41, 3);
+  CAPTURE(ratio, count);
+  CHECK(count > 50);
+  CHECK(ratio > third_power);
+}
