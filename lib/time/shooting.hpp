@@ -10,7 +10,8 @@
 // method is tried again.
 //
 // Floquet multipliers: the eigenvalues of M without the sliders that rest throughout, each of which would add
-// one multiplier 1. A slider that slips at some time adds a multiplier 0.
+// one multiplier 1. As many are zero, in general, as sliders slip at once at some instant. Source:
+// docs/theory.md, section 9.
 
 #include <arcslip/time/event_driven.hpp>
 #include <arcslip/time/period_map.hpp>

@@ -157,6 +157,32 @@ TEST_CASE("without slip the multipliers are exp(-c T/2m) exp(+-i w_d T), and the
   CHECK_FALSE(undamped.shooting.stable);  // neutral
 }
 
+TEST_CASE("two sliders that slip at once leave two zero multipliers, and two that take turns leave one") {
+  auto equation = masses(Vector{{1.0, 1.0}});
+  equation.K << 2.5, -0.6, -0.6, 2.5;
+  equation.C = 0.1 * Matrix::Identity(2, 2);
+  equation.forces.push_back({Vector{{1.0, 0.0}}, 1, 2, 0});
+  equation.forces.push_back({Vector{{0.0, 1.0}}, 1, 0, 2});
+  add_damper(equation, Vector{{1.0, 0.0}}, 1, 0);
+  add_damper(equation, Vector{{0.0, 1.0}}, 1, 0);
+  for (const double limit : {0.56, 0.84}) {
+    equation.elements[0].slip_limit = equation.elements[1].slip_limit = limit;
+    const auto motion = shot(equation);
+    REQUIRE(motion.converged());
+    REQUIRE(motion.period.events.size() == 8);
+    bool at_once = false;
+    for (std::size_t i = 0; i < 8; ++i)
+      at_once = at_once || (motion.period.events[i].kind == EventKind::slip_onset &&
+                            motion.period.events[(i + 1) % 8].kind == EventKind::slip_onset);
+    CHECK(at_once == (limit == 0.56));
+    REQUIRE(motion.shooting.multipliers.size() == 6);
+    CHECK(std::abs(motion.shooting.multipliers[5]) < 1e-14);
+    if (at_once) CHECK(std::abs(motion.shooting.multipliers[4]) < 1e-14);
+    if (!at_once) CHECK(std::abs(motion.shooting.multipliers[4]) > 1e-8);
+    CHECK(std::abs(motion.shooting.multipliers[3]) > 0.1);
+  }
+}
+
 TEST_CASE("shooting finds an unstable motion too, and says so") {
   const auto equation = oscillator(1, -0.3, 4, 1, 1.3);
   const auto motion = shot(equation);
