@@ -40,9 +40,9 @@ std::string progress_text(const observables::Progress& progress, const std::stri
   const int branches = std::max(progress.branches, 1);
   const double share = std::clamp((progress.branch + progress.share_done) / branches, 0.0, 1.0);
   std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "branch %d/%d  %ld points  %.6g %s",
-                std::min(progress.branch + 1, branches), branches, progress.points, progress.frequency,
-                unit.c_str());
+  std::snprintf(text.data(), text.size(), "%s %d/%d  %ld %s  %.6g %s", progress.item,
+                std::min(progress.branch + 1, branches), branches, progress.points, progress.counted,
+                progress.frequency, unit.c_str());
   std::string line = text.data();
   if (progress.step != 0) {  // at a fixed frequency there is none
     std::snprintf(text.data(), text.size(), "  step %.2g %s", progress.step, unit.c_str());

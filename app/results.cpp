@@ -4,9 +4,6 @@
 #include "options.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/output/csv.hpp>
-#include <arcslip/output/figures.hpp>
-#include <arcslip/output/json.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -75,15 +72,14 @@ void check_writable(const StudyFiles& files, const std::string& scene_file) {
 }
 
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     scene::StudyKind kind,
-                                     std::span<const observables::ResponseBranch> branches,
-                                     bool coefficients) {
+                                     scene::StudyKind kind, const StudyResult& result, bool coefficients) {
   std::vector<std::string> paths{files.path(".scene.json"), files.path(".json"), files.path(".csv")};
   output::write_file(paths[0], [&](std::ostream& out) { out << scene::write(scene); });
-  output::write_file(paths[1],
-                     [&](std::ostream& out) { output::write_json(out, scene, branches, {coefficients}); });
-  output::write_file(paths[2], [&](std::ostream& out) { output::write_csv(out, scene, branches); });
-  const output::Figures figures = output::write_figures(scene, kind, branches, files.folder, files.name);
+  output::write_file(paths[1], [&](std::ostream& out) {
+    write_json(out, scene, {&result, 1}, coefficients);
+  });
+  output::write_file(paths[2], [&](std::ostream& out) { write_csv(out, scene, result); });
+  const output::Figures figures = write_figures(scene, kind, result, files.folder, files.name);
   paths.insert(paths.end(), figures.sources.begin(), figures.sources.end());
   paths.insert(paths.end(), figures.images.begin(), figures.images.end());
   if (!figures.problem.empty()) {

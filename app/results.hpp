@@ -1,7 +1,8 @@
 #pragma once
 // Where the results of a run go, and that they can go there, known before anything is computed.
 
-#include <arcslip/observables/response.hpp>
+#include "study_result.hpp"
+
 #include <arcslip/scene/scene.hpp>
 
 #include <span>
@@ -41,8 +42,6 @@ void check_writable(const std::string& file, const std::string& scene_file);
 /// Writes the files and figures of a study of this kind. Returns their paths; tells on standard error why
 /// figures are missing.
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     scene::StudyKind kind,
-                                     std::span<const observables::ResponseBranch> branches,
-                                     bool coefficients);
+                                     scene::StudyKind kind, const StudyResult& result, bool coefficients);
 
 }  // namespace arcslip::app

@@ -6,19 +6,13 @@
 #include "resolve.hpp"
 #include "results.hpp"
 #include "standard_output.hpp"
-#include "table.hpp"
+#include "study_result.hpp"
 
-#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/output/csv.hpp>
-#include <arcslip/output/json.hpp>
-#include <arcslip/output/units.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -27,8 +21,6 @@
 
 namespace arcslip::app {
 namespace {
-
-using observables::ResponseBranch;
 
 bool takes_standard_output(const Options& options) {
   return options.json == "-" || options.csv == "-";
@@ -51,25 +43,21 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
   return folder;
 }
 
-/// What computes studies of this kind.
-auto computation(scene::StudyKind kind) {
-  switch (kind) {
-    case scene::StudyKind::trace:
-      return observables::parameter_response;
-    case scene::StudyKind::peaks:
-      return observables::resonance_peaks;
-    case scene::StudyKind::folds:
-      return observables::fold_curves;
-    case scene::StudyKind::frf:
-      break;
+/// Throws where one table would have to hold results of different kinds.
+void check_one_table(const Options& options, const std::vector<scene::Study>& studies) {
+  for (const scene::Study& study : studies) {
+    if (!options.csv.empty() && no_result(study.kind).index() != no_result(studies.front().kind).index()) {
+      throw UsageError("--csv holds one table, but the results of the studies \"" + studies.front().name +
+                       "\" and \"" + study.name +
+                       "\" have different columns: use --out, where each study has its own");
+    }
   }
-  return observables::frequency_response;
 }
 
-std::vector<ResponseBranch> compute(const scene::Scene& scene, const scene::Study& study, bool quiet) {
+StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study, bool quiet) {
   ProgressLine line(quiet, std::string(scene::unit_name(scene.frequency_unit)));
   bool told = false;
-  return computation(study.kind)(scene, study, [&](const observables::Progress& progress) {
+  return compute(scene, study, [&](const observables::Progress& progress) {
     if (!interrupted()) {
       line.show(progress);
       return true;
@@ -80,22 +68,6 @@ std::vector<ResponseBranch> compute(const scene::Scene& scene, const scene::Stud
     }
     return false;
   });
-}
-
-/// Tells which branches ended early and why.
-ExitCode report_ends(const scene::Scene& scene, const std::vector<ResponseBranch>& branches) {
-  ExitCode code = ExitCode::done;
-  for (std::size_t i = 0; i < branches.size(); ++i) {
-    const ResponseBranch& branch = branches[i];
-    if (branch.status == observables::Status::complete) {
-      continue;
-    }
-    code = ExitCode::stopped_early;
-    const std::string set = output::assignment(scene, branch.set);
-    tell("branch " + std::to_string(i + 1) + (set.empty() ? "" : " (" + set + ")") + " " +
-         observables::name(branch.status) + ": " + branch.stop.message);
-  }
-  return code;
 }
 
 /// Into a file, to standard output for "-", nowhere for "".
@@ -110,12 +82,13 @@ void write_to(const std::string& place, StandardOutput& screen,
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const Options& options) {
+  check_one_table(options, studies);
   const std::vector<StudyFiles> files = study_files(options.out, studies);
   const std::optional<ResultsFolder> held = prepare_places(options, files);
 
   StandardOutput screen;
   ExitCode code = ExitCode::done;
-  std::vector<ResponseBranch> all;
+  std::vector<StudyResult> all;
   std::string places;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     if (interrupted()) {
@@ -123,13 +96,14 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       tell("the study \"" + studies[i].name + "\" was not begun");
       continue;
     }
-    std::vector<ResponseBranch> branches = compute(scene, studies[i], options.quiet);
-    if (report_ends(scene, branches) != ExitCode::done) {
+    StudyResult result = compute_visibly(scene, studies[i], options.quiet);
+    for (const std::string& sentence : early_ends(scene, result)) {
       code = ExitCode::stopped_early;
+      tell(sentence);
     }
     if (!options.out.empty()) {
       for (const std::string& path :
-           write_study(files[i], scene, studies[i].kind, branches, options.coefficients)) {
+           write_study(files[i], scene, studies[i].kind, result, options.coefficients)) {
         places += path + "\n";
       }
     }
@@ -141,14 +115,17 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
         if (studies.size() > 1) {
           out << (i > 0 ? "\n" : "") << studies[i].name << '\n';
         }
-        write_table(out, scene, branches);
+        write_table(out, scene, result);
       });
     }
-    std::move(branches.begin(), branches.end(), std::back_inserter(all));
+    append(std::move(result), all);
+  }
+  if (all.empty()) {  // nothing was begun
+    all.push_back(no_result(studies.front().kind));
   }
   write_to(options.json, screen,
-           [&](std::ostream& out) { output::write_json(out, scene, all, {options.coefficients}); });
-  write_to(options.csv, screen, [&](std::ostream& out) { output::write_csv(out, scene, all); });
+           [&](std::ostream& out) { write_json(out, scene, all, options.coefficients); });
+  write_to(options.csv, screen, [&](std::ostream& out) { write_csv(out, scene, all.front()); });
   if (!places.empty() && !options.quiet && !takes_standard_output(options)) {
     screen.write([&](std::ostream& out) { out << '\n' << places; });
   }

@@ -12,11 +12,12 @@ namespace arcslip::observables {
 
 /// Progress of one branch; told after every accepted point.
 struct Progress {
-  int branch = 0, branches = 0;  // which of how many
-  long points = 0;               // accepted so far on this branch
-  double frequency = 0;          // in the scene's unit
-  double step = 0;               // last step in frequency, in the scene's unit
-  double share_done = 0;         // 0 to 1, of this branch
+  int branch = 0, branches = 0;                      // which of how many
+  long points = 0;                                   // accepted so far on this branch
+  double frequency = 0;                              // in the scene's unit
+  double step = 0;                                   // last step in frequency, in the scene's unit
+  double share_done = 0;                             // 0 to 1, of this branch
+  const char *item = "branch", *counted = "points";  // in words for people
 };
 
 /// Returns false to stop: the branch then ends with reason "user".

@@ -128,6 +128,7 @@ struct SolverSummary {
 /// A branch of responses: over the excitation frequency, or over a parameter at a fixed frequency, or a curve
 /// of resonance peaks or folds over a parameter.
 struct ResponseBranch {
+  std::string study, kind;  // name and kind of the study that asked for it; empty where nobody said so
   Status status = Status::complete;
   Stop stop;
   std::string over;  // name of the free parameter beside, or in place of, the frequency; empty for frf

@@ -44,6 +44,7 @@ void write_row(std::ostream& out, const std::vector<std::string>& cells) {
 }
 
 struct Columns {
+  bool study = false;                   // whether branches are of more than one study
   std::vector<std::string> parameters;  // that some branch sets or is over
   std::vector<std::string> friction;    // elements that stick and slip
 };
@@ -57,6 +58,7 @@ Columns columns_of(std::span<const ResponseBranch> branches) {
     }
   };
   for (const ResponseBranch& branch : branches) {
+    columns.study = columns.study || branch.study != branches.front().study;
     for (const auto& [name, value] : branch.set) {
       add(name);
     }
@@ -70,7 +72,7 @@ constexpr std::array<const char*, 4> of_friction_elements = {
     "theta_0 (rad)", "theta_star (rad)", "equivalent_stiffness (N/m)", "equivalent_damping (N s/m)"};
 
 std::vector<std::string> header(const scene::Scene& scene, const Columns& columns) {
-  std::vector<std::string> cells;
+  std::vector<std::string> cells(columns.study ? 1 : 0, "study");
   for (const std::string& name : columns.parameters) {
     cells.push_back(with_unit(name, parameter_unit(scene, name)));
   }
@@ -117,7 +119,7 @@ double parameter(const ResponseBranch& branch, const ResponsePoint& point, const
 std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, const ResponseBranch& branch,
                              std::size_t branch_number, const std::string& event, const ResponsePoint& point,
                              std::size_t count) {
-  std::vector<std::string> cells;
+  std::vector<std::string> cells(columns.study ? 1 : 0, branch.study);
   for (const std::string& name : columns.parameters) {
     cells.push_back(number(parameter(branch, point, name)));
   }

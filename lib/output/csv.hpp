@@ -9,8 +9,9 @@
 
 namespace arcslip::output {
 
-/// A header with units, then a row a point and a row an event, in the order of the branches. Columns: one for
-/// each parameter that a branch sets or is over, "damper.normal_load (N)"; branch (from 1); event (empty,
+/// A header with units, then a row a point and a row an event, in the order of the branches. Columns: the
+/// study, where the branches are of more than one; one for each parameter that a branch sets or is over,
+/// "damper.normal_load (N)"; branch (from 1); event (empty,
 /// "peak", "fold", "maximum", ...); frequency; amplitude (m); phase (rad); stick (%) of each friction
 /// element; the truncation estimate; energies per period (J); friction (%), the share of friction in what is
 /// dissipated; F_p/x and F_o/x (N/m); theta_0 and theta_star (rad), equivalent stiffness (N/m) and damping

@@ -1,11 +1,10 @@
 #include <arcslip/output/json.hpp>
 
+#include <arcslip/output/json_text.hpp>
 #include <arcslip/output/units.hpp>
-#include <arcslip/output/version.hpp>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ostream>
 #include <utility>
@@ -13,14 +12,13 @@
 namespace arcslip::output {
 namespace {
 
+using detail::Json;
+using detail::named_values;
+using detail::text;
+using detail::write_list;
 using observables::ResponseBranch;
 using observables::ResponseEvent;
 using observables::ResponsePoint;
-using Json = nlohmann::ordered_json;
-
-std::string text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 Json elements(const ResponsePoint& point) {
   Json all = Json::object();
@@ -115,14 +113,6 @@ Json with_point(Json json, const scene::Scene& scene, const std::string& over, c
   return json;
 }
 
-Json named_values(const std::vector<std::pair<std::string, double>>& values) {
-  Json json = Json::object();
-  for (const auto& [key, value] : values) {
-    json[key] = value;
-  }
-  return json;
-}
-
 Json solver(const observables::SolverSummary& summary) {
   return {{"linear_solver", summary.linear_solver},
           {"unknowns", summary.unknowns},
@@ -135,24 +125,10 @@ Json solver(const observables::SolverSummary& summary) {
           {"seconds", summary.seconds}};
 }
 
-template <class Range, class ToJson>
-void write_list(std::ostream& out, const Range& range, const ToJson& to_json) {
-  out << '[';
-  const char* separator = "\n";
-  for (const auto& item : range) {
-    out << separator << text(to_json(item));
-    separator = ",\n";
-  }
-  out << ']';
-}
-
 void write_branch(std::ostream& out, const scene::Scene& scene, const ResponseBranch& branch,
                   const JsonOptions& options) {
-  const Json stop = {{"reason", branch.stop.reason},
-                     {"value", branch.stop.value},
-                     {"limit", branch.stop.limit},
-                     {"message", branch.stop.message}};
-  out << "{\"status\": \"" << name(branch.status) << "\",\n\"stop\": " << text(stop)
+  out << '{' << detail::origin(branch.study, branch.kind) << "\"status\": \"" << name(branch.status)
+      << "\",\n\"stop\": " << text(detail::stop(branch.stop))
       << (branch.over.empty() ? "" : ",\n\"over\": " + text(branch.over))
       << ",\n\"set\": " << text(named_values(branch.set))
       << ",\n\"parameters\": " << text(named_values(branch.parameters));
@@ -173,18 +149,23 @@ void write_branch(std::ostream& out, const scene::Scene& scene, const ResponseBr
 
 }  // namespace
 
+JsonSection json_section(const scene::Scene& scene, std::span<const ResponseBranch> branches,
+                         const JsonOptions& options) {
+  return {"arcslip-branches-1", "branches", [&scene, branches, options](std::ostream& out) {
+            out << '[';
+            const char* separator = "\n";
+            for (const ResponseBranch& branch : branches) {
+              out << separator;
+              write_branch(out, scene, branch, options);
+              separator = ",\n";
+            }
+            out << ']';
+          }};
+}
+
 void write_json(std::ostream& out, const scene::Scene& scene, std::span<const ResponseBranch> branches,
                 const JsonOptions& options) {
-  out << "{\"format\": \"arcslip-branches-1\",\n\"program\": \"arcslip " << version()
-      << "\",\n\"scene_hash\": " << text(scene::hash(scene)) << ",\n\"title\": " << text(scene.title)
-      << ",\n\"frequency_unit\": " << text(scene::unit_name(scene.frequency_unit)) << ",\n\"branches\": [";
-  const char* separator = "\n";
-  for (const ResponseBranch& branch : branches) {
-    out << separator;
-    write_branch(out, scene, branch, options);
-    separator = ",\n";
-  }
-  out << "]}\n";
+  write_document(out, scene, std::array{json_section(scene, branches, options)});
 }
 
 }  // namespace arcslip::output

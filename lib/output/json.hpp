@@ -2,6 +2,7 @@
 // Branches as JSON, format "arcslip-branches-1".
 
 #include <arcslip/observables/response.hpp>
+#include <arcslip/output/json_document.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <iosfwd>
@@ -15,9 +16,11 @@ struct JsonOptions {
 
 /// Writes one object, {"format", "program", "scene_hash", "title", "frequency_unit", "branches": [B, ...]},
 /// with
-///   B = {"status", "stop": {"reason", "value", "limit", "message"}, "over", "set", "parameters", "points",
+///   B = {"study", "kind", "status", "stop": {"reason", "value", "limit", "message"}, "over", "set",
+///   "parameters", "points",
 ///        "events", "solver"};
-/// "over" only where the branch is over a parameter, whose value each point and event holds by its name then.
+/// "study" and "kind" only where the branch knows the study it belongs to, "over" only where it is over a
+/// parameter, whose value each point and event holds by its name then.
 /// Points and events hold omega (rad/s), frequency (scene's unit), amplitude (m), phase (rad),
 /// truncation_estimate (m), energies (J per period), friction_percent (share of friction in energy_total),
 /// force_per_displacement (N/m; F_p/x and F_o/x with their parts), and under "elements" what each element has
@@ -28,5 +31,9 @@ struct JsonOptions {
 /// depends on it, and "unbounded" is true. A point a line; written as it goes.
 void write_json(std::ostream& out, const scene::Scene& scene,
                 std::span<const observables::ResponseBranch> branches, const JsonOptions& options = {});
+
+/// The same branches as a part of a document. Refers to its arguments.
+JsonSection json_section(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
+                         const JsonOptions& options = {});
 
 }  // namespace arcslip::output

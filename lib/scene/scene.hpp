@@ -160,6 +160,8 @@ void set(Scene& scene, std::string_view parameter, double value);
 double to_rad_per_s(FrequencyUnit unit);
 /// "Hz" or "rad/s".
 std::string_view unit_name(FrequencyUnit unit);
+/// "frf", as a scene file writes it.
+std::string_view kind_name(StudyKind kind);
 
 /// The known word nearest to `word` (edit distance at most a third of its length, at least 2), or "".
 std::string nearest(std::string_view word, std::span<const std::string> known);

@@ -157,4 +157,8 @@ std::string_view unit_name(FrequencyUnit unit) {
   return detail::word_of(detail::frequency_units, unit);
 }
 
+std::string_view kind_name(StudyKind kind) {
+  return detail::word_of(detail::study_kinds, kind);
+}
+
 }  // namespace arcslip::scene

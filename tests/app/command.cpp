@@ -255,6 +255,26 @@ TEST_CASE("run writes every study into out/NAME and tells the places of the file
   CHECK(Json::parse(place.read("out/two/frf.json"))["branches"].size() == 12);
 }
 
+TEST_CASE("run tells of each branch in one file which study it is of") {
+  const Workplace place;
+  const Ended ended =
+      run(place,
+          {"run", "scene.json", "--harmonics", "1", "--json", "a.json", "--csv", "a.csv", "--out", "results"},
+          {{"PATH", "/nonexistent"}});
+  CHECK(ended.exit_code == 0);
+  const Json branches = Json::parse(place.read("a.json"))["branches"];
+  REQUIRE(branches.size() == 13);
+  CHECK(branches[0]["study"] == "frf");
+  CHECK(branches[0]["kind"] == "frf");
+  CHECK(branches[12]["study"] == "peaks");
+  CHECK(branches[12]["kind"] == "peaks");
+  const std::string csv = place.read("a.csv");
+  CHECK(csv.find("study,damper.normal_load (N),branch,event,") == 0);
+  CHECK(csv.find("\r\nfrf,0.01,1,") != std::string::npos);
+  CHECK(csv.find("\r\npeaks,0.01,13,") != std::string::npos);
+  CHECK(place.read("results/peaks.csv").find("damper.normal_load (N),branch,") == 0);
+}
+
 TEST_CASE("without gnuplot run says so, writes the data all the same, and is done") {
   const Workplace place;
   const Ended ended = run(place, {"run", "scene.json", "--harmonics", "1"}, {{"PATH", "/nonexistent"}});

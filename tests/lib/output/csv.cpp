@@ -62,6 +62,18 @@ TEST_CASE("a response over the frequency and one over a parameter share that par
   CHECK(rows[7].find("0.1,2,,1.5,") == 0);
 }
 
+TEST_CASE("CSV tells the study of each row where branches are of several") {
+  auto first = support::branch(3);
+  auto second = support::peaks();
+  first.study = "frf";
+  CHECK(lines(support::scene(), {first, first}).at(0).find("damper.normal_load (N),") == 0);
+  second.study = "the peaks";
+  const auto rows = lines(support::scene(), {first, second});
+  CHECK(rows.at(0).find("study,damper.normal_load (N),branch,") == 0);
+  CHECK(rows[1].find("frf,3,1,,1,") == 0);
+  CHECK(rows[7].find("the peaks,0.1,2,,1.5,") == 0);
+}
+
 TEST_CASE("an event at a fixed frequency and amplitude stands where its parameter lies") {
   auto branch = support::peaks();
   for (auto& point : branch.points) {

@@ -94,6 +94,30 @@ TEST_CASE(
   CHECK_FALSE(response["points"][0].contains("damper.normal_load"));
 }
 
+TEST_CASE("a branch in JSON tells its study, where it knows it") {
+  auto branch = support::branch();
+  CHECK_FALSE(written(support::scene(), {branch})["branches"][0].contains("study"));
+  branch.study = "a \"study\"";
+  branch.kind = "frf";
+  const Json json = written(support::scene(), {branch})["branches"][0];
+  CHECK(json["study"] == "a \"study\"");
+  CHECK(json["kind"] == "frf");
+}
+
+TEST_CASE("results of several kinds stand in one document by their own keys") {
+  const scene::Scene scene = support::scene();
+  const auto number = [](int n) { return [n](std::ostream& out) { out << n; }; };
+  std::ostringstream text;
+  output::write_document(
+      text, scene,
+      std::vector<output::JsonSection>{{"one-1", "one", number(1)}, {"two-1", "two", number(2)}});
+  const Json json = Json::parse(text.str());
+  CHECK(json["format"] == "arcslip-results-1");
+  CHECK(json["scene_hash"] == scene::hash(scene));
+  CHECK(json["one"] == 1);
+  CHECK(json["two"] == 2);
+}
+
 TEST_CASE("the status of a branch is written by its name") {
   auto branch = support::branch();
   branch.status = observables::Status::stopped;

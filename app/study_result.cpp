@@ -1,0 +1,127 @@
+#include "study_result.hpp"
+
+#include "table.hpp"
+
+#include <arcslip/observables/curves.hpp>
+#include <arcslip/output/csv.hpp>
+#include <arcslip/output/json.hpp>
+#include <arcslip/output/units.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+
+namespace arcslip::app {
+namespace {
+
+using observables::ResponseBranch;
+
+const char* noun(const ResponseBranch& /*of*/) {
+  return "branch";
+}
+
+output::JsonSection section(const scene::Scene& scene, std::span<const ResponseBranch> branches,
+                            bool coefficients) {
+  return output::json_section(scene, branches, {coefficients});
+}
+
+StudyResult computed(const scene::Scene& scene, const scene::Study& study,
+                     const observables::ProgressCallback& progress) {
+  switch (study.kind) {
+    case scene::StudyKind::trace:
+      return observables::parameter_response(scene, study, progress);
+    case scene::StudyKind::peaks:
+      return observables::resonance_peaks(scene, study, progress);
+    case scene::StudyKind::folds:
+      return observables::fold_curves(scene, study, progress);
+    case scene::StudyKind::frf:
+      break;
+  }
+  return observables::frequency_response(scene, study, progress);
+}
+
+}  // namespace
+
+StudyResult no_result(scene::StudyKind kind) {
+  switch (kind) {
+    case scene::StudyKind::frf:
+    case scene::StudyKind::trace:
+    case scene::StudyKind::peaks:
+    case scene::StudyKind::folds:
+      break;
+  }
+  return std::vector<ResponseBranch>();
+}
+
+StudyResult compute(const scene::Scene& scene, const scene::Study& study,
+                    const observables::ProgressCallback& progress) {
+  StudyResult result = computed(scene, study, progress);
+  std::visit(
+      [&](auto& items) {
+        for (auto& item : items) {
+          item.study = study.name;
+          item.kind = scene::kind_name(study.kind);
+        }
+      },
+      result);
+  return result;
+}
+
+void append(StudyResult more, std::vector<StudyResult>& all) {
+  const auto same = std::find_if(all.begin(), all.end(),
+                                 [&](const StudyResult& result) { return result.index() == more.index(); });
+  if (same == all.end()) {
+    all.push_back(std::move(more));
+    return;
+  }
+  std::visit(
+      [&](auto& items) {
+        auto& added = std::get<std::remove_reference_t<decltype(items)>>(more);
+        std::move(added.begin(), added.end(), std::back_inserter(items));
+      },
+      *same);
+}
+
+std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult& result) {
+  std::vector<std::string> sentences;
+  const auto add = [&](const auto& items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const auto& item = items[i];
+      if (item.status == observables::Status::complete) {
+        continue;
+      }
+      const std::string set = output::assignment(scene, item.set);
+      sentences.push_back(std::string(noun(item)) + " " + std::to_string(i + 1) +
+                          (set.empty() ? "" : " (" + set + ")") + " " + observables::name(item.status) +
+                          ": " + item.stop.message);
+    }
+  };
+  std::visit(add, result);
+  return sentences;
+}
+
+void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult& result) {
+  std::visit([&](const auto& items) { write_table(out, scene, std::span(items)); }, result);
+}
+
+void write_json(std::ostream& out, const scene::Scene& scene, std::span<const StudyResult> results,
+                bool coefficients) {
+  std::vector<output::JsonSection> sections;
+  for (const StudyResult& result : results) {
+    std::visit([&](const auto& items) { sections.push_back(section(scene, items, coefficients)); }, result);
+  }
+  output::write_document(out, scene, sections);
+}
+
+void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& result) {
+  std::visit([&](const auto& items) { output::write_csv(out, scene, items); }, result);
+}
+
+output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
+                              const std::string& folder, const std::string& name) {
+  return std::visit(
+      [&](const auto& items) { return output::write_figures(scene, kind, items, folder, name); }, result);
+}
+
+}  // namespace arcslip::app

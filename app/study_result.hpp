@@ -1,0 +1,46 @@
+#pragma once
+// What a study gives, and all that the command does with it. A kind of results is one alternative of the
+// variant, with a function of its own for each of these (section, write_csv, write_figures, write_table,
+// noun) and the members study, kind, status, stop and set; the rest knows no kinds.
+
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/response.hpp>
+#include <arcslip/output/figures.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace arcslip::app {
+
+using StudyResult = std::variant<std::vector<observables::ResponseBranch>>;
+
+/// Nothing yet of what studies of this kind give.
+StudyResult no_result(scene::StudyKind kind);
+
+/// Every result says which study it is of.
+StudyResult compute(const scene::Scene& scene, const scene::Study& study,
+                    const observables::ProgressCallback& progress);
+
+/// Puts a result to those of its kind, or behind all others where there are none.
+void append(StudyResult more, std::vector<StudyResult>& all);
+
+/// For each part that ended early, which and why.
+std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult& result);
+
+/// Aligned columns for people.
+void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
+
+/// One object; coefficients: with the harmonics of the responses.
+void write_json(std::ostream& out, const scene::Scene& scene, std::span<const StudyResult> results,
+                bool coefficients);
+
+void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
+
+output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
+                              const std::string& folder, const std::string& name);
+
+}  // namespace arcslip::app
