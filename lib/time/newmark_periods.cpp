@@ -1,0 +1,208 @@
+#include <arcslip/time/newmark_periods.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <tuple>
+
+namespace arcslip::time {
+namespace {
+
+constexpr long between_questions = 4096;  // steps
+
+// Observes the steps of an integration.
+class Observation {
+ public:
+  Observation(const Newmark& newmark, bool with_history, long steps)
+      : newmark_(newmark), with_history_(with_history) {
+    const auto& equation = newmark.equation();
+    for (const Element& element : equation.elements) {
+      if (element.slider >= 0) result_.friction.emplace_back();
+      if (with_history) result_.history.elements.push_back({element.name, {}, {}, {}});
+    }
+    if (with_history) reserve(static_cast<std::size_t>(steps) + 1);
+    x_ = equation.response.dot(newmark.state().x);
+    v_ = equation.response.dot(newmark.state().v);
+    force_ = newmark.elements().force();
+    result_.amplitude = std::abs(x_);
+    record();
+  }
+
+  void after_step() {
+    const auto& equation = newmark_.equation();
+    const double x = equation.response.dot(newmark_.state().x);
+    const double v = equation.response.dot(newmark_.state().v);
+    result_.amplitude = std::max(result_.amplitude, std::abs(x));
+    if (v_ * v < 0) {
+      const double turn = v_ / (v_ - v);  // share of the step
+      const double h = equation.period() / static_cast<double>(newmark_.steps_per_period());
+      result_.amplitude = std::max(result_.amplitude, std::abs(x_ + 0.5 * v_ * h * turn));
+    }
+    x_ = x;
+    v_ = v;
+    friction();
+    record();
+  }
+
+  PeriodMotion end() {
+    result_.time = newmark_.time();
+    result_.end = newmark_.state();
+    result_.energy = newmark_.energy();
+    for (FrictionShare& share : result_.friction)
+      if (newmark_.step_number() > 0) share.stick_share /= static_cast<double>(newmark_.step_number());
+    return std::move(result_);
+  }
+
+ private:
+  void reserve(std::size_t count) {
+    History& history = result_.history;
+    for (auto* list : {&history.time, &history.displacement, &history.velocity}) list->reserve(count);
+    for (ElementHistory& element : history.elements)
+      for (auto* list : {&element.displacement, &element.force, &element.slider}) list->reserve(count);
+  }
+
+  void friction() {
+    const ImplicitElements& elements = newmark_.elements();
+    std::size_t k = 0;
+    for (std::size_t e = 0; e < elements.elements().size(); ++e) {
+      const Element& element = elements.elements()[e];
+      if (element.slider < 0) continue;
+      const auto i = static_cast<Eigen::Index>(e);
+      const double slip = elements.slip()[element.slider];
+      const double df = elements.force()[i] - force_[i];
+      FrictionShare& share = result_.friction[k++];
+      share.energy += 0.5 * (elements.force()[i] + force_[i]) * slip;
+      const double stuck = std::abs(df / element.stiffness);
+      if (element.slip_limit > 0)
+        share.stick_share += elements.slides(e) && slip != 0 ? stuck / (stuck + std::abs(slip)) : 1;
+    }
+    force_ = elements.force();
+  }
+
+  void record() {
+    if (!with_history_) return;
+    History& history = result_.history;
+    history.time.push_back(newmark_.time());
+    history.displacement.push_back(x_);
+    history.velocity.push_back(v_);
+    const ImplicitElements& elements = newmark_.elements();
+    for (std::size_t e = 0; e < history.elements.size(); ++e) {
+      const Element& element = elements.elements()[e];
+      ElementHistory& of = history.elements[e];
+      of.displacement.push_back(element.direction.dot(newmark_.state().x));
+      of.force.push_back(elements.force()[static_cast<Eigen::Index>(e)]);
+      if (element.slider >= 0) of.slider.push_back(newmark_.state().z[element.slider]);
+    }
+  }
+
+  const Newmark& newmark_;
+  bool with_history_;
+  double x_ = 0, v_ = 0;
+  Vector force_;
+  PeriodMotion result_;
+};
+
+}  // namespace
+
+std::pair<std::string, std::string> failure_of(Solved solved, double time) {
+  std::ostringstream at;
+  at << " in the step after t = " << time << " s";
+  switch (solved) {
+    case Solved::yes:
+      break;
+    case Solved::no:
+      return {"no_convergence",
+              "Newton's method found no balance of forces" + at.str() + ": take more steps per period"};
+    case Solved::singular:
+      return {"singular",
+              "nothing holds the structure" + at.str() +
+                  ": a degree of freedom without mass needs a spring or damper besides elements that slip"};
+    case Solved::not_finite:
+      return {"not_finite", "the motion grew beyond all numbers" + at.str()};
+  }
+  return {};
+}
+
+PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, bool with_history, bool first,
+                             const std::function<bool()>& stop) {
+  Solved solved = Solved::yes;
+  if (first) {
+    solved = newmark.begin(start);
+  } else {
+    newmark.resume(start);
+  }
+  const long steps = count * newmark.steps_per_period();
+  Observation observation(newmark, with_history, steps);
+  bool stopped = false;
+  while (solved == Solved::yes && newmark.step_number() < steps && !stopped) {
+    solved = newmark.step();
+    if (solved == Solved::yes) observation.after_step();
+    stopped = stop && newmark.step_number() % between_questions == 0 && stop();
+  }
+  PeriodMotion result = observation.end();
+  std::tie(result.failure, result.message) = failure_of(solved, newmark.time());
+  if (stopped) {
+    result.failure = "user";
+    result.message = "stopped as asked";
+  }
+  return result;
+}
+
+PeriodMap newmark_map(Newmark& newmark, const State& start) {
+  const EquationOfMotion& equation = newmark.equation();
+  const Eigen::Index n = equation.dofs(), size = 2 * n + equation.sliders;
+  struct Reach {
+    double high, low;
+    Eigen::RowVectorXd d_high, d_low;
+    bool up, down;  // slips that way
+
+    // What slips only one way does not come back to where it was, and rests as far as periodic motions go.
+    bool rests() const { return !(up && down); }
+  };
+  PeriodMap map;
+  map.monodromy = Matrix::Identity(size, size);
+  newmark.resume(start);
+  std::vector<Reach> reaches;
+  std::vector<const Element*> friction;
+  for (const Element& element : equation.elements) {
+    if (element.slider < 0) continue;
+    const double q = element.direction.dot(start.x);
+    const Eigen::RowVectorXd dq = element.direction.transpose() * map.monodromy.topRows(n);
+    reaches.push_back({q, q, dq, dq, element.slip_limit == 0, element.slip_limit == 0});
+    friction.push_back(&element);
+  }
+  for (long k = 0; k < newmark.steps_per_period(); ++k) {
+    const Solved solved = newmark.step();
+    if (solved != Solved::yes) {
+      map.message = failure_of(solved, newmark.time()).second;
+      return map;
+    }
+    newmark.differentiate(map.monodromy);
+    const State& state = newmark.state();
+    map.size = std::max(map.size, std::hypot(state.x.norm(), state.v.norm() / equation.omega));
+    for (std::size_t i = 0; i < reaches.size(); ++i) {
+      Reach& reach = reaches[i];
+      const double slip = newmark.elements().slip()[friction[i]->slider];
+      reach.up = reach.up || slip > 0;
+      reach.down = reach.down || slip < 0;
+      if (!reach.rests()) continue;
+      const double q = friction[i]->direction.dot(newmark.state().x);
+      if (q > reach.high) {
+        reach.high = q;
+        reach.d_high = friction[i]->direction.transpose() * map.monodromy.topRows(n);
+      } else if (q < reach.low) {
+        reach.low = q;
+        reach.d_low = friction[i]->direction.transpose() * map.monodromy.topRows(n);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < reaches.size(); ++i)
+    if (reaches[i].rests())
+      map.resting.push_back({friction[i]->slider, 0.5 * (reaches[i].high + reaches[i].low),
+                             0.5 * (reaches[i].d_high + reaches[i].d_low)});
+  map.end = newmark.state();
+  map.done = true;
+  return map;
+}
+
+}  // namespace arcslip::time

@@ -1,0 +1,63 @@
+#pragma once
+// What a motion does over some periods of the excitation, whichever way it is integrated, and how a motion
+// goes on period by period until it is steady.
+
+#include <arcslip/time/motion.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace arcslip::time {
+
+/// One friction element over an interval.
+struct FrictionShare {
+  double stick_share = 0;  // of the time in which the slider rests, 0 to 1
+  double energy = 0;       // dissipated, J
+};
+
+struct PeriodMotion {
+  std::string failure;  // "" or why the interval was not reached: "no_convergence", "not_finite", ...
+  std::string message;  // the same in one sentence
+  double time = 0;      // s, where it ended
+  State end;
+  double amplitude = 0;  // max |x| of the response, m
+  EnergyBalance energy;
+  std::vector<FrictionShare> friction;  // of each friction element, in the order of the elements
+  History history;                      // empty where it was not asked for; both ends included
+
+  bool done() const { return failure.empty(); }
+};
+
+/// Integrates over `count` periods from a state that stands at the beginning of one; t = 0 is that of the
+/// first.
+using Periods = std::function<PeriodMotion(const State& start, long count, bool with_history)>;
+
+struct TransientOptions {
+  long periods = 1000;      // at most, those recorded included
+  long recorded = 1;        // with history, at the end, once the motion is steady
+  double tolerance = 1e-9;  // steady: change of the state over a period, relative to its size; 0: never
+};
+
+enum class TransientEnd {
+  steady,        // change <= tolerance
+  period_limit,  // periods >= TransientOptions::periods
+  failed,        // a period was not integrated: motion.failure
+  user,          // the callback said so
+};
+
+struct Transient {
+  TransientEnd reason = TransientEnd::steady;
+  long periods = 0;     // before those recorded
+  double change = 0;    // of the state over the last period, relative to its size
+  State start;          // of the recorded periods
+  PeriodMotion motion;  // the recorded periods
+};
+
+/// From a state at t = 0. progress: periods done, and the last change; false stops. omega: rad/s, makes
+/// velocities comparable with displacements.
+Transient transient(const Periods& integrate, const State& start, double omega,
+                    const TransientOptions& options, const std::function<bool(long, double)>& progress = {});
+
+}  // namespace arcslip::time
