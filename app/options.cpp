@@ -23,12 +23,13 @@ struct VerbText {
   const char* help;
 };
 
-constexpr std::array<VerbText, 6> verb_texts{{
+constexpr std::array<VerbText, 7> verb_texts{{
     {Verb::run, "run", "every study of the scene: results and figures"},
     {Verb::frf, "frf", "frequency responses, with their peaks and folds"},
     {Verb::trace, "trace", "responses over a parameter at a fixed frequency, with their extremes and folds"},
     {Verb::peaks, "peaks", "resonance peaks over a parameter, with the least and the greatest"},
     {Verb::folds, "folds", "folds of the frequency response over a parameter, with their cusps"},
+    {Verb::time, "time", "motions in time at one frequency: steady, or from rest, with their loops"},
     {Verb::check, "check", "validate; print the resolved scene with every default"},
 }};
 
@@ -66,6 +67,7 @@ std::pair<std::string, double> assignment(const std::string& text) {
 struct Texts {
   std::vector<std::string> set, frequency;
   std::string harmonics, from, to;
+  std::string steps, periods, recorded, tolerance, method;
 };
 
 /// --from or --to of a study over a parameter.
@@ -88,16 +90,32 @@ std::optional<double> frequency(const std::string& option, const std::string& te
   return value;
 }
 
-std::optional<int> harmonics(const std::string& text) {
+std::optional<int> whole_number(const std::string& option, const std::string& text, const std::string& what) {
   if (text.empty()) {
     return std::nullopt;
   }
   int value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || stop != text.data() + text.size()) {
-    throw UsageError("--harmonics " + text + ": must be a whole number, the highest harmonic");
+    throw UsageError(option + " " + text + ": must be a whole number, " + what);
   }
   return value;
+}
+
+std::optional<double> tolerance(const std::string& text) {
+  const auto value = number(text);
+  if (!text.empty() && !value) {
+    throw UsageError("--tolerance " + text + ": must be a finite number from 0 to 1");
+  }
+  return value;
+}
+
+std::optional<scene::TimeMethod> method(const std::string& text) {
+  const auto found = scene::method_of(text);
+  if (!text.empty() && !found) {
+    throw UsageError("--method " + text + ": must be shooting, newmark-shooting, newmark or event-driven");
+  }
+  return found;
 }
 
 CLI::App* add_verb(CLI::App& app, const VerbText& text, Options& options, Texts& texts) {
@@ -130,11 +148,34 @@ void add_range_over_parameter(CLI::App& verb, Verb kind, Options& options, Texts
       ->type_name("F");
 }
 
+void add_time_options(CLI::App& verb, Texts& texts) {
+  verb.add_option("--frequency", texts.frequency, "the frequency of the excitation, in the scene's unit")
+      ->expected(1)
+      ->allow_extra_args(false)  // what follows may be the scene
+      ->type_name("F");
+  verb.add_option("--method", texts.method,
+                  "shooting (the periodic motion, exact where the scene is piecewise linear; the default), "
+                  "newmark-shooting, or period by period from rest: newmark, event-driven")
+      ->type_name("M");
+  verb.add_option("--steps", texts.steps, "steps per period (default: 1000)")->type_name("S");
+  verb.add_option("--periods", texts.periods, "periods of a transient at most (default: 10000)")
+      ->type_name("P");
+  verb.add_option("--recorded", texts.recorded, "periods with history, at the end (default: 1)")
+      ->type_name("R");
+  verb.add_option("--tolerance", texts.tolerance,
+                  "of the state: change over a period that is steady, or last correction of shooting "
+                  "(default: 1e-9); "
+                  "0: no transient ends before --periods")
+      ->type_name("T");
+}
+
 void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts) {
   if (kind == Verb::run || kind == Verb::frf) {
     const std::string of = kind == Verb::run ? " of frequency responses" : "";
     verb.add_option("--from", texts.from, "first frequency" + of + ", in the scene's unit")->type_name("A");
     verb.add_option("--to", texts.to, "last frequency" + of + ", in the scene's unit")->type_name("B");
+  } else if (kind == Verb::time) {
+    add_time_options(verb, texts);
   } else {
     add_range_over_parameter(verb, kind, options, texts);
   }
@@ -146,7 +187,9 @@ void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts
       ->type_name("FILE|-");
   verb.add_option("--csv", options.csv, "results as CSV into a file, or - for standard output")
       ->type_name("FILE|-");
-  verb.add_flag("--coefficients", options.coefficients, "JSON with the harmonics of each response");
+  if (kind != Verb::time) {
+    verb.add_flag("--coefficients", options.coefficients, "JSON with the harmonics of each response");
+  }
   verb.add_flag("--quiet", options.quiet, "no progress and no notes, only errors");
 }
 
@@ -238,7 +281,12 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   for (const std::string& text : texts.set) {
     options.set.push_back(assignment(text));
   }
-  options.harmonics = harmonics(texts.harmonics);
+  options.harmonics = whole_number("--harmonics", texts.harmonics, "the highest harmonic");
+  options.steps = whole_number("--steps", texts.steps, "the steps per period");
+  options.periods = whole_number("--periods", texts.periods, "the periods of a transient at most");
+  options.recorded = whole_number("--recorded", texts.recorded, "the periods with history");
+  options.tolerance = tolerance(texts.tolerance);
+  options.method = method(texts.method);
   const bool of_frequency = options.verb == Verb::run || options.verb == Verb::frf;
   options.from = of_frequency ? frequency("--from", texts.from) : parameter_value("--from", texts.from);
   options.to = of_frequency ? frequency("--to", texts.to) : parameter_value("--to", texts.to);

@@ -3,6 +3,8 @@
 
 #include "exit_code.hpp"
 
+#include <arcslip/scene/scene.hpp>
+
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,7 +14,7 @@
 
 namespace arcslip::app {
 
-enum class Verb { run, frf, trace, peaks, folds, check };
+enum class Verb { run, frf, trace, peaks, folds, time, check };
 
 struct Options {
   Verb verb = Verb::check;
@@ -21,8 +23,12 @@ struct Options {
   std::optional<int> harmonics;
   std::string over;                // the parameter of trace, peaks and folds, "" where it is not given
   std::optional<double> from, to;  // run, frf: in the scene's frequency unit; else of `over`
-  std::vector<double> frequency;   // in the scene's unit: none, one (trace), or the window (peaks, folds)
-  std::string out, json, csv;      // paths, "-" for standard output (json, csv), "" for none
+  std::vector<double>
+      frequency;  // in the scene's unit: none, one (trace, time), or the window (peaks, folds)
+  std::optional<int> steps, periods, recorded;  // time
+  std::optional<double> tolerance;              // time
+  std::optional<scene::TimeMethod> method;      // time
+  std::string out, json, csv;                   // paths, "-" for standard output (json, csv), "" for none
   bool coefficients = false;
   bool quiet = false;
 };

@@ -72,6 +72,15 @@ std::string option_of(const std::string& key, const Options& options) {
   if (key == "to" && options.to) {
     return "--to " + output::shortest(*options.to);
   }
+  for (const auto& [name, value] : {std::pair{"steps", options.steps}, std::pair{"periods", options.periods},
+                                    std::pair{"recorded", options.recorded}}) {
+    if (key == name && value) {
+      return std::string("--") + name + " " + std::to_string(*value);
+    }
+  }
+  if (key == "tolerance" && options.tolerance) {
+    return "--tolerance " + output::shortest(*options.tolerance);
+  }
   return "";
 }
 
@@ -112,6 +121,15 @@ std::size_t study_to_follow(scene::Scene& scene, scene::StudyKind kind, const Op
   return static_cast<std::size_t>(study - scene.studies.begin());
 }
 
+/// What the options say of a study in time.
+void set_time(scene::TimeSettings& time, const Options& options) {
+  time.method = options.method.value_or(time.method);
+  time.steps = options.steps.value_or(time.steps);
+  time.periods = options.periods.value_or(time.periods);
+  time.recorded = options.recorded.value_or(time.recorded);
+  time.tolerance = options.tolerance.value_or(time.tolerance);
+}
+
 }  // namespace
 
 scene::Scene resolve(const Options& options) {
@@ -136,7 +154,7 @@ void set_range(scene::Study& study, const scene::Scene& scene, const Options& op
 
 scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Options& options) {
   check_over(scene, options);
-  const bool is_frf = kind == scene::StudyKind::frf;
+  const bool is_frf = kind == scene::StudyKind::frf, is_time = kind == scene::StudyKind::time;
   const std::size_t studies_before = scene.studies.size();
   const std::size_t index = study_to_follow(scene, kind, options);
   const bool is_new = scene.studies.size() > studies_before;
@@ -144,13 +162,13 @@ scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Opt
   const bool is_over_another = !is_new && !options.over.empty() && options.over != study.over;
 
   std::vector<std::string> missing;
-  if (is_new && !is_frf && options.over.empty()) {
+  if (is_new && !is_frf && !is_time && options.over.empty()) {
     missing.emplace_back("--over");
   }
-  if ((is_new || is_over_another) && !options.from) {
+  if ((is_new || is_over_another) && !is_time && !options.from) {
     missing.emplace_back("--from");
   }
-  if ((is_new || is_over_another) && !options.to) {
+  if ((is_new || is_over_another) && !is_time && !options.to) {
     missing.emplace_back("--to");
   }
   if (is_new && !is_frf && options.frequency.empty()) {
@@ -171,7 +189,8 @@ scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Opt
     study.frequency_from = options.frequency.front();
     study.frequency_to = options.frequency.back();
   }
-  if (is_new || is_over_another) {
+  set_time(study.time, options);
+  if ((is_new || is_over_another) && !is_time) {
     study.from = *options.from;
     study.to = *options.to;
   }
@@ -181,7 +200,9 @@ scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Opt
                        ": the study is over this parameter; give --from and --to for its range");
     }
   }
-  set_range(study, scene, options);
+  if (!is_time) {
+    set_range(study, scene, options);
+  }
   check_study(scene, index, options);
   return study;
 }

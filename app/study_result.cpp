@@ -3,8 +3,10 @@
 #include "table.hpp"
 
 #include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/time_study.hpp>
 #include <arcslip/output/csv.hpp>
 #include <arcslip/output/json.hpp>
+#include <arcslip/output/motion.hpp>
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
@@ -15,10 +17,20 @@
 namespace arcslip::app {
 namespace {
 
+using observables::Motion;
 using observables::ResponseBranch;
 
 const char* noun(const ResponseBranch& /*of*/) {
   return "branch";
+}
+
+const char* noun(const Motion& /*of*/) {
+  return "motion";
+}
+
+output::JsonSection section(const scene::Scene& scene, std::span<const Motion> motions,
+                            bool /*coefficients*/) {
+  return output::json_section(scene, motions);
 }
 
 output::JsonSection section(const scene::Scene& scene, std::span<const ResponseBranch> branches,
@@ -35,6 +47,8 @@ StudyResult computed(const scene::Scene& scene, const scene::Study& study,
       return observables::resonance_peaks(scene, study, progress);
     case scene::StudyKind::folds:
       return observables::fold_curves(scene, study, progress);
+    case scene::StudyKind::time:
+      return observables::motions_in_time(scene, study, progress);
     case scene::StudyKind::frf:
       break;
   }
@@ -50,6 +64,8 @@ StudyResult no_result(scene::StudyKind kind) {
     case scene::StudyKind::peaks:
     case scene::StudyKind::folds:
       break;
+    case scene::StudyKind::time:
+      return std::vector<Motion>();
   }
   return std::vector<ResponseBranch>();
 }

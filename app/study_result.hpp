@@ -4,6 +4,7 @@
 // noun) and the members study, kind, status, stop and set; the rest knows no kinds.
 
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/motion.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -16,7 +17,7 @@
 
 namespace arcslip::app {
 
-using StudyResult = std::variant<std::vector<observables::ResponseBranch>>;
+using StudyResult = std::variant<std::vector<observables::ResponseBranch>, std::vector<observables::Motion>>;
 
 /// Nothing yet of what studies of this kind give.
 StudyResult no_result(scene::StudyKind kind);

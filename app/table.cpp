@@ -14,6 +14,7 @@
 namespace arcslip::app {
 namespace {
 
+using observables::Motion;
 using observables::ResponseBranch;
 using Row = std::vector<std::string>;
 
@@ -104,6 +105,41 @@ void write_table(std::ostream& out, const scene::Scene& scene, std::span<const R
     if (branch.events.empty()) {
       rows.push_back(row(scene, branch, nullptr, friction));
     }
+  }
+  write_aligned(out, rows);
+}
+
+void write_table(std::ostream& out, const scene::Scene& scene, std::span<const Motion> motions) {
+  if (motions.empty()) {
+    return;
+  }
+  Row head;
+  for (const auto& [name, value] : motions.front().set) {
+    head.push_back(output::with_unit(name, output::parameter_unit(scene, name)));
+  }
+  head.insert(head.end(), {"method", output::with_unit("frequency", scene::unit_name(scene.frequency_unit)),
+                           "A_max (m)"});
+  const auto& elements = motions.front().elements;
+  for (const observables::ElementMotion& element : elements) {
+    head.push_back(elements.size() == 1 ? "stick (%)" : element.name + " stick (%)");
+  }
+  head.insert(head.end(), {"E_friction (J)", "E_viscous (J)", "multiplier", "periods", "motion"});
+  std::vector<Row> rows{head};
+  for (const Motion& motion : motions) {
+    Row& cells = rows.emplace_back();
+    for (const auto& [name, value] : motion.set) {
+      cells.push_back(output::shortest(value));
+    }
+    cells.insert(cells.end(), {std::string(scene::method_name(motion.method)),
+                               formatted("%.8f", output::in_scene_unit(scene, motion.omega)),
+                               formatted("%.8e", motion.amplitude)});
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      cells.push_back(i < motion.elements.size() ? formatted("%.4f", motion.elements[i].stick_percent) : "-");
+    }
+    cells.insert(cells.end(),
+                 {formatted("%.6e", motion.energy.friction), formatted("%.6e", motion.energy.viscous),
+                  motion.multipliers.empty() ? "-" : formatted("%.6f", std::abs(motion.multipliers.front())),
+                  std::to_string(motion.periods), observables::name(motion.status)});
   }
   write_aligned(out, rows);
 }

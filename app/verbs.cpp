@@ -188,6 +188,8 @@ ExitCode execute(const Options& options) {
       return one_study(scene::StudyKind::peaks, options);
     case Verb::folds:
       return one_study(scene::StudyKind::folds, options);
+    case Verb::time:
+      return one_study(scene::StudyKind::time, options);
     case Verb::check:
       break;
   }

@@ -1,5 +1,6 @@
 #include <arcslip/output/csv.hpp>
 
+#include <arcslip/output/csv_text.hpp>
 #include <arcslip/output/event_places.hpp>
 #include <arcslip/output/friction_elements.hpp>
 #include <arcslip/output/units.hpp>
@@ -15,33 +16,10 @@
 namespace arcslip::output {
 namespace {
 
+using detail::csv_number;
+using detail::write_csv_row;
 using observables::ResponseBranch;
 using observables::ResponsePoint;
-
-/// A field, in quotes where RFC 4180 asks for them.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted.append(c == '"' ? 2 : 1, c);
-  }
-  return quoted + '"';
-}
-
-std::string number(double value) {
-  return std::isnan(value) ? "" : shortest(value);
-}
-
-void write_row(std::ostream& out, const std::vector<std::string>& cells) {
-  const char* separator = "";
-  for (const std::string& cell : cells) {
-    out << separator << field(cell);
-    separator = ",";
-  }
-  out << "\r\n";
-}
 
 struct Columns {
   bool study = false;                   // whether branches are of more than one study
@@ -121,33 +99,33 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
                              std::size_t count) {
   std::vector<std::string> cells(columns.study ? 1 : 0, branch.study);
   for (const std::string& name : columns.parameters) {
-    cells.push_back(number(parameter(branch, point, name)));
+    cells.push_back(csv_number(parameter(branch, point, name)));
   }
   cells.push_back(std::to_string(branch_number));
   cells.push_back(event);
-  cells.push_back(number(in_scene_unit(scene, point.omega)));
+  cells.push_back(csv_number(in_scene_unit(scene, point.omega)));
   if (point.unbounded) {  // nothing but its place is known
     cells.emplace_back("inf");
     cells.resize(count);
     return cells;
   }
-  cells.push_back(number(point.amplitude));
-  cells.push_back(number(point.phase));
+  cells.push_back(csv_number(point.amplitude));
+  cells.push_back(csv_number(point.phase));
   for (const std::string& name : columns.friction) {
-    cells.push_back(number(stick_percent(point, name)));
+    cells.push_back(csv_number(stick_percent(point, name)));
   }
-  cells.push_back(number(point.truncation_estimate));
+  cells.push_back(csv_number(point.truncation_estimate));
   cells.emplace_back(point.truncation_flagged ? "yes" : "no");
-  cells.push_back(number(point.energy_friction));
+  cells.push_back(csv_number(point.energy_friction));
   const observables::PhaseParts force = point.forces.total();
   for (const double value : {point.energy_viscous, point.energy_total(), point.energy_input,
                              point.friction_percent(), force.in_phase, force.out_of_phase}) {
-    cells.push_back(number(value));
+    cells.push_back(csv_number(value));
   }
   for (const std::string& name : columns.friction) {
     const observables::ElementResponse of = element(point, name);
     for (const double value : {of.theta_0, of.theta_star, of.equivalent_stiffness, of.equivalent_damping}) {
-      cells.push_back(number(value));
+      cells.push_back(csv_number(value));
     }
   }
   return cells;
@@ -158,7 +136,7 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const ResponseBranch> branches) {
   const Columns columns = columns_of(branches);
   const std::vector<std::string> heads = header(scene, columns);
-  write_row(out, heads);
+  write_csv_row(out, heads);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const ResponseBranch& branch = branches[b];
     const std::vector<std::size_t> before = points_before_events(branch);
@@ -166,10 +144,10 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Res
     for (std::size_t i = 0; i <= branch.points.size(); ++i) {
       for (; event < branch.events.size() && before[event] == i; ++event) {
         const observables::ResponseEvent& found = branch.events[event];
-        write_row(out, row(scene, columns, branch, b + 1, found.kind, found.point, heads.size()));
+        write_csv_row(out, row(scene, columns, branch, b + 1, found.kind, found.point, heads.size()));
       }
       if (i < branch.points.size()) {
-        write_row(out, row(scene, columns, branch, b + 1, "", branch.points[i], heads.size()));
+        write_csv_row(out, row(scene, columns, branch, b + 1, "", branch.points[i], heads.size()));
       }
     }
   }

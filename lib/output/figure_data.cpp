@@ -32,14 +32,6 @@ Record record(const scene::Scene& scene, const FigureData& data, const ResponseP
   return values;
 }
 
-std::string label(const scene::Scene& scene, const ResponseBranch& branch) {
-  std::string text;
-  for (const auto& [name, value] : branch.set) {
-    text.append(text.empty() ? "" : ", ").append(quantity(value, parameter_unit(scene, name)));
-  }
-  return text;
-}
-
 template <class Visit>
 void for_each_record(const FigureData& data, const Visit& visit) {
   for (const FigureLine& line : data.lines) {
@@ -68,7 +60,7 @@ Range range_of(const FigureData& data, std::size_t column, double above) {
 void set_ranges(FigureData& data) {
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     FigureColumn& column = data.columns[i];
-    column.range = range_of(data, i, -infinity);
+    column.range = full_range(data, i);
     if (column.scale == Scale::percent || i == data.frequency_column()) {
       continue;
     }
@@ -105,6 +97,18 @@ void write_record(std::ostream& out, const Record& values) {
 
 }  // namespace
 
+std::string set_label(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
+  std::string text;
+  for (const auto& [name, value] : set) {
+    text.append(text.empty() ? "" : ", ").append(quantity(value, parameter_unit(scene, name)));
+  }
+  return text;
+}
+
+Range full_range(const FigureData& data, std::size_t column) {
+  return range_of(data, column, -infinity);
+}
+
 FigureData figure_data(const scene::Scene& scene, StudyKind kind, std::span<const ResponseBranch> branches) {
   FigureData data;
   data.kind = kind;
@@ -123,7 +127,7 @@ FigureData figure_data(const scene::Scene& scene, StudyKind kind, std::span<cons
     auto line = std::find_if(data.lines.begin(), data.lines.end(),
                              [&](const FigureLine& candidate) { return candidate.set == branch.set; });
     if (line == data.lines.end()) {
-      line = data.lines.insert(line, FigureLine{label(scene, branch), branch.set, {}, {}});
+      line = data.lines.insert(line, FigureLine{set_label(scene, branch.set), branch.set, {}, {}});
     }
     for (const observables::ResponseEvent& event : branch.events) {
       line->unbounded = line->unbounded || event.point.unbounded;

@@ -64,6 +64,12 @@ struct FigureData {
 FigureData figure_data(const scene::Scene& scene, scene::StudyKind kind,
                        std::span<const observables::ResponseBranch> branches);
 
+/// What tells a line by its set parameters: "3 N, 0.1 N s/m".
+std::string set_label(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set);
+
+/// Of all finite values of a column; lower > upper where there are none.
+Range full_range(const FigureData& data, std::size_t column);
+
 /// Data as gnuplot reads it: for each line an indexed block with its points, then one for each kind of its
 /// marks, in the order of mark_kinds; columns: the parameter of a study over one, the frequency, amplitude
 /// (m), stick (%) of each friction element. No block is empty.

@@ -1,7 +1,7 @@
 #include <arcslip/output/figures.hpp>
 
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/output/figure_data.hpp>
+#include <arcslip/output/draw_figures.hpp>
 #include <arcslip/output/gnuplot_script.hpp>
 #include <arcslip/output/process.hpp>
 
@@ -67,9 +67,13 @@ std::string file_name(const std::string& name) {
 Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
                       std::span<const observables::ResponseBranch> branches, const std::string& folder,
                       const std::string& name) {
+  return draw_figures(scene, figure_data(scene, kind, branches), folder, name);
+}
+
+Figures draw_figures(const scene::Scene& scene, const FigureData& data, const std::string& folder,
+                     const std::string& name) {
   const std::string stem = file_name(name);
   const std::string base = folder + (folder.empty() || folder.back() != '/' ? "/" : "");
-  const FigureData data = figure_data(scene, kind, branches);
   const std::vector<GnuplotFigure> figures = gnuplot_figures(data, stem);
 
   Figures result;

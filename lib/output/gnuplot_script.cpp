@@ -166,12 +166,29 @@ void add_stick_figures(const FigureData& data, const GnuplotFigure& first, bool 
   }
 }
 
+/// Of the columns of motions in time: each friction element has its displacement and its force.
+std::vector<GnuplotFigure> figures_in_time(const FigureData& data, const std::string& name) {
+  const auto& columns = data.columns;
+  std::vector<GnuplotFigure> figures{{name + "_displacement", 0, 1, columns[0].label, columns[1].label}};
+  for (std::size_t i = 0; i < data.friction.size(); ++i) {
+    const std::size_t q = 2 + 2 * i;
+    const std::string of =
+        data.friction.size() > 1 ? "_" + std::to_string(i + 1) + "_" + file_name(data.friction[i]) : "";
+    figures.push_back({name + "_hysteresis" + of, q, q + 1, columns[q].label, columns[q + 1].label});
+    figures.push_back({name + "_force" + of, 0, q + 1, columns[0].label, columns[q + 1].label});
+  }
+  return figures;
+}
+
 }  // namespace
 
 std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::string& name) {
   std::vector<GnuplotFigure> figures;
   if (data.lines.empty()) {
     return figures;
+  }
+  if (data.kind == scene::StudyKind::time) {
+    return figures_in_time(data, name);
   }
   const std::size_t frequency = data.frequency_column();
   const std::size_t amplitude = data.amplitude_column();
@@ -192,6 +209,8 @@ std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::st
       break;
     case scene::StudyKind::folds:
       figures.push_back({name + "_folds", frequency, 0, frequency_label, over});
+      break;
+    case scene::StudyKind::time:
       break;
   }
   return figures;

@@ -20,7 +20,7 @@ struct GnuplotFigure {
 /// (NAME_amplitude) and the stick share of each friction element (NAME_stick). Of resonance peaks over a
 /// parameter: their amplitude, their frequency (NAME_frequency), and the amplitude over the stick share of
 /// each friction element (NAME_amplitude_over_stick). Of folds: the parameter over the frequency
-/// (NAME_folds).
+/// (NAME_folds). Of motions in time: those of write_figures() in output/motion.hpp.
 std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::string& name);
 
 /// A script that draws NAME.dat as the given figures, each as SVG and as PNG. It runs by itself ("gnuplot

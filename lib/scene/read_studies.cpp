@@ -206,6 +206,24 @@ void read_one_frequency(const Keys& keys, const Field& bounds, Study& study, Fau
   study.frequency_from = study.frequency_to = read_number(place, bounds, faults).value_or(0);
 }
 
+void read_time(const Keys& keys, TimeSettings& time, Faults& faults) {
+  time.method = read_choice(keys.find("method"), time_methods, time.method, faults);
+  const auto whole = [&](const char* key, int largest, int& value) {
+    value = read_integer(keys.find(key), 1, largest, faults).value_or(value);
+  };
+  whole("steps", largest_steps, time.steps);
+  whole("periods", largest_periods, time.periods);
+  whole("recorded", largest_periods, time.recorded);
+  const Field tolerance{.name = "tolerance", .unit = "-", .lower = 0, .upper = 1};
+  time.tolerance = read_number(keys.find("tolerance"), tolerance, faults).value_or(time.tolerance);
+  const double instants = static_cast<double>(time.steps) * time.recorded;
+  if (instants > largest_steps) {
+    faults.add(keys.find(keys.has("recorded") ? "recorded" : "steps").pointer,
+               "found " + number_text(time.recorded) + " periods of " + number_text(time.steps) +
+                   " steps to record, must be at most " + number_text(largest_steps) + " steps together");
+  }
+}
+
 // Says of a key of other kinds which ones these are.
 std::string kinds_with(std::string_view key) {
   std::vector<std::string> kinds;
@@ -282,6 +300,9 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const st
     const Field frequency = frequency_field(unit);
     if (study.kind == StudyKind::frf) {
       read_range(keys, frequency, study, faults);
+    } else if (study.kind == StudyKind::time) {
+      read_one_frequency(keys, frequency, study, faults);
+      read_time(keys, study.time, faults);
     } else {
       read_range(keys, read_over(keys, all, study, faults), study, faults);
       (study.kind == StudyKind::trace ? read_one_frequency : read_window)(keys, frequency, study, faults);

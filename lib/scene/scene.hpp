@@ -16,7 +16,12 @@ namespace arcslip::scene {
 
 enum class FrequencyUnit { hertz, radian_per_second };
 enum class Friction { exact, sampled };
-enum class StudyKind { frf, trace, peaks, folds };
+enum class StudyKind { frf, trace, peaks, folds, time };
+
+/// How a motion in time is found: by shooting on the period, between exact events where the scene is
+/// piecewise linear (no cubic spring, no massless degree of freedom) and in Newmark's steps elsewhere, or
+/// always in Newmark's steps; or period by period from rest, in Newmark's steps or between exact events.
+enum class TimeMethod { shooting, newmark_shooting, newmark, event_driven };
 
 /// One scalar of a part. It is a parameter of the scene under the name "part.field".
 struct Field {
@@ -66,6 +71,16 @@ struct Harmonics {
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
 };
 
+/// Of a study of kind time.
+struct TimeSettings {
+  TimeMethod method = TimeMethod::shooting;
+  int steps = 1000;         // per period: Newmark's, and those of the history
+  int periods = 10'000;     // a transient has at most, those recorded included
+  int recorded = 1;         // periods with history, at the end
+  double tolerance = 1e-9;  // of the state: change over a period that is steady, last correction of shooting
+  friend bool operator==(const TimeSettings&, const TimeSettings&) = default;
+};
+
 /// What is to be computed, as data. A for_each list holds a parameter's name and the values it takes;
 /// several lists make their product.
 struct Study {
@@ -73,8 +88,9 @@ struct Study {
   StudyKind kind = StudyKind::frf;
   double from = 0, to = 0;  // of the frequency in the scene's unit (frf), or of `over`, in its own
   std::vector<std::pair<std::string, std::vector<double>>> for_each;
-  std::string over{};                           // the parameter of trace, peaks and folds; empty for frf
-  double frequency_from = 0, frequency_to = 0;  // trace: both the fixed frequency; peaks, folds: the window
+  std::string over{};                           // the parameter of trace, peaks and folds; empty for others
+  double frequency_from = 0, frequency_to = 0;  // trace, time: both the fixed frequency; peaks, folds: window
+  TimeSettings time{};
   friend bool operator==(const Study&, const Study&) = default;
 };
 
@@ -128,6 +144,8 @@ inline constexpr int largest_depth = 64;                // of nested JSON
 inline constexpr std::size_t largest_size = 64u << 20;  // bytes
 inline constexpr int largest_order = 2000;              // of the harmonics
 inline constexpr int largest_samples = 1'000'000;       // per period
+inline constexpr int largest_steps = 10'000'000;        // per period, and with history in all
+inline constexpr int largest_periods = 100'000'000;     // of a transient
 inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 
@@ -162,6 +180,10 @@ double to_rad_per_s(FrequencyUnit unit);
 std::string_view unit_name(FrequencyUnit unit);
 /// "frf", as a scene file writes it.
 std::string_view kind_name(StudyKind kind);
+/// "newmark-shooting", as a scene file writes it.
+std::string_view method_name(TimeMethod method);
+/// The method of that name, or none.
+std::optional<TimeMethod> method_of(std::string_view name);
 
 /// The known word nearest to `word` (edit distance at most a third of its length, at least 2), or "".
 std::string nearest(std::string_view word, std::span<const std::string> known);

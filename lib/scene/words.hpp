@@ -23,10 +23,16 @@ inline constexpr std::array<Word<FrequencyUnit>, 2> frequency_units = {
     {{"Hz", FrequencyUnit::hertz}, {"rad/s", FrequencyUnit::radian_per_second}}};
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
-inline constexpr std::array<Word<StudyKind>, 4> study_kinds = {{{"frf", StudyKind::frf},
+inline constexpr std::array<Word<StudyKind>, 5> study_kinds = {{{"frf", StudyKind::frf},
                                                                 {"trace", StudyKind::trace},
                                                                 {"peaks", StudyKind::peaks},
-                                                                {"folds", StudyKind::folds}}};
+                                                                {"folds", StudyKind::folds},
+                                                                {"time", StudyKind::time}}};
+inline constexpr std::array<Word<TimeMethod>, 4> time_methods = {
+    {{"shooting", TimeMethod::shooting},
+     {"newmark-shooting", TimeMethod::newmark_shooting},
+     {"newmark", TimeMethod::newmark},
+     {"event-driven", TimeMethod::event_driven}}};
 
 /// What results call their own quantities, beside which the parameter of a study stands by its name.
 inline constexpr std::array<std::string_view, 19> result_names = {"kind",
@@ -53,6 +59,9 @@ inline constexpr std::array<std::string_view, 19> result_names = {"kind",
 inline std::vector<std::string> study_keys(StudyKind kind) {
   if (kind == StudyKind::frf) {
     return {"name", "kind", "from", "to", "for_each"};
+  }
+  if (kind == StudyKind::time) {
+    return {"name", "kind", "frequency", "method", "steps", "periods", "recorded", "tolerance", "for_each"};
   }
   return {"name", "kind", "over", "from", "to", "frequency", "for_each"};
 }

@@ -89,17 +89,27 @@ Node node(const Harmonics& harmonics) {
 }
 
 Node node(const Study& study) {
-  const bool has_over = study.kind != StudyKind::frf;
+  const bool is_time = study.kind == StudyKind::time;
+  const bool has_over = study.kind != StudyKind::frf && !is_time;
   Node::Object object = {{"name", node(study.name)}, {"kind", node(word_of(study_kinds, study.kind))}};
   if (has_over) {
     object.push_back({"over", node(study.over)});
   }
-  object.push_back({"from", node(study.from)});
-  object.push_back({"to", node(study.to)});
-  if (has_over) {
-    object.push_back({"frequency", study.kind == StudyKind::trace
+  if (!is_time) {
+    object.push_back({"from", node(study.from)});
+    object.push_back({"to", node(study.to)});
+  }
+  if (has_over || is_time) {
+    object.push_back({"frequency", is_time || study.kind == StudyKind::trace
                                        ? node(study.frequency_from)
                                        : node(std::vector{study.frequency_from, study.frequency_to})});
+  }
+  if (is_time) {
+    object.push_back({"method", node(word_of(time_methods, study.time.method))});
+    object.push_back({"steps", node(study.time.steps)});
+    object.push_back({"periods", node(study.time.periods)});
+    object.push_back({"recorded", node(study.time.recorded)});
+    object.push_back({"tolerance", node(study.time.tolerance)});
   }
   Node::Object lists;
   for (const auto& [parameter, values] : study.for_each) {
@@ -159,6 +169,19 @@ std::string_view unit_name(FrequencyUnit unit) {
 
 std::string_view kind_name(StudyKind kind) {
   return detail::word_of(detail::study_kinds, kind);
+}
+
+std::string_view method_name(TimeMethod method) {
+  return detail::word_of(detail::time_methods, method);
+}
+
+std::optional<TimeMethod> method_of(std::string_view name) {
+  for (const auto& word : detail::time_methods) {
+    if (word.text == name) {
+      return word.value;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace arcslip::scene

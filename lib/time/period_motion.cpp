@@ -38,7 +38,7 @@ Transient transient(const Periods& integrate, const State& start, double omega,
     }
     result.change = change_of(result.start, period.end, omega);
     result.start = std::move(period.end);
-    if (result.change <= options.tolerance) {
+    if (options.tolerance > 0 && result.change <= options.tolerance) {
       result.reason = TransientEnd::steady;
       break;
     }

@@ -56,7 +56,7 @@ std::vector<BadInput> make() {
       // the command line
       line("no verb", {}, "Give a verb and a scene"),
       line("an unknown verb", {"fry", "scene.json"},
-           "unknown verb \"fry\", must be run, frf, trace, peaks, folds or check"),
+           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, time or check"),
       line("no scene", {"run"}, "SCENE is required"),
       line("an unknown option", {"frf", "scene.json", "--harmonic", "3"},
            "The following arguments were not expected: 3 --harmonic"),
@@ -143,6 +143,34 @@ std::vector<BadInput> make() {
        "--from and --to of run are those of frequency responses, of which the scene has none",
        "bad.json",
        peaks_scene},
+      // motions in time
+      bare("time without a frequency", {"time", "bare.json"},
+           "the scene has no study of kind time, so not all is known: give --frequency, or add such a study "
+           "to "
+           "the scene"),
+      line("time at two frequencies", {"time", "scene.json", "--frequency", "18", "22"},
+           "argument was not expected: 22"),
+      line("time by an unknown method", {"time", "scene.json", "--frequency", "20", "--method", "euler"},
+           "--method euler: must be shooting, newmark-shooting, newmark or event-driven"),
+      line("time without steps", {"time", "scene.json", "--frequency", "20", "--steps", "0"},
+           "--steps 0: found 0, must be an integer from 1 to 10000000"),
+      line("half a period of time", {"time", "scene.json", "--frequency", "20", "--periods", "0.5"},
+           "--periods 0.5: must be a whole number, the periods of a transient at most"),
+      line("more history than a result can hold",
+           {"time", "scene.json", "--frequency", "20", "--recorded", "100000"},
+           "found 100000 periods of 1000 steps to record, must be at most 10000000 steps together"),
+      line("a tolerance of time above 1", {"time", "scene.json", "--frequency", "20", "--tolerance", "2"},
+           "--tolerance 2: found 2, must be"),
+      {"motions and branches in one table",
+       {"run", "bad.json", "--csv", "a.csv"},
+       1,
+       "--csv holds one table, but the results of the studies \"frf\" and \"time\" have different columns",
+       "bad.json",
+       [] {
+         return scene_with(
+             structure("1", "100"),
+             R"(, "studies": [{"kind": "frf", "from": 1, "to": 2}, {"kind": "time", "frequency": 1}])");
+       }},
       // places
       line("a scene that is not there", {"run", "nothing.json"}, "nothing.json: No such file or directory"),
       line("a folder as the scene", {"run", "."}, ". is a directory, must be a scene file"),

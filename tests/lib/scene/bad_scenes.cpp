@@ -347,9 +347,9 @@ void add_studies(std::vector<BadScene>& rows) {
                   "found \"frf\" (a string), must be an object with the keys \"name\", \"kind\""});
   rows.push_back({"study without a kind", with_study("{\"from\": 1, \"to\": 2}"), "/studies/0/kind",
                   "found no key \"kind\", which is required: must be one of \"frf\""});
-  rows.push_back(
-      {"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
-       "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\"; did you mean \"frf\"?"});
+  rows.push_back({"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
+                  "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"time\"; did you "
+                  "mean \"frf\"?"});
   rows.push_back({"kind that is no string", with_study("{\"kind\": 1}"), "/studies/0/kind",
                   "found 1 (a number), must be one of \"frf\""});
   rows.push_back({"unknown key of a study",
@@ -482,6 +482,37 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "\"name\", \"kind\", \"from\", \"to\", \"for_each\"");
   add("misspelt key of a study over a parameter", kind + over + range + window + ", \"frequencies\": 1",
       "frequencies", "did you mean \"frequency\"?");
+
+  const std::string time = "\"kind\": \"time\", ";
+  const std::string at = time + "\"frequency\": 1, ";
+  add("motion in time without its frequency", time + "\"steps\": 100", "frequency",
+      "found no key \"frequency\", which is required: must be one frequency, above 0 Hz");
+  add("motion in time at two frequencies", time + window, "frequency",
+      "found a list, must be one frequency, above 0 Hz");
+  add("motion in time by an unknown method", at + "\"method\": \"newmrak\"", "method",
+      "found \"newmrak\", must be one of \"shooting\", \"newmark-shooting\", \"newmark\", \"event-driven\"; "
+      "did "
+      "you mean \"newmark\"?");
+  add("motion in time by a method that is no string", at + "\"method\": 2", "method",
+      "found 2 (a number), must be one of \"shooting\"");
+  add("no step in a period", at + "\"steps\": 0", "steps", "found 0, must be an integer from 1 to 10000000");
+  add("half a step in a period", at + "\"steps\": 100.5", "steps",
+      "found 100.5, must be an integer from 1 to 10000000");
+  add("no period at all", at + "\"periods\": 0", "periods",
+      "found 0, must be an integer from 1 to 100000000");
+  add("no recorded period", at + "\"recorded\": -1", "recorded",
+      "found -1, must be an integer from 1 to 100000000");
+  add("more to record than a result can hold", at + "\"recorded\": 20000", "recorded",
+      "found 20000 periods of 1000 steps to record, must be at most 10000000 steps together");
+  add("negative tolerance of a motion", at + "\"tolerance\": -1e-9", "tolerance", "found -1e-09, must be");
+  add("tolerance of a motion that is no number", at + "\"tolerance\": \"1e-9\"", "tolerance",
+      "found \"1e-9\" (a string), must be a number");
+  add("range in a motion in time", at + "\"from\": 1", "from",
+      "found the key \"from\", which belongs to studies of kind \"frf\", \"trace\", \"peaks\", \"folds\", "
+      "must be");
+  add("steps in a frequency response", "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"steps\": 100", "steps",
+      "found the key \"steps\", which belongs to studies of kind \"time\", must be");
+  add("misspelt key of a motion in time", at + "\"step\": 100", "step", "did you mean \"steps\"?");
 }
 
 }  // namespace

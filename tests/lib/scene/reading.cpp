@@ -142,6 +142,25 @@ TEST_CASE("a study over a parameter has its range, and one frequency or a window
   CHECK(scene.studies[2].over.empty());
 }
 
+TEST_CASE("a study in time has one frequency and its settings, with defaults") {
+  const Scene scene = read_text(good_scene_with("\"studies\": [",
+                                                R"("studies": [
+        {"kind": "time", "frequency": 1.5},
+        {"kind": "time", "frequency": 2, "method": "event-driven", "steps": 64, "periods": 7, "recorded": 3,
+         "tolerance": 0, "for_each": {"m.value": [1, 2]}},)"));
+  CHECK(scene.studies[0].kind == StudyKind::time);
+  CHECK(scene.studies[0].name == "time");
+  CHECK(scene.studies[0].frequency_from == 1.5);
+  CHECK(scene.studies[0].time == TimeSettings{});
+  CHECK(scene.studies[0].time.method == TimeMethod::shooting);
+  CHECK(scene.studies[0].time.steps == 1000);
+  CHECK(scene.studies[1].time == TimeSettings{TimeMethod::event_driven, 64, 7, 3, 0});
+  CHECK(scene.studies[1].for_each.size() == 1);
+  CHECK(method_name(TimeMethod::newmark_shooting) == "newmark-shooting");
+  CHECK(method_of("event-driven") == TimeMethod::event_driven);
+  CHECK_FALSE(method_of("newmrak"));
+}
+
 TEST_CASE("the range of a tie must suit each of its fields") {
   const auto with_load_from = [](const std::string& from) {
     std::string text = good_scene_with("\"stiffness\": 10,", "\"stiffness\": 100,");

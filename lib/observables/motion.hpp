@@ -1,0 +1,48 @@
+#pragma once
+// What a study in time gives: a motion and what an engineer reads off it, as plain data.
+
+#include <arcslip/observables/response.hpp>
+#include <arcslip/scene/scene.hpp>
+#include <arcslip/time/motion.hpp>
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace arcslip::observables {
+
+/// What one friction element does over the recorded periods.
+struct ElementMotion {
+  std::string name;
+  double stick_percent = 0;  // share of the time in stick, 0 to 100
+  double energy = 0;         // dissipated per period, J
+};
+
+/// complete: a steady motion within the tolerance, or, where that is 0, as many periods as were asked for.
+/// stopped: by the limit of periods before it was steady, or by the user. failed: no periodic motion was
+/// found, or it could not be integrated; the history holds what there is.
+struct Motion {
+  std::string study, kind;  // name and kind of the study that asked for it; empty where nobody said so
+  Status status = Status::complete;
+  Stop stop;
+  std::vector<std::pair<std::string, double>> set;         // what for_each gave this motion
+  std::vector<std::pair<std::string, double>> parameters;  // every other parameter, by its name
+  scene::TimeMethod method = scene::TimeMethod::shooting;
+  std::string integrator;  // "newmark" or "event-driven"
+  double omega = 0;        // of the excitation, rad/s
+  int steps = 0;           // per period
+  long periods = 0;        // integrated before those recorded
+  double change = 0;     // relative, of the state: over the last of these, or the last correction of shooting
+  double amplitude = 0;  // max |x| of the response over the recorded periods, m
+  time::EnergyBalance energy;  // per period, the mean of those recorded, J
+  std::vector<ElementMotion> elements;
+  std::vector<std::complex<double>>
+      multipliers;             // Floquet, by falling modulus; of periodic motions by shooting
+  std::optional<bool> stable;  // all of them within the unit circle
+  time::History history;       // of the recorded periods; t = 0 at their beginning
+  double seconds = 0;          // that it took
+};
+
+}  // namespace arcslip::observables

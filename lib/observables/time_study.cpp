@@ -1,0 +1,294 @@
+#include <arcslip/observables/time_study.hpp>
+
+#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/study_branches.hpp>
+#include <arcslip/observables/unbounded.hpp>
+#include <arcslip/time/from_harmonics.hpp>
+#include <arcslip/time/newmark_periods.hpp>
+#include <arcslip/time/shooting.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+namespace arcslip::observables {
+namespace {
+
+using scene::TimeMethod;
+using time::EquationOfMotion;
+using time::PeriodMotion;
+using time::State;
+
+constexpr int expected_maps = 20;  // of shooting, for progress
+
+/// One way to integrate one equation of motion.
+struct Integrator {
+  std::string name;
+  State start;                   // at rest, as it takes it
+  std::string failure, message;  // why it cannot begin
+  time::Periods periods{};
+  time::Flow flow{};
+};
+
+Integrator newmark(const EquationOfMotion& equation, long steps, const std::function<bool()>& stop) {
+  const auto method = std::make_shared<time::Newmark>(equation, steps);
+  Integrator result{"newmark", {}, {}, {}};
+  std::tie(result.failure, result.message) = time::failure_of(method->begin(time::at_rest(equation)), 0);
+  result.start = method->state();
+  result.periods = [method, stop](const State& start, long count, bool with_history) {
+    return time::newmark_periods(*method, start, count, with_history, false, stop);
+  };
+  result.flow = [method](const State& start) { return time::newmark_map(*method, start); };
+  return result;
+}
+
+std::string failure_name(time::EndReason reason) {
+  switch (reason) {
+    case time::EndReason::reached:
+      return "";
+    case time::EndReason::events:
+    case time::EndReason::pieces:
+      return "event_limit";
+    case time::EndReason::not_finite:
+      break;
+  }
+  return "not_finite";
+}
+
+PeriodMotion periods_between_events(time::EventDriven& events, const State& start, long count, long steps,
+                                    bool with_history) {
+  const double period = events.equation().period(), end = static_cast<double>(count) * period;
+  std::vector<double> instants;
+  for (long k = 0; with_history && k <= count * steps; ++k)
+    instants.push_back(std::min(static_cast<double>(k) * (period / static_cast<double>(steps)), end));
+  time::EventDrivenMotion motion = events.integrate(start, 0, end, instants);
+  PeriodMotion result;
+  result.failure = failure_name(motion.reason);
+  result.message = motion.message;
+  result.time = motion.time;
+  result.end = motion.end;
+  result.amplitude = motion.amplitude;
+  result.energy = motion.energy;
+  for (const time::FrictionRecord& record : motion.friction)
+    result.friction.push_back({motion.time > 0 ? record.stick_time / motion.time : 0, record.energy});
+  if (with_history) result.history = std::move(motion.history);
+  return result;
+}
+
+/// Throws NotPiecewiseLinear, SingularMass.
+Integrator event_driven(const EquationOfMotion& equation, long steps) {
+  const auto events = std::make_shared<time::EventDriven>(equation);
+  Integrator result{"event-driven", time::at_rest(equation), {}, {}};
+  result.periods = [events, steps](const State& start, long count, bool with_history) {
+    return periods_between_events(*events, start, count, steps, with_history);
+  };
+  result.flow = [events](const State& start) { return events->map(start, events->equation().period()); };
+  return result;
+}
+
+/// The motion of one setting.
+class InTime {
+ public:
+  InTime(const scene::Scene& scene, const scene::Study& study, const Setting& set,
+         const ProgressCallback& report, const Progress& progress)
+      : settings_(study.time),
+        model_(std::make_shared<const model::Model>(model::build(scene))),
+        report_(report),
+        progress_(progress) {
+    const ResponseBranch description = described(*model_, set);
+    motion_.set = set;
+    motion_.parameters = description.parameters;
+    motion_.method = settings_.method;
+    motion_.omega = study.frequency_from * scene::to_rad_per_s(scene.frequency_unit);
+    motion_.steps = settings_.steps;
+    p_.resize(static_cast<Eigen::Index>(model_->parameters.size()));
+    for (std::size_t k = 0; k < model_->parameters.size(); ++k)
+      p_[static_cast<Eigen::Index>(k)] = model_->parameters[k].value;
+    p_[model::frequency] = motion_.omega;
+    equation_ = time::equation_of_motion(*model_, p_);
+    progress_.frequency = study.frequency_from;
+    progress_.item = "motion";
+    progress_.counted = "periods";
+  }
+
+  Motion run() {
+    const auto began = std::chrono::steady_clock::now();
+    integrate();
+    motion_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return std::move(motion_);
+  }
+
+ private:
+  void integrate() {
+    Integrator integrator;
+    if (!choose(integrator)) return;
+    motion_.integrator = integrator.name;
+    if (!integrator.failure.empty()) {
+      end(Status::failed, integrator.failure, 0, 0, integrator.message);
+    } else if (settings_.method == TimeMethod::shooting || settings_.method == TimeMethod::newmark_shooting) {
+      shoot(integrator);
+    } else {
+      march(integrator);
+    }
+  }
+
+  bool choose(Integrator& integrator) {
+    const bool may_differ = settings_.method == TimeMethod::shooting;
+    std::string reason, message;
+    if (may_differ || settings_.method == TimeMethod::event_driven) {
+      try {
+        integrator = event_driven(equation_, settings_.steps);
+        return true;
+      } catch (const time::NotPiecewiseLinear& error) {
+        reason = "not_piecewise_linear";
+        message = error.what();
+      } catch (const time::SingularMass& error) {
+        reason = "massless";
+        message = error.what();
+      }
+      if (!may_differ) {
+        end(Status::failed, reason, 0, 0, message + "; take the method newmark");
+        return false;
+      }
+    }
+    integrator = newmark(equation_, settings_.steps, [this] { return !go_on(progress_.points); });
+    return true;
+  }
+
+  // Tells of the progress; false where the user stops.
+  bool go_on(long periods, double change = 1) {
+    progress_.points = periods;
+    const bool shooting =
+        settings_.method == TimeMethod::shooting || settings_.method == TimeMethod::newmark_shooting;
+    const double of_limit = static_cast<double>(periods) / (shooting ? expected_maps : settings_.periods);
+    const double of_decay = !shooting && settings_.tolerance > 0 && settings_.tolerance < 1 && change > 0
+                                ? std::log(change) / std::log(settings_.tolerance)
+                                : 0;
+    progress_.share_done = std::clamp(std::max(of_limit, of_decay), 0.0, 1.0);
+    stopped_ = stopped_ || (report_ && !report_(progress_));
+    return !stopped_;
+  }
+
+  void shoot(const Integrator& integrator) {
+    const time::Flow flow = [&](const State& start) {
+      if (go_on(progress_.points + 1)) return integrator.flow(start);
+      time::PeriodMap none;
+      none.message = "stopped as asked";
+      return none;
+    };
+    time::ShootingOptions options;
+    options.tolerance = settings_.tolerance;
+    time::ShootingResult found = time::shoot(flow, integrator.start, motion_.omega, options);
+    if (!found.converged() && !stopped_) {
+      if (const auto start = from_harmonic_balance()) {
+        options.transients = 0;
+        time::ShootingResult again = time::shoot(flow, *start, motion_.omega, options);
+        if (again.converged()) found = std::move(again);
+      }
+    }
+    motion_.periods = progress_.points;
+    motion_.change = found.correction;
+    if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
+    record(integrator.periods(found.start, settings_.recorded, true));
+    if (!found.converged()) {
+      const auto growth = unbounded_resonance(model_, motion_.omega);
+      return end(Status::failed, "no_periodic_motion", found.correction, settings_.tolerance,
+                 growth.unbounded ? growth.message : found.message);
+    }
+    motion_.multipliers = found.multipliers;
+    motion_.stable = found.stable;
+    end(Status::complete, "periodic", found.correction, settings_.tolerance, found.message);
+  }
+
+  std::optional<State> from_harmonic_balance() const {
+    const FirstResponse first = first_response(model_, motion_.omega, motion_.omega);
+    if (!first.u) return std::nullopt;
+    const auto p = hbm::parameters_at(*first.problem, motion_.omega);
+    State state = time::state_of(*first.problem, *first.u, p);
+    const bool finite = state.x.allFinite() && state.v.allFinite() && state.z.allFinite();
+    return finite ? std::optional(std::move(state)) : std::nullopt;
+  }
+
+  void march(const Integrator& integrator) {
+    const time::TransientOptions options{settings_.periods, settings_.recorded, settings_.tolerance};
+    time::Transient found =
+        time::transient(integrator.periods, integrator.start, motion_.omega, options,
+                        [&](long periods, double change) { return go_on(periods, change); });
+    motion_.periods = found.periods;
+    motion_.change = found.change;
+    const std::string failure = found.motion.failure, message = found.motion.message;
+    record(std::move(found.motion));
+    std::ostringstream text;
+    text.precision(3);
+    if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
+    switch (found.reason) {
+      case time::TransientEnd::steady:
+        text << "steady after " << found.periods << " periods: the state changes by " << found.change
+             << " of its size in a period";
+        return end(Status::complete, "steady", found.change, settings_.tolerance, text.str());
+      case time::TransientEnd::failed:
+        return end(Status::failed, failure, 0, 0, message);
+      case time::TransientEnd::period_limit:
+      case time::TransientEnd::user:
+        break;
+    }
+    if (settings_.tolerance == 0)
+      return end(Status::complete, "periods", settings_.periods, settings_.periods,
+                 "integrated over as many periods as were asked for");
+    text << "after " << settings_.periods << " periods (the limit) the state still changes by "
+         << found.change
+         << " of its size in a period: allow more periods, or find the periodic motion by shooting";
+    end(Status::stopped, "period_limit", found.change, settings_.tolerance, text.str());
+  }
+
+  void record(PeriodMotion&& motion) {
+    const double share = motion.time > 0 ? equation_.period() / motion.time : 0;
+    motion_.amplitude = motion.amplitude;
+    motion_.energy = {motion.energy.input * share, motion.energy.friction * share,
+                      motion.energy.viscous * share, motion.energy.stored * share};
+    std::size_t k = 0;
+    for (const time::Element& element : equation_.elements) {
+      if (element.slider < 0 || k == motion.friction.size()) continue;
+      const time::FrictionShare& friction = motion.friction[k++];
+      motion_.elements.push_back({element.name, 100 * friction.stick_share, friction.energy * share});
+    }
+    motion_.history = std::move(motion.history);
+  }
+
+  void end(Status status, const std::string& reason, double value, double limit, const std::string& message) {
+    motion_.status = status;
+    motion_.stop = {reason, value, limit, message};
+  }
+
+  scene::TimeSettings settings_;
+  std::shared_ptr<const model::Model> model_;
+  const ProgressCallback& report_;
+  Progress progress_;
+  continuation::Vector p_;
+  EquationOfMotion equation_;
+  Motion motion_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::vector<Motion> motions_in_time(const scene::Scene& scene, const scene::Study& study,
+                                    const ProgressCallback& progress) {
+  const auto all = combinations(study);
+  std::vector<Motion> motions;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    scene::Scene with = scene;
+    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
+    Progress of_motion;
+    of_motion.branch = static_cast<int>(k);
+    of_motion.branches = static_cast<int>(all.size());
+    motions.push_back(InTime(with, study, all[k], progress, of_motion).run());
+    if (motions.back().stop.reason == "user") break;
+  }
+  return motions;
+}
+
+}  // namespace arcslip::observables

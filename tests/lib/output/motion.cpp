@@ -1,0 +1,192 @@
+#include "catch.hpp"
+#include "lib/output/support.hpp"
+
+#include <arcslip/output/gnuplot_script.hpp>
+#include <arcslip/output/motion.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+using namespace arcslip;
+using Json = nlohmann::json;
+using observables::Motion;
+
+namespace {
+
+/// Three instants of a slider.
+Motion motion(double normal_load = 3) {
+  Motion motion;
+  motion.stop = {"periodic", 1e-12, 1e-9, "relative correction 1e-12"};
+  motion.set = {{"damper.normal_load", normal_load}};
+  motion.parameters = {{"m.value", 1.0}};
+  motion.integrator = "event-driven";
+  motion.omega = 10;
+  motion.steps = 2;
+  motion.periods = 9;
+  motion.change = 1e-12;
+  motion.amplitude = 0.2;
+  motion.energy = {0.75, 0.5, 0.125, 0.0625};
+  motion.elements = {{"damper", 60, 0.5}};
+  motion.multipliers = {{0.5, 0.25}, {0.5, -0.25}, {0, 0}};
+  motion.stable = true;
+  motion.history.time = {0, 0.25, 0.5};
+  motion.history.displacement = {0.2, -0.2, 0.2};
+  motion.history.velocity = {0, 1.0 / 3, 0};
+  motion.history.elements = {{"damper", {0.2, -0.2, 0.2}, {1.5, -1.5, 1.5}, {0.05, -0.05, 0.05}},
+                             {"spring", {1, 2, 3}, {4, 5, 6}, {}}};
+  return motion;
+}
+
+Json written(const std::vector<Motion>& motions) {
+  std::ostringstream text;
+  output::write_json(text, support::scene(), motions);
+  return Json::parse(text.str());
+}
+
+std::vector<std::string> rows(const std::vector<Motion>& motions) {
+  std::ostringstream text;
+  output::write_csv(text, support::scene(), motions);
+  std::istringstream in(text.str());
+  std::vector<std::string> all;
+  for (std::string line; std::getline(in, line);) {
+    REQUIRE(line.ends_with('\r'));
+    all.push_back(line.substr(0, line.size() - 1));
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a motion in JSON has its status, numbers, multipliers, elements and history") {
+  const scene::Scene scene = support::scene();
+  Motion named = motion();
+  named.study = "loops";
+  named.kind = "time";
+  named.method = scene::TimeMethod::newmark_shooting;
+  const Json json = written({motion(5), named});
+  CHECK(json["format"] == "arcslip-time-1");
+  CHECK(json["scene_hash"] == scene::hash(scene));
+  REQUIRE(json["motions"].size() == 2);
+  CHECK_FALSE(json["motions"][0].contains("study"));
+  CHECK(json["motions"][0]["set"] == Json{{"damper.normal_load", 5.0}});
+  CHECK(json["motions"][0]["method"] == "shooting");
+  const Json& m = json["motions"][1];
+  CHECK(m["study"] == "loops");
+  CHECK(m["kind"] == "time");
+  CHECK(m["status"] == "complete");
+  CHECK(m["stop"]["reason"] == "periodic");
+  CHECK(m["parameters"] == Json{{"m.value", 1.0}});
+  CHECK(m["method"] == "newmark-shooting");
+  CHECK(m["integrator"] == "event-driven");
+  CHECK(m["omega"] == 10.0);
+  CHECK(m["frequency"].get<double>() == Approx(10 / (2 * 3.14159265358979)).epsilon(1e-14));
+  CHECK(m["steps"] == 2);
+  CHECK(m["periods"] == 9);
+  CHECK(m["amplitude"] == 0.2);
+  CHECK(m["energy_input"] == 0.75);
+  CHECK(m["energy_stored"] == 0.0625);
+  CHECK(m["energy_defect"] == 0.0625);
+  CHECK(m["multipliers"] == Json{{0.5, 0.25}, {0.5, -0.25}, {0.0, 0.0}});
+  CHECK(m["stable"] == true);
+  CHECK(m["stick_percent"] == 60.0);
+  CHECK(m["elements"] == Json{{"damper", {{"stick_percent", 60.0}, {"energy", 0.5}}}});
+  const Json& history = m["history"];
+  CHECK(history["time"] == Json{0.0, 0.25, 0.5});
+  CHECK(history["velocity"][1].get<double>() == 1.0 / 3);
+  CHECK(history["elements"]["damper"]["slider"] == Json{0.05, -0.05, 0.05});
+  CHECK(history["elements"]["spring"] == Json{{"displacement", {1.0, 2.0, 3.0}}, {"force", {4.0, 5.0, 6.0}}});
+}
+
+TEST_CASE("a motion without multipliers is neither stable nor unstable, and what is not finite is null") {
+  Motion failed;
+  failed.status = observables::Status::failed;
+  failed.amplitude = std::nan("");
+  failed.history.time = {0};
+  failed.history.displacement = {std::numeric_limits<double>::infinity()};
+  const Json m = written({failed})["motions"][0];
+  CHECK(m["status"] == "failed");
+  CHECK(m["multipliers"] == Json::array());
+  CHECK_FALSE(m.contains("stable"));
+  CHECK_FALSE(m.contains("stick_percent"));
+  CHECK(m["amplitude"].is_null());
+  CHECK(m["history"]["displacement"] == Json{nullptr});
+  CHECK(m["history"]["velocity"] == Json::array());
+  CHECK(m["history"]["elements"] == Json::object());
+}
+
+TEST_CASE("CSV of motions has a row an instant, with units") {
+  const auto all = rows({motion(3), motion(0.5)});
+  REQUIRE(all.size() == 7);
+  CHECK(all[0] ==
+        "damper.normal_load (N),motion,time (s),displacement (m),velocity (m/s),damper.displacement "
+        "(m),damper.force "
+        "(N),damper.slider (m),spring.displacement (m),spring.force (N)");
+  CHECK(all[1] == "3,1,0,0.2,0,0.2,1.5,0.05,1,4");
+  CHECK(all[5] == "0.5,2,0.25,-0.2,0.3333333333333333,-0.2,-1.5,-0.05,2,5");
+  Motion other = motion();
+  other.study = "b";
+  CHECK(rows({motion(), other})[0].find("study,damper.normal_load (N),motion,") == 0);
+  CHECK(rows({motion(), other})[4].find("b,3,2,0,") == 0);
+}
+
+TEST_CASE("figures of motions are the displacement, and the loop and the force of each friction element") {
+  const scene::Scene scene = support::scene();
+  const std::vector<Motion> motions{motion(1), motion(2)};
+  const auto data = output::figure_data(scene, motions);
+  REQUIRE(data.lines.size() == 2);
+  CHECK(data.lines[1].label == "2 N");
+  CHECK(data.columns[2].range.upper == 0.2);
+  CHECK(data.columns[3].range.lower == -1.5);
+  const auto figures = output::gnuplot_figures(data, "time");
+  REQUIRE(figures.size() == 3);
+  CHECK(figures[0].name == "time_displacement");
+  CHECK(figures[0].x_label == "time (s)");
+  CHECK(figures[1].name == "time_hysteresis");
+  CHECK(figures[1].x_label == "damper displacement (m)");
+  CHECK(figures[1].y_label == "damper force (N)");
+  CHECK(figures[2].name == "time_force");
+  CHECK(figures[2].x == 0);
+  CHECK(figures[2].y == 3);
+
+  Motion two = motion();
+  two.history.elements.push_back(two.history.elements.front());
+  two.history.elements.back().name = "b/c";
+  const auto more = output::gnuplot_figures(output::figure_data(scene, std::vector{two}), "t");
+  REQUIRE(more.size() == 5);
+  CHECK(more[3].name == "t_hysteresis_2_b_c");
+}
+
+TEST_CASE("histories of more than 20 000 instants are thinned in figures, and keep their end") {
+  Motion longer = motion();
+  longer.history = {};
+  for (int i = 0; i <= 100'000; ++i) {
+    longer.history.time.push_back(i);
+    longer.history.displacement.push_back(-i);
+    longer.history.velocity.push_back(0);
+  }
+  const auto data = output::figure_data(support::scene(), std::vector{longer});
+  const auto& part = data.lines.at(0).parts.at(0);
+  CHECK(part.size() <= 20'001);
+  CHECK(part.size() > 15'000);
+  CHECK(part.back()[0] == 100'000);
+}
+
+TEST_CASE("the figures of motions are drawn") {
+  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) {
+    WARN("gnuplot is not there");
+    return;
+  }
+  const support::TemporaryFolder folder;
+  const auto figures = output::write_figures(support::scene(), scene::StudyKind::time, std::vector{motion()},
+                                             folder.path(), "time");
+  CHECK(figures.problem.empty());
+  CHECK(figures.images.size() == 6);
+  CHECK(support::content(folder / "time.dat").find("# time (s), displacement (m), damper displacement (m)") ==
+        0);
+  const auto none = output::write_figures(support::scene(), scene::StudyKind::time, std::vector<Motion>{},
+                                          folder.path(), "none");
+  CHECK(none.problem == "there is no point to draw, so there is no figure");
+}
