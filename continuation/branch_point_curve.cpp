@@ -1,9 +1,12 @@
 #include <arcslip/continuation/branch_point_curve.hpp>
 
+#include <arcslip/continuation/inner_problem.hpp>
+#include <arcslip/continuation/neighbours.hpp>
+
 #include <Eigen/LU>
 
-#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,55 +14,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double difference = 6e-6;         // of central differences, relative
-constexpr double smaller_difference = 0.1;  // where a kink lies within
-constexpr int smaller_differences = 4;
-
 struct Definition {
-  std::shared_ptr<const Problem> problem;
-  int along;
+  InnerProblem inner;
   Vector unfolding;
-  MakeLinearSolver make_solver;
-};
-
-// A = [J F_pa] at one x = (u, p_a).
-class Site {
- public:
-  explicit Site(const Definition& definition)
-      : along_(definition.along),
-        evaluator_(definition.problem->evaluator()),
-        p_(definition.problem->parameters().size()),
-        F_p(definition.problem->size()) {}
-
-  Evaluated move_to(In x, In p) {
-    const Eigen::Index n = F_p.size();
-    p_ = p;
-    p_[along_] = x[n];
-    const Evaluated result = evaluator_->move_to(x.head(n), p_, Needs::jacobian);
-    if (result != Evaluated::ok) return result;
-    evaluator_->parameter_derivative(along_, F_p);
-    return F_p.allFinite() ? Evaluated::ok : Evaluated::failed;
-  }
-
-  // y = A d
-  void apply(In d, Out y) const {
-    continuation::apply(evaluator_->jacobian(), d.head(F_p.size()), y);
-    y += d[F_p.size()] * F_p;
-  }
-  // y = A^T w
-  bool apply_transposed(In w, Out y) const {
-    y[F_p.size()] = F_p.dot(w);
-    return continuation::apply_transposed(evaluator_->jacobian(), w, y.head(F_p.size()));
-  }
-  Evaluator& at() const { return *evaluator_; }
-
- private:
-  int along_;
-  std::unique_ptr<Evaluator> evaluator_;
-  Vector p_;
-
- public:
-  Vector F_p;  // dF/dp_a, n
 };
 
 // Numbers that no symmetry and no mode of vibration makes orthogonal to a vector: their spectrum is broad.
@@ -76,11 +33,11 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
  public:
   explicit BranchPointEvaluator(std::shared_ptr<const Definition> definition)
       : definition_(std::move(definition)),
-        n_(definition_->problem->size()),
-        here_(*definition_),
-        ahead_(*definition_),
-        behind_(*definition_),
-        scale_(n_ + 1),
+        n_(definition_->inner.size()),
+        here_(definition_->inner),
+        beside_(definition_->inner),
+        factors_(definition_->inner),
+        scale_(definition_->inner.scales()),
         border_(static_cast<int>(n_), 2),
         C_(n_ + 1, 2),
         V_(n_ + 1, 2),
@@ -90,16 +47,10 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
         R_(n_ + 2),
         w_(n_ + 2),
         b_(generic(n_, 1.0)),
-        x_(n_ + 1),
-        q_(Vector::Zero(static_cast<Eigen::Index>(definition_->problem->parameters().size()))),
-        dp_(q_.size()),
-        dg_dp_(q_.size(), 2),
-        beside_(n_ + 1),
+        dp_(definition_->inner.problem->parameters().size()),
+        dg_dp_(dp_.size(), 2),
         work_(n_ + 2),
-        change_(n_),
         jacobian_(static_cast<const Operator*>(this)) {
-    scale_ << definition_->problem->scales(),
-        definition_->problem->parameters()[static_cast<std::size_t>(definition_->along)].scale;
     C_ << generic(n_ + 1, 0.5).cwiseQuotient(scale_), generic(n_ + 1, 2.0).cwiseQuotient(scale_);
   }
 
@@ -123,8 +74,6 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     R_.head(n_) = here_.at().residual() + x[n_ + 1] * definition_->unfolding;
     R_.tail(2) = g_;
     if (needs == Needs::residual) return R_.allFinite() ? Evaluated::ok : Evaluated::failed;
-    x_ = x.head(n_ + 1);
-    p_ = p;
     if (!left_vector()) return Evaluated::failed;
     next_border();
     if (transposed_) transposed_ = gradients();
@@ -135,32 +84,23 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
   const Jacobian& jacobian() const override { return jacobian_; }
 
   void parameter_derivative(int k, Out dR) const override {
-    if (k == definition_->along) {
+    if (k == definition_->inner.along) {
       dR.setZero();
       return;
     }
     here_.at().parameter_derivative(k, dR.head(n_));
-    if (transposed_ && second_given_) {
+    if (transposed_ && second_given_)
       dR.tail(2) = dg_dp_.row(k).transpose();
-      return;
-    }
-    const double scale = definition_->problem->parameters()[static_cast<std::size_t>(k)].scale;
-    h_ = difference * std::max(std::abs(p_[k]), scale);
-    beside_p_ = p_;
-    beside_p_[k] = p_[k] + h_;
-    Evaluated result = ahead_.move_to(x_, beside_p_);
-    beside_p_[k] = p_[k] - h_;
-    if (result == Evaluated::ok) result = behind_.move_to(x_, beside_p_);
-    if (result == Evaluated::ok)
-      change_of_g(*solver_, dR.tail(2));
+    else if (beside_.over(here_, k))
+      change_of_g(*factors_.now(), dR.tail(2));
     else
       dR.tail(2).setConstant(std::nan(""));
   }
 
   std::uint64_t piece() const override { return here_.at().piece(); }
 
-  // M at the last place. As long as somebody holds it, the next place is factorized elsewhere.
-  const std::shared_ptr<LinearSolver>& factors() const { return solver_; }
+  // M at the last place.
+  const std::shared_ptr<LinearSolver>& factors() const { return factors_.now(); }
   const Matrix& right() const { return V_; }
   const Vector& g() const { return g_; }
   const Vector& unfolding() const { return definition_->unfolding; }
@@ -171,7 +111,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
       dg.noalias() = G_.transpose() * d;
     else if (d.norm() == 0)  // or below what can be squared
       dg.setZero();
-    else if (differentiate(d))
+    else if (beside_.along(here_, d))
       change_of_g(M, dg);
     else
       dg.setConstant(std::nan(""));
@@ -182,7 +122,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     if (has_left_) found.left = w_.head(n_);
     Vector dg(2);
     for (int j = 0; j < 2; ++j) {
-      derivative(V_.col(j), *solver_, dg);
+      derivative(V_.col(j), *factors_.now(), dg);
       found.form.col(j) = -dg;
     }
     found.form = 0.5 * (found.form + found.form.transpose()).eval();
@@ -190,12 +130,6 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
   }
 
  private:
-  std::unique_ptr<LinearSolver> make_solver() const {
-    auto solver =
-        definition_->make_solver ? definition_->make_solver() : definition_->problem->linear_solver();
-    return solver ? std::move(solver) : suitable_solver(here_.at().jacobian());
-  }
-
   void take_border() {
     border_.columns.col(1) = b_;
     border_.rows = C_.topRows(n_);
@@ -205,14 +139,12 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
 
   // M of the place of here_, V and g.
   bool null_vectors(Matrix& V) {
-    border_.columns.col(0) = here_.F_p;
-    if (solver_.use_count() > 1) std::swap(solver_, spare_);
-    if (!solver_) solver_ = make_solver();
-    if (!solver_->factorize(here_.at().jacobian(), border_)) return false;
+    border_.columns.col(0) = here_.F_pa();
+    if (!factors_.factorize(here_.at().jacobian(), border_)) return false;
     for (int j = 0; j < 2; ++j) {
       work_.setZero();
       work_[n_ + j] = 1;
-      solver_->solve(work_);
+      factors_.now()->solve(work_);
       V.col(j) = work_.head(n_ + 1);
       g_[j] = work_[n_ + 1];
     }
@@ -222,7 +154,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
   bool left_vector() {
     w_.setZero();
     w_[n_ + 1] = 1;
-    transposed_ = has_left_ = solver_->solve_transposed(w_);
+    transposed_ = has_left_ = factors_.now()->solve_transposed(w_);
     return w_.allFinite();
   }
 
@@ -236,77 +168,50 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     if (has_left_) b_ = w_.head(n_).normalized();
   }
 
-  // Moves ahead_ and behind_ to x + h d and x - h d, within the smooth piece of x if there is room.
-  bool differentiate(In d) const {
-    const double length = d.cwiseQuotient(scale_).norm();
-    if (!(length > 0)) return false;
-    h_ = difference * std::max(1.0, x_.cwiseQuotient(scale_).norm()) / length;
-    for (int k = 0;; ++k, h_ *= smaller_difference) {
-      beside_ = x_ + h_ * d;
-      if (ahead_.move_to(beside_, p_) != Evaluated::ok) return false;
-      beside_ = x_ - h_ * d;
-      if (behind_.move_to(beside_, p_) != Evaluated::ok) return false;
-      const std::uint64_t piece = here_.at().piece();
-      if (k == smaller_differences || (ahead_.at().piece() == piece && behind_.at().piece() == piece))
-        return true;
-    }
-  }
-
   // G_j = -d(A^T w) along V_j. False: no transposed products.
   bool gradients() {
     const auto w = w_.head(n_);
     second_given_ = true;
     for (int j = 0; j < 2; ++j) {
-      q_[definition_->along] = V_(n_, j);
-      if (second_given_) {
-        second_given_ = here_.at().second_derivative(w, V_.col(j).head(n_), q_, G_.col(j).head(n_), dp_);
-        if (second_given_) {
-          G_(n_, j) = dp_[definition_->along];
-          G_.col(j) *= -1;
-          dg_dp_.col(j) = -dp_;
-          continue;
-        }
-      }
-      if (!differentiate(V_.col(j)))
+      second_given_ = second_given_ && here_.second_derivative(w, V_.col(j), G_.col(j), dp_);
+      if (second_given_)
+        dg_dp_.col(j) = -dp_;
+      else if (!beside_.along(here_, V_.col(j)))
         G_.col(j).setConstant(std::nan(""));
-      else if (!ahead_.apply_transposed(w, beside_) || !behind_.apply_transposed(w, G_.col(j)))
+      else if (!beside_.transposed_derivative(w, G_.col(j)))
         return false;
-      else
-        G_.col(j) = (G_.col(j) - beside_) / (2 * h_);
+      G_.col(j) *= -1;
     }
     return true;
   }
 
-  // From behind_ to ahead_: dg_j = -w . dA V_j, where M (y, w . dA V_j) = (dA V_j, 0).
+  // dg_j = -w . dA V_j over the places beside, where M (y, w . dA V_j) = (dA V_j, 0).
   void change_of_g(const LinearSolver& M, Out dg) const {
     for (int j = 0; j < 2; ++j) {
       work_.tail(2).setZero();
-      ahead_.apply(V_.col(j), work_.head(n_));
-      behind_.apply(V_.col(j), change_);
-      work_.head(n_) -= change_;
+      beside_.derivative(V_.col(j), work_.head(n_));
       M.solve(work_);
-      dg[j] = -work_[n_ + 1] / (2 * h_);
+      dg[j] = -work_[n_ + 1];
     }
   }
 
   void apply(In d, Out y) const override {
     here_.apply(d.head(n_ + 1), y.head(n_));
     y.head(n_) += d[n_ + 1] * definition_->unfolding;
-    derivative(d.head(n_ + 1), *solver_, y.tail(2));
+    derivative(d.head(n_ + 1), *factors_.now(), y.tail(2));
   }
 
   std::shared_ptr<const Definition> definition_;
   Eigen::Index n_;
   Site here_;
-  mutable Site ahead_, behind_;
+  mutable Neighbours beside_;
+  SharedFactors factors_;
   Vector scale_;
-  Borders border_;  // of the last Jacobian
-  std::shared_ptr<LinearSolver> solver_, spare_;
+  Borders border_;              // of the last Jacobian
   Matrix C_, V_, trial_V_, G_;  // C: of the next Jacobian
-  Vector g_, R_, w_, b_, x_, p_, q_, dp_;
+  Vector g_, R_, w_, b_, dp_;
   Matrix dg_dp_;
-  mutable Vector beside_, beside_p_, work_, change_;
-  mutable double h_ = 1;
+  mutable Vector work_;
   bool adapted_ = false, has_left_ = false, transposed_ = false, second_given_ = false;
   Jacobian jacobian_;
 };
@@ -374,11 +279,11 @@ class BranchPointSolver final : public LinearSolver {
     rhs_.segment(1, 2) = x.segment(n, 2) - dg_;
     rhs_.tail(m) = x.tail(m);
     rhs_.tail(m).noalias() -= rows_.topRows(n + 1).transpose() * y_.head(n + 1);
-    rhs_ = small_.solve(rhs_).eval();
+    small_x_ = small_.solve(rhs_);
     x.head(n + 1) = y_.head(n + 1);
-    x.head(n + 1).noalias() += V_ * rhs_.head(2);
-    x.head(n + 1).noalias() -= X_ * rhs_.tail(1 + m);
-    x.tail(1 + m) = rhs_.tail(1 + m);
+    x.head(n + 1).noalias() += V_ * small_x_.head(2);
+    x.head(n + 1).noalias() -= X_ * small_x_.tail(1 + m);
+    x.tail(1 + m) = small_x_.tail(1 + m);
   }
 
   std::optional<int> determinant_sign() const override {
@@ -393,55 +298,22 @@ class BranchPointSolver final : public LinearSolver {
   Matrix V_, rows_, X_, S_;
   Eigen::PartialPivLU<Matrix> small_;
   double determinant_ = 1;
-  mutable Vector y_, dg_, rhs_;
-};
-
-class BranchPointProblem final : public Problem {
- public:
-  explicit BranchPointProblem(Definition definition)
-      : definition_(std::make_shared<const Definition>(std::move(definition))) {}
-
-  int size() const override { return definition_->problem->size() + 2; }
-  std::span<const Parameter> parameters() const override { return definition_->problem->parameters(); }
-  Vector scales() const override {
-    Vector scale(size());
-    scale << definition_->problem->scales(), along().scale, 1;
-    return scale;
-  }
-  bool metric(In v, Out Mv) const override {
-    const Eigen::Index n = v.size() - 2;
-    Mv[n] = v[n] / (along().scale * along().scale);
-    Mv[n + 1] = v[n + 1];
-    return definition_->problem->metric(v.head(n), Mv.head(n));
-  }
-  std::unique_ptr<Evaluator> evaluator() const override {
-    return std::make_unique<BranchPointEvaluator>(definition_);
-  }
-  std::unique_ptr<LinearSolver> linear_solver() const override {
-    return std::make_unique<BranchPointSolver>();
-  }
-  bool cheap_residual() const override { return false; }
-
- private:
-  const Parameter& along() const {
-    return definition_->problem->parameters()[static_cast<std::size_t>(definition_->along)];
-  }
-  std::shared_ptr<const Definition> definition_;
+  mutable Vector y_, dg_, rhs_, small_x_;
 };
 
 }  // namespace
 
 std::shared_ptr<const Problem> branch_points(std::shared_ptr<const Problem> problem, int along,
                                              Vector unfolding, MakeLinearSolver make_solver) {
-  const auto count = problem->parameters().size();
-  if (along < 0 || static_cast<std::size_t>(along) >= count)
-    throw std::out_of_range("there is no parameter " + std::to_string(along) + " among " +
-                            std::to_string(count));
   if (unfolding.size() != problem->size())
     throw std::invalid_argument("the direction of unfolding has " + std::to_string(unfolding.size()) +
                                 " entries for " + std::to_string(problem->size()) + " equations");
-  return std::make_shared<BranchPointProblem>(
-      Definition{std::move(problem), along, std::move(unfolding), std::move(make_solver)});
+  const auto definition = std::make_shared<const Definition>(
+      Definition{{std::move(problem), along, std::move(make_solver)}, std::move(unfolding)});
+  return augmented(
+      {definition, &definition->inner}, Vector::Ones(1),
+      [definition] { return std::make_unique<BranchPointEvaluator>(definition); },
+      [] { return std::make_unique<BranchPointSolver>(); });
 }
 
 NullSpace null_space(const Evaluator& at) {

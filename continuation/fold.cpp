@@ -1,14 +1,16 @@
 #include <arcslip/continuation/monitor.hpp>
 
+#include <arcslip/continuation/neighbours.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <optional>
 
 namespace arcslip::continuation {
 namespace {
-
-constexpr double difference = 6e-6;  // relative, of central differences
 
 // Relative to u in each unknown, whatever its unit: |v| = 1 in scales, so that |v_i| is a change of u_i that
 // is not too large.
@@ -19,34 +21,47 @@ double step_along(In u, const Vector& v) {
   return difference * (std::isfinite(h) ? std::max(1.0, h) : 1.0);
 }
 
-// y = F_uu v v. False where F cannot be evaluated beside u.
-bool second_along(const Accepted& now, const Vector& v, Vector& y) try {
-  const double h = step_along(now.u, v);
-  const Vector ahead = now.u + h * v, behind = now.u - h * v;
-  Vector minus(v.size());
-  if (now.at.move_to(ahead, now.p, Needs::jacobian) != Evaluated::ok) return false;
-  apply(now.at.jacobian(), v, y);
-  if (now.at.move_to(behind, now.p, Needs::jacobian) != Evaluated::ok) return false;
-  apply(now.at.jacobian(), v, minus);
-  y = (y - minus) / (2 * h);
-  return true;
-} catch (const std::exception&) {
-  return false;
+// F_uu v v, by differences of J v. Nothing where there is no room for them in the piece of u.
+std::optional<Vector> second_along(const Accepted& now, const Vector& v) {
+  if (now.at.move_to(now.u, now.p, Needs::jacobian) != Evaluated::ok) return {};
+  const std::uint64_t piece = now.at.piece();
+  const Eigen::Index n = v.size();
+  Vector here(n), u(n);
+  std::array<Vector, 2> beside{Vector(n), Vector(n)};
+  apply(now.at.jacobian(), v, here);
+  const auto quotient = difference_within_piece(step_along(now.u, v), [&](std::size_t i, double distance) {
+    try {
+      u = now.u + distance * v;
+      if (now.at.move_to(u, now.p, Needs::jacobian) != Evaluated::ok || now.at.piece() != piece) return false;
+      apply(now.at.jacobian(), v, beside[i]);
+      return true;
+    } catch (const std::exception&) {  // outside the domain, as it says
+      return false;
+    }
+  });
+  if (!quotient) return {};
+  return quotient->here * here + quotient->weight[0] * beside[0] + quotient->weight[1] * beside[1];
 }
 
 // With B = [J F_p; r^T], whose tangent at the fold is t = (v, 0): B^T (w, 0) = e_{n+1}, and by
 // differentiating F(u(s), p(s)) = 0 twice, J u'' + F_p p'' = -F_uu v v, so that p'' is the last entry of
-// -B^-1 (F_uu v v, 0).
+// -B^-1 (F_uu v v, 0), which is -w . F_uu v v.
 EventData describe(const Accepted& now) {
   const Eigen::Index n = now.u.size();
   Fold fold;
   fold.right_null = now.tangent.head(n);
-  Vector x = Vector::Zero(n + 1);
-  x[n] = 1;
-  if (now.bordered.solve_transposed(x)) fold.left_null = x.head(n).normalized();
-  Vector second(n);
-  if (!second_along(now, fold.right_null, second)) return {};
-  x << -second, 0;
+  Vector x = Vector::Unit(n + 1, n);
+  if (now.bordered.solve_transposed(x)) {
+    fold.left_null = x.head(n).normalized();
+    Vector du(n), dp(now.p.size());
+    if (now.at.second_derivative(x.head(n), fold.right_null, Vector::Zero(now.p.size()), du, dp)) {
+      fold.curvature = -du.dot(fold.right_null);
+      return fold;
+    }
+  }
+  const auto second = second_along(now, fold.right_null);
+  if (!second) return {};
+  x << -*second, 0;
   now.bordered.solve(x);
   fold.curvature = x[n];
   return fold;

@@ -1,6 +1,8 @@
 #include <arcslip/continuation/hopf_curve.hpp>
 
 #include <arcslip/continuation/hopf.hpp>
+#include <arcslip/continuation/inner_problem.hpp>
+#include <arcslip/continuation/neighbours.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -17,16 +19,6 @@ namespace arcslip::continuation {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double difference = 6e-6;         // of central differences, relative
-constexpr double smaller_difference = 0.1;  // where a kink lies within
-constexpr int smaller_differences = 4;
-
-struct Definition {
-  std::shared_ptr<const Problem> problem;
-  int along;
-  double frequency;
-};
 
 // How far two eigenvalues are from +- i sqrt(kappa).
 double miss(Complex x, Complex y, Complex root) {
@@ -70,7 +62,7 @@ class Pair {
                               .triangularView<Eigen::Upper>()
                               .solve(qr_.matrixQR().topRightCorner(n - 2, 2));
     V = (qr_.colsPermutation() * V).eval();
-    W = Matrix::Zero(n, 2);
+    W.setZero(n, 2);
     W.bottomRows(2).setIdentity();
     W.applyOnTheLeft(qr_.householderQ());
     W = (W * (V.transpose() * W).inverse()).eval();
@@ -90,36 +82,32 @@ class Pair {
 
 class HopfEvaluator final : public Evaluator {
  public:
-  explicit HopfEvaluator(std::shared_ptr<const Definition> definition)
-      : definition_(std::move(definition)),
-        n_(definition_->problem->size()),
-        here_(definition_->problem->evaluator()),
-        ahead_(definition_->problem->evaluator()),
-        behind_(definition_->problem->evaluator()),
-        scale_(definition_->problem->scales()),
-        parameters_(static_cast<Eigen::Index>(definition_->problem->parameters().size())),
+  explicit HopfEvaluator(std::shared_ptr<const InnerProblem> inner)
+      : inner_(std::move(inner)),
+        n_(inner_->size()),
+        parameters_(static_cast<Eigen::Index>(inner_->problem->parameters().size())),
+        here_(*inner_),
+        beside_(*inner_),
         R_(n_ + 2),
-        gradient_(2, n_ + parameters_),
-        work_(n_),
+        v_(Vector::Zero(n_ + 1)),
+        dx_(n_ + 1),
+        dp_(parameters_),
+        by_x_(2, n_ + 1),
+        by_p_(2, parameters_),
         jacobian_(Matrix::Zero(n_ + 2, n_ + 2)) {}
 
   Evaluated move_to(In x, In p, Needs needs) override {
-    u_ = x.head(n_);
-    p_ = p;
-    p_[definition_->along] = x[n_];
-    const Evaluated result = here_->move_to(u_, p_, Needs::jacobian);
+    const Evaluated result = here_.move_to(x.head(n_ + 1), p);
     if (result != Evaluated::ok) return result;
-    to_dense(here_->jacobian(), J_);
+    to_dense(here_.at().jacobian(), J_);
     if (!pair_.find(J_, x[n_ + 1])) return Evaluated::failed;
-    R_ << here_->residual(), pair_.sum, pair_.product - x[n_ + 1];
+    R_ << here_.at().residual(), pair_.sum, pair_.product - x[n_ + 1];
     if (needs == Needs::residual) return Evaluated::ok;
     if (!pair_.span(J_) || !differentiate()) return Evaluated::failed;
     Matrix& J = std::get<Matrix>(jacobian_);
     J.topLeftCorner(n_, n_) = J_;
-    here_->parameter_derivative(definition_->along, work_);
-    J.col(n_).head(n_) = work_;
-    J.bottomLeftCorner(2, n_) = gradient_.leftCols(n_);
-    J.block(n_, n_, 2, 1) = gradient_.col(n_ + definition_->along);
+    J.col(n_).head(n_) = here_.F_pa();
+    J.bottomLeftCorner(2, n_ + 1) = by_x_;
     J(n_ + 1, n_ + 1) = -1;
     return J.allFinite() ? Evaluated::ok : Evaluated::failed;
   }
@@ -128,117 +116,59 @@ class HopfEvaluator final : public Evaluator {
   const Jacobian& jacobian() const override { return jacobian_; }
 
   void parameter_derivative(int k, Out dR) const override {
-    if (k == definition_->along) {
+    if (k == inner_->along) {
       dR.setZero();
       return;
     }
-    here_->parameter_derivative(k, dR.head(n_));
-    dR.tail(2) = gradient_.col(n_ + k);
+    here_.at().parameter_derivative(k, dR.head(n_));
+    dR.tail(2) = by_p_.col(k);
   }
 
-  std::uint64_t piece() const override { return here_->piece(); }
+  std::uint64_t piece() const override { return here_.at().piece(); }
 
  private:
-  // The derivatives of sigma and pi by u and p: sums of those of w_j . J v_i with the weights I and adj(R).
+  // The derivatives of sigma and pi by x and p: sums of those of w_j . J v_i with the weights I and adj(R).
   bool differentiate() {
-    gradient_.setZero();
-    Vector change(n_ + parameters_);
+    by_x_.setZero();
+    by_p_.setZero();
     for (Eigen::Index i = 0; i < 2; ++i) {
+      v_.head(n_) = pair_.V.col(i);
       bool moved = false;
       for (Eigen::Index j = 0; j < 2; ++j) {
-        if (!second(pair_.W.col(j), pair_.V.col(i), moved, change)) return false;
-        if (i == j) gradient_.row(0) += change.transpose();
-        gradient_.row(1) += pair_.adjugate(i, j) * change.transpose();
+        if (!here_.second_derivative(pair_.W.col(j), v_, dx_, dp_)) {
+          if (!moved && !beside_.along(here_, v_)) return false;
+          moved = true;
+          beside_.transposed_derivative(pair_.W.col(j), dx_);
+          for (Eigen::Index k = 0; k < parameters_; ++k)
+            dp_[k] = beside_.parameter_derivative(pair_.W.col(j), static_cast<int>(k));
+        }
+        if (i == j) {
+          by_x_.row(0) += dx_.transpose();
+          by_p_.row(0) += dp_.transpose();
+        }
+        by_x_.row(1) += pair_.adjugate(i, j) * dx_.transpose();
+        by_p_.row(1) += pair_.adjugate(i, j) * dp_.transpose();
       }
     }
     return true;
   }
 
-  // The gradient of w . J v. moved: ahead_ and behind_ are already beside u along v.
-  bool second(const Vector& w, const Vector& v, bool& moved, Vector& change) {
-    if (here_->second_derivative(w, v, Vector::Zero(parameters_), change.head(n_), change.tail(parameters_)))
-      return true;
-    if (!moved && !move_beside(v)) return false;
-    moved = true;
-    apply_transposed(ahead_->jacobian(), w, change.head(n_));
-    apply_transposed(behind_->jacobian(), w, work_);
-    change.head(n_) -= work_;
-    for (Eigen::Index k = 0; k < parameters_; ++k) {
-      ahead_->parameter_derivative(static_cast<int>(k), work_);
-      change[n_ + k] = w.dot(work_);
-      behind_->parameter_derivative(static_cast<int>(k), work_);
-      change[n_ + k] -= w.dot(work_);
-    }
-    change /= 2 * h_;
-    return true;
-  }
-
-  // Moves ahead_ and behind_ to u + h v and u - h v, within the smooth piece of u if there is room.
-  bool move_beside(const Vector& v) {
-    h_ = difference * std::max(1.0, u_.cwiseQuotient(scale_).norm()) / v.cwiseQuotient(scale_).norm();
-    for (int k = 0;; ++k, h_ *= smaller_difference) {
-      if (ahead_->move_to(u_ + h_ * v, p_, Needs::jacobian) != Evaluated::ok ||
-          behind_->move_to(u_ - h_ * v, p_, Needs::jacobian) != Evaluated::ok)
-        return false;
-      const std::uint64_t piece = here_->piece();
-      if (k == smaller_differences || (ahead_->piece() == piece && behind_->piece() == piece)) return true;
-    }
-  }
-
-  std::shared_ptr<const Definition> definition_;
-  Eigen::Index n_;
-  std::unique_ptr<Evaluator> here_, ahead_, behind_;
-  Vector scale_;
-  Eigen::Index parameters_;
-  Vector R_;
-  Matrix gradient_;  // of sigma and pi, by u and all parameters
-  Vector u_, p_, work_;
+  std::shared_ptr<const InnerProblem> inner_;
+  Eigen::Index n_, parameters_;
+  Site here_;
+  Neighbours beside_;
+  Vector R_, v_, dx_, dp_;
+  Matrix by_x_, by_p_;  // derivatives of sigma and pi
   Matrix J_;
   Pair pair_;
-  double h_ = 1;
   Jacobian jacobian_;
-};
-
-class HopfProblem final : public Problem {
- public:
-  explicit HopfProblem(Definition definition)
-      : definition_(std::make_shared<const Definition>(std::move(definition))) {}
-
-  int size() const override { return definition_->problem->size() + 2; }
-  std::span<const Parameter> parameters() const override { return definition_->problem->parameters(); }
-  Vector scales() const override {
-    Vector scale(size());
-    scale << definition_->problem->scales(), along().scale, scale_of_kappa();
-    return scale;
-  }
-  bool metric(In v, Out Mv) const override {
-    const Eigen::Index n = v.size() - 2;
-    Mv[n] = v[n] / (along().scale * along().scale);
-    Mv[n + 1] = v[n + 1] / (scale_of_kappa() * scale_of_kappa());
-    return definition_->problem->metric(v.head(n), Mv.head(n));
-  }
-  std::unique_ptr<Evaluator> evaluator() const override {
-    return std::make_unique<HopfEvaluator>(definition_);
-  }
-  bool cheap_residual() const override { return false; }
-
- private:
-  const Parameter& along() const {
-    return definition_->problem->parameters()[static_cast<std::size_t>(definition_->along)];
-  }
-  double scale_of_kappa() const { return definition_->frequency * definition_->frequency; }
-
-  std::shared_ptr<const Definition> definition_;
 };
 
 }  // namespace
 
 std::shared_ptr<const Problem> hopf_points(std::shared_ptr<const Problem> problem, int along,
                                            double frequency) {
-  const auto count = problem->parameters().size();
-  if (along < 0 || static_cast<std::size_t>(along) >= count)
-    throw std::out_of_range("there is no parameter " + std::to_string(along) + " among " +
-                            std::to_string(count));
+  auto inner = std::make_shared<const InnerProblem>(problem, along, MakeLinearSolver{});
   if (problem->size() < 2 || problem->size() > largest_spectrum)
     throw std::invalid_argument("a curve of Hopf points needs 2 to " + std::to_string(largest_spectrum) +
                                 " unknowns, not " + std::to_string(problem->size()));
@@ -246,7 +176,8 @@ std::shared_ptr<const Problem> hopf_points(std::shared_ptr<const Problem> proble
     throw std::invalid_argument("a typical frequency is positive, not " + std::to_string(frequency));
   Matrix dense;
   to_dense(problem->evaluator()->jacobian(), dense);
-  return std::make_shared<HopfProblem>(Definition{std::move(problem), along, frequency});
+  return augmented(inner, Vector::Constant(1, frequency * frequency),
+                   [inner] { return std::make_unique<HopfEvaluator>(inner); }, {});
 }
 
 Vector with_frequency(const Event& event) {

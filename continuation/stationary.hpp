@@ -18,7 +18,8 @@
 //
 //   dG = d(dq/dx) . t - w . dA t,
 //
-// so that one factorization of B and one transposed solve serve all: the augmented system is solved by block
+// by second derivatives of F and q along t, those of the problem or differences, since these are symmetric.
+// So one factorization of B and one transposed solve serve all: the augmented system is solved by block
 // elimination in B, never formed. A linear solver without transposed solves is served by derivatives of G in
 // the directions that are needed, a forward solve for each (the Newton steps of Moore and Spence's system).
 
@@ -36,6 +37,8 @@ namespace arcslip::continuation {
 struct Quantity {
   std::function<void(Evaluator& at, In u, In p, Out dq_du)> gradient;            // n
   std::function<double(Evaluator& at, In u, In p, int k)> parameter_derivative;  // dq/dp_k
+  /// The gradient of q_u . v + sum_k q_pk r_k: by u (n) and by all parameters. None: by differences.
+  std::function<void(Evaluator& at, In u, In p, In v, In r, Out du, Out dp)> second_derivative = {};
 };
 
 /// The stationary points of q along branches in the parameter `along`, as a problem in the unknowns (u,

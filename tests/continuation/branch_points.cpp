@@ -98,41 +98,6 @@ Vector join(const Vector& u, double p) {
   return x;
 }
 
-// u'' + lambda sin u = 0, u(0) = u(1) = 0, at n inner nodes, h = 1 / (n + 1): branches leave u = 0 at
-// lambda_k = (2 / h)^2 sin^2(k pi h / 2) in the direction sin(k pi x).
-std::shared_ptr<const Problem> elastica(int n, bool sparse) {
-  const double h = 1.0 / (n + 1);
-  Functions f;
-  f.size = n;
-  f.parameters = {parameter("lambda", 0, 10)};
-  f.residual = [=](In u, In p, Out F) {
-    for (int i = 0; i < n; ++i)
-      F[i] =
-          ((i > 0 ? u[i - 1] : 0) - 2 * u[i] + (i + 1 < n ? u[i + 1] : 0)) / (h * h) + p[0] * std::sin(u[i]);
-  };
-  f.derivative = [=](In u, In, int, Out dF) { dF = u.array().sin(); };
-  if (sparse)
-    f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
-      std::vector<Eigen::Triplet<double>> entries;
-      for (int i = 0; i < n; ++i) {
-        entries.emplace_back(i, i, -2 / (h * h) + p[0] * std::cos(u[i]));
-        if (i > 0) entries.emplace_back(i, i - 1, 1 / (h * h));
-        if (i + 1 < n) entries.emplace_back(i, i + 1, 1 / (h * h));
-      }
-      J.setFromTriplets(entries.begin(), entries.end());
-    };
-  else
-    f.jacobian = [=](In u, In p, Eigen::Ref<Matrix> J) {
-      J.setZero();
-      for (int i = 0; i < n; ++i) {
-        J(i, i) = -2 / (h * h) + p[0] * std::cos(u[i]);
-        if (i > 0) J(i, i - 1) = 1 / (h * h);
-        if (i + 1 < n) J(i, i + 1) = 1 / (h * h);
-      }
-    };
-  return from_functions(f);
-}
-
 // A solver without transposed solves.
 class ForwardOnly final : public LinearSolver {
  public:
@@ -217,7 +182,9 @@ TEST_CASE("a branch point among coupled unknowns is found from afar with the tan
 TEST_CASE("the branch points of u'' + lambda sin u lie at (2/h)^2 sin^2(k pi h/2), dense and sparse") {
   for (const bool sparse : {false, true})
     for (int n : {9, 60}) {
-      const auto problem = elastica(n, sparse);
+      Functions f = sparse ? rod(n) : dense(rod(n));
+      f.scales = Vector::Ones(n);
+      const auto problem = from_functions(f);
       const double h = 1.0 / (n + 1), pi = std::numbers::pi;
       for (int k : {1, 2, 3, 5}) {
         const double exact = std::pow(2 / h * std::sin(k * pi * h / 2), 2);
@@ -523,28 +490,9 @@ TEST_CASE("an imperfect transcritical bifurcation is followed to where its branc
 }
 
 TEST_CASE("branch points of a sparse problem are followed by KLU along their straight line") {
-  // u'' + lambda sin u + kappa u: lambda_k - kappa.
   const int n = 40;
   const double h = 1.0 / (n + 1);
-  Functions f;
-  f.size = n;
-  f.parameters = {parameter("lambda", 0, 10), parameter("kappa", 0, 10)};
-  f.residual = [=](In u, In p, Out F) {
-    for (int i = 0; i < n; ++i)
-      F[i] = ((i > 0 ? u[i - 1] : 0) - 2 * u[i] + (i + 1 < n ? u[i + 1] : 0)) / (h * h) +
-             p[0] * std::sin(u[i]) + p[1] * u[i];
-  };
-  f.derivative = [](In u, In, int k, Out dF) { dF = k == 0 ? Vector(u.array().sin()) : Vector(u); };
-  f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < n; ++i) {
-      entries.emplace_back(i, i, -2 / (h * h) + p[0] * std::cos(u[i]) + p[1]);
-      if (i > 0) entries.emplace_back(i, i - 1, 1 / (h * h));
-      if (i + 1 < n) entries.emplace_back(i, i + 1, 1 / (h * h));
-    }
-    J.setFromTriplets(entries.begin(), entries.end());
-  };
-  const auto problem = from_functions(f);
+  const auto problem = from_functions(rod(n, true));
   const double exact = std::pow(2 / h * std::sin(std::numbers::pi * h), 2);
   const Vector p = Vector::Zero(2);
   const auto at = locate_branch_point(problem, p, 0, join(1e-6 * Vector::Random(n), exact + 0.01));

@@ -21,29 +21,6 @@ std::shared_ptr<const Problem> normal_form(int power, double eps = 0) {
        .derivative = [](In u, In, int, Out dF) { dF[0] = u[0]; }});
 }
 
-// u'' + lambda sin u = 0, u(0) = u(1) = 0 on n inner nodes: the rod's buckling loads.
-std::shared_ptr<const Problem> rod(int n) {
-  const double h2 = 1.0 / ((n + 1.0) * (n + 1.0));
-  Functions f;
-  f.size = n;
-  f.parameters = {parameter("lambda", 0, 10)};
-  f.residual = [=](In u, In p, Out F) {
-    for (int i = 0; i < n; ++i)
-      F[i] = (i ? u[i - 1] : 0) - 2 * u[i] + (i + 1 < n ? u[i + 1] : 0) + h2 * p[0] * std::sin(u[i]);
-  };
-  f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < n; ++i) {
-      entries.emplace_back(i, i, -2 + h2 * p[0] * std::cos(u[i]));
-      if (i) entries.emplace_back(i, i - 1, 1), entries.emplace_back(i - 1, i, 1);
-    }
-    J.setFromTriplets(entries.begin(), entries.end());
-  };
-  f.derivative = [=](In u, In, int, Out dF) { dF = h2 * u.array().sin(); };
-  f.scales = Vector::Constant(n, std::sqrt(n));
-  return from_functions(f);
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -86,8 +63,8 @@ TEST_CASE("an imperfect pitchfork has no branch point, and its branch is not lef
 
 TEST_CASE("the straight rod buckles at (2/h)^2 sin^2(k pi h/2), by pitchforks, with sparse LU") {
   const int n = 60;
-  const Branch branch =
-      trace(rod(n), {Vector::Zero(n), Vector{{1.0}}, 0, 1}, window(0, 100), {branch_point_monitor()});
+  const Branch branch = trace(from_functions(rod(n)), {Vector::Zero(n), Vector{{1.0}}, 0, 1}, window(0, 100),
+                              {branch_point_monitor()});
   CHECK(branch.stop.reason == StopReason::boundary);
   CHECK(branch.linear_solver == "KLU");
   REQUIRE(branch.events.size() == 3);

@@ -55,28 +55,6 @@ void check_set(const std::vector<Vector>& found, const std::vector<Vector>& know
         std::any_of(found.begin(), found.end(), [&](const Vector& v) { return (u - v).norm() < tolerance; }));
 }
 
-// u'' + lambda sin u = 0, u(0) = u(1) = 0 on n inner nodes.
-Functions rod(int n) {
-  const double h2 = 1.0 / ((n + 1.0) * (n + 1.0));
-  Functions f;
-  f.size = n;
-  f.parameters = {parameter("lambda", 0, 10)};
-  f.residual = [=](In u, In p, Out F) {
-    for (int i = 0; i < n; ++i)
-      F[i] = (i ? u[i - 1] : 0) - 2 * u[i] + (i + 1 < n ? u[i + 1] : 0) + h2 * p[0] * std::sin(u[i]);
-  };
-  f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < n; ++i) {
-      entries.emplace_back(i, i, -2 + h2 * p[0] * std::cos(u[i]));
-      if (i) entries.emplace_back(i, i - 1, 1), entries.emplace_back(i - 1, i, 1);
-    }
-    J.setFromTriplets(entries.begin(), entries.end());
-  };
-  f.scales = Vector::Constant(n, std::sqrt(n));
-  return f;
-}
-
 // A solver of the user's.
 class ByInverse final : public PlainSolver {
  public:

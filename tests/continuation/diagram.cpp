@@ -220,25 +220,8 @@ TEST_CASE("branches of branches are followed to the depth asked for, and no furt
 TEST_CASE("the rod's buckled branches have k half-waves each way, and begin at (2/h)^2 sin^2(k pi h/2)") {
   const int n = 40;
   const double h2 = 1.0 / ((n + 1.0) * (n + 1.0));
-  Functions f;
-  f.size = n;
-  f.parameters = {parameter("lambda", 0, 10)};
-  f.residual = [=](In u, In p, Out F) {
-    for (int i = 0; i < n; ++i)
-      F[i] = (i ? u[i - 1] : 0) - 2 * u[i] + (i + 1 < n ? u[i + 1] : 0) + h2 * p[0] * std::sin(u[i]);
-  };
-  f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < n; ++i) {
-      entries.emplace_back(i, i, -2 + h2 * p[0] * std::cos(u[i]));
-      if (i) entries.emplace_back(i, i - 1, 1), entries.emplace_back(i - 1, i, 1);
-    }
-    J.setFromTriplets(entries.begin(), entries.end());
-  };
-  f.derivative = [=](In u, In, int, Out dF) { dF = h2 * u.array().sin(); };
-  f.scales = Vector::Constant(n, std::sqrt(n));
-  const Diagram diagram =
-      trace_diagram(from_functions(f), {Vector::Zero(n), Vector{{1.0}}, 0, 1}, window(0, 100), {.depth = 2});
+  const Diagram diagram = trace_diagram(from_functions(rod(n)), {Vector::Zero(n), Vector{{1.0}}, 0, 1},
+                                        window(0, 100), {.depth = 2});
   CAPTURE(diagram.message);
   CHECK(diagram.complete);
   REQUIRE(diagram.branches.size() == 4);

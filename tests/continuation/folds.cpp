@@ -123,3 +123,37 @@ TEST_CASE("the curvature of a fold does not depend on an unknown of a large unit
     CHECK(std::abs(std::get<Fold>(branch.events[0].data).curvature - 1) < 1e-5);
   }
 }
+
+TEST_CASE("the curvature of a fold beside a kink, or between two, is that of its own piece") {
+  // p = u^2 + s max(0, u - a) + s max(0, b - u), b < 0 < a: p'' = 2 at the fold u = 0.
+  const double s = 0.05, far = 1e3;
+  for (const bool second_given : {false, true})
+    for (const double d : {1e-4, 5e-6, 1e-7})
+      for (const auto& [a, b] : {std::pair{d, -far}, std::pair{far, -d}, std::pair{d, -d}}) {
+        Functions f;
+        f.size = 1;
+        f.parameters = {parameter("p", 0)};
+        f.residual = [=](In u, In p, Out F) {
+          F[0] = p[0] - u[0] * u[0] - s * std::max(0.0, u[0] - a) - s * std::max(0.0, b - u[0]);
+        };
+        f.jacobian = [=](In u, In, Eigen::Ref<Matrix> J) {
+          J(0, 0) = -2 * u[0] - (u[0] > a ? s : 0) + (u[0] < b ? s : 0);
+        };
+        f.derivative = [](In, In, int, Out dF) { dF[0] = 1; };
+        f.piece = [=](In u, In) { return u[0] > a ? 3 : u[0] < b ? 1 : 2; };
+        if (second_given)
+          f.second = [](In, In, In w, In v, In, Out du, Out dp) {
+            du[0] = -2 * w[0] * v[0];
+            dp[0] = 0;
+          };
+        const double u = -0.91, p = u * u + s * std::max(0.0, b - u);
+        const Branch branch =
+            trace(from_functions(f), {Vector{{u}}, Vector{{p}}, 0, -1}, window(-1, 1.5), {fold_monitor()});
+        CAPTURE(a, b, second_given, branch.stop.message);
+        const auto found = events_named(branch, "fold");
+        REQUIRE(found.size() == 1);
+        REQUIRE(std::holds_alternative<Fold>(found[0].data));
+        CHECK(std::abs(found[0].point.u[0]) < 1e-9);
+        CHECK(std::abs(std::get<Fold>(found[0].data).curvature - 2) < (second_given ? 1e-12 : 1e-7));
+      }
+}

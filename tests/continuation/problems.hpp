@@ -65,6 +65,47 @@ inline std::shared_ptr<const Problem> chan(int n) {
       });
 }
 
+/// u'' + (lambda sin u + kappa u) = 0, u(0) = u(1) = 0, on n inner nodes, h = 1 / (n + 1): an elastic rod,
+/// whose branches leave u = 0 at lambda = (2 / h)^2 sin^2(k pi h / 2) - kappa in the direction sin(k pi x).
+/// Equations times h^2; kappa is a parameter of rods on a foundation only.
+inline Functions rod(int n, bool on_foundation = false) {
+  const double h2 = 1.0 / ((n + 1.0) * (n + 1.0));
+  const auto kappa = [=](In p) { return on_foundation ? p[1] : 0; };
+  Functions f;
+  f.size = n;
+  f.parameters = {parameter("lambda", 0, 10)};
+  if (on_foundation) f.parameters.push_back(parameter("kappa", 0, 10));
+  f.residual = [=](In u, In p, Out F) {
+    for (int i = 0; i < n; ++i)
+      F[i] = (i ? u[i - 1] : 0) - 2 * u[i] + (i + 1 < n ? u[i + 1] : 0) +
+             h2 * (p[0] * std::sin(u[i]) + kappa(p) * u[i]);
+  };
+  f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < n; ++i) {
+      entries.emplace_back(i, i, -2 + h2 * (p[0] * std::cos(u[i]) + kappa(p)));
+      if (i) entries.emplace_back(i, i - 1, 1), entries.emplace_back(i - 1, i, 1);
+    }
+    J.setFromTriplets(entries.begin(), entries.end());
+  };
+  f.derivative = [=](In u, In, int k, Out dF) {
+    for (int i = 0; i < n; ++i) dF[i] = h2 * (k == 0 ? std::sin(u[i]) : u[i]);
+  };
+  f.scales = Vector::Constant(n, std::sqrt(n));
+  return f;
+}
+
+/// The same with a dense Jacobian.
+inline Functions dense(Functions f) {
+  f.jacobian = [sparse = f.sparse_jacobian](In u, In p, Eigen::Ref<Matrix> J) {
+    SparseMatrix entries(J.rows(), J.cols());
+    sparse(u, p, entries);
+    J = entries;
+  };
+  f.sparse_jacobian = {};
+  return f;
+}
+
 inline std::vector<Event> events_named(const Branch& branch, const std::string& name) {
   std::vector<Event> found;
   for (const Event& event : branch.events)
