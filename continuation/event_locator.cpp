@@ -1,8 +1,5 @@
 #include <arcslip/continuation/event_locator.hpp>
 
-#include <arcslip/continuation/branch_point.hpp>
-#include <arcslip/continuation/root.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -12,20 +9,8 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double nonsmooth_share = 1e-4;  // of a monitor's change over a step, left at its zero
-constexpr double beyond_kink = 1e-3;      // of the way from the kink to the next point, to look at that side
-constexpr double newton_share = 1e-2;     // the corrector's tolerance, of that on the branch
-constexpr double linearized_there = 1e-13;  // corrections below leave factors that are those of the solution
-constexpr double state_tolerance = 1e-10;   // relative, of u at an event
-constexpr int samples_beside = 4;           // of q on each side of an extreme, for its rounding
-constexpr double sample_share = 1e-2;       // of the step, between them
-constexpr int most_kinks = 16;              // looked for in one step
-constexpr double just_beyond = 1e-6;        // of a step: where the other side of a kink is looked at
-constexpr double smallest_kink = 1e-4;      // rad
-constexpr double beside_step = 0.1;         // of a step: a branch point so near lies on it
-constexpr double spreads = 2;               // of the samples: more is no rounding
-constexpr double same_place = 1e-6;  // of a step: monitors of one name with zeros so near share an event
-constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
+constexpr double newton_share = 1e-2;  // the corrector's tolerance, of that on the branch
+constexpr double same_place = 1e-6;    // of a step: monitors of one name with zeros so near share an event
 
 }  // namespace
 
@@ -59,84 +44,6 @@ std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& 
     return x.event.point.arclength < y.event.point.arclength;
   });
   return found;
-}
-
-std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const Place& to) {
-  const double length = to.arclength - from.arclength;
-  Corrector& probe = this->probe();
-  Place place = from;
-  Vector beside(from.v.size());
-  for (double guess : {0.5, 0.1, 0.9}) {
-    hermite(from.v, from.tangent, to.v, to.tangent, length, guess, beside);
-    std::optional<BranchPointLocation> crossing;
-    try {
-      crossing = locate_branch_point(problem_, p_, free_, beside, options_.linear_solver, options_.newton);
-    } catch (const std::exception&) {  // what the corrector takes for a place that cannot be evaluated
-    }
-    if (!crossing || !crossing->branches_cross()) continue;
-    const Vector way = crossing->x - from.v;
-    const double share = probe.dot(way, to.v - from.v) / (length * length);
-    if (!(share > -beside_step && share < 1 + beside_step)) continue;
-    hermite(from.v, from.tangent, to.v, to.tangent, length, share, beside);
-    if (distance(probe, beside, crossing->x) > beside_step * length) continue;
-    auto branches = describe_branch_point(*problem_, free_, *crossing, to.v - from.v);
-    if (!branches) continue;
-    place.v = crossing->x;
-    place.tangent = branches->tangents.front();
-    place.arclength = from.arclength + std::clamp(share, 0.0, 1.0) * length;
-    LocatedEvent found;
-    for (const Monitor& monitor : monitors_)
-      if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
-    found.event.point = point(place, {});
-    found.event.data = std::move(*branches);
-    found.place = std::move(place);
-    return found;
-  }
-  return std::nullopt;
-}
-
-LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const {
-  LocatedEvent found;
-  found.event.monitor = monitor.name;
-  found.event.point = point(kink, {});
-  found.event.nonsmooth = true;
-  found.event.data = Kink{kink.tangent, beyond};
-  found.place = kink;
-  return found;
-}
-
-// The branch shortly beyond a kink, with its tangent there: linearized ahead, where the other piece is, and
-// corrected along that tangent, on the side of `to`.
-bool EventLocator::look_beyond(const Place& kink, const Place& to, double way, Place& beyond) {
-  Corrector& probe = this->probe();
-  beyond = kink;
-  beyond.v = kink.v + way * kink.tangent;
-  if (!probe.linearize(beyond.v, probe.border_row(kink.tangent)) || !settle(probe, beyond)) return false;
-  const bool against = kink.orientation != 0 ? beyond.orientation != kink.orientation
-                                             : probe.dot(beyond.tangent, to.v - kink.v) < 0;
-  if (against) beyond.reverse();
-  const Vector tangent = beyond.tangent;
-  beyond.v = kink.v + way * tangent;
-  if (!probe.correct(beyond.v, probe.border_row(tangent), false).converged || !settle(probe, beyond))
-    return false;
-  beyond.arclength = kink.arclength + way;
-  return beyond.piece != kink.piece;
-}
-
-void EventLocator::kinks(const Monitor& monitor, const Place& from, const Place& to,
-                         std::vector<LocatedEvent>& found) {
-  Place side = from, kink, beyond;
-  for (int k = 0; k < most_kinks && side.piece != to.piece; ++k) {
-    const double length = to.arclength - side.arclength;
-    Correction correction;
-    if (!(length > 0) || !locate_kink(probe(), side, length, kink, correction) ||
-        !look_beyond(kink, to, just_beyond * length, beyond))
-      return;
-    const double turn = probe().dot(kink.tangent, beyond.tangent);
-    if (turn < 1 - 0.5 * smallest_kink * smallest_kink)
-      found.push_back(kink_event(monitor, kink, beyond.tangent));
-    side = beyond;
-  }
 }
 
 std::vector<LocatedEvent> EventLocator::across(const Place& kink, const Place& beyond) {
@@ -260,109 +167,6 @@ Event EventLocator::event(std::size_t monitor, const Place& place, double value,
   result.monitor = monitors_[monitor].name;
   result.value = value;
   result.point = point(place, correction);
-  return result;
-}
-
-// Where the corrector fails between the points, the one whose monitor is nearer to zero stands for the event.
-LocatedEvent EventLocator::nearer_end(std::size_t monitor, const Place& from, const Place& to) const {
-  const Place& end = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
-  Event found = event(monitor, end, end.monitors[monitor], {});
-  found.located = false;
-  return {std::move(found), end, end.quantities[monitor]};
-}
-
-std::optional<LocatedEvent> EventLocator::at_kink(std::size_t monitor, const Place& kink, const Place&) {
-  Event found = event(monitor, kink, kink.monitors[monitor], {});
-  found.nonsmooth = true;
-  return LocatedEvent{std::move(found), kink, kink.quantities[monitor]};
-}
-
-std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor, const Place& from,
-                                                             const Place& to) {
-  Corrector& probe = this->probe();
-  Place kink;
-  Correction correction;
-  if (!locate_kink(probe, from, to.arclength - from.arclength, kink, correction))
-    return nearer_end(monitor, from, to);
-  const double ahead = beyond_kink * (to.arclength - kink.arclength);
-  Place beyond = to;
-  beyond.v = kink.v + ahead * to.tangent;
-  if (!probe.correct(beyond.v, probe.border_row(to.tangent), false).converged || !settle(probe, beyond))
-    return nearer_end(monitor, from, to);
-  beyond.arclength = kink.arclength + ahead;
-  if (probe.dot(beyond.tangent, to.tangent) < 0) beyond.reverse();
-  evaluate(monitors_, probe, beyond);
-  const bool positive = from.monitors[monitor] > 0;
-  if (beyond.piece == to.piece && (beyond.monitors[monitor] > 0) == positive)
-    return locate(monitor, beyond, to);
-  if (!probe.linearize(kink.v, probe.border_row(from.tangent))) return nearer_end(monitor, from, to);
-  evaluate(monitors_, probe, kink);
-  if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink);
-  return at_kink(monitor, kink, beyond);
-}
-
-std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Place& from, const Place& to) {
-  Corrector& probe = this->probe();
-  const double length = to.arclength - from.arclength;
-  const Vector chord = to.v - from.v;
-  const Vector row = probe.border_row(chord / length);
-  Place place = to;
-  Correction correction;
-  bool factors = false, failed = false;
-  std::uint64_t positive_piece = 0, negative_piece = 0;  // of the last value of each sign: the bracket's ends
-  const auto value = [&](double s) {
-    hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
-    correction = probe.correct(place.v, row, factors);
-    if (!correction.converged) correction = probe.correct(place.v, row, false);
-    // A tangent from factors beside the solution may be off by more than what is looked for.
-    if (!correction.converged || (correction.last > linearized_there && !probe.linearize(place.v, row)) ||
-        !settle(probe, place)) {
-      failed = true;
-      return 0.0;
-    }
-    factors = true;
-    place.arclength = from.arclength + distance(probe, from.v, place.v);
-    const double f = monitors_[monitor].value(accepted(probe, place));
-    (f > 0 ? positive_piece : negative_piece) = place.piece;
-    return f;
-  };
-  const Eigen::Index n = to.v.size() - 1;
-  const double p_size = std::max(std::abs(to.v[n]), 1e-300);
-  const double u_size = std::max(probe.norm_u(to.v), 1e-300);
-  const double in_p = options_.event_tolerance * p_size / std::max(std::abs(chord[n]), 1e-300);
-  const double in_u = state_tolerance * u_size / std::max(probe.norm_u(chord), 1e-300);
-  const double tolerance = std::clamp(std::min(in_p, in_u), finest_share, coarsest_share);
-  const double a = from.monitors[monitor], b = to.monitors[monitor];
-  double begin = 0, at_begin = value(0);
-  while (!failed && (at_begin > 0) == (b > 0) && at_begin != 0) {  // the sign of `from` was one of rounding
-    if (begin <= -1) return std::nullopt;
-    begin = begin == 0 ? -0.25 : 2 * begin;
-    at_begin = value(begin);
-  }
-  if (failed) return nearer_end(monitor, from, to);
-  (b > 0 ? positive_piece : negative_piece) = to.piece;
-  const Root root = find_root(value, begin, at_begin, 1, b, tolerance);
-  if (failed) return nearer_end(monitor, from, to);
-  const double left = value(root.x);
-  if (failed) return nearer_end(monitor, from, to);
-  Event found = event(monitor, place, left, correction);
-  found.nonsmooth =
-      positive_piece != negative_piece &&
-      std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
-  LocatedEvent result{std::move(found), place};
-  if (!monitors_[monitor].quantity) return result;
-  result.quantity = monitors_[monitor].quantity(accepted(probe, place));
-  if (std::max(std::abs(a), std::abs(b)) * length >
-      options_.newton.rounding_level * std::abs(result.quantity))
-    return result;
-  double lowest = result.quantity, highest = lowest;
-  for (int k = -samples_beside; k <= samples_beside && !failed; ++k) {
-    value(root.x + sample_share * k);
-    lowest = std::min(lowest, monitors_[monitor].quantity(accepted(probe, place)));
-    highest = std::max(highest, monitors_[monitor].quantity(accepted(probe, place)));
-  }
-  const double representable = std::numeric_limits<double>::epsilon() * std::abs(result.quantity);
-  result.rounding = spreads * std::max(highest - lowest, representable);
   return result;
 }
 

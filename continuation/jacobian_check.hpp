@@ -21,4 +21,8 @@ struct JacobianError {
 /// differences themselves are good to about 1e-9 relative. Throws what the problem throws.
 JacobianError check_jacobian(const Problem& problem, In u, In p);
 
+/// To go on a message where Newton's method failed: "; " and what is wrong with the Jacobian. Empty where
+/// nothing is, beyond 500 unknowns, and where F cannot be evaluated.
+std::string doubt_of_jacobian(const Problem& problem, In u, In p);
+
 }  // namespace arcslip::continuation

@@ -6,6 +6,8 @@
 #include <arcslip/continuation/corrector.hpp>
 #include <arcslip/continuation/monitor.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -43,6 +45,11 @@ Point point(const Place& place, const Correction& correction);
 
 /// |b - a| in scales.
 double distance(const Corrector& in, const Vector& a, const Vector& b);
+
+/// Of two unit vectors with this product, rad.
+inline double angle_between(double cosine) {
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
 
 /// The point at share s, in [0, 1] or beyond, of the cubic through two points with their tangents (Hermite);
 /// length: of the chord.

@@ -18,7 +18,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -65,6 +64,9 @@ class Tracer {
 
   void make_tools();
   bool begin();
+  // A turn that keeps so much of itself over so much shorter a step is a kink.
+  static constexpr double kink_step = 0.25;
+
   Attempt attempt();
   bool corner();
   struct Corner {  // both sides of a kink within the step
@@ -78,7 +80,6 @@ class Tracer {
   bool measure(Place& place);
   bool resolved(const Place& from, const Place& to, double length);
   bool is_kink(double turn, const Place& next);
-  bool comes_home(double length) const;
   bool accept(Place&& place, const Correction& correction, const Corner* corner = nullptr);
   std::optional<LocatedEvent> unlocated_branch_point(const Place& from, const Place& to) const;
   std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found);
@@ -89,12 +90,10 @@ class Tracer {
   bool notify();
   bool within_limits();
   double curve_error(double length);
+  double unresolved_factor() const;
   double choose_step(double angle, const Correction& correction) const;
   double largest_parameter_step() const;
   double limited(double ds) const;
-  bool to_boundary(Place& place, double bound, double share);
-  std::pair<double, double> leaves_window(double length) const;
-  double rounding_of_home() const;
   bool end(StopReason reason, double value, double limit, std::string message);
 
   std::shared_ptr<const Problem> problem_;

@@ -1,0 +1,67 @@
+#include <arcslip/continuation/start_check.hpp>
+
+#include <arcslip/continuation/text.hpp>
+
+#include <stdexcept>
+
+namespace arcslip::continuation {
+namespace {
+
+// Distances are measured in them: a wrong one is no place to find out that a branch goes nowhere.
+void check_scales(const Problem& problem) {
+  const Vector scales = problem.scales();
+  if (scales.size() != problem.size())
+    throw std::invalid_argument("the problem has " + std::to_string(scales.size()) + " scales for " +
+                                std::to_string(problem.size()) + " unknowns");
+  if (!scales.allFinite() || !(scales.minCoeff() > 0))
+    throw std::invalid_argument("the scales of the unknowns must be positive and finite");
+  for (const Parameter& parameter : problem.parameters())
+    if (!(parameter.scale > 0 && std::isfinite(parameter.scale)))
+      throw std::invalid_argument("the scale of the parameter \"" + parameter.name + "\" is " +
+                                  text(parameter.scale) + ", must be positive and finite");
+}
+
+}  // namespace
+
+void check_start(const Problem& problem, const Start& start, const Options& options) {
+  const int n = problem.size();
+  const auto parameters = problem.parameters();
+  if (n < 1) throw std::invalid_argument("the problem has no unknowns");
+  if (start.u.size() != n)
+    throw std::invalid_argument("the start has " + std::to_string(start.u.size()) +
+                                " unknowns, the problem " + std::to_string(n));
+  if (start.p.size() != static_cast<Eigen::Index>(parameters.size()))
+    throw std::invalid_argument("the start has " + std::to_string(start.p.size()) +
+                                " parameters, the problem " + std::to_string(parameters.size()));
+  if (start.free < 0 || static_cast<std::size_t>(start.free) >= parameters.size())
+    throw std::invalid_argument("the free parameter is number " + std::to_string(start.free) + " of " +
+                                std::to_string(parameters.size()));
+  if (start.tangent.size() != 0 && (start.tangent.size() != n + 1 || !start.tangent.allFinite()))
+    throw std::invalid_argument("the tangent of the start needs " + std::to_string(n + 1) +
+                                " finite entries, not " + std::to_string(start.tangent.size()));
+  const double p = start.p[start.free];
+  if (!start.u.allFinite() || !std::isfinite(p))
+    throw std::invalid_argument("the start has numbers that are not finite");
+  if (p < options.lower || p > options.upper)
+    throw std::invalid_argument("the start is at " + text(p) + ", outside the window [" +
+                                text(options.lower) + ", " + text(options.upper) + "]");
+  check_scales(problem);
+}
+
+void check_state(const Problem& problem, const State& state, std::size_t monitors) {
+  const int n = problem.size();
+  if (state.free < 0 || static_cast<std::size_t>(state.free) >= problem.parameters().size())
+    throw std::invalid_argument("the free parameter of the state is number " + std::to_string(state.free) +
+                                " of " + std::to_string(problem.parameters().size()));
+  if (state.here.v.size() != n + 1 ||
+      state.p.size() != static_cast<Eigen::Index>(problem.parameters().size()) ||
+      state.courses.size() != monitors)
+    throw std::invalid_argument("the state is of " + std::to_string(state.here.v.size() - 1) + " unknowns, " +
+                                std::to_string(state.p.size()) + " parameters and " +
+                                std::to_string(state.courses.size()) + " monitors, the problem of " +
+                                std::to_string(n) + ", " + std::to_string(problem.parameters().size()) +
+                                " and " + std::to_string(monitors));
+  check_scales(problem);
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,12 @@
+#pragma once
+// Whether what a trace begins with fits its problem. All throw std::invalid_argument with what was found and
+// what is needed.
+
+#include <arcslip/continuation/tracer.hpp>
+
+namespace arcslip::continuation {
+
+void check_start(const Problem& problem, const Start& start, const Options& options);
+void check_state(const Problem& problem, const State& state, std::size_t monitors);
+
+}  // namespace arcslip::continuation

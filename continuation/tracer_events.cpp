@@ -1,0 +1,66 @@
+// What becomes of the events of a step: their order, and branch points that could not be located.
+
+#include <arcslip/continuation/tracer.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace arcslip::continuation {
+
+// In the order of arclength: an event may have waited for a few points until it was certain.
+const Event* Tracer::add(Event&& event) {
+  const double s = event.point.arclength;
+  const auto after = std::upper_bound(s_.branch.points.begin(), s_.branch.points.end(), s,
+                                      [](double x, const Point& y) { return x < y.arclength; });
+  event.after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - s_.branch.points.begin(), 1) - 1);
+  const auto place = std::upper_bound(s_.branch.events.begin(), s_.branch.events.end(), s,
+                                      [](double x, const Event& y) { return x < y.point.arclength; });
+  return &*s_.branch.events.insert(place, std::move(event));
+}
+
+bool Tracer::report(std::vector<LocatedEvent>&& all) {
+  bool go_on = true;
+  for (LocatedEvent& found : all) {
+    const Event* event = add(std::move(found.event));
+    if (observer_ && go_on) {
+      const auto now = events_->look_at(found.place);
+      if (!now) main_->move_to(found.place.v);  // at a branch point B may be singular to the last bit
+      go_on = observer_(now ? *now : accepted(*main_, found.place), event);
+    }
+    const bool terminal = std::any_of(monitors_.begin(), monitors_.end(), [&](const Monitor& m) {
+      return m.terminal && m.name == event->monitor;
+    });
+    if (terminal && !terminal_) terminal_ = std::move(found.place);
+  }
+  return go_on;
+}
+
+// Where pieces of F meet at it, or a branch point that is not simple.
+std::optional<LocatedEvent> Tracer::unlocated_branch_point(const Place& from, const Place& to) const {
+  LocatedEvent found;
+  for (const Monitor& monitor : monitors_)
+    if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
+  found.event.nonsmooth = from.piece != to.piece;
+  found.event.located = found.event.nonsmooth;
+  found.event.point = point(from, {});
+  BranchPoint half_branches;
+  half_branches.tangents = {from.tangent, to.tangent};
+  found.event.data = std::move(half_branches);
+  found.place = from;
+  return found;
+}
+
+// The events of a step in the order of arclength: the first terminal one ends the branch.
+std::vector<LocatedEvent> Tracer::with_crossing(std::vector<LocatedEvent>&& found) {
+  if (crossing_ && !crossing_->event.monitor.empty()) {
+    const auto place =
+        std::upper_bound(found.begin(), found.end(), crossing_->place.arclength,
+                         [](double s, const LocatedEvent& each) { return s < each.event.point.arclength; });
+    found.insert(place, std::move(*crossing_));
+  }
+  crossing_.reset();
+  curve_error_ = 0;
+  return std::move(found);
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,107 @@
+// How a trace begins: from a start, or from where another one was saved.
+
+#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/continuation/start_check.hpp>
+#include <arcslip/continuation/text.hpp>
+#include <arcslip/continuation/tracer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double first_share_of_window = 0.01;  // |dp| of a step where the user names none
+
+}  // namespace
+
+Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
+               std::vector<Monitor> monitors, Observer observer)
+    : problem_(std::move(problem)),
+      options_(options),
+      monitors_(std::move(monitors)),
+      observer_(std::move(observer)),
+      n_(problem_->size()) {
+  check(options);
+  check_start(*problem_, start, options);
+  s_.free = start.free;
+  s_.direction = start.direction < 0 ? -1 : 1;
+  s_.p = start.p;
+  s_.here.v.resize(n_ + 1);
+  s_.here.v << start.u, start.p[s_.free];
+  s_.here.tangent = start.tangent;
+  make_tools();
+}
+
+Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
+               std::vector<Monitor> monitors, Observer observer)
+    : problem_(std::move(problem)),
+      options_(options),
+      monitors_(std::move(monitors)),
+      observer_(std::move(observer)),
+      s_(std::move(state)),
+      n_(problem_->size()) {
+  check(options);
+  check_state(*problem_, s_, monitors_.size());
+  make_tools();
+}
+
+void Tracer::make_tools() {
+  const Parameter& free = problem_->parameters()[static_cast<std::size_t>(s_.free)];
+  options_.lower = std::max(options_.lower, free.lower);
+  options_.upper = std::min(options_.upper, free.upper);
+  if (options_.step.largest_parameter == 0)
+    options_.step.largest_parameter = first_share_of_window * (options_.upper - options_.lower);
+  main_ = std::make_unique<Corrector>(*problem_, s_.p, s_.free, options_.newton, s_.branch.counts,
+                                      options_.linear_solver);
+  events_ = std::make_unique<EventLocator>(problem_, s_.p, s_.free, options_, monitors_, s_.courses,
+                                           s_.branch.counts);
+  factors_fit_ = false;
+  next_ = s_.here;
+  next_.tangent.resize(n_ + 1);
+  row_.resize(n_ + 1);
+  v_.resize(n_ + 1);
+}
+
+State Tracer::save() {
+  make_tools();
+  return s_;
+}
+
+bool Tracer::begin() {
+  s_.begun = true;
+  const bool given = s_.here.tangent.size() != 0;
+  if (!given) s_.here.tangent = Vector::Unit(n_ + 1, n_);
+  main_->border_row(s_.here.tangent, row_);
+  const Correction correction = main_->correct(s_.here.v, row_, false);
+  if (correction.singular)
+    return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
+               "the linearization at the start is singular" + because(main_->failure()));
+  if (!correction.converged)
+    return end(correction.evaluated ? StopReason::start_failed : StopReason::not_evaluated, correction.last,
+               options_.newton.tolerance,
+               (correction.evaluated ? "the corrector did not converge at the start (" +
+                                           std::to_string(correction.iterations) + " iterations)" +
+                                           doubt_of_jacobian(*problem_, s_.here.v.head(n_), s_.p)
+                                     : "the problem could not be evaluated at the start") +
+                   because(main_->failure()));
+  if (!settle(*main_, s_.here))
+    return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
+  if (!given && s_.direction < 0) s_.here.reverse();
+  s_.branch.linear_solver = main_->factors().name();
+  const double to_scale = 1 / main_->parameter_scale();
+  const double along = to_scale * std::abs(s_.here.tangent[n_]);
+  s_.step = options_.step.initial > 0
+                ? options_.step.initial
+                : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
+  s_.step = limited(s_.step);
+  evaluate(monitors_, *main_, s_.here);
+  s_.start = s_.before = s_.here;
+  keep(s_.here, correction);
+  factors_fit_ = false;  // their border row is that of the start
+  if (!notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
+  return within_limits();
+}
+
+}  // namespace arcslip::continuation

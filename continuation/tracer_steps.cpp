@@ -1,0 +1,122 @@
+// How long the next step is, where it leads, and what a step has to keep to be accepted.
+
+#include <arcslip/continuation/tracer.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, at most
+// A turn that keeps so much of itself over so much shorter a step is a kink.
+constexpr double kink_turn = 0.7;
+constexpr double parameter_rounding = 1e-9;    // relative changes of p below tell no direction
+constexpr double largest_extrapolation = 2.5;  // in last steps, for the cubic predictor
+constexpr double unresolved_rejection = 0.5;   // of the step where a quantity is not told by its slopes
+constexpr double unresolved_change = 0.5;      // of a quantity, against its slopes
+constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
+constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
+constexpr double curve_safety = 0.9;           // of the step that the curve's error allows
+constexpr double middle_share = 0.7;           // of the largest error of the curve, in the middle of a step
+
+// Of the step, where the curve's error is `error` times that allowed: it falls with the fourth power.
+double curve_factor(double error) {
+  return std::clamp(curve_safety / std::sqrt(std::sqrt(error)), shrinkage, growth);
+}
+
+}  // namespace
+
+double Tracer::largest_parameter_step() const {
+  const double relative = options_.step.relative_parameter * std::abs(s_.here.v[n_]);
+  const double limit = options_.step.largest_parameter;
+  return relative > 0 ? std::min(limit, relative) : limit;  // at p = 0 there is no relative limit
+}
+
+double Tracer::limited(double ds) const {
+  ds = std::min(ds, options_.step.relative_state * (1 + main_->norm_u(s_.here.v)));
+  if (options_.step.largest > 0) ds = std::min(ds, options_.step.largest);
+  const double along = std::abs(s_.here.tangent[n_]), limit = largest_parameter_step();
+  return along * ds > limit ? limit / along : ds;
+}
+
+// By the cubic or the secant of the last two points, or, after a kink, at the start or far out, the tangent.
+void Tracer::predict(Vector& v) const {
+  const Predictor predictor = options_.step.predictor;
+  if (predictor != Predictor::tangent && s_.has_before && s_.step <= largest_extrapolation * s_.last_step) {
+    const double share = s_.step / s_.last_step;
+    if (predictor == Predictor::cubic)
+      hermite(s_.before.v, s_.before.tangent, s_.here.v, s_.here.tangent, s_.last_step, 1 + share, v);
+    else
+      v = s_.here.v + share * (s_.here.v - s_.before.v);
+    return;
+  }
+  v = s_.here.v + s_.step * s_.here.tangent;
+}
+
+// Both tangents point one way in p, and p went the other way: another branch, or two folds in one step.
+bool Tracer::went_back(const Place& next) const {
+  const double a = s_.here.tangent[n_], b = next.tangent[n_], dp = next.v[n_] - s_.here.v[n_];
+  return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(s_.here.v[n_]);
+}
+
+// Whether the change of each monitored quantity is that of its slopes at both ends, by the trapezoid. Beside
+// a kink it is not, however short the step: in one stretch the step is shortened no further than to a part of
+// the first one.
+bool Tracer::resolved(const Place& from, const Place& to, double length) {
+  if (s_.here.arclength <= s_.unresolved_end && s_.step <= unresolved_share * s_.unresolved_step) return true;
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (!monitors_[m].quantity) continue;
+    const double a = from.monitors[m] * length, b = to.monitors[m] * length;
+    const double change = to.quantities[m] - from.quantities[m];
+    const double size = std::max(std::abs(a), std::abs(b));
+    if (std::abs(change - 0.5 * (a + b)) <= unresolved_change * size ||
+        size <= quantity_rounding * std::abs(to.quantities[m]))
+      continue;
+    if (s_.here.arclength > s_.unresolved_end) {
+      s_.unresolved_end = s_.here.arclength + length;
+      s_.unresolved_step = s_.step;
+    }
+    return false;
+  }
+  return true;
+}
+
+// Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink
+// with the step. A turn is first met with a long step and rejected; it is the same one as long as its place
+// is not passed.
+bool Tracer::is_kink(double turn, const Place& next) {
+  if (next.piece == s_.here.piece) return false;
+  const State::Turn now{turn, s_.step, s_.here.arclength + 2 * s_.step};
+  if (s_.here.arclength > s_.turn.end) s_.turn = now;
+  if (s_.step > kink_step * s_.turn.step) return false;
+  if (turn >= kink_turn * s_.turn.angle) return true;
+  s_.turn = now;  // it shrank, but may stay from here on
+  return false;
+}
+
+// Of the cubic between here and next_, over that allowed: at its middle, where it is largest but for what the
+// fourth derivative changes within the step.
+double Tracer::curve_error(double length) {
+  const double allowed = middle_share * options_.step.curve_tolerance * (1 + main_->norm_u(next_.v));
+  if (!(allowed > 0)) return 0;
+  hermite(s_.here.v, s_.here.tangent, next_.v, next_.tangent, length, 0.5, v_);
+  const double error = main_->distance_from_branch(v_) / allowed;
+  return std::isfinite(error) ? error : 1 / shrinkage;
+}
+
+double Tracer::choose_step(double angle, const Correction& correction) const {
+  double factor = angle > 0 ? options_.step.angle / angle : growth;
+  const bool contraction_counts = correction.first > std::sqrt(options_.newton.tolerance);
+  if (contraction_counts && correction.contraction > 0)
+    factor = std::min(factor, std::sqrt(options_.step.contraction / correction.contraction));
+  if (curve_error_ > 0) factor = std::min(factor, curve_factor(curve_error_));
+  return s_.step * std::clamp(factor, shrinkage, growth);
+}
+
+// Of the step, after one that was tried in vain though the corrector converged.
+double Tracer::unresolved_factor() const {
+  return curve_error_ > 1 ? curve_factor(curve_error_) : unresolved_rejection;
+}
+
+}  // namespace arcslip::continuation
