@@ -31,6 +31,8 @@ const char* name(StopReason reason) {
       return "user";
     case StopReason::not_evaluated:
       return "not_evaluated";
+    case StopReason::monitor_failed:
+      return "monitor_failed";
   }
   return "unknown";
 }

@@ -74,7 +74,9 @@ struct Event {
 ///   memory_limit     bytes of the points kept >= limit.
 ///   user             the callback said stop.
 ///   not_evaluated    the problem could not be evaluated at any attempt, gave numbers that are not finite, or
-///                    threw: the message has its words. value is the step that was tried, limit the smallest.
+///                    threw, as did its linear solver: the message has its words. value is the step that was
+///                    tried, limit the smallest.
+///   monitor_failed   a function of a monitor threw: the message names it and has its words. value is p there.
 // clang-format on
 enum class StopReason {
   boundary,
@@ -87,7 +89,8 @@ enum class StopReason {
   time_limit,
   memory_limit,
   user,
-  not_evaluated
+  not_evaluated,
+  monitor_failed
 };
 
 const char* name(StopReason reason);
@@ -109,6 +112,10 @@ struct Branch {
   Stop stop;
   Counts counts;
   std::string linear_solver;  // the one that was used
+
+  /// What the trace could not see, a sentence each: monitors that are not a number at a point, so that their
+  /// zeros beside it are no events.
+  std::vector<std::string> warnings;
 };
 
 /// The point at an arclength within the branch, on the cubic through its neighbours with their tangents: not

@@ -55,6 +55,9 @@ void append(Branch& branch, Branch&& next) {
   std::move(next.points.begin(), next.points.end(), std::back_inserter(branch.points));
   std::move(next.events.begin(), next.events.end(), std::back_inserter(branch.events));
   branch.stop = std::move(next.stop);
+  for (std::string& warning : next.warnings)
+    if (std::find(branch.warnings.begin(), branch.warnings.end(), warning) == branch.warnings.end())
+      branch.warnings.push_back(std::move(warning));
   branch.counts.points += next.counts.points;
   branch.counts.rejected_steps += next.counts.rejected_steps;
   branch.counts.residuals += next.counts.residuals;

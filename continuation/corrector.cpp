@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -119,15 +120,39 @@ bool Corrector::factorize(const Vector& row) {
   borders_.rows.col(0) = row.head(n);
   borders_.corner(0, 0) = row[n];
   ++counts_.factorizations;
-  return solver_->factorize(evaluator_->jacobian(), borders_);
+  try {
+    return solver_->factorize(evaluator_->jacobian(), borders_);
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
 }
 
 void Corrector::solve(Vector& dv) const {
   const Eigen::Index n = dv.size() - 1;
   dv.head(n) = -evaluator_->residual();
   dv[n] = 0;
+  back_substitute(dv);
+}
+
+void Corrector::back_substitute(Vector& x) const {
   ++counts_.solves;
-  solver_->solve(dv);
+  try {
+    solver_->solve(x);
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    x.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+bool Corrector::piece(std::uint64_t& piece) {
+  try {
+    piece = evaluator_->piece();
+    return true;
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
 }
 
 // To the smallest of all corrections: dv - <dv, t> t.
@@ -142,8 +167,7 @@ bool Corrector::linearize(const Vector& v, const Vector& row) {
 bool Corrector::tangent(Vector& t) const {
   t.setZero();
   t[t.size() - 1] = 1;
-  ++counts_.solves;
-  solver_->solve(t);
+  back_substitute(t);
   const double length = std::sqrt(dot(t, t));
   if (!std::isfinite(length) || length == 0) return false;
   t /= length;

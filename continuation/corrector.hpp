@@ -18,6 +18,7 @@
 #include <arcslip/continuation/options.hpp>
 #include <arcslip/continuation/problem.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -58,6 +59,9 @@ class Corrector {
   /// Moves the evaluator (not the factors) to v.
   bool move_to(const Vector& v) { return evaluate(v, Needs::residual); }
 
+  /// The smooth piece that the evaluator is in. False where the problem throws: see failure().
+  bool piece(std::uint64_t& piece);
+
   /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in
   /// scales. False where it is not finite.
   bool tangent(Vector& t) const;
@@ -79,7 +83,8 @@ class Corrector {
  private:
   bool evaluate(const Vector& v, Needs needs);
   bool factorize(const Vector& row);
-  void solve(Vector& dv) const;  // dv = -B^-1 (F, 0)
+  void solve(Vector& dv) const;           // dv = -B^-1 (F, 0)
+  void back_substitute(Vector& x) const;  // x = B^-1 x; not finite where the linear solver throws
   bool chord(Vector& v, Correction& result);
   void project(Vector& dv);
 
@@ -92,7 +97,7 @@ class Corrector {
   Vector p_, weights_, F_p_, dv_, next_, trial_, tangent_;
   mutable Vector metric_;  // M x of the last product
   bool has_metric_;
-  std::string failure_;
+  mutable std::string failure_;
   int free_;
   double chord_safety_ = 1;
   double parameter_scale_;

@@ -1,9 +1,10 @@
 #include <arcslip/continuation/event_locator.hpp>
 
+#include <arcslip/continuation/monitor_calls.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <limits>
+#include <iterator>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -11,6 +12,10 @@ namespace {
 
 constexpr double newton_share = 1e-2;  // the corrector's tolerance, of that on the branch
 constexpr double same_place = 1e-6;    // of a step: monitors of one name with zeros so near share an event
+
+void append(std::vector<LocatedEvent>& found, std::vector<LocatedEvent>&& next) {
+  std::move(next.begin(), next.end(), std::back_inserter(found));
+}
 
 }  // namespace
 
@@ -36,13 +41,11 @@ Corrector& EventLocator::probe() {
 }
 
 std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
-  std::vector<LocatedEvent> found = gather(&EventLocator::find, from, to);
-  if (to.piece == from.piece) return found;
-  for (const Monitor& monitor : monitors_)
-    if (monitor.kind == MonitorKind::kink) kinks(monitor, from, to, found);
-  std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
-    return x.event.point.arclength < y.event.point.arclength;
-  });
+  std::vector<LocatedEvent> found;
+  const bool kinks = std::any_of(monitors_.begin(), monitors_.end(),
+                                 [](const Monitor& each) { return each.kind == MonitorKind::kink; });
+  const Place side = kinks && to.piece != from.piece ? pass_kinks(from, to, found) : from;
+  append(found, gather(&EventLocator::find, side, to));
   return found;
 }
 
@@ -128,14 +131,14 @@ std::optional<LocatedEvent> EventLocator::find(std::size_t monitor, const Place&
 bool EventLocator::is_event(std::size_t monitor, const LocatedEvent& found) {
   if (!monitors_[monitor].is_event) return true;
   const auto now = look_at(found.place);
-  return !now || monitors_[monitor].is_event(*now);
+  return !now || call(monitors_[monitor].is_event, monitors_[monitor], *now);
 }
 
 void EventLocator::describe(LocatedEvent& found) {
   const auto monitor = std::find_if(monitors_.begin(), monitors_.end(),
                                     [&](const Monitor& m) { return m.name == found.event.monitor; });
   if (!monitor->describe || found.event.nonsmooth || !found.event.located) return;
-  if (const auto now = look_at(found.place)) found.event.data = monitor->describe(*now);
+  if (const auto now = look_at(found.place)) found.event.data = call(monitor->describe, *monitor, *now);
 }
 
 std::optional<Accepted> EventLocator::look_at(const Place& event) {

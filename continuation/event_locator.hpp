@@ -58,7 +58,7 @@ class EventLocator {
   std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
   std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
   LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
-  void kinks(const Monitor& monitor, const Place& from, const Place& to, std::vector<LocatedEvent>& found);
+  Place pass_kinks(const Place& from, const Place& to, std::vector<LocatedEvent>& found);
   LocatedEvent kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const;
   bool look_beyond(const Place& kink, const Place& to, double way, Place& beyond);
   bool is_event(std::size_t monitor, const LocatedEvent& found);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -79,20 +80,30 @@ bool EventLocator::look_beyond(const Place& kink, const Place& to, double way, P
   return beyond.piece != kink.piece;
 }
 
-void EventLocator::kinks(const Monitor& monitor, const Place& from, const Place& to,
-                         std::vector<LocatedEvent>& found) {
+// From piece to piece: each section is searched by itself, so that two events of one monitor within the step,
+// as two nonsmooth folds are, do not cancel. Returns the beginning of the last section.
+Place EventLocator::pass_kinks(const Place& from, const Place& to, std::vector<LocatedEvent>& found) {
   Place side = from, kink, beyond;
+  const auto add = [&](std::vector<LocatedEvent>&& events) {
+    std::move(events.begin(), events.end(), std::back_inserter(found));
+  };
   for (int k = 0; k < most_kinks && side.piece != to.piece; ++k) {
     const double length = to.arclength - side.arclength;
     Correction correction;
-    if (!(length > 0) || !locate_kink(probe(), side, length, kink, correction) ||
-        !look_beyond(kink, to, just_beyond * length, beyond))
-      return;
+    if (!(length > 0) || !locate_kink(probe(), side, length, kink, correction)) break;
+    if (!probe().linearize(kink.v, probe().border_row(side.tangent))) break;
+    evaluate(monitors_, probe(), kink);
+    if (!look_beyond(kink, to, just_beyond * length, beyond)) break;
+    evaluate(monitors_, probe(), beyond);
+    add(gather(&EventLocator::find, side, kink));
     const double turn = probe().dot(kink.tangent, beyond.tangent);
     if (turn < 1 - 0.5 * smallest_kink * smallest_kink)
-      found.push_back(kink_event(monitor, kink, beyond.tangent));
+      add(across(kink, beyond));
+    else
+      add(gather(&EventLocator::find, kink, beyond));
     side = beyond;
   }
+  return side;
 }
 
 }  // namespace arcslip::continuation

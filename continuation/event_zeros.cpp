@@ -1,6 +1,7 @@
 // The zero of a monitor between two places, on a smooth section or beside a kink.
 
 #include <arcslip/continuation/event_locator.hpp>
+#include <arcslip/continuation/monitor_calls.hpp>
 #include <arcslip/continuation/root.hpp>
 
 #include <algorithm>
@@ -81,7 +82,8 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
     }
     factors = true;
     place.arclength = from.arclength + distance(probe, from.v, place.v);
-    const double f = monitors_[monitor].value(accepted(probe, place));
+    const double f = value_of(monitors_[monitor], accepted(probe, place));
+    failed = std::isnan(f);
     (f > 0 ? positive_piece : negative_piece) = place.piece;
     return f;
   };
@@ -110,15 +112,16 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
       std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
   LocatedEvent result{std::move(found), place};
   if (!monitors_[monitor].quantity) return result;
-  result.quantity = monitors_[monitor].quantity(accepted(probe, place));
+  result.quantity = quantity_of(monitors_[monitor], accepted(probe, place));
   if (std::max(std::abs(a), std::abs(b)) * length >
       options_.newton.rounding_level * std::abs(result.quantity))
     return result;
   double lowest = result.quantity, highest = lowest;
   for (int k = -samples_beside; k <= samples_beside && !failed; ++k) {
     value(root.x + sample_share * k);
-    lowest = std::min(lowest, monitors_[monitor].quantity(accepted(probe, place)));
-    highest = std::max(highest, monitors_[monitor].quantity(accepted(probe, place)));
+    const double q = quantity_of(monitors_[monitor], accepted(probe, place));
+    lowest = std::min(lowest, q);
+    highest = std::max(highest, q);
   }
   const double representable = std::numeric_limits<double>::epsilon() * std::abs(result.quantity);
   result.rounding = spreads * std::max(highest - lowest, representable);

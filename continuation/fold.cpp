@@ -22,7 +22,7 @@ double step_along(In u, const Vector& v) {
 }
 
 // F_uu v v, by differences of J v. Nothing where there is no room for them in the piece of u.
-std::optional<Vector> second_along(const Accepted& now, const Vector& v) {
+std::optional<Vector> second_along(const Accepted& now, const Vector& v) try {
   if (now.at.move_to(now.u, now.p, Needs::jacobian) != Evaluated::ok) return {};
   const std::uint64_t piece = now.at.piece();
   const Eigen::Index n = v.size();
@@ -35,12 +35,14 @@ std::optional<Vector> second_along(const Accepted& now, const Vector& v) {
       if (now.at.move_to(u, now.p, Needs::jacobian) != Evaluated::ok || now.at.piece() != piece) return false;
       apply(now.at.jacobian(), v, beside[i]);
       return true;
-    } catch (const std::exception&) {  // outside the domain, as it says
+    } catch (const std::exception&) {
       return false;
     }
   });
   if (!quotient) return {};
   return quotient->here * here + quotient->weight[0] * beside[0] + quotient->weight[1] * beside[1];
+} catch (const std::exception&) {  // outside the domain, as it says
+  return {};
 }
 
 // With B = [J F_p; r^T], whose tangent at the fold is t = (v, 0): B^T (w, 0) = e_{n+1}, and by

@@ -1,5 +1,8 @@
 #include <arcslip/continuation/monitor.hpp>
 
+#include <arcslip/continuation/monitor_calls.hpp>
+#include <arcslip/continuation/text.hpp>
+
 #include <utility>
 
 namespace arcslip::continuation {
@@ -14,6 +17,10 @@ Monitor monitor_of(MonitorKind kind, const char* name) {
 }
 
 }  // namespace
+
+MonitorFailure::MonitorFailure(const std::string& monitor, double at, const std::string& what)
+    : std::runtime_error("the monitor \"" + monitor + "\" threw at " + text(at) + because(what)),
+      parameter(at) {}
 
 Monitor bound_monitor(std::string name, int index, double value) {
   Monitor monitor;

@@ -1,39 +1,88 @@
 #include <arcslip/continuation/place.hpp>
 
+#include <arcslip/continuation/monitor_calls.hpp>
+
 #include <cmath>
 
 namespace arcslip::continuation {
 namespace {
 
-constexpr int kink_bisections = 40;
+constexpr double finest_kink = 1e-12;  // of the way to look for a kink: where it is to be found
+constexpr double least_slope = 0.1;    // of a tangent against the first one, to predict along it
+constexpr double farther = 8;          // where a prediction has not come to the end of the piece
+constexpr double first_margin = 1e-2, largest_margin = 0.5;
+constexpr double wider = 10;  // a margin, where the end was passed
+constexpr int most_kink_corrections = 60;
 
 }  // namespace
 
 bool settle(Corrector& at, Place& place) {
   if (!at.tangent(place.tangent)) return false;
   place.orientation = at.factors().determinant_sign().value_or(0);
-  place.piece = at.evaluator().piece();
-  return true;
+  return at.piece(place.piece);
 }
 
 bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last) {
   const Vector row = with.border_row(from.tangent);
-  double lower = 0, upper = length;
+  const double finest = finest_kink * length;
+  // Along from.tangent: of `kink`, which is in the piece of `from`, and of what is not.
+  double lower = 0, upper = length, ahead = length;
+  // Of the way to where the piece is predicted to end: left, so that it is not passed. The error of a
+  // prediction shrinks with the way.
+  double margin = first_margin;
+  bool factors_fit = false;
   kink = from;
   Vector v = from.v;
-  for (int k = 0; k < kink_bisections; ++k) {
-    const double middle = 0.5 * (lower + upper);
-    v = from.v + middle * from.tangent;
-    const Correction at = with.correct(v, row, false);
-    if (!at.converged || with.evaluator().piece() != from.piece) {
-      upper = middle;
+  const auto predict = [&](double x) {
+    const double along = row.dot(kink.tangent);
+    if (along > least_slope)
+      v = kink.v + (x - lower) / along * kink.tangent;
+    else  // the branch turns away: across its own tangent there is no prediction
+      v = kink.v + (x - lower) * from.tangent;
+  };
+  const auto predicted_inside = [&](double x) {
+    predict(x);
+    std::uint64_t piece = 0;
+    return with.move_to(v) && with.piece(piece) && piece == from.piece;
+  };
+  for (int k = 0; k < most_kink_corrections && upper - lower > finest; ++k) {
+    double inside = lower, outside = std::min(upper, lower + ahead);
+    while (predicted_inside(outside)) {
+      inside = outside;
+      if (outside == upper) break;
+      outside = std::min(upper, lower + farther * (outside - lower));
+    }
+    while (outside - inside > std::max(finest / 4, 0.5 * margin * (outside - lower))) {
+      const double middle = 0.5 * (inside + outside);
+      (predicted_inside(middle) ? inside : outside) = middle;
+    }
+    if (inside == lower) return true;  // the piece ends here
+    const bool bisected = inside == upper || margin > largest_margin;
+    const double aim = bisected ? 0.5 * (lower + upper) : inside - margin * (inside - lower);
+    predict(aim);
+    const Correction at = with.correct(v, row, factors_fit);
+    std::uint64_t piece = 0;
+    factors_fit = at.converged && with.piece(piece) && piece == from.piece;
+    if (!factors_fit) {
+      upper = aim;
+      ahead = upper - lower;
+      margin *= wider;
       continue;
     }
-    lower = middle;
+    const bool found = !bisected && outside - aim <= finest / 2;
+    const double way = aim - lower, left = outside - aim;
+    if (bisected)
+      ahead = upper - aim;
+    else {
+      ahead = 2 * left;
+      margin = std::min(first_margin, 2 * margin * left / way);
+    }
+    lower = aim;
     kink.v = v;
-    kink.arclength = from.arclength + middle;
+    kink.arclength = from.arclength + lower;
     last = at;
     if (!settle(with, kink)) return false;
+    if (found) return true;
   }
   return true;
 }
@@ -49,8 +98,8 @@ void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place)
   place.monitors.resize(monitors.size());
   place.quantities.resize(monitors.size());
   for (std::size_t m = 0; m < monitors.size(); ++m) {
-    place.monitors[m] = monitors[m].value(now);
-    place.quantities[m] = monitors[m].quantity ? monitors[m].quantity(now) : 0;
+    place.monitors[m] = value_of(monitors[m], now);
+    place.quantities[m] = quantity_of(monitors[m], now);
   }
 }
 

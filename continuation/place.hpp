@@ -27,11 +27,13 @@ struct Place {
 };
 
 /// Tangent, orientation and piece at the solution place.v of the last correction, on the side of its border
-/// row: row . t > 0. False where the tangent is not finite.
+/// row: row . t > 0. False where the tangent is not finite, or the piece not told.
 bool settle(Corrector& at, Place& place);
 
-/// Where the smooth piece of `from` ends along its tangent, by bisection of [0, length]: the kink, seen from
-/// this side. `last` is the correction that led there. False where there is no tangent on the way.
+/// Where the smooth piece of `from` ends along its tangent, within [0, length]: the kink, seen from this
+/// side. The end of the piece is bisected on the tangent, which costs residuals alone, and corrected onto the
+/// branch, again from there: what is left of the way shrinks with its square. `last` is the correction that
+/// led there. False where there is no tangent on the way.
 bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last);
 
 /// What monitors and observers see of a place. The corrector's factors are those of its last linearization.

@@ -22,6 +22,7 @@ void fields(Visit&& visit, auto& x);
 class Writer {
  public:
   explicit Writer(Json& to) : to_(to) {}
+  static bool holds(const char*) { return true; }
   template <class T>
   void operator()(const char* name, const T& x) {
     to_[name] = json(x);
@@ -67,6 +68,7 @@ class Writer {
 class Reader {
  public:
   explicit Reader(const Json& from) : from_(from) {}
+  bool holds(const char* name) const { return from_.contains(name); }
   template <class T>
   void operator()(const char* name, T& x) {
     read(from_.at(name), x);
@@ -148,6 +150,7 @@ void fields(Visit&& visit, auto& x) {
   } else if constexpr (is<T, Branch>) {
     visit("points", x.points), visit("events", x.events), visit("stop", x.stop), visit("counts", x.counts);
     visit("linear_solver", x.linear_solver);
+    if (visit.holds("warnings")) visit("warnings", x.warnings);  // states of earlier versions have none
   } else if constexpr (is<T, Place>) {
     visit("v", x.v), visit("tangent", x.tangent), visit("arclength", x.arclength);
     visit("orientation", x.orientation), visit("piece", x.piece), visit("monitors", x.monitors);

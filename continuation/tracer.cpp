@@ -3,6 +3,7 @@
 #include <arcslip/continuation/closing.hpp>
 #include <arcslip/continuation/jacobian_check.hpp>
 #include <arcslip/continuation/limits.hpp>
+#include <arcslip/continuation/monitor_calls.hpp>
 #include <arcslip/continuation/text.hpp>
 #include <arcslip/continuation/window.hpp>
 
@@ -34,7 +35,7 @@ bool Tracer::notify() {
   return observer_(accepted(*main_, s_.here), nullptr);
 }
 
-bool Tracer::step() {
+bool Tracer::step() try {
   if (s_.ended) return false;
   if (!s_.begun) return begin();
   for (;;) {
@@ -59,6 +60,10 @@ bool Tracer::step() {
         ++s_.branch.counts.rejected_steps;
         factors_fit_ = false;
         s_.has_before = false;
+        if (!main_->failure().empty()) {
+          evaluated_ = false;
+          failure_ = main_->failure();
+        }
         if (s_.here.arclength > s_.trouble_end) {
           s_.trouble_end = s_.here.arclength + s_.step;
           s_.rejections = 0;
@@ -69,6 +74,8 @@ bool Tracer::step() {
         break;
     }
   }
+} catch (const MonitorFailure& failure) {
+  return end(StopReason::monitor_failed, failure.parameter, 0, failure.what());
 }
 
 // The monitors at the solution of the last correction. Its factors, and so the tangent, are those of a place
@@ -126,7 +133,10 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   next_.arclength = s_.here.arclength + length;
   if (const auto exit = leaves({options_.lower, options_.upper}, s_.here, next_, length, kink)) {
     const double bound = exit->bound;
-    if (!draw_back(*main_, s_.here, *exit, next_, row_) || !measure(next_)) {
+    // A branch point on the way changes the sign.
+    const bool crossed = crossing_ && exit->share * length > crossing_->place.arclength - s_.here.arclength;
+    const int orientation = crossed ? next_.orientation : s_.here.orientation;
+    if (!draw_back(*main_, s_.here, *exit, orientation, next_, row_) || !measure(next_)) {
       const double left = std::abs(bound - s_.here.v[n_]);
       if (left > singular_bound * std::max(std::abs(bound), main_->parameter_scale()))
         return Attempt::rejected;
@@ -197,6 +207,7 @@ bool Tracer::accept(Place&& place, const Correction& correction, const Corner* c
                                   report(events_->between(corner->beyond, place))
                             : report(with_crossing(events_->between(s_.here, place)));
   if (terminal_) return end_at(*terminal_);
+  warn_of_undefined(place);
   keep(place, correction);
   std::swap(s_.before, s_.here);
   std::swap(s_.here, place);

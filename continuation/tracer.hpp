@@ -33,7 +33,7 @@ struct Start {
 };
 
 /// Called at each accepted point and, with the event, at each event, as soon as it is certain. Returns false
-/// to stop.
+/// to stop. What it throws is thrown on, by step() and trace().
 using Observer = std::function<bool(const Accepted&, const Event*)>;
 
 class Tracer {
@@ -72,6 +72,7 @@ class Tracer {
   struct Corner {  // both sides of a kink within the step
     Place before, beyond;
   };
+  double beyond_share(const Place& kink, const Vector& way);
   bool look_beside(const Place& kink, const Vector& tangent, double way, Place& side);
   Attempt take(double length, double next_ds, bool kink, const Correction& correction,
                const Corner* corner = nullptr);
@@ -84,6 +85,7 @@ class Tracer {
   std::optional<LocatedEvent> unlocated_branch_point(const Place& from, const Place& to) const;
   std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found);
   bool report(std::vector<LocatedEvent>&& found);
+  void warn_of_undefined(const Place& place);
   const Event* add(Event&& event);
   void keep(const Place& place, const Correction& correction);
   bool end_at(const Place& place);

@@ -2,12 +2,14 @@
 
 #include <arcslip/continuation/tracer.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcslip::continuation {
 namespace {
 
-constexpr double corner_step = 1e-3;  // beyond a kink, of the step, to linearize there
+// Beyond a kink, of the step, to linearize there: the longer one, unless another piece lies between.
+constexpr double corner_step = 1e-3, nearest_step = 1e-6;
 
 }  // namespace
 
@@ -17,7 +19,8 @@ bool Tracer::corner() {
   crossing_.reset();
   curve_error_ = 0;
   v_ = s_.here.v + s_.step * s_.here.tangent;
-  if (!main_->move_to(v_) || main_->evaluator().piece() == s_.here.piece) return false;
+  std::uint64_t ahead = 0;
+  if (!main_->move_to(v_) || !main_->piece(ahead) || ahead == s_.here.piece) return false;
   Place kink;
   Correction correction;
   if (!locate_kink(*main_, s_.here, s_.step, kink, correction)) return false;
@@ -29,7 +32,8 @@ bool Tracer::corner() {
   sides.before.arclength = kink.arclength;
   curve_error_ = 0;
   if (has_sides && !resolved(s_.here, sides.before, way)) return false;
-  next_.v = kink.v + corner_step * s_.step * s_.here.tangent;
+  const double share = beyond_share(kink, s_.here.tangent);
+  next_.v = kink.v + share * s_.step * s_.here.tangent;
   main_->border_row(s_.here.tangent, row_);
   if (!main_->linearize(next_.v, row_) ||
       !settle(*main_, next_)) {  // at a right angle, a row that is neither
@@ -40,6 +44,7 @@ bool Tracer::corner() {
   if (next_.piece == s_.here.piece) return false;
   if (next_.orientation != s_.here.orientation) next_.tangent = -next_.tangent;
   const Vector beyond = next_.tangent;
+  const double way_beyond = std::min(share, beyond_share(kink, beyond)) * s_.step;
   next_.v = kink.v + s_.step * beyond;
   main_->border_row(beyond, row_);
   correction = main_->correct(next_.v, row_, false);
@@ -51,10 +56,20 @@ bool Tracer::corner() {
       angle_between(main_->dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
   if (!measure(next_)) return false;
-  has_sides = has_sides && look_beside(kink, beyond, corner_step * s_.step, sides.beyond) &&
-              sides.beyond.piece != s_.here.piece;
+  has_sides =
+      has_sides && look_beside(kink, beyond, way_beyond, sides.beyond) && sides.beyond.piece != s_.here.piece;
   if (has_sides && !resolved(sides.beyond, next_, length)) return false;
   return take(way + length, s_.step, true, correction, has_sides ? &sides : nullptr) != Attempt::rejected;
+}
+
+// How far beyond a kink the piece is still that next to it.
+double Tracer::beyond_share(const Place& kink, const Vector& way) {
+  std::uint64_t near = kink.piece, far = kink.piece;
+  v_ = kink.v + nearest_step * s_.step * way;
+  const bool known = main_->move_to(v_) && main_->piece(near);
+  v_ = kink.v + corner_step * s_.step * way;
+  if (!known || !main_->move_to(v_) || !main_->piece(far)) return corner_step;
+  return near == far || near == kink.piece ? corner_step : nearest_step;
 }
 
 // A place shortly before (way < 0) or beyond a kink, on the branch, with its monitors.

@@ -1,8 +1,10 @@
 // What becomes of the events of a step: their order, and branch points that could not be located.
 
+#include <arcslip/continuation/text.hpp>
 #include <arcslip/continuation/tracer.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -16,6 +18,17 @@ const Event* Tracer::add(Event&& event) {
   const auto place = std::upper_bound(s_.branch.events.begin(), s_.branch.events.end(), s,
                                       [](double x, const Event& y) { return x < y.point.arclength; });
   return &*s_.branch.events.insert(place, std::move(event));
+}
+
+// Where a monitor is not a number, its zeros go by unseen.
+void Tracer::warn_of_undefined(const Place& place) {
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (!std::isnan(place.monitors[m]) && !std::isnan(place.quantities[m])) continue;
+    const std::string start = "the monitor \"" + monitors_[m].name + "\" is not a number at ";
+    auto& all = s_.branch.warnings;
+    if (std::none_of(all.begin(), all.end(), [&](const std::string& w) { return w.starts_with(start); }))
+      all.push_back(start + text(place.v[n_]) + ": its zeros beside such points are not seen");
+  }
 }
 
 bool Tracer::report(std::vector<LocatedEvent>&& all) {

@@ -86,8 +86,12 @@ bool Tracer::begin() {
                                            doubt_of_jacobian(*problem_, s_.here.v.head(n_), s_.p)
                                      : "the problem could not be evaluated at the start") +
                    because(main_->failure()));
-  if (!settle(*main_, s_.here))
-    return end(StopReason::start_failed, 0, 0, "the linearization at the start is singular");
+  if (!settle(*main_, s_.here)) {
+    const std::string& failure = main_->failure();
+    return end(failure.empty() ? StopReason::start_failed : StopReason::not_evaluated, 0, 0,
+               failure.empty() ? "the linearization at the start is singular"
+                               : "the problem could not be evaluated at the start: " + failure);
+  }
   if (!given && s_.direction < 0) s_.here.reverse();
   s_.branch.linear_solver = main_->factors().name();
   const double to_scale = 1 / main_->parameter_scale();
@@ -96,9 +100,10 @@ bool Tracer::begin() {
                 ? options_.step.initial
                 : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
   s_.step = limited(s_.step);
-  evaluate(monitors_, *main_, s_.here);
-  s_.start = s_.before = s_.here;
   keep(s_.here, correction);
+  evaluate(monitors_, *main_, s_.here);
+  warn_of_undefined(s_.here);
+  s_.start = s_.before = s_.here;
   factors_fit_ = false;  // their border row is that of the start
   if (!notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return within_limits();

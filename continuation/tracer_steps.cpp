@@ -70,6 +70,7 @@ bool Tracer::resolved(const Place& from, const Place& to, double length) {
     const double a = from.monitors[m] * length, b = to.monitors[m] * length;
     const double change = to.quantities[m] - from.quantities[m];
     const double size = std::max(std::abs(a), std::abs(b));
+    if (std::isnan(change - size)) continue;  // see Branch::warnings
     if (std::abs(change - 0.5 * (a + b)) <= unresolved_change * size ||
         size <= quantity_rounding * std::abs(to.quantities[m]))
       continue;

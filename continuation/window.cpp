@@ -41,7 +41,8 @@ std::optional<Exit> leaves(const Window& window, const Place& from, const Place&
   return {};
 }
 
-bool draw_back(Corrector& with, const Place& from, const Exit& exit, Place& place, Vector& row) {
+bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orientation, Place& place,
+               Vector& row) {
   const Eigen::Index n = place.v.size() - 1;
   const double length = distance(with, from.v, place.v);
   Vector guess(n + 1);
@@ -51,8 +52,14 @@ bool draw_back(Corrector& with, const Place& from, const Exit& exit, Place& plac
   row = Vector::Unit(n + 1, n);
   if (!with.correct(place.v, row, false).converged) return false;
   place.v[n] = exit.bound;
-  if (distance(with, guess, place.v) > length || !settle(with, place)) return false;  // on another branch
-  if (with.dot(place.tangent, from.tangent) < 0) place.reverse();
+  if (distance(with, guess, place.v) > length || !settle(with, place)) return false;
+  const bool signs = orientation != 0 && place.orientation != 0;
+  if (place.piece != from.piece && signs) {  // beyond a kink the tangent may point anywhere
+    if (place.orientation != orientation) place.reverse();
+  } else {
+    if (with.dot(place.tangent, from.tangent) < 0) place.reverse();
+    if (signs && place.orientation != orientation) return false;
+  }
   place.arclength = from.arclength + distance(with, from.v, place.v);
   return true;
 }

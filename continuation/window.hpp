@@ -22,7 +22,10 @@ std::optional<Exit> leaves(const Window& window, const Place& from, const Place&
                            bool straight);
 
 /// From `place`, beyond the window, back to the bound, with its tangent. False where there is no such
-/// solution on this branch. row: work space, n + 1; on return, that of the factors.
-bool draw_back(Corrector& with, const Place& from, const Exit& exit, Place& place, Vector& row);
+/// solution on this branch: none, one farther away than the step is long, or, with `orientation` the sign of
+/// the determinant on the branch there, one of the other sign. 0: not known. row: work space, n + 1; on
+/// return, that of the factors.
+bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orientation, Place& place,
+               Vector& row);
 
 }  // namespace arcslip::continuation

@@ -2,7 +2,9 @@
 
 #include "continuation/problems.hpp"
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 using namespace problems;
 
@@ -108,25 +110,93 @@ TEST_CASE("a change of piece that leaves the tangent as it was is no kink") {
   CHECK(branch.events.empty());
 }
 
+namespace {
+
+// u with slopes s_0, s_1, ... between the kinks.
+std::shared_ptr<const Problem> polygon(std::vector<double> slopes, std::vector<double> kinks) {
+  const auto piece = [=](double u) {
+    return static_cast<std::size_t>(std::upper_bound(kinks.begin(), kinks.end(), u) - kinks.begin());
+  };
+  const auto value = [=](double u) {
+    double p = slopes[0] * u;
+    for (std::size_t k = 0; k < piece(u); ++k) p += (slopes[k + 1] - slopes[k]) * (u - kinks[k]);
+    return p;
+  };
+  return from_functions({.size = 1,
+                         .parameters = {parameter("p", 0)},
+                         .residual = [=](In u, In p, Out F) { F[0] = value(u[0]) - p[0]; },
+                         .jacobian = [=](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = slopes[piece(u[0])]; },
+                         .derivative = [](In, In, int, Out dF) { dF[0] = -1; },
+                         .piece = [=](In u, In) { return piece(u[0]); }});
+}
+
+}  // namespace
+
 TEST_CASE("three kinks in one step are three events in their order") {
-  // Slopes 1, 1.2, 1.1, 1.3 between u = 0, 1e-3 and 2e-3.
-  const auto piece = [](double u) { return u < 0 ? 1 : u < 1e-3 ? 2 : u < 2e-3 ? 3 : 4; };
-  const auto value = [](double u) {
-    return u < 0 ? u : u < 1e-3 ? 1.2 * u : u < 2e-3 ? 1.2e-3 + 1.1 * (u - 1e-3) : 2.3e-3 + 1.3 * (u - 2e-3);
-  };
-  const auto slope = [=](double u) {
-    return std::array{1.0, 1.2, 1.1, 1.3}[static_cast<std::size_t>(piece(u) - 1)];
-  };
-  const auto problem =
-      from_functions({.size = 1,
-                      .parameters = {parameter("p", 0)},
-                      .residual = [=](In u, In p, Out F) { F[0] = value(u[0]) - p[0]; },
-                      .jacobian = [=](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = slope(u[0]); },
-                      .derivative = [](In, In, int, Out dF) { dF[0] = -1; },
-                      .piece = [=](In u, In) { return piece(u[0]); }});
-  const Branch branch =
-      trace(problem, {Vector{{-0.9}}, Vector{{-0.9}}, 0, 1}, window(-1, 1), {kink_monitor()});
-  REQUIRE(branch.events.size() == 3);
-  for (int k = 0; k < 3; ++k)
-    CHECK(std::abs(branch.events[static_cast<std::size_t>(k)].point.u[0] - k * 1e-3) < 1e-9);
+  for (double from : {-0.9, -0.8731}) {
+    const Branch branch = trace(polygon({1, 1.2, 1.1, 1.3}, {0, 1e-3, 2e-3}),
+                                {Vector{{from}}, Vector{{from}}, 0, 1}, window(-1, 1), {kink_monitor()});
+    REQUIRE(branch.events.size() == 3);
+    for (int k = 0; k < 3; ++k)
+      CHECK(std::abs(branch.events[static_cast<std::size_t>(k)].point.u[0] - k * 1e-3) < 1e-9);
+  }
+}
+
+TEST_CASE("two nonsmooth folds within one step are both events where kinks are looked for") {
+  for (double d : {1e-3, 1e-4, 1e-5})
+    for (double back : {-0.5, -2.0})
+      for (double from : {-0.9, -0.8731, -0.7}) {
+        const Branch branch = trace(polygon({1, back, 1}, {0, d}), {Vector{{from}}, Vector{{from}}, 0, 1},
+                                    window(-1, 1), {fold_monitor(), kink_monitor()});
+        CAPTURE(d, back, from, branch.stop.message, branch.points.size());
+        CHECK(branch.stop.reason == StopReason::boundary);
+        const auto folds = events_named(branch, "fold"), kinks = events_named(branch, "kink");
+        REQUIRE(folds.size() == 2);
+        REQUIRE(kinks.size() == 2);
+        for (std::size_t k = 0; k < 2; ++k) {
+          CHECK(folds[k].nonsmooth);
+          CHECK(std::abs(folds[k].point.u[0] - static_cast<double>(k) * d) < 1e-9);
+          CHECK(std::abs(kinks[k].point.u[0] - static_cast<double>(k) * d) < 1e-9);
+        }
+        CHECK(std::get<Kink>(kinks[0].data).after[1] * back > 0);
+      }
+}
+
+TEST_CASE("a second kink just beyond a corner is an event of its own") {
+  for (double d : {1e-5, 3e-6, 1e-6})
+    for (double from : {-0.9137, -0.8513, -0.7331}) {
+      const Branch branch = trace(polygon({1, -3, -1}, {0, d}), {Vector{{from}}, Vector{{from}}, 0, 1},
+                                  window(-1, 1), {fold_monitor(), kink_monitor()});
+      CAPTURE(d, from, branch.stop.message);
+      CHECK(branch.stop.reason == StopReason::boundary);
+      CHECK(events_named(branch, "fold").size() == 1);
+      const auto kinks = events_named(branch, "kink");
+      REQUIRE(kinks.size() == 2);
+      CHECK(std::abs(kinks[0].point.u[0]) < 1e-9);
+      CHECK(std::abs(kinks[1].point.u[0] - d) < 1e-9);
+      CHECK(std::abs(std::get<Kink>(kinks[0].data).after[1] / std::get<Kink>(kinks[0].data).after[0] + 3) <
+            1e-9);
+    }
+}
+
+TEST_CASE("a kink on a curved branch is located with few factorizations, at the end of its piece") {
+  // sin u + max(0, u - d) / 2 = p
+  for (double d : {0.0, 0.3, 0.71}) {
+    const auto problem = from_functions(
+        {.size = 1,
+         .parameters = {parameter("p", 0)},
+         .residual = [=](In u, In p, Out F) { F[0] = std::sin(u[0]) + std::max(0.0, u[0] - d) / 2 - p[0]; },
+         .jacobian = [=](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = std::cos(u[0]) + (u[0] > d ? 0.5 : 0); },
+         .derivative = [](In, In, int, Out dF) { dF[0] = -1; },
+         .piece = [=](In u, In) { return u[0] > d ? 2 : 1; }});
+    const Start start{Vector{{-0.9}}, Vector{{std::sin(-0.9)}}, 0, 1};
+    const Branch without = trace(problem, start, window(-1, 1));
+    const Branch with = trace(problem, start, window(-1, 1), {kink_monitor()});
+    CAPTURE(d);
+    REQUIRE(with.events.size() == 1);
+    CHECK(std::abs(with.events[0].point.u[0] - d) < 1e-12);
+    CHECK(with.events[0].point.u[0] <= d);
+    CHECK(with.counts.factorizations - without.counts.factorizations <= 12);
+    CHECK(with.counts.residuals - without.counts.residuals <= 120);
+  }
 }

@@ -84,6 +84,27 @@ TEST_CASE("a monitor that is infinite at a point, as decibels at rest are, leave
   check_resumed(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 2), {undefined});
 }
 
+TEST_CASE("warnings are part of a state, and a state from before there were any is read") {
+  const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const Monitor undefined{"0/0", [](const Accepted& now) { return now.u[0] > 0.1 ? std::nan("") : 1.0; }};
+  Tracer tracer(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 2), {undefined});
+  for (int k = 0; k < 30; ++k) tracer.step();
+  std::string saved = to_json(tracer.save());
+  REQUIRE(tracer.branch().warnings.size() == 1);
+  CHECK(state_from_json(saved).branch.warnings == tracer.branch().warnings);
+  const auto begin = saved.find(",\"warnings\":["), end = saved.find(']', begin);
+  REQUIRE(begin != std::string::npos);
+  saved.erase(begin, end + 1 - begin);
+  const State old = state_from_json(saved);
+  CHECK(old.branch.warnings.empty());
+  Tracer resumed(line, old, window(0, 2), {undefined});
+  while (resumed.step()) {
+  }
+  while (tracer.step()) {
+  }
+  check_same(tracer.branch(), resumed.branch());
+}
+
 TEST_CASE("what a problem says in another encoding does not keep a state from being saved") {
   const auto problem = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) {
     if (p[0] > 0.5) throw std::runtime_error("Werkstoff ung\xfcltig");

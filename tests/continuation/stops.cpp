@@ -144,6 +144,104 @@ TEST_CASE("not_evaluated: what a residual throws ends the branch, which keeps it
   CHECK(nothing.stop.message == "the problem could not be evaluated at the start: no material beyond 0.5");
 }
 
+TEST_CASE("not_evaluated: what the piece or the linear solver throws ends the branch and is said") {
+  class Weary final : public LinearSolver {
+   public:
+    explicit Weary(bool when_solving) : when_solving_(when_solving) {}
+    const char* name() const override { return "weary"; }
+    bool factorize(const Jacobian& J, const Borders& borders) override {
+      if (!when_solving_ && std::get<Matrix>(J)(0, 0) > 1.5) throw std::runtime_error("out of licences");
+      steep_ = std::get<Matrix>(J)(0, 0) > 1.5;
+      return lu_->factorize(J, borders);
+    }
+    void solve(Out x) const override {
+      if (when_solving_ && steep_) throw std::runtime_error("out of licences");
+      lu_->solve(x);
+    }
+
+   private:
+    std::unique_ptr<LinearSolver> lu_ = dense_lu();
+    bool when_solving_, steep_ = false;
+  };
+  Functions f;
+  f.size = 1;
+  f.parameters = {parameter("p", 0)};
+  f.residual = [](In u, In p, Out F) { F[0] = u[0] + u[0] * u[0] / 2 - p[0]; };  // J = 1.5 at p = 5/8
+  f.jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1 + u[0]; };
+  for (const bool when_solving : {false, true}) {
+    Options options = window(0, 2);
+    options.linear_solver = [=] { return std::make_unique<Weary>(when_solving); };
+    const Branch branch = trace(from_functions(f), at(0, 0), options, {fold_monitor()});
+    CHECK(branch.stop.reason == StopReason::not_evaluated);
+    CHECK(branch.stop.message.find("out of licences") != std::string::npos);
+    CHECK(branch.points.back().parameter == Approx(0.625).margin(1e-6));
+  }
+  f.piece = [](In, In p) {
+    return p[0] > 0.5 ? throw std::runtime_error("no contact law beyond 0.5") : std::uint64_t{1};
+  };
+  const Branch branch = trace(from_functions(f), at(0, 0), window(0, 2), {kink_monitor()});
+  CHECK(branch.stop.reason == StopReason::not_evaluated);
+  CHECK(branch.stop.message.find("no contact law beyond 0.5") != std::string::npos);
+  CHECK(branch.points.back().parameter == Approx(0.5).margin(1e-6));
+  const Branch nothing = trace(from_functions(f), at(0.7, 0.7), window(0, 2));
+  CHECK(nothing.stop.message == "the problem could not be evaluated at the start: no contact law beyond 0.5");
+}
+
+TEST_CASE("monitor_failed: what any function of a monitor throws ends the branch, which keeps its points") {
+  const auto line = scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const auto value = [](const Accepted& now) { return now.u[0] - 0.25; };
+  const auto beyond = [](double p) {
+    return [=](const Accepted& now) {
+      if (now.parameter > p) throw std::runtime_error("no such temperature");
+      return now.u[0];
+    };
+  };
+  const Monitor by_value{"heat", beyond(0.5)};
+  Monitor by_quantity{"heat", [=](const Accepted& now) { return value(now) * now.tangent[0]; }};
+  Monitor by_data{"heat", value}, by_look{"heat", value};
+  by_quantity.quantity = [=](const Accepted& now) { return beyond(0.5)(now) * (now.u[0] / 2 - 0.25); };
+  by_data.describe = [=](const Accepted& now) { return static_cast<void>(beyond(0.2)(now)), EventData{}; };
+  by_look.is_event = [=](const Accepted& now) { return beyond(0.2)(now) > 0; };
+  for (const Monitor& monitor : {by_value, by_quantity, by_data, by_look}) {
+    const Branch branch = trace(line, at(0, 0), window(0, 1), {fold_monitor(), monitor});
+    CAPTURE(branch.stop.message);
+    CHECK(branch.stop.reason == StopReason::monitor_failed);
+    CHECK(branch.stop.message.starts_with("the monitor \"heat\" threw at 0."));
+    CHECK(branch.stop.message.ends_with(": no such temperature"));
+    CHECK(branch.stop.value >= 0.2);
+    CHECK(branch.points.size() > 10);
+    CHECK(branch.points.back().parameter <= 0.5);
+  }
+  const Branch at_start = trace(line, at(0.75, 0.75), window(0, 1), {by_value});
+  CHECK(at_start.stop.message == "the monitor \"heat\" threw at 0.75: no such temperature");
+  CHECK(at_start.points.size() == 1);
+}
+
+TEST_CASE("a monitor that is not a number somewhere is named once, and the branch goes on") {
+  const auto line = scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const Monitor root{"root", [](const Accepted& now) { return std::sqrt(0.5 - now.u[0]) - 0.5; }};
+  const Monitor slope{
+      "slope", [](const Accepted& now) { return 0.1 - now.u[0]; }, Crossing::any,
+      [](const Accepted& now) { return now.u[0] > 0.9 ? std::nan("") : (0.1 - now.u[0] / 2) * now.u[0]; }};
+  const Branch branch = trace(line, at(0, 0), window(0, 1), {root, fold_monitor(), slope});
+  CHECK(branch.stop.reason == StopReason::boundary);
+  REQUIRE(branch.events.size() == 2);
+  CHECK(std::abs(branch.events[0].point.u[0] - 0.1) < 1e-9);
+  CHECK(std::abs(branch.events[1].point.u[0] - 0.25) < 1e-12);
+  REQUIRE(branch.warnings.size() == 2);
+  CHECK(branch.warnings[0].starts_with("the monitor \"root\" is not a number at 0.5"));
+  CHECK(branch.warnings[1].starts_with("the monitor \"slope\" is not a number at 0.9"));
+
+  // Its zero at 1/2, where it is no number within 1e-3, is not located; what stands for it says so.
+  const Monitor gap{"gap", [](const Accepted& now) {
+                      return std::abs(now.u[0] - 0.5) < 1e-3 ? std::nan("") : now.u[0] - 0.5;
+                    }};
+  const Branch across = trace(line, at(0.013, 0.013), window(0, 1), {gap});
+  REQUIRE(across.events.size() == 1);
+  CHECK_FALSE(across.events[0].located);
+  CHECK(trace(line, at(0, 0), window(0, 1), {fold_monitor()}).warnings.empty());
+}
+
 TEST_CASE("user: the observer stops the branch, at a point or at an event") {
   int calls = 0;
   const Branch at_point = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), window(0, 2),
@@ -177,7 +275,7 @@ TEST_CASE("every stop reason has a name of its own") {
   const StopReason all[] = {StopReason::boundary,     StopReason::closed,         StopReason::event,
                             StopReason::start_failed, StopReason::step_too_small, StopReason::state_too_large,
                             StopReason::point_limit,  StopReason::time_limit,     StopReason::memory_limit,
-                            StopReason::user,         StopReason::not_evaluated};
+                            StopReason::user,         StopReason::not_evaluated,  StopReason::monitor_failed};
   for (StopReason a : all) {
     CHECK(std::strcmp(name(a), "unknown") != 0);
     for (StopReason b : all) CHECK((a == b) == (std::strcmp(name(a), name(b)) == 0));
