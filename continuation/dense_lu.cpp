@@ -8,8 +8,6 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double smallest = 1e-150;  // of J, a border that is balanced
-
 class DenseLU final : public LinearSolver {
  public:
   const char* name() const override { return "dense LU"; }
@@ -77,14 +75,19 @@ class DenseLU final : public LinearSolver {
     if (!(magnitude > 0)) return;
     for (Eigen::Index j = 0; j < m; ++j) {
       const double largest = borders.columns.col(j).cwiseAbs().maxCoeff();
-      if (largest > smallest * magnitude) columns_[j] = magnitude / largest;
+      columns_[j] = factor(magnitude, largest);
     }
     for (Eigen::Index i = 0; i < m; ++i) {
       const double largest =
           std::max(borders.rows.col(i).cwiseAbs().maxCoeff(),
                    (borders.corner.row(i).transpose().array() * columns_.array()).abs().maxCoeff());
-      if (largest > smallest * magnitude) rows_[i] = magnitude / largest;
+      rows_[i] = factor(magnitude, largest);
     }
+  }
+
+  static double factor(double to, double from) {
+    const double factor = to / from;
+    return factor > 0 && std::isfinite(factor) ? factor : 1;
   }
 
   Matrix matrix_;
