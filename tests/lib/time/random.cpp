@@ -25,6 +25,28 @@ double frequency(const scene::Scene& s, double part) {
   return study.from + part * (study.to - study.from);
 }
 
+// Forces within their limits, and sliders that move only at the limit: no event was missed.
+void check_contact(const time::EquationOfMotion& equation, const time::History& history) {
+  for (std::size_t e = 0; e < equation.elements.size(); ++e) {
+    const double limit = equation.elements[e].slip_limit, rounding = 1e-13 * limit;
+    const auto& [name, displacement, force, slider] = history.elements[e];
+    double worst = 0, moved_in_stick = 0;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      worst = std::max(worst, std::abs(force[i]));
+      if (i == 0) continue;
+      const double moved = slider[i] - slider[i - 1];
+      const double nearest = std::max(std::abs(force[i]), std::abs(force[i - 1]));
+      // A slip wholly between two instants is the only other way to move.
+      if (nearest < 0.9 * limit) moved_in_stick = std::max(moved_in_stick, std::abs(moved));
+      if (std::abs(force[i]) >= limit - rounding && std::abs(force[i - 1]) >= limit - rounding &&
+          force[i] * force[i - 1] > 0)
+        CHECK(moved * force[i] >= -1e-13 * limit * limit / equation.elements[e].stiffness);
+    }
+    CHECK(worst <= limit + rounding);
+    CHECK(moved_in_stick == 0);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("every random structure has a stable periodic motion, found from rest, whose energies balance") {
@@ -40,13 +62,15 @@ TEST_CASE("every random structure has a stable periodic motion, found from rest,
         p[model::frequency] = frequency(s, part) * scene::to_rad_per_s(s.frequency_unit);
         const auto equation = time::equation_of_motion(model, p);
         time::EventDriven integrator(equation);
-        const auto motion = time::periodic_motion(integrator, time::at_rest(equation));
+        const auto motion = time::periodic_motion(integrator, time::at_rest(equation), {},
+                                                  beside_exact::over_period(equation, 2000));
         REQUIRE(motion.converged());
         CHECK(motion.shooting.stable);
         CHECK(motion.shooting.maps < 100);
         const auto& energy = motion.period.energy;
         CHECK(std::abs(energy.defect()) < 1e-12 * energy.input);
         CHECK(std::abs(energy.stored) < 1e-9 * energy.input);
+        check_contact(equation, motion.period.history);
       }
 }
 
