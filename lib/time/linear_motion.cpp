@@ -108,12 +108,12 @@ void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, 
     const double factor = h / static_cast<double>(k + 1);
     X_[k + 1] = factor * V_[k];
     Matrix& next = V_[k + 1];
-    next.noalias() = -stiffness_.lazyProduct(X_[k]);
-    next.noalias() -= damping_.lazyProduct(V_[k]);
+    next.noalias() = -stiffness_ * X_[k];
+    next.noalias() -= damping_ * V_[k];
     next.col(0) += acceleration_.col(static_cast<Eigen::Index>(k));
     if (k == 0)
       for (std::size_t e = 0; e < over_mass_.size(); ++e)
-        next.noalias() += over_mass_[e].lazyProduct(g.row(static_cast<Eigen::Index>(e)));
+        next.noalias() += over_mass_[e] * g.row(static_cast<Eigen::Index>(e));
     next *= factor;
   }
 }

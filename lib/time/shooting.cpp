@@ -128,11 +128,11 @@ class Shooting {
              << result_.iterations << " Newton steps and " << result_.maps << " periods";
         break;
       case ShootingEnd::iterations:
-        text
-            << "no periodic motion after " << result_.iterations << " Newton steps and " << result_.maps
-            << " periods: relative correction " << result_.correction << " (tolerance " << options_.tolerance
-            << "), defect " << result_.defect
-            << ". Near an undamped resonance the response is unbounded; other motions may need more periods.";
+        text << "no periodic motion after " << result_.iterations << " Newton steps and " << result_.maps
+             << " periods: relative correction " << result_.correction << " (tolerance " << options_.tolerance
+             << "), defect " << result_.defect
+             << ". An undamped resonance has none; a start from harmonic balance, or over several periods, "
+                "may find one.";
         break;
       case ShootingEnd::flow_failed:
         text << "the integration over a period failed: " << result_.map.message;

@@ -7,7 +7,8 @@
 // A slider that rests throughout gives z = z, a row of zeros; its row asks for the centred offset instead
 // (RestingSlider). Phi is piecewise smooth: a step is halved until the defect falls, and where no step does,
 // the motion itself goes on for some periods, which friction and damping make a contraction, before Newton's
-// method is tried again.
+// method is tried again. That fails beside resonances without viscous damping, where a start from harmonic
+// balance (from_harmonics.hpp) still takes few steps.
 //
 // Floquet multipliers: the eigenvalues of M without the sliders that rest throughout, each of which would add
 // one multiplier 1. As many are zero, in general, as sliders slip at once at some instant. Source:

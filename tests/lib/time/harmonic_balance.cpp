@@ -73,3 +73,19 @@ TEST_CASE(
     CHECK(found.displacement < (load == 20 ? 1e-12 : 1e-6));
   }
 }
+
+TEST_CASE("beside the resonance of the undamped stuck structure shooting converges from harmonic balance") {
+  const double w = 20.903 * scenes::hertz, stuck = 1 / (21390 - 1.24 * w * w);  // m, without slip
+  for (const double part : {0.1, 1e-3, 1e-6}) {
+    CAPTURE(part);
+    auto s = scenes::paper(55, 3500 * stuck / 0.5 * (1 - part));
+    scene::set(s, "c.value", 0);
+    const auto found = difference(balanced(s, 20.903), 999);
+    const auto& period = found.exact.period;
+    CHECK(found.displacement < 1e-7);
+    CHECK(std::abs(period.energy.friction - period.energy.input) < 1e-9 * period.energy.input);
+    const double reach = stuck * (1 - part);
+    CHECK(period.amplitude > reach);
+    CHECK(period.amplitude < reach * (1 + 1e-4));  // a little slip takes all that the force gives
+  }
+}
