@@ -6,7 +6,7 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double rounding = std::numeric_limits<double>::epsilon();
+constexpr double roundoff = std::numeric_limits<double>::epsilon();
 
 struct Place {
   double s, g;
@@ -25,7 +25,7 @@ class Search {
     const double sag = curvature * h * h / 8;
     if (!change && std::min(std::abs(a.g), std::abs(b.g)) >= sag) return false;
     const bool monotone = std::abs(slope(m)) > 0.5 * curvature * h;
-    if (monotone || !(sag > rounding * size)) return change && visit(polish(a, b));
+    if (monotone || !(sag > roundoff * size)) return change && visit(polish(a, b));
     const Place middle{m, value(c_, m)};
     return run(a, middle, visit) || run(middle, b, visit);
   }

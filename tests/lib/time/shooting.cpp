@@ -7,6 +7,9 @@
 
 #include <arcslip/time/shooting.hpp>
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
 #include <numbers>
 
 using namespace arcslip::time;
@@ -125,6 +128,24 @@ TEST_CASE("the monodromy matrix is that of differences through slip and its ends
   const Matrix M2 = second.map(start, two.period()).monodromy;
   CHECK((scaled(two, M2) - scaled(two, differences(two, start, two.period(), 1e-4))).cwiseAbs().maxCoeff() <
         1e-9);
+}
+
+TEST_CASE("the multipliers are those of differences, and the same from any instant of the period") {
+  const auto whole = shot(paper(20, 3));
+  auto equation = paper(20, 3);
+  const double angle = equation.omega * 0.018;  // within a stick phase, which lasts from 0.0126 s to 0.0248 s
+  equation.forces[0].cosine = std::cos(angle);
+  equation.forces[0].sine = -std::sin(angle);
+  const auto motion = shot(equation);
+  REQUIRE(motion.converged());
+  const Matrix D = differences(equation, motion.shooting.start, equation.period(), 1e-7);
+  CHECK((scaled(equation, D) - scaled(equation, motion.shooting.map.monodromy)).cwiseAbs().maxCoeff() < 1e-8);
+  Eigen::VectorXcd values = Eigen::EigenSolver<Matrix>(D, false).eigenvalues();
+  std::sort(values.begin(), values.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(std::abs(values[static_cast<Eigen::Index>(i)] - whole.shooting.multipliers[i]) < 1e-8);
+    CHECK(std::abs(motion.shooting.multipliers[i] - whole.shooting.multipliers[i]) < 1e-11);
+  }
 }
 
 TEST_CASE(
