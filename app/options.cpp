@@ -149,6 +149,7 @@ void add_range_over_parameter(CLI::App& verb, Verb kind, Options& options, Texts
 }
 
 void add_time_options(CLI::App& verb, Texts& texts) {
+  const scene::TimeSettings usual;
   verb.add_option("--frequency", texts.frequency, "the frequency of the excitation, in the scene's unit")
       ->expected(1)
       ->allow_extra_args(false)  // what follows may be the scene
@@ -157,15 +158,18 @@ void add_time_options(CLI::App& verb, Texts& texts) {
                   "shooting (the periodic motion, exact where the scene is piecewise linear; the default), "
                   "newmark-shooting, or period by period from rest: newmark, event-driven")
       ->type_name("M");
-  verb.add_option("--steps", texts.steps, "steps per period (default: 1000)")->type_name("S");
-  verb.add_option("--periods", texts.periods, "periods of a transient at most (default: 10000)")
+  verb.add_option("--steps", texts.steps, "steps per period (default: " + std::to_string(usual.steps) + ")")
+      ->type_name("S");
+  verb.add_option("--periods", texts.periods,
+                  "periods of a transient at most (default: " + std::to_string(usual.periods) + ")")
       ->type_name("P");
-  verb.add_option("--recorded", texts.recorded, "periods with history, at the end (default: 1)")
+  verb.add_option("--recorded", texts.recorded,
+                  "periods with history, at the end (default: " + std::to_string(usual.recorded) + ")")
       ->type_name("R");
-  verb.add_option("--tolerance", texts.tolerance,
-                  "of the state: change over a period that is steady, or last correction of shooting "
-                  "(default: 1e-9); "
-                  "0: no transient ends before --periods")
+  verb.add_option(
+          "--tolerance", texts.tolerance,
+          "of the state: change over a period that is steady, or last correction of shooting (default: " +
+              output::shortest(usual.tolerance) + "); 0: no transient ends before --periods")
       ->type_name("T");
 }
 

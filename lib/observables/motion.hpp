@@ -33,7 +33,7 @@ struct Motion {
   std::string integrator;  // "newmark" or "event-driven"
   double omega = 0;        // of the excitation, rad/s
   int steps = 0;           // per period
-  long periods = 0;        // integrated before those recorded
+  long periods = 0;        // integrated, those recorded included
   double change = 0;     // relative, of the state: over the last of these, or the last correction of shooting
   double amplitude = 0;  // max |x| of the response over the recorded periods, m
   time::EnergyBalance energy;  // per period, the mean of those recorded, J

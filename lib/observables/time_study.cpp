@@ -189,7 +189,7 @@ class InTime {
         if (again.converged()) found = std::move(again);
       }
     }
-    motion_.periods = progress_.points;
+    motion_.periods = progress_.points + settings_.recorded;
     motion_.change = found.correction;
     if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
     record(integrator.periods(found.start, settings_.recorded, true));
@@ -217,7 +217,7 @@ class InTime {
     time::Transient found =
         time::transient(integrator.periods, integrator.start, motion_.omega, options,
                         [&](long periods, double change) { return go_on(periods, change); });
-    motion_.periods = found.periods;
+    motion_.periods = found.periods + settings_.recorded;
     motion_.change = found.change;
     const std::string failure = found.motion.failure, message = found.motion.message;
     record(std::move(found.motion));

@@ -219,8 +219,8 @@ void read_time(const Keys& keys, TimeSettings& time, Faults& faults) {
   const double instants = static_cast<double>(time.steps) * time.recorded;
   if (instants > largest_steps) {
     faults.add(keys.find(keys.has("recorded") ? "recorded" : "steps").pointer,
-               "found " + number_text(time.recorded) + " periods of " + number_text(time.steps) +
-                   " steps to record, must be at most " + number_text(largest_steps) + " steps together");
+               "found " + std::to_string(time.recorded) + " periods of " + std::to_string(time.steps) +
+                   " steps to record, must be at most " + std::to_string(largest_steps) + " steps together");
   }
 }
 

@@ -17,7 +17,7 @@
 // balances to rounding with Jenkins elements alone, and to the order of the method with cubic springs.
 //
 // A massless motion (M w = 0) has r . w = 0 at all times; one without mass and damping has v = (x1 - x0)/h.
-// Source: Newmark 1959; docs/theory.md.
+// Source: Newmark 1959; docs/theory.md, section 10.
 
 #include <arcslip/time/implicit_elements.hpp>
 #include <arcslip/time/motion.hpp>

@@ -90,15 +90,16 @@ TEST_CASE("a scene is written with every default, in the order of the format") {
 
 TEST_CASE("a study over a parameter is written with its parameter and its frequency, or its window of them") {
   const std::string text = write(read_text(full_scene));
-  for (const char* line :
-       {R"({"name": "trace", "kind": "trace", "over": "n.stiffness", "from": -2, "to": 3, "frequency": 0.1,)",
-        R"("for_each": {"load": [1, 2]}})",
-        R"({"name": "peaks", "kind": "peaks", "over": "load", "from": 0, "to": 1e+300,)",
-        R"("frequency": [0.1, 0.3333333333333333], "for_each": {}})",
-        R"({"name": "turns", "kind": "folds", "over": "d1.friction_coefficient", "from": 0.1, "to": 0.5,)",
-        R"("frequency": [1e-300, 3], "for_each": {}})",
-        R"({"name": "time", "kind": "time", "frequency": 0.7, "method": "newmark", "steps": 1000,)",
-        R"("periods": 10000, "recorded": 1, "tolerance": 1e-300, "for_each": {"load": [1, 2]}})"}) {
+  for (
+      const char* line :
+      {R"({"name": "trace", "kind": "trace", "over": "n.stiffness", "from": -2, "to": 3, "frequency": 0.1,)",
+       R"("for_each": {"load": [1, 2]}})",
+       R"({"name": "peaks", "kind": "peaks", "over": "load", "from": 0, "to": 1e+300,)",
+       R"("frequency": [0.1, 0.3333333333333333], "for_each": {}})",
+       R"({"name": "turns", "kind": "folds", "over": "d1.friction_coefficient", "from": 0.1, "to": 0.5,)",
+       R"("frequency": [1e-300, 3], "for_each": {}})",
+       R"({"name": "time", "kind": "time", "frequency": 0.7, "method": "newmark", "steps": 1000, "periods": 10000,)",
+       R"("recorded": 1, "tolerance": 1e-300, "for_each": {"load": [1, 2]}})"}) {
     CAPTURE(line);
     CHECK(text.find(line) != std::string::npos);
   }
