@@ -173,6 +173,10 @@ class InTime {
   }
 
   void shoot(const Integrator& integrator) {
+    if (const auto growth = unbounded_resonance(model_, motion_.omega); growth.unbounded) {
+      record(integrator.periods(integrator.start, settings_.recorded, true));
+      return end(Status::failed, "unbounded", 0, 0, growth.message);
+    }
     const time::Flow flow = [&](const State& start) {
       if (go_on(progress_.points + 1)) return integrator.flow(start);
       time::PeriodMap none;
@@ -193,11 +197,8 @@ class InTime {
     motion_.change = found.correction;
     if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
     record(integrator.periods(found.start, settings_.recorded, true));
-    if (!found.converged()) {
-      const auto growth = unbounded_resonance(model_, motion_.omega);
-      return end(Status::failed, "no_periodic_motion", found.correction, settings_.tolerance,
-                 growth.unbounded ? growth.message : found.message);
-    }
+    if (!found.converged())
+      return end(Status::failed, "no_periodic_motion", found.correction, settings_.tolerance, found.message);
     motion_.multipliers = found.multipliers;
     motion_.stable = found.stable;
     end(Status::complete, "periodic", found.correction, settings_.tolerance, found.message);

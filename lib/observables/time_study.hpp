@@ -12,8 +12,8 @@ namespace arcslip::observables {
 /// as study.time says. Shooting begins at rest and goes on from harmonic balance where that leads nowhere. A
 /// motion that ends early is kept, with its reason; after a stop by the callback no further one is begun.
 /// Reasons: "periodic", "steady", "periods" (as many as were asked for), "period_limit", "user", and of
-/// failures "no_periodic_motion", "no_convergence", "singular", "not_finite", "not_piecewise_linear",
-/// "massless", "event_limit".
+/// failures "unbounded", "no_periodic_motion", "no_convergence", "singular", "not_finite",
+/// "not_piecewise_linear", "massless", "event_limit".
 std::vector<Motion> motions_in_time(const scene::Scene& scene, const scene::Study& study,
                                     const ProgressCallback& progress = {});
 

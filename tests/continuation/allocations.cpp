@@ -3,6 +3,7 @@
 #include <arcslip/continuation/corrector.hpp>
 #include <arcslip/hbm/steady_state.hpp>
 #include <arcslip/model/model.hpp>
+#include <arcslip/time/newmark.hpp>
 
 #include <cstdlib>
 #include <new>
@@ -73,4 +74,29 @@ TEST_CASE("a Newton iteration allocates nothing, up to 300 unknowns") {
       CHECK(correction.iterations >= 1);
       CHECK(during == 0);
     }
+}
+
+TEST_CASE("a step of Newmark's method allocates nothing, up to 60 degrees of freedom") {
+  for (const int n : {1, 2, 7, 60}) {
+    time::EquationOfMotion equation;
+    equation.omega = 1.1;
+    equation.M = equation.C = equation.K = Eigen::MatrixXd::Identity(n, n);
+    equation.C *= 0.05;
+    equation.M(n - 1, n - 1) = n > 1 ? 0 : 1;  // massless
+    equation.response = Eigen::VectorXd::Unit(n, 0);
+    equation.forces.push_back({Eigen::VectorXd::Ones(n), 1, 1.0, 0.5});
+    for (int i = 0; i < n; ++i)
+      equation.elements.push_back(
+          {"d", model::Law::jenkins, Eigen::VectorXd::Unit(n, i), 0.5, 0.1, equation.sliders++});
+    equation.elements.push_back({"c", model::Law::cubic_spring, Eigen::VectorXd::Unit(n, 0), 0.1});
+    time::Newmark newmark(equation, 40);
+    REQUIRE(newmark.begin(time::at_rest(equation)) == time::Solved::yes);
+    REQUIRE(newmark.step() == time::Solved::yes);
+    const std::size_t before = calls;
+    bool solved = true;
+    for (int k = 0; k < 400; ++k) solved = solved && newmark.step() == time::Solved::yes;
+    const std::size_t counted = calls - before;
+    CHECK(solved);
+    CHECK(counted == 0);
+  }
 }
