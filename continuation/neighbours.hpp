@@ -1,12 +1,12 @@
 #pragma once
 // Derivatives of J and F_p by differences, within one smooth piece of F.
 //
-// Central where both sides of x lie in the piece of x, as far as F can be evaluated there:
+// Central, with h so short that both sides lie in the piece of x and F can be evaluated there,
 //
 //   f'(0) = (f(h) - f(-h)) / 2h + O(h^2),
 //
-// and else one-sided of the same order, f'(0) = +-(4 f(+-h) - f(+-2h) - 3 f(0)) / 2h, on the side that does.
-// Where neither does, h is shortened.
+// for beside the end of a piece derivatives may grow without bound, as where a contact begins. At the end
+// itself, one-sided of the same order on the side that does: f'(0) = +-(4 f(+-h) - f(+-2h) - 3 f(0)) / 2h.
 
 #include <arcslip/continuation/inner_problem.hpp>
 
@@ -28,14 +28,12 @@ struct DifferenceQuotient {
 /// are then those of the quotient. Nothing where there is no room.
 template <class Go>
 std::optional<DifferenceQuotient> difference_within_piece(double h, Go&& go) {
-  constexpr double shorter = 0.1;
-  constexpr int attempts = 5;
-  for (int k = 0; k < attempts; ++k, h *= shorter) {
-    const bool ahead = go(0, h), behind = go(1, -h);
-    if (ahead && behind) return DifferenceQuotient{{h, -h}, {0.5 / h, -0.5 / h}, 0};
-    if (ahead && go(1, 2 * h)) return DifferenceQuotient{{h, 2 * h}, {2 / h, -0.5 / h}, -1.5 / h};
-    if (behind && go(0, -2 * h)) return DifferenceQuotient{{-2 * h, -h}, {0.5 / h, -2 / h}, 1.5 / h};
+  for (const double share : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const double d = share * h;
+    if (go(0, d) && go(1, -d)) return DifferenceQuotient{{d, -d}, {0.5 / d, -0.5 / d}, 0};
   }
+  for (const double d : {1e-4 * h, -1e-4 * h})
+    if (go(0, d) && go(1, 2 * d)) return DifferenceQuotient{{d, 2 * d}, {2 / d, -0.5 / d}, -1.5 / d};
   return {};
 }
 
