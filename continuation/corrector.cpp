@@ -17,10 +17,14 @@ double chord_safety(const Jacobian& J) {
              : 1.0;
 }
 
+// Chord steps before new factors. Those of a sparse matrix may cost many solves, as on grids.
+int longest_chord(const Jacobian& J) {
+  return std::holds_alternative<SparseMatrix>(J) ? 8 : 5;
+}
+
 constexpr double smallest_damping = 1.0 / 256;
 constexpr double undamped = 1e-2;  // corrections below are taken whole, and tested at the next place
 constexpr double divergence = 2;   // of such corrections, from one to the next
-constexpr int longest_chord = 5;   // chord steps before new factors
 constexpr double smallest_relevant_state = 1e-6;  // in scales: below, corrections are measured absolutely
 constexpr double smallest_relevant_parameter = 1e-3;
 
@@ -187,7 +191,8 @@ bool Corrector::chord(Vector& v, Correction& result) {
   if (!(now < 1)) return false;
   v += dv_;
   ++result.iterations;
-  for (int k = 1; k < longest_chord && now * chord_safety_ * contraction_ > options_.tolerance; ++k) {
+  const int longest = longest_chord(evaluator_->jacobian());
+  for (int k = 1; k < longest && now * chord_safety_ * contraction_ > options_.tolerance; ++k) {
     if (!evaluate(v, Needs::residual)) {
       result.evaluated = false;
       return false;

@@ -30,8 +30,8 @@ constexpr int largest_spectrum = 500;
 /// The monitors of s_1 to s_n, each called "hopf"; to be used together, for one trace at a time. Their events
 /// carry Hopf, with omega > 0, and a + ib normalised by |a|^2 + |b|^2 = 1, a . b = 0, |a| >= |b| in the
 /// scales of the problem, and the component of a that is largest in scales positive. Throws
-/// std::invalid_argument for more than largest_spectrum unknowns, and, from the first point on, for a
-/// Jacobian that is an operator; std::runtime_error where QR does not converge.
+/// std::invalid_argument for more than largest_spectrum unknowns. A Jacobian that is an operator, or a QR
+/// that does not converge, ends the branch (StopReason::monitor_failed).
 std::vector<Monitor> hopf_monitors(const Problem& problem);
 
 /// J, dense or sparse, as a dense matrix. Throws std::invalid_argument for an operator.

@@ -51,22 +51,28 @@ class Pair {
   // zeros last: these rows of H^T span W, and V solves T P^T V = 0.
   bool span(const Matrix& J) {
     const Eigen::Index n = J.rows();
-    Q_ = J * J - sum * J;
+    Q_.noalias() = J * J;
+    Q_ -= sum * J;
     Q_.diagonal().array() += product;
     qr_.compute(Q_);
-    V.resize(n, 2);
-    V.bottomRows(2).setIdentity();
-    if (n > 2)
-      V.topRows(n - 2) = -qr_.matrixQR()
-                              .topLeftCorner(n - 2, n - 2)
-                              .triangularView<Eigen::Upper>()
-                              .solve(qr_.matrixQR().topRightCorner(n - 2, 2));
-    V = (qr_.colsPermutation() * V).eval();
-    W.setZero(n, 2);
-    W.bottomRows(2).setIdentity();
-    W.applyOnTheLeft(qr_.householderQ());
-    W = (W * (V.transpose() * W).inverse()).eval();
-    adjugate = sum * Eigen::Matrix2d::Identity() - W.transpose() * J * V;
+    kernel_.setZero(n, 2);
+    kernel_.bottomRows(2).setIdentity();
+    if (n > 2) {
+      auto above = kernel_.topRows(n - 2);
+      above = -qr_.matrixQR().topRightCorner(n - 2, 2);
+      qr_.matrixQR().topLeftCorner(n - 2, n - 2).triangularView<Eigen::Upper>().solveInPlace(above);
+    }
+    V = qr_.colsPermutation() * kernel_;
+    kernel_.setZero();
+    kernel_.bottomRows(2).setIdentity();
+    qr_.householderQ().applyThisOnTheLeft(kernel_, row_);
+    Eigen::Matrix2d product_of_both;
+    product_of_both.noalias() = V.transpose() * kernel_;
+    const Eigen::Matrix2d to_unit = product_of_both.inverse();
+    W.noalias() = kernel_ * to_unit;
+    kernel_.noalias() = J * V;
+    adjugate = sum * Eigen::Matrix2d::Identity();
+    adjugate.noalias() -= W.transpose() * kernel_;
     return V.allFinite() && W.allFinite();
   }
 
@@ -77,7 +83,8 @@ class Pair {
  private:
   Eigen::EigenSolver<Matrix> eigen_;
   Eigen::ColPivHouseholderQR<Matrix> qr_;
-  Matrix Q_;
+  Matrix Q_, kernel_;
+  Eigen::RowVectorXd row_;
 };
 
 class HopfEvaluator final : public Evaluator {

@@ -1,6 +1,10 @@
 #include "catch.hpp"
 
+#include "continuation/hopf_problems.hpp"
+
 #include <arcslip/continuation/corrector.hpp>
+#include <arcslip/continuation/hopf_curve.hpp>
+#include <arcslip/continuation/stationary.hpp>
 #include <arcslip/hbm/steady_state.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/time/newmark.hpp>
@@ -98,5 +102,52 @@ TEST_CASE("a step of Newmark's method allocates nothing, up to 60 degrees of fre
     const std::size_t counted = calls - before;
     CHECK(solved);
     CHECK(counted == 0);
+  }
+}
+
+TEST_CASE("nor does one on a curve of folds, or of Hopf points, of a problem that allocates nothing") {
+  using namespace problems;
+  const auto inner = [](bool second) {
+    Functions f;
+    f.size = 2;
+    f.parameters = {parameter("mu", 0), parameter("lambda", 1)};
+    f.residual = [](In u, In p, Out F) {
+      F[0] = p[0] + p[1] * u[0] - u[0] * u[0] * u[0] + u[1];
+      F[1] = -2 * u[0] - u[1];
+    };
+    f.jacobian = [](In u, In p, Eigen::Ref<Matrix> J) { J << p[1] - 3 * u[0] * u[0], 1, -2, -1; };
+    f.derivative = [](In u, In, int k, Out dF) {
+      dF[0] = k == 0 ? 1 : u[0];
+      dF[1] = 0;
+    };
+    if (second)
+      f.second = [](In u, In, In w, In v, In q, Out du, Out dp) {
+        du << w[0] * (-6 * u[0] * v[0] + q[1]), 0;
+        dp << 0, w[0] * v[0];
+      };
+    return from_functions(f);
+  };
+  const auto check = [](const std::shared_ptr<const Problem>& problem, const Vector& x, const Vector& p) {
+    Counts counts;
+    Corrector corrector(*problem, p, 1, {}, counts);
+    Vector v(x.size() + 1), row = Vector::Unit(x.size() + 1, x.size()), t(x.size() + 1);
+    v << x, p[1];
+    const Vector guess = v;
+    corrector.correct(v, row, false);
+    v = guess;
+    const std::size_t before = calls;
+    const auto correction = corrector.correct(v, row, false);
+    corrector.tangent(t);
+    const std::size_t during = calls - before;
+    CHECK(correction.converged);
+    CHECK(correction.iterations >= 1);
+    CHECK(during == 0);
+  };
+  for (const bool second : {false, true}) {
+    // J = [a, 1; -2, -1], a = lambda - 3 x^2: a fold at a = 2, a Hopf point with omega = 1 at a = 1; y = -2
+    // x.
+    CAPTURE(second);
+    check(folds(inner(second), 0), Vector{{1.02, -2.04, -2.0}}, Vector{{0.0, 5.0}});
+    check(hopf_points(inner(second), 0, 1), Vector{{1.02, -2.04, -1.0, 1.1}}, Vector{{0.0, 4.0}});
   }
 }
