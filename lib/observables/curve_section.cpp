@@ -27,10 +27,10 @@ CurveSection::CurveSection(std::shared_ptr<const hbm::HbmProblem> problem, int o
     tangent_[i] = (1 + 0.3 * std::sin(7.0 * static_cast<double>(i))) * scales_[i];
 }
 
-bool CurveSection::move_to(const Accepted& now, Needs needs) {
-  u_ = now.u.head(u_.size());
-  p_ = now.p;
-  p_[model::frequency] = now.u[u_.size()];
+bool CurveSection::move_to(In x, In p, Needs needs) {
+  u_ = x.head(u_.size());
+  p_ = p;
+  p_[model::frequency] = x[u_.size()];
   return evaluator_->move_to(u_, p_, needs) == Evaluated::ok;
 }
 
@@ -52,17 +52,20 @@ bool CurveSection::linearize() {
   return true;
 }
 
-ResponsePoint CurveSection::observe(const Accepted& now) {
-  move_to(now, Needs::jacobian);
+ResponsePoint CurveSection::observe(In x, In p) {
+  move_to(x, p, Needs::jacobian);
   linearize();
-  ResponsePoint point =
-      observer_.observe({u_, p_, tangent_, now.arclength, *evaluator_, *solver_, p_[model::frequency]}, true);
+  return observer_.observe({u_, p_, tangent_, 0, *evaluator_, *solver_, p_[model::frequency]}, true);
+}
+
+ResponsePoint CurveSection::observe(const Accepted& now) {
+  ResponsePoint point = observe(now.u, now.p);
   point.over = now.parameter;
   return point;
 }
 
 double CurveSection::amplitude_slope(const Accepted& now) {
-  if (!move_to(now, Needs::residual)) return std::nan("");
+  if (!move_to(now.u, now.p, Needs::residual)) return std::nan("");
   const Eigen::Index n = u_.size();
   return observer_.amplitude_change(
       *evaluator_, u_, now.tangent.head(n),

@@ -19,6 +19,9 @@ class CurveSection {
   /// branch has no tangent.
   ResponsePoint observe(const continuation::Accepted& now);
 
+  /// The same at a solution x = (u, omega) with all parameters p.
+  ResponsePoint observe(continuation::In x, continuation::In p);
+
   /// dA/ds along the curve.
   double amplitude_slope(const continuation::Accepted& now);
 
@@ -26,7 +29,7 @@ class CurveSection {
   double last_amplitude() const { return observer_.last_amplitude(); }
 
  private:
-  bool move_to(const continuation::Accepted& now, continuation::Needs needs);
+  bool move_to(continuation::In x, continuation::In p, continuation::Needs needs);
   bool linearize();
 
   std::shared_ptr<const hbm::HbmProblem> problem_;

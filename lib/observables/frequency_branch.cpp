@@ -43,7 +43,8 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
 }
 
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
-                                 const FrequencyWindow& window, double from, const Record& record) {
+                                 const FrequencyWindow& window, double from, const Record& record,
+                                 int direction) {
   const double width = window.upper - window.lower;
   const FirstResponse first = first_response(model, from, width);
   if (!first.u) {
@@ -67,9 +68,9 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
     each = [&](const continuation::Accepted& now, const continuation::Event* event) {
       return record(*observer, now, event);
     };
-  return {problem,
-          continuation::trace(problem, {*first.u, hbm::parameters_at(*problem, from), model::frequency, 1},
-                              options, {peak_monitor(observer), continuation::fold_monitor()}, each)};
+  return {problem, continuation::trace(
+                       problem, {*first.u, hbm::parameters_at(*problem, from), model::frequency, direction},
+                       options, {peak_monitor(observer), continuation::fold_monitor()}, each)};
 }
 
 }  // namespace arcslip::observables

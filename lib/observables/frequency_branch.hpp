@@ -36,8 +36,10 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
 
-/// Traces upwards from omega = `from` in the window. No step is longer than about 1/150 of the window.
+/// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). No step is longer than
+/// about 1/150 of the window.
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
-                                 const FrequencyWindow& window, double from, const Record& record = {});
+                                 const FrequencyWindow& window, double from, const Record& record = {},
+                                 int direction = 1);
 
 }  // namespace arcslip::observables
