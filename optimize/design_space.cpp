@@ -1,0 +1,179 @@
+#include <arcslip/optimize/design_space.hpp>
+
+#include <arcslip/optimize/text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace arcslip::optimize {
+namespace {
+
+constexpr std::array<double, 7> diagonal = {0.5, 0.25, 0.75, 0.125, 0.875, 0, 1};  // shares of the bounds
+constexpr double tolerance = 1e-8;  // of linear limits, relative
+
+}  // namespace
+
+DesignSpace::DesignSpace(const scene::Scene& scene, const OptimumProblem& problem)
+    : to_unit_(1 / scene::to_rad_per_s(scene.frequency_unit)) {
+  if (problem.over.empty()) throw OptionsError("there is nothing to vary: no parameter is named");
+  if (!(problem.frequency_from > 0 && problem.frequency_from < problem.frequency_to))
+    throw OptionsError(optimize::text("the frequency window is [", problem.frequency_from, ", ",
+                                      problem.frequency_to, "]: 0 < lower < upper"));
+  auto model = std::make_shared<model::Model>(model::build(scene));
+  for (const DesignVariable& v : problem.over) {
+    const std::string bounds =
+        optimize::text("bounds of \"", v.name, "\" are [", v.lower, ", ", v.upper, "]");
+    if (std::find(names_.begin(), names_.end(), v.name) != names_.end())
+      throw OptionsError("parameter \"" + v.name + "\" is named twice");
+    if (v.name == "frequency") throw OptionsError("the frequency is no design parameter");
+    scene::Scene with = scene;
+    scene::set(with, v.name, scene::value(scene, v.name));  // unknown, or tied
+    if (!(std::isfinite(v.lower) && std::isfinite(v.upper))) throw OptionsError(bounds + ": must be finite");
+    if (v.lower == v.upper)
+      throw OptionsError(bounds + ": equal bounds leave nothing to vary; leave the parameter out");
+    if (!(v.lower < v.upper)) throw OptionsError(bounds + ": the lower must be below the upper");
+    for (const double bound : {v.lower, v.upper}) scene::set(with, v.name, bound);  // may it take them?
+    names_.push_back(v.name);
+    parameters_.push_back(model::parameter_index(*model, v.name));
+    lower_.push_back(v.lower);
+    upper_.push_back(v.upper);
+    logarithmic_.push_back(v.lower > 0 || v.upper < 0);
+  }
+  model_ = std::move(model);
+  for (const LinearLimit& limit : problem.linear_limits) {
+    std::vector<double> weights(names_.size(), 0.0);
+    for (const auto& [name, weight] : limit.weights) {
+      const auto at = std::find(names_.begin(), names_.end(), name);
+      if (at == names_.end())
+        throw OptionsError("a linear limit names \"" + name + "\", which the search is not over: " + names());
+      weights[static_cast<std::size_t>(at - names_.begin())] += weight;
+    }
+    const auto add = [&](double sign, double bound) {
+      if (!std::isfinite(bound)) return;
+      Linear each{weights, sign * bound, bound != 0 ? std::abs(bound) : 1};
+      for (double& w : each.weights) w *= sign;
+      linear_.push_back(std::move(each));
+    };
+    add(1, limit.at_most);
+    add(-1, limit.at_least);
+  }
+  for (const ObservableLimit& limit : problem.limits) {
+    static_cast<void>(observable(limit.observable));
+    if (std::isnan(limit.at_least) || std::isnan(limit.at_most) || !(limit.at_least < limit.at_most))
+      throw OptionsError(optimize::text("limit on \"", limit.observable, "\" is [", limit.at_least, ", ",
+                                        limit.at_most, "]: the lower must be below the upper"));
+  }
+}
+
+std::vector<double> DesignSpace::start(std::vector<std::string>& notes) const {
+  std::vector<double> start;
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    const double own = model_->parameters[static_cast<std::size_t>(parameters_[k])].value;
+    start.push_back(std::clamp(own, lower_[k], upper_[k]));
+    if (start.back() != own)
+      notes.push_back(optimize::text("the start ", names_[k], " = ", own, " is outside [", lower_[k], ", ",
+                                     upper_[k], "], and was moved to ", start.back()));
+  }
+  return start;
+}
+
+int DesignSpace::attempts() const {
+  return static_cast<int>(diagonal.size());
+}
+
+std::vector<double> DesignSpace::attempt(int k) const {
+  const double share = diagonal[static_cast<std::size_t>(k)];
+  std::vector<double> y = scaled(lower_);
+  const std::vector<double> upper = scaled(upper_);
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += share * (upper[i] - y[i]);
+  return design(y);
+}
+
+std::vector<double> DesignSpace::scaled(std::span<const double> design) const {
+  std::vector<double> y;
+  for (std::size_t k = 0; k < design.size(); ++k)
+    y.push_back(!logarithmic_[k] ? design[k] / std::max(std::abs(lower_[k]), std::abs(upper_[k]))
+                : lower_[k] > 0  ? std::log(design[k])
+                                 : -std::log(-design[k]));
+  return y;
+}
+
+std::vector<double> DesignSpace::design(std::span<const double> y) const {
+  std::vector<double> design;
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    const double value = !logarithmic_[k] ? y[k] * std::max(std::abs(lower_[k]), std::abs(upper_[k]))
+                         : lower_[k] > 0  ? std::exp(y[k])
+                                          : -std::exp(-y[k]);
+    design.push_back(std::clamp(value, lower_[k], upper_[k]));
+  }
+  return design;
+}
+
+double DesignSpace::slope(std::size_t k, double value) const {
+  return logarithmic_[k] ? std::abs(value) : std::max(std::abs(lower_[k]), std::abs(upper_[k]));
+}
+
+PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const {
+  using Point = observables::ResponsePoint;
+  if (name == "frequency") return [unit = to_unit_](const Point& point) { return unit * point.omega; };
+  if (name == "energy_friction") return [](const Point& point) { return point.energy_friction; };
+  if (name == "energy_viscous") return [](const Point& point) { return point.energy_viscous; };
+  std::vector<std::string> known = {"frequency", "energy_friction", "energy_viscous"};
+  for (std::size_t e = 0; e < model_->elements.size(); ++e) {
+    const auto& element = model_->elements[e];
+    if (element.law != model::Law::jenkins) continue;
+    if (name == element.name + ".stick_percent")
+      return [e](const Point& point) { return point.elements[e].stick_percent; };
+    if (name == element.name + ".energy") return [e](const Point& point) { return point.elements[e].energy; };
+    known.push_back(element.name + ".stick_percent");
+    known.push_back(element.name + ".energy");
+  }
+  std::string list;
+  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
+  const std::string near = scene::nearest(name, known);
+  throw OptionsError("no observable \"" + name + "\" to limit" +
+                     (near.empty() ? "" : "; did you mean \"" + near + "\"?") + " Known: " + list);
+}
+
+double DesignSpace::value(const Linear& limit, std::span<const double> design) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < names_.size(); ++k) sum += limit.weights[k] * design[k];
+  return (sum - limit.bound) / limit.scale;
+}
+
+void DesignSpace::add_linear(Problem& problem) const {
+  const std::size_t n = names_.size();
+  for (const Linear& limit : linear_)
+    problem.constraints.push_back({"a linear limit",
+                                   [this, n, limit](auto y, auto g) {
+                                     const std::vector<double> p = design(y.first(n));
+                                     std::fill(g.begin(), g.end(), 0.0);
+                                     for (std::size_t k = 0; k < std::min(n, g.size()); ++k)
+                                       g[k] = limit.weights[k] * slope(k, p[k]) / limit.scale;
+                                     return value(limit, p);
+                                   },
+                                   tolerance});
+}
+
+double DesignSpace::excess(std::span<const double> design) const {
+  double excess = 0;
+  for (const Linear& limit : linear_)
+    if (const double over = value(limit, design); over > tolerance) excess = std::max(excess, over);
+  return excess;
+}
+
+std::string DesignSpace::text(std::span<const double> design) const {
+  std::string list;
+  for (std::size_t k = 0; k < names_.size(); ++k)
+    list += (k == 0 ? "" : ", ") + names_[k] + " = " + optimize::text(design[k]);
+  return list;
+}
+
+std::string DesignSpace::names() const {
+  std::string list;
+  for (const std::string& name : names_) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace arcslip::optimize

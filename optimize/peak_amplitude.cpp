@@ -1,0 +1,352 @@
+#include <arcslip/optimize/peak_amplitude.hpp>
+
+#include <arcslip/observables/unbounded.hpp>
+#include <arcslip/optimize/follower.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace arcslip::optimize {
+namespace {
+
+using continuation::Accepted;
+using continuation::StopReason;
+
+constexpr double watched = 0.5;         // of the highest amplitude: lower peaks are not followed
+constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
+constexpr double at_limit = 1e-6;       // of mu F_n: a peak nearer to a stick limit sits at its corner
+constexpr double longest_step = 0.5;    // relative change of a parameter in one step
+constexpr double farthest = 1;     // relative change since the last response: beyond, peaks may have come up
+constexpr int most_attempts = 12;  // of Newton's method from one design to the next
+constexpr double off_tangent = 0.5;  // of a step: corrections beyond are jumps to another solution,
+constexpr double similar = 0.1;      // unless they are below this, relative, of the unknowns
+constexpr double near = 1e-3;        // and this, relative, of the frequency
+constexpr double difference = 1e-5;  // of central differences, relative
+constexpr double small_difference = 1e-6;
+
+bool is_end(PeakKind kind) {
+  return kind == PeakKind::lower_end || kind == PeakKind::upper_end;
+}
+
+bool by_ratio(double from, double to) {
+  return from * to > 0;
+}
+
+double way(double from, double to) {
+  return by_ratio(from, to) ? std::log(to / from) : (to - from) / std::max(std::abs(from), std::abs(to));
+}
+
+// From `from` at s = 0 to `to` at s = 1, by a constant ratio where both have one sign.
+double on_way(double from, double to, double s) {
+  return s == 1 ? to : by_ratio(from, to) ? from * std::exp(s * std::log(to / from)) : from + s * (to - from);
+}
+
+double slope_on_way(double from, double to, double s) {
+  return by_ratio(from, to) ? on_way(from, to, s) * std::log(to / from) : to - from;
+}
+
+}  // namespace
+
+const char* name(PeakKind kind) {
+  switch (kind) {
+    case PeakKind::resonance:
+      return "resonance";
+    case PeakKind::corner:
+      return "corner";
+    case PeakKind::lower_end:
+      return "lower_end";
+    case PeakKind::upper_end:
+      return "upper_end";
+    case PeakKind::kink:
+      return "kink";
+  }
+  return "";
+}
+
+double PeakState::amplitude() const {
+  if (unbounded) return std::numeric_limits<double>::infinity();
+  return peaks.empty() ? std::numeric_limits<double>::quiet_NaN() : peaks[highest].amplitude;
+}
+
+PeakAmplitude::PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
+                             const observables::FrequencyWindow& window)
+    : model_(std::move(model)), over_(std::move(over)), window_(window) {}
+
+PeakAmplitude::~PeakAmplitude() = default;
+
+std::shared_ptr<const model::Model> PeakAmplitude::model_at(std::span<const double> design) const {
+  auto with = std::make_shared<model::Model>(*model_);
+  for (std::size_t k = 0; k < over_.size(); ++k)
+    with->parameters[static_cast<std::size_t>(over_[k])].value = design[k];
+  return with;
+}
+
+Vector PeakAmplitude::parameters(std::span<const double> design) const {
+  Vector p = continuation::parameter_values(*problem_);
+  for (std::size_t k = 0; k < over_.size(); ++k) p[over_[k]] = design[k];
+  return p;
+}
+
+// With the places of all peaks, smooth ones as resonances and others as kinks.
+PeakState PeakAmplitude::response(std::span<const double> design) {
+  PeakState found;
+  found.design.assign(design.begin(), design.end());
+  ++work_.responses;
+  const auto model = model_at(design);
+  if (const auto growth = observables::unbounded_resonance(model, window_.lower); growth.unbounded) {
+    found.unbounded = true;
+    found.message = growth.message;
+    return found;
+  }
+  Vector first, last;
+  const auto place = [](const Accepted& now) {
+    Vector x(now.u.size() + 1);
+    x << now.u, now.parameter;
+    return x;
+  };
+  bool asked = false;
+  const auto record = [&](observables::Observer& observer, const Accepted& now,
+                          const continuation::Event* event) {
+    if (event) {
+      if (event->monitor == "peak")
+        found.peaks.push_back({event->nonsmooth ? PeakKind::kink : PeakKind::resonance, -1, place(now)});
+      return true;
+    }
+    if (first.size() == 0) first = place(now);
+    last = place(now);
+    if (now.u.norm() <= beyond_display * observer.problem().displacement()) {
+      asked = false;
+    } else if (!std::exchange(asked, true)) {
+      const auto growth = observables::unboundedness(observer.problem(), now.p, now.u);
+      found.unbounded = growth.unbounded;
+      if (growth.unbounded) found.message = growth.message;
+    }
+    return !found.unbounded;
+  };
+  const auto traced = observables::frequency_branch(model, window_, window_.lower, record);
+  work_.factorizations += traced.branch.counts.factorizations;
+  if (found.unbounded) {
+    found.peaks.clear();
+    return found;
+  }
+  problem_ = traced.problem;
+  const auto& stop = traced.branch.stop;
+  found.complete = stop.reason == StopReason::boundary && stop.value == window_.upper;
+  if (!found.complete) found.message = stop.message;
+  if (first.size() > 0) found.peaks.insert(found.peaks.begin(), {PeakKind::lower_end, -1, first});
+  if (found.complete) {
+    found.upper_end = last.head(problem_->size());
+    found.peaks.push_back({PeakKind::upper_end, -1, last});
+  }
+  return found;
+}
+
+// Whose corner a nonsmooth peak is, if it is one between stick and slip.
+void PeakAmplitude::classify(Peak& peak) {
+  const Eigen::Index n = problem_->size();
+  const Vector p = parameters(state_.design);
+  Vector dh(n);
+  const auto& elements = problem_->model().elements;
+  for (int e = 0; e < static_cast<int>(elements.size()); ++e) {
+    if (elements[static_cast<std::size_t>(e)].law != model::Law::jenkins) continue;
+    hbm::StickLimit limit(*problem_, e);
+    const auto h = limit.at(peak.x.head(n), p, dh);
+    if (!h || std::abs(*h) > at_limit * limit.limit()) continue;
+    hbm::Corner corner(problem_, e, observables::amplitude_quantity(problem_));
+    if (!corner.slopes(peak.x, p).is_maximum()) continue;
+    peak.kind = PeakKind::corner;
+    peak.element = e;
+    return;
+  }
+}
+
+// Amplitude and gradient. False where the equations are singular.
+bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
+  const Vector p = parameters(design);
+  peak.gradient.resize(static_cast<Eigen::Index>(over_.size()));
+  const bool done =
+      peak.kind == PeakKind::resonance ? sensitivity_->at_resonance(peak.x, p, over_, peak.gradient)
+      : peak.kind == PeakKind::corner ? sensitivity_->at_corner(peak.element, peak.x, p, over_, peak.gradient)
+                                      : sensitivity_->at_frequency(peak.x, p, over_, peak.gradient);
+  peak.amplitude = sensitivity_->amplitude();
+  return done;
+}
+
+// The gradient at a kink, from responses at neighbouring designs.
+void PeakAmplitude::differences(Peak& peak) {
+  std::vector<double> design = state_.design;
+  const auto problem = problem_;
+  for (std::size_t k = 0; k < over_.size(); ++k) {
+    double amplitude[2] = {0, 0};
+    const double h = small_difference * std::max(std::abs(design[k]), small_difference);
+    for (const int side : {0, 1}) {
+      design[k] = state_.design[k] + (side == 0 ? -h : h);
+      const PeakState beside = response(design);
+      double nearest = HUGE_VAL;
+      for (const Peak& other : beside.peaks) {
+        if (is_end(other.kind) || !(std::abs(other.omega() - peak.omega()) < nearest)) continue;
+        nearest = std::abs(other.omega() - peak.omega());
+        observables::Sensitivity there(problem_);
+        Vector unused(0);
+        there.at_frequency(other.x, parameters(design), {}, unused);
+        amplitude[side] = there.amplitude();
+      }
+    }
+    design[k] = state_.design[k];
+    peak.gradient[static_cast<Eigen::Index>(k)] = (amplitude[1] - amplitude[0]) / (2 * h);
+  }
+  problem_ = problem;
+}
+
+// Keeps the peaks that may be the highest.
+void PeakAmplitude::watch() {
+  auto& peaks = state_.peaks;
+  double most = 0;
+  for (const Peak& peak : peaks) most = std::max(most, peak.amplitude);
+  std::erase_if(peaks, [&](const Peak& peak) { return peak.amplitude < watched * most; });
+  const auto highest = std::max_element(
+      peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.amplitude < b.amplitude; });
+  state_.highest = static_cast<std::size_t>(highest - peaks.begin());
+}
+
+const PeakState& PeakAmplitude::trace(std::span<const double> design) {
+  for (const auto& each : followers_)
+    if (each) work_.factorizations += each->factorizations();
+  followers_.clear();
+  state_ = response(design);
+  traced_ = state_.design;
+  if (state_.peaks.empty()) return state_;
+  sensitivity_ = std::make_unique<observables::Sensitivity>(problem_);
+  section_ = std::make_unique<observables::CurveSection>(problem_, over_.front());
+  for (Peak& peak : state_.peaks) {
+    if (peak.kind == PeakKind::kink) classify(peak);
+    measure(peak, state_.design);
+  }
+  watch();
+  for (Peak& peak : state_.peaks)
+    if (peak.kind == PeakKind::kink) differences(peak);
+  followers_.resize(state_.peaks.size());
+  return state_;
+}
+
+const PeakState& PeakAmplitude::at(std::span<const double> design) {
+  if (std::equal(design.begin(), design.end(), state_.design.begin(), state_.design.end())) return state_;
+  double most = 0;
+  for (std::size_t k = 0; k < traced_.size(); ++k)
+    most = std::max(most, std::abs(way(traced_[k], design[k])));
+  const bool kinks = std::any_of(state_.peaks.begin(), state_.peaks.end(),
+                                 [](const Peak& peak) { return peak.kind == PeakKind::kink; });
+  if (state_.peaks.empty() || kinks || !(most < farthest)) return trace(design);
+  std::vector<Peak> moved = state_.peaks;
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (!follow(i, design, moved[i])) return trace(design);
+  state_.design.assign(design.begin(), design.end());
+  state_.peaks = std::move(moved);
+  ++work_.followed;
+  for (std::size_t i = 0; i < state_.peaks.size(); ++i)
+    if (state_.peaks[i].amplitude > state_.peaks[state_.highest].amplitude) state_.highest = i;
+  return state_;
+}
+
+Follower& PeakAmplitude::follower(std::size_t peak) {
+  auto& made = followers_[peak];
+  if (made) return *made;
+  const Peak& of = state_.peaks[peak];
+  Vector p = parameters(state_.design);
+  std::shared_ptr<const continuation::Problem> equations = problem_;
+  if (of.kind == PeakKind::resonance)
+    equations = continuation::stationary_points(problem_, model::frequency,
+                                                observables::amplitude_quantity(problem_));
+  else if (of.kind == PeakKind::corner)
+    equations = hbm::stick_limit_points(problem_, of.element);
+  else
+    p[model::frequency] = of.omega();
+  made = std::make_unique<Follower>(equations, over_, p);
+  return *made;
+}
+
+// Whether a solution of the peak's equations is a peak of that kind.
+bool PeakAmplitude::holds(std::size_t peak, const Vector& x) {
+  const Peak& of = state_.peaks[peak];
+  if (is_end(of.kind)) return true;
+  const double omega = x[x.size() - 1];
+  if (!(omega >= window_.lower && omega <= window_.upper)) return false;
+  Follower& follower = *followers_[peak];
+  if (of.kind == PeakKind::resonance) {
+    const auto second = continuation::cusp_monitor().value;
+    return second({x, x, x, 0, follower.at(), follower.factors(), omega}) < 0;
+  }
+  hbm::Corner corner(problem_, of.element, observables::amplitude_quantity(problem_));
+  return corner.slopes(x, follower.parameters()).is_maximum();
+}
+
+bool PeakAmplitude::follow(std::size_t peak, std::span<const double> to, Peak& followed) {
+  Follower& by = follower(peak);
+  const std::vector<double>& from = state_.design;
+  const Eigen::Index n = problem_->size(), size = is_end(followed.kind) ? n : n + 1;
+  Vector here = followed.x.head(size);
+  if (!by.is_at(here, from) && !by.linearize(here, from)) return false;
+  double most = 0;
+  for (std::size_t k = 0; k < to.size(); ++k) most = std::max(most, std::abs(way(from[k], to[k])));
+  double done = 0, step = std::min(1.0, longest_step / most);
+  std::vector<double> design(to.size());
+  Vector direction, predicted, next;
+  bool accepted = true;
+  for (int attempt = 0; done < 1; ++attempt) {
+    if (attempt == most_attempts) return false;
+    if (accepted) {
+      direction = Vector::Zero(size);
+      for (std::size_t k = 0; k < to.size(); ++k)
+        if (from[k] != to[k]) direction += slope_on_way(from[k], to[k], done) * by.tangent(k);
+      if (!direction.allFinite()) return false;
+    }
+    const double until = done + step > 1 - near ? 1 : done + step;
+    for (std::size_t k = 0; k < to.size(); ++k) design[k] = on_way(from[k], to[k], until);
+    const Vector change = (until - done) * direction;
+    predicted = here + change;
+    next = predicted;
+    accepted = by.correct(next, design) &&
+               (next - predicted).head(n).norm() <=
+                   off_tangent * change.head(n).norm() + similar * next.head(n).norm() &&
+               (size == n ||
+                std::abs(next[n] - predicted[n]) <= off_tangent * std::abs(change[n]) + near * next[n]) &&
+               holds(peak, next);
+    if (accepted) {
+      here = next;
+      done = until;
+    } else {
+      step /= 2;
+    }
+  }
+  followed.x.head(size) = here;
+  return measure(followed, to);
+}
+
+observables::ResponsePoint PeakAmplitude::observe(const Vector& x, std::span<const double> design) {
+  return section_->observe(x, parameters(design));
+}
+
+double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& observable) {
+  const Peak& of = state_.peaks[peak];
+  if (of.kind == PeakKind::kink) return std::numeric_limits<double>::quiet_NaN();
+  Follower& by = follower(peak);
+  const Eigen::Index size = is_end(of.kind) ? problem_->size() : problem_->size() + 1;
+  const Vector here = of.x.head(size);
+  if (!by.is_at(here, state_.design) && !by.linearize(here, state_.design))
+    return std::numeric_limits<double>::quiet_NaN();
+  const Vector tangent = by.tangent(k);
+  std::vector<double> design = state_.design;
+  const double h = difference * std::max(std::abs(design[k]), difference);
+  double value[2];
+  for (const int side : {0, 1}) {
+    Vector x = of.x;
+    x.head(size) += (side == 0 ? -h : h) * tangent;
+    design[k] = state_.design[k] + (side == 0 ? -h : h);
+    value[side] = observable(observe(x, design));
+  }
+  return (value[1] - value[0]) / (2 * h);
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,129 @@
+#pragma once
+// The largest amplitude in a window of the excitation frequency, as a function of design parameters:
+//
+//   A_max(p) = max over the window of A(omega, p) = max over its peaks of A
+//
+// Its peaks are found by one frequency response and then followed from design to design by continuation: a
+// tangent, and Newton's method on the equations of the peak, in as many steps as they need.
+//
+//   resonance   dA/ds = 0 along the response (continuation/stationary.hpp)
+//   corner      at which an element passes from full stick to slip (hbm/stick_limit.hpp), with slopes of
+//               opposite sign on its sides
+//   lower_end, upper_end   the response at the ends of the window
+//   kink        at another corner, where a phase of friction begins or ends: its equation is not known
+//
+// The response is traced anew where a peak cannot be followed, because it vanishes, splits, leaves the window
+// or comes to a corner; at every design where there is a kink; and where a parameter has changed by a factor
+// of e since the last response. Peaks below half of the highest are not watched: what grows above the others
+// meanwhile is seen at the next response, as at the end of a search.
+
+#include <arcslip/observables/curve_section.hpp>
+#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/response.hpp>
+#include <arcslip/observables/sensitivity.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace arcslip::optimize {
+
+enum class PeakKind { resonance, corner, lower_end, upper_end, kink };
+
+/// "resonance" and so on.
+const char* name(PeakKind kind);
+
+struct Peak {
+  PeakKind kind = PeakKind::resonance;
+  int element = -1;                 // of the model, whose corner it is
+  continuation::Vector x;           // unknowns and omega (rad/s)
+  double amplitude = 0;             // m
+  continuation::Vector gradient{};  // dA/dp of the design parameters, m over their units
+
+  double omega() const { return x[x.size() - 1]; }
+};
+
+/// The peaks at one design.
+struct PeakState {
+  std::vector<double> design;      // values of the parameters
+  std::vector<Peak> peaks;         // those that are watched, in the order of the response
+  std::size_t highest = 0;         // which of them
+  bool unbounded = false;          // a resonance grows without bound: A_max is infinite
+  bool complete = true;            // false: the response ends within the window; the peaks are those before
+  std::string message;             // of an unbounded or incomplete response
+  continuation::Vector upper_end;  // unknowns at the upper end of the window, where the response was traced
+
+  /// A_max; infinity where it is unbounded, NaN where there is no response.
+  double amplitude() const;
+};
+
+struct PeakWork {
+  int responses = 0;        // traced
+  int followed = 0;         // designs reached by following
+  long factorizations = 0;  // of both
+};
+
+using continuation::Vector;
+class Follower;
+
+class PeakAmplitude {
+ public:
+  /// over: indices of parameters of the model.
+  PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
+                const observables::FrequencyWindow& window);
+  ~PeakAmplitude();
+
+  /// At a design, by following the peaks of the last one. The reference holds until the next call.
+  const PeakState& at(std::span<const double> design);
+
+  /// At a design, by a frequency response.
+  const PeakState& trace(std::span<const double> design);
+
+  const PeakState& state() const { return state_; }
+  const PeakWork& work() const { return work_; }
+  const observables::FrequencyWindow& window() const { return window_; }
+
+  /// All observables at a peak of the state.
+  observables::ResponsePoint observe(const Peak& peak) { return observe(peak.x, state_.design); }
+
+  /// What is taken from the observables.
+  using Observable = std::function<double(const observables::ResponsePoint&)>;
+
+  /// Its derivative by design parameter k, as a peak of the state follows its equations: a central difference
+  /// along the tangent. NaN at a kink.
+  double change(std::size_t peak, std::size_t k, const Observable& observable);
+
+  /// The model with a design's values.
+  std::shared_ptr<const model::Model> model_at(std::span<const double> design) const;
+  /// Of the last response, in its scale.
+  const std::shared_ptr<const hbm::HbmProblem>& problem() const { return problem_; }
+  /// All parameters at a design; the frequency is not set.
+  continuation::Vector parameters(std::span<const double> design) const;
+
+ private:
+  observables::ResponsePoint observe(const continuation::Vector& x, std::span<const double> design);
+  PeakState response(std::span<const double> design);
+  void classify(Peak& peak);
+  bool measure(Peak& peak, std::span<const double> design);
+  void differences(Peak& peak);
+  void watch();
+  Follower& follower(std::size_t peak);
+  bool follow(std::size_t peak, std::span<const double> to, Peak& followed);
+  bool holds(std::size_t peak, const continuation::Vector& x);
+
+  std::shared_ptr<const model::Model> model_;
+  std::vector<int> over_;
+  observables::FrequencyWindow window_;
+  PeakState state_;
+  std::vector<double> traced_;  // the design of the last response
+  PeakWork work_;
+  std::shared_ptr<const hbm::HbmProblem> problem_;
+  std::unique_ptr<observables::Sensitivity> sensitivity_;
+  std::unique_ptr<observables::CurveSection> section_;
+  std::vector<std::unique_ptr<Follower>> followers_;  // of the peaks, made when one is followed
+};
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,37 @@
+// From anywhere to the same optimum.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+
+#include <arcslip/optimize/optimum.hpp>
+
+#include <cmath>
+
+using namespace arcslip;
+
+TEST_CASE("from each of 50 loads between 0.1 N and 100 N the search comes to the exact optimum") {
+  for (const auto& exact : reference::exact("optima")) {
+    scene::Scene s = scenes::paper(101);
+    scene::set(s, "c.value", exact["c"]);
+    std::size_t most = 0;
+    for (int k = 0; k < 50; ++k) {
+      const double start = 0.1 * std::pow(1000.0, k / 49.0);
+      scene::set(s, "damper.normal_load", start);
+      const auto found =
+          optimize::optimum(s, {{{"damper.normal_load", 0.1, 100}}, 18, 22}, {.certificate = false});
+      CAPTURE(exact["c"].get<double>(), start, found.stop.message);
+      CHECK(found.status == observables::Status::complete);
+      REQUIRE(found.design.size() == 1);
+      CHECK(std::abs(found.design[0] - exact["normal_load"].get<double>()) < 1e-5);
+      CHECK(reference::error(found.amplitude, exact["amplitude"]) < 5e-9);
+      CHECK(std::abs(found.point.elements[0].stick_percent - exact["stick_percent"].get<double>()) < 0.005);
+      const bool unbounded = exact["c"] == 0.0 && start <= std::numbers::pi / 2;
+      CHECK(unbounded == std::isinf(found.evaluations.front().amplitude));
+      if (unbounded) CHECK_FALSE(found.notes.empty());
+      most = std::max(most, found.evaluations.size());
+    }
+    CHECK(most <= 40);
+  }
+}
