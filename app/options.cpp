@@ -23,13 +23,14 @@ struct VerbText {
   const char* help;
 };
 
-constexpr std::array<VerbText, 7> verb_texts{{
+constexpr std::array<VerbText, 8> verb_texts{{
     {Verb::run, "run", "every study of the scene: results and figures"},
     {Verb::frf, "frf", "frequency responses, with their peaks and folds"},
     {Verb::trace, "trace", "responses over a parameter at a fixed frequency, with their extremes and folds"},
     {Verb::peaks, "peaks", "resonance peaks over a parameter, with the least and the greatest"},
     {Verb::folds, "folds", "folds of the frequency response over a parameter, with their cusps"},
     {Verb::time, "time", "motions in time at one frequency: steady, or from rest, with their loops"},
+    {Verb::optimize, "optimize", "the values of parameters for which the highest resonance peak is least"},
     {Verb::check, "check", "validate; print the resolved scene with every default"},
 }};
 
@@ -65,7 +66,7 @@ std::pair<std::string, double> assignment(const std::string& text) {
 
 /// What the parser keeps as text until all of it is read.
 struct Texts {
-  std::vector<std::string> set, frequency;
+  std::vector<std::string> set, frequency, design;
   std::string harmonics, from, to;
   std::string steps, periods, recorded, tolerance, method;
 };
@@ -173,6 +174,41 @@ void add_time_options(CLI::App& verb, Texts& texts) {
       ->type_name("T");
 }
 
+void add_design(CLI::App& verb, Options& options, Texts& texts) {
+  verb.add_option(
+          "--over", texts.design,
+          "a parameter that is chosen, with its bounds, as damper.normal_load=0.1:100; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME.FIELD[=A:B]");
+  verb.add_option("--frequency", texts.frequency,
+                  "the window of frequencies, lower and upper, in the scene's unit")
+      ->expected(2)
+      ->allow_extra_args(false)
+      ->type_name("F");
+  verb.add_option("--algorithm", options.algorithm, "an algorithm of NLopt, by its own name, as LD_SLSQP")
+      ->type_name("NAME");
+}
+
+DesignRange design_range(const std::string& text) {
+  const auto equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (name.empty()) {
+    throw UsageError("--over " + text + ": give it as name.field or name.field=lower:upper");
+  }
+  if (equals == std::string::npos) {
+    return {name, std::nullopt};
+  }
+  const std::string bounds = text.substr(equals + 1);
+  const auto colon = bounds.find(':');
+  const auto lower = number(bounds.substr(0, colon));
+  const auto upper = colon == std::string::npos ? std::nullopt : number(bounds.substr(colon + 1));
+  if (!lower || !upper) {
+    throw UsageError("--over " + text + ": found the bounds \"" + bounds +
+                     "\", must be two finite numbers, lower:upper");
+  }
+  return {name, std::pair(*lower, *upper)};
+}
+
 void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts) {
   if (kind == Verb::run || kind == Verb::frf) {
     const std::string of = kind == Verb::run ? " of frequency responses" : "";
@@ -180,6 +216,8 @@ void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts
     verb.add_option("--to", texts.to, "last frequency" + of + ", in the scene's unit")->type_name("B");
   } else if (kind == Verb::time) {
     add_time_options(verb, texts);
+  } else if (kind == Verb::optimize) {
+    add_design(verb, options, texts);
   } else {
     add_range_over_parameter(verb, kind, options, texts);
   }
@@ -215,7 +253,7 @@ void check_consistent(const Options& options, bool json_given, bool csv_given, b
       (out_given && options.out.empty())) {
     throw UsageError("--out, --json and --csv need a name that is not empty");
   }
-  if (over_given && options.over.empty()) {
+  if (over_given && options.over.empty() && options.design.empty()) {
     throw UsageError("--over needs the name of a parameter, such as --over damper.normal_load");
   }
   if (!options.json.empty() && options.json == options.csv) {
@@ -291,6 +329,9 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   options.recorded = whole_number("--recorded", texts.recorded, "the periods with history");
   options.tolerance = tolerance(texts.tolerance);
   options.method = method(texts.method);
+  for (const std::string& text : texts.design) {
+    options.design.push_back(design_range(text));
+  }
   const bool of_frequency = options.verb == Verb::run || options.verb == Verb::frf;
   options.from = of_frequency ? frequency("--from", texts.from) : parameter_value("--from", texts.from);
   options.to = of_frequency ? frequency("--to", texts.to) : parameter_value("--to", texts.to);

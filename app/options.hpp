@@ -14,17 +14,24 @@
 
 namespace arcslip::app {
 
-enum class Verb { run, frf, trace, peaks, folds, time, check };
+enum class Verb { run, frf, trace, peaks, folds, time, optimize, check };
+
+/// A parameter of a design on the command line: name.field, or name.field=lower:upper.
+struct DesignRange {
+  std::string parameter;
+  std::optional<std::pair<double, double>> bounds;
+};
 
 struct Options {
   Verb verb = Verb::check;
   std::string scene;                                // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
-  std::string over;                // the parameter of trace, peaks and folds, "" where it is not given
-  std::optional<double> from, to;  // run, frf: in the scene's frequency unit; else of `over`
-  std::vector<double>
-      frequency;  // in the scene's unit: none, one (trace, time), or the window (peaks, folds)
+  std::string over;                 // the parameter of trace, peaks and folds, "" where it is not given
+  std::optional<double> from, to;   // run, frf: in the scene's frequency unit; else of `over`
+  std::vector<double> frequency;    // in the scene's unit: none, one (trace, time), or the window (others)
+  std::vector<DesignRange> design;  // optimize: what it is over
+  std::string algorithm;            // optimize: by NLopt's own name
   std::optional<int> steps, periods, recorded;  // time
   std::optional<double> tolerance;              // time
   std::optional<scene::TimeMethod> method;      // time
@@ -33,7 +40,8 @@ struct Options {
   bool quiet = false;
 };
 
-/// "frf", as the user writes it. Verbs that compute studies of one kind have the name of that kind.
+/// "frf", as the user writes it. Verbs that compute studies of one kind have the name of that kind, but
+/// optimize.
 std::string name(Verb verb);
 
 /// Arguments that make no sense. what() says which and what to do.

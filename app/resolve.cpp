@@ -3,6 +3,7 @@
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -63,6 +64,13 @@ std::string listed(const std::vector<std::string>& words) {
 
 /// The option and its value where it gave this key of a study, or "".
 std::string option_of(const std::string& key, const Options& options) {
+  if (!options.design.empty() && (key.starts_with("over") || key.starts_with("bounds"))) {
+    const auto slash = key.find('/');
+    const std::string place = slash == std::string::npos ? "" : key.substr(slash + 1);
+    std::size_t index = 0;
+    std::from_chars(place.data(), place.data() + place.size(), index);
+    return "--over " + options.design[std::min(index, options.design.size() - 1)].parameter;
+  }
   if (key == "over" && !options.over.empty()) {
     return "--over " + options.over;
   }
@@ -202,6 +210,50 @@ scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Opt
   }
   if (!is_time) {
     set_range(study, scene, options);
+  }
+  check_study(scene, index, options);
+  return study;
+}
+
+scene::Study optimum_of_verb(scene::Scene& scene, const Options& options) {
+  const std::size_t studies_before = scene.studies.size();
+  const std::size_t index = study_to_follow(scene, scene::StudyKind::optimum, options);
+  const bool is_new = scene.studies.size() > studies_before;
+  scene::Study& study = scene.studies[index];
+  if (is_new && (options.design.empty() || options.frequency.empty())) {
+    throw UsageError(
+        "the scene has no study of kind optimum, so not all is known: give --over, with bounds, and "
+        "--frequency, or add such a study to the scene");
+  }
+  std::vector<scene::DesignVariable> design;
+  for (const DesignRange& range : options.design) {
+    try {
+      scene::parameter_fields(scene, range.parameter);
+    } catch (const scene::ParameterError& error) {
+      throw UsageError("--over " + range.parameter + ": " + error.what());
+    }
+    const auto known = std::find_if(study.design.begin(), study.design.end(),
+                                    [&](const auto& v) { return v.name == range.parameter; });
+    if (!range.bounds && known == study.design.end()) {
+      throw UsageError("--over " + range.parameter + ": its bounds are not known; give them as --over " +
+                       range.parameter + "=lower:upper");
+    }
+    design.push_back(range.bounds
+                         ? scene::DesignVariable{range.parameter, range.bounds->first, range.bounds->second}
+                         : *known);
+  }
+  if (!design.empty()) {
+    study.design = std::move(design);
+  }
+  for (const scene::DesignVariable& variable : study.design) {
+    std::erase_if(study.for_each, [&](const auto& list) { return list.first == variable.name; });
+  }
+  if (!options.frequency.empty()) {
+    study.frequency_from = options.frequency.front();
+    study.frequency_to = options.frequency.back();
+  }
+  if (!options.algorithm.empty()) {
+    study.algorithm = options.algorithm;
   }
   check_study(scene, index, options);
   return study;

@@ -1,9 +1,11 @@
 #include "study_result.hpp"
 
+#include "optimum_table.hpp"
 #include "table.hpp"
 
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/optimize/optimum_output.hpp>
 #include <arcslip/output/csv.hpp>
 #include <arcslip/output/json.hpp>
 #include <arcslip/output/motion.hpp>
@@ -19,6 +21,7 @@ namespace {
 
 using observables::Motion;
 using observables::ResponseBranch;
+using optimize::OptimumResult;
 
 const char* noun(const ResponseBranch& /*of*/) {
   return "branch";
@@ -38,6 +41,15 @@ output::JsonSection section(const scene::Scene& scene, std::span<const ResponseB
   return output::json_section(scene, branches, {coefficients});
 }
 
+const char* noun(const OptimumResult& /*of*/) {
+  return "search";
+}
+
+output::JsonSection section(const scene::Scene& scene, std::span<const OptimumResult> results,
+                            bool /*coefficients*/) {
+  return optimize::json_section(scene, results);
+}
+
 StudyResult computed(const scene::Scene& scene, const scene::Study& study,
                      const observables::ProgressCallback& progress) {
   switch (study.kind) {
@@ -49,6 +61,8 @@ StudyResult computed(const scene::Scene& scene, const scene::Study& study,
       return observables::fold_curves(scene, study, progress);
     case scene::StudyKind::time:
       return observables::motions_in_time(scene, study, progress);
+    case scene::StudyKind::optimum:
+      return optimize::optimum_study(scene, study, progress);
     case scene::StudyKind::frf:
       break;
   }
@@ -66,6 +80,8 @@ StudyResult no_result(scene::StudyKind kind) {
       break;
     case scene::StudyKind::time:
       return std::vector<Motion>();
+    case scene::StudyKind::optimum:
+      return std::vector<OptimumResult>();
   }
   return std::vector<ResponseBranch>();
 }
@@ -131,13 +147,22 @@ void write_json(std::ostream& out, const scene::Scene& scene, std::span<const St
 }
 
 void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& result) {
-  std::visit([&](const auto& items) { output::write_csv(out, scene, items); }, result);
+  std::visit(
+      [&](const auto& items) {
+        using output::write_csv;
+        write_csv(out, scene, items);
+      },
+      result);
 }
 
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
                               const std::string& folder, const std::string& name) {
   return std::visit(
-      [&](const auto& items) { return output::write_figures(scene, kind, items, folder, name); }, result);
+      [&](const auto& items) {
+        using output::write_figures;
+        return write_figures(scene, kind, items, folder, name);
+      },
+      result);
 }
 
 }  // namespace arcslip::app

@@ -6,6 +6,7 @@
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/motion.hpp>
 #include <arcslip/observables/response.hpp>
+#include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -17,7 +18,8 @@
 
 namespace arcslip::app {
 
-using StudyResult = std::variant<std::vector<observables::ResponseBranch>, std::vector<observables::Motion>>;
+using StudyResult = std::variant<std::vector<observables::ResponseBranch>, std::vector<observables::Motion>,
+                                 std::vector<optimize::OptimumResult>>;
 
 /// Nothing yet of what studies of this kind give.
 StudyResult no_result(scene::StudyKind kind);

@@ -149,6 +149,12 @@ ExitCode one_study(scene::StudyKind kind, const Options& options) {
   return run_studies(scene, {study}, options);
 }
 
+ExitCode optimize(const Options& options) {
+  scene::Scene scene = resolve(options);
+  const scene::Study study = optimum_of_verb(scene, options);
+  return run_studies(scene, {study}, options);
+}
+
 ExitCode run(Options options) {
   scene::Scene scene = resolve(options);
   if (scene.studies.empty()) {
@@ -190,6 +196,8 @@ ExitCode execute(const Options& options) {
       return one_study(scene::StudyKind::folds, options);
     case Verb::time:
       return one_study(scene::StudyKind::time, options);
+    case Verb::optimize:
+      return optimize(options);
     case Verb::check:
       break;
   }

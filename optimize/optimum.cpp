@@ -132,7 +132,8 @@ class Search {
       result_.amplitude = amplitude;
     }
     if (options_.progress &&
-        !options_.progress({static_cast<int>(result_.evaluations.size()), design, amplitude,
+        !options_.progress({static_cast<int>(result_.evaluations.size()), design,
+                            state.peaks.empty() ? 0.0 : state.peaks[state.highest].omega(), amplitude,
                             best_excess_ == 0 ? result_.amplitude : infinity}))
       user_stopped_ = true;
     return state;

@@ -24,20 +24,8 @@
 
 namespace arcslip::optimize {
 
-/// A parameter of the scene, or a tie, in its own unit.
-struct DesignVariable {
-  std::string name;
-  double lower = 0, upper = 0;
-};
-
-/// at_least <= observable <= at_most, at the highest peak. Observables: "frequency" (in the scene's unit),
-/// "energy_friction", "energy_viscous" (J per period), and for a friction element NAME "NAME.stick_percent",
-/// "NAME.energy".
-struct ObservableLimit {
-  std::string observable;
-  double at_least = -std::numeric_limits<double>::infinity();
-  double at_most = std::numeric_limits<double>::infinity();
-};
+using scene::DesignVariable;
+using scene::ObservableLimit;
 
 /// at_least <= sum of weight * parameter <= at_most.
 struct LinearLimit {
@@ -56,6 +44,7 @@ struct OptimumProblem {
 struct OptimumProgress {
   int evaluations = 0;
   std::span<const double> design;  // of the last one
+  double omega = 0;                // of its highest peak, rad/s; 0 where there is none
   double amplitude = 0, best = 0;  // m; of the last one, and the least so far where all limits hold
 };
 

@@ -198,6 +198,7 @@ std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::st
   switch (data.kind) {
     case scene::StudyKind::frf:
     case scene::StudyKind::trace:
+    case scene::StudyKind::optimum:  // of which the responses are drawn
       figures.push_back({name + "_amplitude", 0, amplitude, over, amplitude_label});
       add_stick_figures(data, {name + "_stick", 0, 0, over, ""}, false, figures);
       break;

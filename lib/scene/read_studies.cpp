@@ -87,7 +87,9 @@ void read_for_each(const Place& place, const Parameters& all, Study& study, Faul
       continue;  // told as a duplicate key
     }
     const Place item{&member.value, child(place.pointer, member.key)};
-    if (!study.over.empty() && member.key == study.over) {
+    const bool in_design = std::any_of(study.design.begin(), study.design.end(),
+                                       [&](const DesignVariable& v) { return v.name == member.key; });
+    if (in_design || (!study.over.empty() && member.key == study.over)) {
       faults.add(item.pointer,
                  "found " + shown(member.key) + ", which the study is \"over\"; must be another parameter");
       continue;
@@ -146,17 +148,16 @@ void read_range(const Keys& keys, const Field& bounds, Study& study, Faults& fau
   }
 }
 
-// The parameter that the study is over, and what bounds it; any number where a fault is told.
-Field read_over(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
+// A parameter that the study is over, and what bounds it; any number where a fault is told.
+Field read_parameter(const Place& place, const Parameters& all, std::string& parameter, Faults& faults) {
   constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Field any{.name = "over", .unit = "-", .lower = -infinity, .upper = infinity};
-  const Place place = keys.require("over", std::string(wanted), faults);
   const auto over = read_string(place, wanted, faults);
   if (!over) {
     return any;
   }
-  study.over = *over;
+  parameter = *over;
   if (*over == "frequency") {
     faults.add(
         place.pointer,
@@ -172,6 +173,99 @@ Field read_over(const Keys& keys, const Parameters& all, Study& study, Faults& f
   const auto fields = fields_of(*over, place.pointer, all, faults);
   const bool known = !fields.empty() && std::find(fields.begin(), fields.end(), nullptr) == fields.end();
   return known ? common(fields) : any;
+}
+
+Field read_over(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
+  constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
+  return read_parameter(keys.require("over", std::string(wanted), faults), all, study.over, faults);
+}
+
+// A pair [lower, upper], or nothing where a fault is told.
+void read_bounds(const Place& place, const Field& field, DesignVariable& variable, Faults& faults) {
+  const std::string wanted = "a pair [lower, upper], each " + allowed_text(field);
+  const Node::List* list = read_list(place, wanted, faults);
+  if (list == nullptr) {
+    return;
+  }
+  if (list->size() != 2) {
+    faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
+    return;
+  }
+  const auto lower = read_number({&list->front(), child(place.pointer, std::size_t{0})}, field, faults);
+  const auto upper = read_number({&list->back(), child(place.pointer, std::size_t{1})}, field, faults);
+  variable.lower = lower.value_or(0);
+  variable.upper = upper.value_or(0);
+  if (lower && upper && !(*lower < *upper)) {
+    faults.add(child(place.pointer, std::size_t{1}), "found " + number_text(*upper) +
+                                                         ", must be above the lower bound, which is " +
+                                                         with_unit(*lower, field));
+  }
+}
+
+// The parameters of a design in "over", and as many pairs in "bounds".
+void read_design(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
+  constexpr std::string_view names = "a list of at least one parameter \"part.field\" or tie";
+  constexpr std::string_view pairs = "a list of pairs [lower, upper], one for each parameter of \"over\"";
+  const Place over = keys.require("over", std::string(names), faults);
+  const Place bounds = keys.require("bounds", std::string(pairs), faults);
+  const Node::List* parameters = read_list(over, names, faults);
+  const Node::List* ranges = read_list(bounds, pairs, faults);
+  if (parameters != nullptr && parameters->empty()) {
+    faults.add(over.pointer, "found an empty list, must be " + std::string(names));
+  }
+  if (parameters != nullptr && ranges != nullptr && parameters->size() != ranges->size()) {
+    faults.add(bounds.pointer, "found " + std::to_string(ranges->size()) + " for " +
+                                   std::to_string(parameters->size()) + " in \"over\", must be " +
+                                   std::string(pairs));
+  }
+  for (std::size_t i = 0; parameters != nullptr && i < parameters->size(); ++i) {
+    const Place item{&(*parameters)[i], child(over.pointer, i)};
+    DesignVariable variable;
+    const Field field = read_parameter(item, all, variable.name, faults);
+    const bool again = std::any_of(study.design.begin(), study.design.end(),
+                                   [&](const DesignVariable& other) { return other.name == variable.name; });
+    if (again && !variable.name.empty()) {
+      faults.add(item.pointer, "found " + shown(variable.name) + " again, must be named once");
+    }
+    if (ranges != nullptr && i < ranges->size()) {
+      read_bounds({&(*ranges)[i], child(bounds.pointer, i)}, field, variable, faults);
+    }
+    study.design.push_back(std::move(variable));
+  }
+}
+
+void read_constraints(const Place& place, Study& study, Faults& faults) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (place.node == nullptr) {
+    return;
+  }
+  const Node::List* list = read_list(place, "a list of objects", faults);
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    const Place item{&(*list)[i], child(place.pointer, i)};
+    const Keys keys(item, {"observable", "at_least", "at_most"}, faults);
+    if (!keys.is_object()) {
+      continue;
+    }
+    constexpr std::string_view wanted = "a string, such as \"energy_friction\" or \"damper.stick_percent\"";
+    ObservableLimit limit;
+    limit.observable =
+        read_string(keys.require("observable", std::string(wanted), faults), wanted, faults).value_or("");
+    const Field any{.name = "limit", .unit = "-", .lower = -infinity, .upper = infinity};
+    const Place least = keys.find("at_least"), most = keys.find("at_most");
+    if (least.node != nullptr) {
+      limit.at_least = read_number(least, any, faults).value_or(limit.at_least);
+    }
+    if (most.node != nullptr) {
+      limit.at_most = read_number(most, any, faults).value_or(limit.at_most);
+    }
+    if (least.node == nullptr && most.node == nullptr) {
+      faults.add(item.pointer, "found neither \"at_least\" nor \"at_most\", must have one of them");
+    } else if (!(limit.at_least < limit.at_most)) {
+      faults.add(item.pointer, "found \"at_least\" " + number_text(limit.at_least) + " and \"at_most\" " +
+                                   number_text(limit.at_most) + ", must be the lower and the upper limit");
+    }
+    study.constraints.push_back(std::move(limit));
+  }
 }
 
 void read_window(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
@@ -303,6 +397,15 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const st
     } else if (study.kind == StudyKind::time) {
       read_one_frequency(keys, frequency, study, faults);
       read_time(keys, study.time, faults);
+    } else if (study.kind == StudyKind::optimum) {
+      read_design(keys, all, study, faults);
+      read_window(keys, frequency, study, faults);
+      const Place algorithm = keys.find("algorithm");
+      if (algorithm.node != nullptr) {
+        study.algorithm =
+            read_string(algorithm, "a string, the name of an algorithm of NLopt", faults).value_or("");
+      }
+      read_constraints(keys.find("constraints"), study, faults);
     } else {
       read_range(keys, read_over(keys, all, study, faults), study, faults);
       (study.kind == StudyKind::trace ? read_one_frequency : read_window)(keys, frequency, study, faults);

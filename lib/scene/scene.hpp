@@ -16,7 +16,7 @@ namespace arcslip::scene {
 
 enum class FrequencyUnit { hertz, radian_per_second };
 enum class Friction { exact, sampled };
-enum class StudyKind { frf, trace, peaks, folds, time };
+enum class StudyKind { frf, trace, peaks, folds, time, optimum };
 
 /// How a motion in time is found: by shooting on the period, between exact events where the scene is
 /// piecewise linear (no cubic spring, no massless degree of freedom) and in Newmark's steps elsewhere, or
@@ -81,6 +81,23 @@ struct TimeSettings {
   friend bool operator==(const TimeSettings&, const TimeSettings&) = default;
 };
 
+/// A parameter of a design, and the values it may take.
+struct DesignVariable {
+  std::string name;
+  double lower = 0, upper = 0;
+  friend bool operator==(const DesignVariable&, const DesignVariable&) = default;
+};
+
+/// at_least <= observable <= at_most, at the highest resonance peak. Observables: "frequency" (in the scene's
+/// unit), "energy_friction", "energy_viscous" (J per period), and for a friction element NAME
+/// "NAME.stick_percent", "NAME.energy".
+struct ObservableLimit {
+  std::string observable;
+  double at_least = -std::numeric_limits<double>::infinity();
+  double at_most = std::numeric_limits<double>::infinity();
+  friend bool operator==(const ObservableLimit&, const ObservableLimit&) = default;
+};
+
 /// What is to be computed, as data. A for_each list holds a parameter's name and the values it takes;
 /// several lists make their product.
 struct Study {
@@ -89,8 +106,11 @@ struct Study {
   double from = 0, to = 0;  // of the frequency in the scene's unit (frf), or of `over`, in its own
   std::vector<std::pair<std::string, std::vector<double>>> for_each;
   std::string over{};                           // the parameter of trace, peaks and folds; empty for others
-  double frequency_from = 0, frequency_to = 0;  // trace, time: both the fixed frequency; peaks, folds: window
+  double frequency_from = 0, frequency_to = 0;  // trace, time: both the fixed frequency; else the window
   TimeSettings time{};
+  std::vector<DesignVariable> design{};        // optimum: what it is over, with bounds
+  std::string algorithm{};                     // optimum: by NLopt's own name; empty: the default
+  std::vector<ObservableLimit> constraints{};  // optimum
   friend bool operator==(const Study&, const Study&) = default;
 };
 

@@ -23,11 +23,12 @@ inline constexpr std::array<Word<FrequencyUnit>, 2> frequency_units = {
     {{"Hz", FrequencyUnit::hertz}, {"rad/s", FrequencyUnit::radian_per_second}}};
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
-inline constexpr std::array<Word<StudyKind>, 5> study_kinds = {{{"frf", StudyKind::frf},
+inline constexpr std::array<Word<StudyKind>, 6> study_kinds = {{{"frf", StudyKind::frf},
                                                                 {"trace", StudyKind::trace},
                                                                 {"peaks", StudyKind::peaks},
                                                                 {"folds", StudyKind::folds},
-                                                                {"time", StudyKind::time}}};
+                                                                {"time", StudyKind::time},
+                                                                {"optimum", StudyKind::optimum}}};
 inline constexpr std::array<Word<TimeMethod>, 4> time_methods = {
     {{"shooting", TimeMethod::shooting},
      {"newmark-shooting", TimeMethod::newmark_shooting},
@@ -62,6 +63,9 @@ inline std::vector<std::string> study_keys(StudyKind kind) {
   }
   if (kind == StudyKind::time) {
     return {"name", "kind", "frequency", "method", "steps", "periods", "recorded", "tolerance", "for_each"};
+  }
+  if (kind == StudyKind::optimum) {
+    return {"name", "kind", "over", "bounds", "frequency", "algorithm", "constraints", "for_each"};
   }
   return {"name", "kind", "over", "from", "to", "frequency", "for_each"};
 }

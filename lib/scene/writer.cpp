@@ -4,6 +4,7 @@
 #include <arcslip/scene/words.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -88,14 +89,45 @@ Node node(const Harmonics& harmonics) {
                        {"samples", node(harmonics.samples)}}};
 }
 
+// What a study of kind optimum has between its kind and its lists.
+void add_design(const Study& study, Node::Object& object) {
+  std::vector<std::string> over;
+  Node::List bounds;
+  for (const DesignVariable& variable : study.design) {
+    over.push_back(variable.name);
+    bounds.push_back(node(std::vector{variable.lower, variable.upper}));
+  }
+  object.push_back({"over", node(over)});
+  object.push_back({"bounds", {std::move(bounds)}});
+  object.push_back({"frequency", node(std::vector{study.frequency_from, study.frequency_to})});
+  if (!study.algorithm.empty()) {
+    object.push_back({"algorithm", node(study.algorithm)});
+  }
+  Node::List constraints;
+  for (const ObservableLimit& limit : study.constraints) {
+    Node::Object each = {{"observable", node(limit.observable)}};
+    if (std::isfinite(limit.at_least)) {
+      each.push_back({"at_least", node(limit.at_least)});
+    }
+    if (std::isfinite(limit.at_most)) {
+      each.push_back({"at_most", node(limit.at_most)});
+    }
+    constraints.push_back({std::move(each)});
+  }
+  object.push_back({"constraints", {std::move(constraints)}});
+}
+
 Node node(const Study& study) {
   const bool is_time = study.kind == StudyKind::time;
-  const bool has_over = study.kind != StudyKind::frf && !is_time;
+  const bool is_optimum = study.kind == StudyKind::optimum;
+  const bool has_over = study.kind != StudyKind::frf && !is_time && !is_optimum;
   Node::Object object = {{"name", node(study.name)}, {"kind", node(word_of(study_kinds, study.kind))}};
   if (has_over) {
     object.push_back({"over", node(study.over)});
   }
-  if (!is_time) {
+  if (is_optimum) {
+    add_design(study, object);
+  } else if (!is_time) {
     object.push_back({"from", node(study.from)});
     object.push_back({"to", node(study.to)});
   }

@@ -348,7 +348,8 @@ void add_studies(std::vector<BadScene>& rows) {
   rows.push_back({"study without a kind", with_study("{\"from\": 1, \"to\": 2}"), "/studies/0/kind",
                   "found no key \"kind\", which is required: must be one of \"frf\""});
   rows.push_back({"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
-                  "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"time\"; did you "
+                  "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"time\", "
+                  "\"optimum\"; did you "
                   "mean \"frf\"?"});
   rows.push_back({"kind that is no string", with_study("{\"kind\": 1}"), "/studies/0/kind",
                   "found 1 (a number), must be one of \"frf\""});
@@ -477,7 +478,8 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "found \"2\" (a string), must be a number, above 0 Hz");
   add("parameter of a study over the frequency", "\"kind\": \"frf\", " + over + "\"from\": 1, \"to\": 2",
       "over",
-      "found the key \"over\", which belongs to studies of kind \"trace\", \"peaks\", \"folds\", must be one "
+      "found the key \"over\", which belongs to studies of kind \"trace\", \"peaks\", \"folds\", "
+      "\"optimum\", must be one "
       "of "
       "\"name\", \"kind\", \"from\", \"to\", \"for_each\"");
   add("misspelt key of a study over a parameter", kind + over + range + window + ", \"frequencies\": 1",

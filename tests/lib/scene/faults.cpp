@@ -109,6 +109,32 @@ TEST_CASE("all faults of a study over a parameter are told in one go") {
   CHECK(pointers == expected);
 }
 
+TEST_CASE("all faults of a study of an optimum are told in one go") {
+  const std::vector<Fault> faults = faults_of(
+      good_scene_with(R"({"kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}})",
+                      R"({"kind": "optimum", "over": ["d.normal_load", "d.normal_load", "frequency", 3],
+          "bounds": [[1, 2], [-1, 2], [3, 1]], "frequency": [2, 1], "algorithm": 5,
+          "constraints": [{"observable": "frequency"}, {"observable": "frequency", "at_least": 3, "at_most": 2},
+                          {"at_most": 1}], "for_each": {"d.normal_load": [1]}})"));
+  std::vector<std::string> pointers;
+  for (const Fault& fault : faults) {
+    pointers.push_back(fault.pointer);
+  }
+  const std::vector<std::string> expected = {"/studies/0/bounds",
+                                             "/studies/0/over/1",
+                                             "/studies/0/bounds/1/0",
+                                             "/studies/0/over/2",
+                                             "/studies/0/bounds/2/1",
+                                             "/studies/0/over/3",
+                                             "/studies/0/frequency/1",
+                                             "/studies/0/algorithm",
+                                             "/studies/0/constraints/0",
+                                             "/studies/0/constraints/1",
+                                             "/studies/0/constraints/2/observable",
+                                             "/studies/0/for_each/d.normal_load"};
+  CHECK(pointers == expected);
+}
+
 TEST_CASE("what() of a scene error has one line for each fault, with its pointer") {
   const SceneError error({{"/a", "found 1"}, {"", "too long"}});
   CHECK(std::string(error.what()) == "/a: found 1\ntoo long");

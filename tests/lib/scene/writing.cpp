@@ -48,7 +48,12 @@ const char* const full_scene = R"({
     {"kind": "peaks", "over": "load", "from": 0, "to": 1e300, "frequency": [0.1, 0.3333333333333333]},
     {"name": "turns", "kind": "folds", "over": "d1.friction_coefficient", "from": 0.1, "to": 0.5,
      "frequency": [1e-300, 3]},
-    {"kind": "time", "frequency": 0.7, "method": "newmark", "tolerance": 1e-300, "for_each": {"load": [1, 2]}}
+    {"kind": "time", "frequency": 0.7, "method": "newmark", "tolerance": 1e-300, "for_each": {"load": [1, 2]}},
+    {"name": "best", "kind": "optimum", "over": ["load", "n.stiffness"], "bounds": [[0.1, 5], [-1, 2]],
+     "frequency": [0.1, 2], "algorithm": "LD_MMA",
+     "constraints": [{"observable": "energy_friction", "at_most": 0.5}, {"observable": "frequency", "at_least": 1}],
+     "for_each": {"f.sine": [1, 2]}},
+    {"kind": "optimum", "over": ["load"], "bounds": [[0.1, 5]], "frequency": [0.1, 2]}
   ]
 })";
 

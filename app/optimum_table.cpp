@@ -1,0 +1,85 @@
+#include "optimum_table.hpp"
+
+#include <arcslip/output/units.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <string>
+
+namespace arcslip::app {
+namespace {
+
+std::string number(double value, const char* format = "%.8g") {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string with_unit(const scene::Scene& scene, const std::string& parameter, double value) {
+  const std::string unit = output::parameter_unit(scene, parameter);
+  return number(value) + (unit.empty() || unit == "-" ? "" : " " + unit);
+}
+
+void write_certificate(std::ostream& out, const scene::Scene& scene, const optimize::OptimumResult& result) {
+  const optimize::Certificate& certificate = *result.optimum.certificate;
+  const auto& over = result.problem.over;
+  for (std::size_t k = 0; k < certificate.ranges.size(); ++k)
+    for (const optimize::ToleranceRange& range : certificate.ranges[k])
+      out << "  within " << number(100 * range.share, "%.0f") << " % for " << over[k].name << " from "
+          << with_unit(scene, over[k].name, range.lower) << (range.lower_is_bound ? " (a bound)" : "")
+          << " to " << with_unit(scene, over[k].name, range.upper)
+          << (range.upper_is_bound ? " (a bound)" : "") << '\n';
+  for (std::size_t k = 0; k < certificate.at_bound.size(); ++k)
+    if (certificate.at_bound[k] != 0)
+      out << "  " << over[k].name << " is at its " << (certificate.at_bound[k] < 0 ? "lower" : "upper")
+          << " bound\n";
+  int active = 0;
+  for (const auto& peak : certificate.peaks) active += peak.active;
+  out << "  " << active << (active == 1 ? " peak is" : " peaks are")
+      << " the highest; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
+  for (const auto& other : certificate.others)
+    out << "  another response, by " << other.found_by << ": " << number(other.amplitude, "%.8e") << " m at "
+        << number(output::in_scene_unit(scene, other.omega)) << ' ' << scene::unit_name(scene.frequency_unit)
+        << '\n';
+  if (!certificate.others_lower) out << "  it is higher than the highest peak of the branch\n";
+}
+
+}  // namespace
+
+void write_table(std::ostream& out, const scene::Scene& scene,
+                 std::span<const optimize::OptimumResult> results) {
+  for (const optimize::OptimumResult& result : results) {
+    const optimize::Optimum& found = result.optimum;
+    if (!result.set.empty()) out << output::assignment(scene, result.set) << '\n';
+    for (const std::string& note : found.notes) out << "  " << note << '\n';
+    if (found.design.empty() || !std::isfinite(found.amplitude)) {
+      out << "  no optimum: " << result.stop.message << '\n';
+      continue;
+    }
+    for (std::size_t k = 0; k < found.design.size(); ++k)
+      out << "  " << result.problem.over[k].name << " = "
+          << with_unit(scene, result.problem.over[k].name, found.design[k]) << '\n';
+    out << "  A_max = " << number(found.amplitude, "%.8e") << " m at "
+        << number(output::in_scene_unit(scene, found.point.omega), "%.8f") << ' '
+        << scene::unit_name(scene.frequency_unit);
+    for (const auto& element : found.point.elements)
+      if (element.has_stick)
+        out << ", " << element.name << " sticks " << number(element.stick_percent, "%.4f") << " %";
+    out << '\n';
+    if (!found.feasible) out << "  a constraint is not met there\n";
+    out << "  " << found.algorithm << ", " << found.evaluations.size() << " evaluations, "
+        << found.work.responses << " responses traced, " << number(found.seconds, "%.3f")
+        << " s: " << result.stop.message.substr(0, result.stop.message.find("; the least amplitude")) << '\n';
+    if (found.certificate) write_certificate(out, scene, result);
+    if (result.direct.found)
+      out << "  the curve of peaks has its minimum at " << result.problem.over[0].name << " = "
+          << with_unit(scene, result.problem.over[0].name, result.direct.point.over)
+          << ": relative differences " << number(result.difference_of_design(), "%.1e") << " and "
+          << number(result.difference_of_amplitude(), "%.1e") << " in amplitude\n";
+    else if (!result.direct.message.empty())
+      out << "  " << result.direct.message << '\n';
+  }
+}
+
+}  // namespace arcslip::app

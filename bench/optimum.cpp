@@ -1,0 +1,102 @@
+// The optimal normal load, three ways to the same digits.
+//
+//   optimum/H:N       by gradients of followed peaks (LD_SLSQP), with its certificate
+//   search/H:N        the same without the certificate
+//   derivative_free   LN_BOBYQA on followed peaks, without certificate
+//   response_grid     frequency responses, each traced from nothing: golden section over the load until its
+//                     bracket is as narrow as the error that the first leaves in the load, 1e-7 relative
+//
+// Counters: evaluations, responses traced, load (N). The ratios are those of the times of one run.
+
+#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/optimize/optimum.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace arcslip;
+
+scene::Scene paper(int order) {
+  scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  scene.harmonics.order = order;
+  scene::set(scene, "damper.normal_load", 3);
+  return scene;
+}
+
+const optimize::OptimumProblem over_load{{{"damper.normal_load", 0.1, 100}}, 18, 22};
+
+void search_with(benchmark::State& state, const optimize::OptimumOptions& options) {
+  const scene::Scene scene = paper(static_cast<int>(state.range(0)));
+  optimize::Optimum found;
+  for (auto _ : state) found = optimize::optimum(scene, over_load, options);
+  if (found.status != observables::Status::complete) {
+    state.SkipWithError(found.stop.message.c_str());
+    return;
+  }
+  state.counters["evaluations"] = static_cast<double>(found.evaluations.size());
+  state.counters["responses"] = found.work.responses;
+  state.counters["load"] = found.design[0];
+}
+
+void optimum(benchmark::State& state) {
+  search_with(state, {});
+}
+BENCHMARK(optimum)->ArgName("H")->Arg(1)->Arg(7)->Arg(55)->Unit(benchmark::kMillisecond);
+
+void search(benchmark::State& state) {
+  search_with(state, {.certificate = false});
+}
+BENCHMARK(search)->ArgName("H")->Arg(1)->Arg(7)->Arg(55)->Unit(benchmark::kMillisecond);
+
+void derivative_free(benchmark::State& state) {
+  search_with(state, {.algorithm = "LN_BOBYQA", .certificate = false});
+}
+BENCHMARK(derivative_free)->ArgName("H")->Arg(1)->Arg(7)->Arg(55)->Unit(benchmark::kMillisecond);
+
+double peak_at(const scene::Scene& scene, double load) {
+  scene::Scene at = scene;
+  scene::set(at, "damper.normal_load", load);
+  const auto model = std::make_shared<const model::Model>(model::build(at));
+  const double hertz = scene::to_rad_per_s(scene::FrequencyUnit::hertz);
+  double most = 0;
+  observables::frequency_branch(model, {18 * hertz, 22 * hertz}, 18 * hertz,
+                                [&](observables::Observer& observer, const continuation::Accepted& now,
+                                    const continuation::Event* event) {
+                                  const auto& evaluator = static_cast<const hbm::HbmEvaluator&>(now.at);
+                                  if (event && event->monitor == "peak")
+                                    most = std::max(most, observer.extreme(evaluator, now.u).amplitude);
+                                  return true;
+                                });
+  return most;
+}
+
+void response_grid(benchmark::State& state) {
+  const scene::Scene scene = paper(static_cast<int>(state.range(0)));
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  double a = 0, b = 0;
+  long responses = 0;
+  for (auto _ : state) {
+    responses = 0;
+    const auto f = [&](double y) {
+      ++responses;
+      return peak_at(scene, std::exp(y));
+    };
+    a = std::log(0.1), b = std::log(100.0);
+    double c = b - golden * (b - a), d = a + golden * (b - a), fc = f(c), fd = f(d);
+    while (b - a > 1e-7) {
+      if (fc < fd) {
+        b = d, d = c, fd = fc, c = b - golden * (b - a), fc = f(c);
+      } else {
+        a = c, c = d, fc = fd, d = a + golden * (b - a), fd = f(d);
+      }
+    }
+  }
+  state.counters["responses"] = static_cast<double>(responses);
+  state.counters["load"] = std::exp((a + b) / 2);
+}
+BENCHMARK(response_grid)->ArgName("H")->Arg(1)->Arg(7)->Arg(55)->Unit(benchmark::kMillisecond);
+
+}  // namespace

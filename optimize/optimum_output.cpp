@@ -1,0 +1,195 @@
+#include <arcslip/optimize/optimum_output.hpp>
+
+#include <arcslip/output/json_text.hpp>
+#include <arcslip/output/units.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <ostream>
+
+namespace arcslip::optimize {
+namespace {
+
+using output::detail::Json;
+using output::detail::text;
+
+Json named(const OptimumProblem& problem, std::span<const double> design) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < design.size(); ++k) json[problem.over[k].name] = design[k];
+  return json;
+}
+
+void add_place(Json& json, const scene::Scene& scene, const observables::ResponsePoint& point) {
+  json["frequency"] = output::in_scene_unit(scene, point.omega);
+  json["omega"] = point.omega;
+  const auto has_stick = [](const auto& element) { return element.has_stick; };
+  if (std::count_if(point.elements.begin(), point.elements.end(), has_stick) == 1)
+    json["stick_percent"] =
+        std::find_if(point.elements.begin(), point.elements.end(), has_stick)->stick_percent;
+  json["energy_friction"] = point.energy_friction;
+  Json& elements = json["elements"] = Json::object();
+  for (const auto& element : point.elements)
+    if (element.has_stick)
+      elements[element.name] = {{"stick_percent", element.stick_percent}, {"energy", element.energy}};
+}
+
+Json optimum_of(const scene::Scene& scene, const OptimumResult& result) {
+  const Optimum& found = result.optimum;
+  if (found.design.empty() || !std::isfinite(found.amplitude)) return nullptr;
+  Json json = named(result.problem, found.design);
+  json["amplitude"] = found.amplitude;
+  add_place(json, scene, found.point);
+  json["feasible"] = found.feasible;
+  return json;
+}
+
+Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, const Certificate& c) {
+  Json json = {{"gradient", named(problem, c.gradient)}, {"stationarity", c.stationarity}};
+  if (!c.to_minimum.empty()) json["to_minimum"] = named(problem, c.to_minimum);
+  if (c.curvature.size() > 0) {
+    Json& rows = json["curvature"] = Json::array();
+    for (Eigen::Index i = 0; i < c.curvature.rows(); ++i) {
+      const Eigen::VectorXd row = c.curvature.row(i);
+      rows.push_back(std::vector<double>(row.begin(), row.end()));
+    }
+  }
+  Json& ranges = json["ranges"] = Json::object();
+  for (std::size_t k = 0; k < c.ranges.size(); ++k)
+    for (const ToleranceRange& range : c.ranges[k])
+      ranges[problem.over[k].name].push_back({{"share", range.share},
+                                              {"lower", range.lower},
+                                              {"upper", range.upper},
+                                              {"lower_is_bound", range.lower_is_bound},
+                                              {"upper_is_bound", range.upper_is_bound}});
+  Json& peaks = json["peaks"] = Json::array();
+  for (const CertifiedPeak& peak : c.peaks)
+    peaks.push_back({{"kind", name(peak.kind)},
+                     {"frequency", output::in_scene_unit(scene, peak.omega)},
+                     {"omega", peak.omega},
+                     {"amplitude", peak.amplitude},
+                     {"active", peak.active},
+                     {"weight", peak.weight}});
+  json["at_bound"] = Json::object();
+  for (std::size_t k = 0; k < c.at_bound.size(); ++k)
+    json["at_bound"][problem.over[k].name] = c.at_bound[k] < 0   ? "lower"
+                                             : c.at_bound[k] > 0 ? "upper"
+                                                                 : "inside";
+  Json& others = json["others"] = Json::array();
+  for (const OtherResponse& other : c.others)
+    others.push_back({{"found_by", other.found_by},
+                      {"frequency", output::in_scene_unit(scene, other.omega)},
+                      {"amplitude", other.amplitude}});
+  json["others_lower"] = c.others_lower;
+  return json;
+}
+
+Json direct_of(const scene::Scene& scene, const OptimumResult& result) {
+  const DirectOptimum& direct = result.direct;
+  if (!direct.found) return {{"message", direct.message}};
+  Json json = {{result.problem.over[0].name, direct.point.over}, {"amplitude", direct.point.amplitude}};
+  add_place(json, scene, direct.point);
+  json["difference"] = {{"design", result.difference_of_design()},
+                        {"amplitude", result.difference_of_amplitude()}};
+  return json;
+}
+
+Json json_of(const scene::Scene& scene, const OptimumResult& result) {
+  const Optimum& found = result.optimum;
+  Json json = Json::object();
+  if (!result.study.empty()) json["study"] = result.study;
+  if (!result.kind.empty()) json["kind"] = result.kind;
+  json["status"] = observables::name(result.status);
+  json["stop"] = output::detail::stop(result.stop);
+  json["set"] = output::detail::named_values(result.set);
+  json["optimum"] = optimum_of(scene, result);
+  json["algorithm"] = found.algorithm;
+  json["epigraph"] = found.epigraph;
+  json["evaluations"] = found.evaluations.size();
+  json["responses"] = found.work.responses;
+  json["followed"] = found.work.followed;
+  json["factorizations"] = found.work.factorizations;
+  json["seconds"] = found.seconds;
+  json["notes"] = found.notes;
+  if (found.certificate) json["certificate"] = certificate_of(scene, result.problem, *found.certificate);
+  if (result.direct.found || !result.direct.message.empty()) json["direct"] = direct_of(scene, result);
+  Json& course = json["course"] = Json::array();
+  for (const Evaluation& evaluation : found.evaluations) {
+    course.push_back(named(result.problem, evaluation.design));
+    course.back()["amplitude"] = evaluation.amplitude;
+  }
+  return json;
+}
+
+}  // namespace
+
+output::JsonSection json_section(const scene::Scene& scene, std::span<const OptimumResult> results) {
+  const bool single = results.size() == 1;
+  return {"arcslip-optimum-1", single ? "optimum" : "optima", [&scene, results, single](std::ostream& out) {
+            if (single) {
+              const OptimumResult& only = results.front();
+              out << text(optimum_of(scene, only)) << ",\n\"algorithm\": " << text(only.optimum.algorithm)
+                  << ",\n\"evaluations\": " << only.optimum.evaluations.size()
+                  << ",\n\"stop\": " << text(output::detail::stop(only.stop)) << ",\n\"optima\": ";
+            }
+            output::detail::write_list(out, results,
+                                       [&](const OptimumResult& result) { return json_of(scene, result); });
+          }};
+}
+
+void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumResult> results) {
+  const char* end = "\r\n";
+  if (results.empty()) return;
+  const auto cell = [](double value) {
+    return std::isnan(value) ? std::string() : std::isinf(value) ? "inf" : output::shortest(value);
+  };
+  out << "optimum,what";
+  for (const auto& [name, value] : results.front().set)
+    out << ',' << output::with_unit(name, output::parameter_unit(scene, name));
+  for (const DesignVariable& v : results.front().problem.over)
+    out << ',' << output::with_unit(v.name, output::parameter_unit(scene, v.name));
+  out << ",amplitude (m)," << output::with_unit("frequency", scene::unit_name(scene.frequency_unit)) << end;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const OptimumResult& result = results[i];
+    const auto row = [&](const char* what, std::span<const double> design, double amplitude,
+                         const std::string& frequency) {
+      out << i + 1 << ',' << what;
+      for (const auto& [name, value] : result.set) out << ',' << cell(value);
+      for (const double value : design) out << ',' << cell(value);
+      out << ',' << cell(amplitude) << ',' << frequency << end;
+    };
+    for (const Evaluation& evaluation : result.optimum.evaluations)
+      row("evaluation", evaluation.design, evaluation.amplitude, "");
+    if (result.optimum.design.empty()) continue;
+    row("optimum", result.optimum.design, result.optimum.amplitude,
+        cell(output::in_scene_unit(scene, result.optimum.point.omega)));
+  }
+}
+
+output::Figures write_figures(const scene::Scene& scene, scene::StudyKind,
+                              std::span<const OptimumResult> results, const std::string& folder,
+                              const std::string& name) {
+  output::Figures all;
+  const auto add = [&](output::Figures&& more) {
+    std::move(more.sources.begin(), more.sources.end(), std::back_inserter(all.sources));
+    std::move(more.images.begin(), more.images.end(), std::back_inserter(all.images));
+    if (all.problem.empty()) all.problem = std::move(more.problem);
+  };
+  std::vector<observables::ResponseBranch> curves, responses;
+  for (const OptimumResult& result : results) {
+    for (observables::ResponseBranch curve : result.direct.curves) {
+      curve.set = result.set;
+      curves.push_back(std::move(curve));
+    }
+    for (observables::ResponseBranch branch : result.responses) {
+      branch.set.insert(branch.set.begin(), result.set.begin(), result.set.end());
+      responses.push_back(std::move(branch));
+    }
+  }
+  if (!curves.empty()) add(output::write_figures(scene, scene::StudyKind::peaks, curves, folder, name));
+  if (!responses.empty())
+    add(output::write_figures(scene, scene::StudyKind::frf, responses, folder, name + "_responses"));
+  return all;
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,38 @@
+#pragma once
+// Optima as JSON (format "arcslip-optimum-1"), CSV and figures.
+
+#include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/output/figures.hpp>
+#include <arcslip/output/json_document.hpp>
+
+#include <iosfwd>
+#include <span>
+#include <string>
+
+namespace arcslip::optimize {
+
+/// The key "optima" of a document: a list of
+///   {"study", "kind", "status", "stop", "set",
+///    "optimum": {each parameter by its name, "amplitude" (m), "frequency" (scene's unit), "omega" (rad/s),
+///                "stick_percent" where there is one friction element, "energy_friction" (J), "feasible"},
+///    "algorithm", "epigraph", "evaluations", "responses", "followed", "factorizations", "seconds", "notes",
+///    "certificate": {"gradient", "stationarity", "to_minimum", "curvature", "ranges", "peaks", "at_bound",
+///                    "others", "others_lower"},
+///    "direct": {the parameter, "amplitude", "frequency", "omega", "difference": {"design", "amplitude"}},
+///    "course": [{each parameter, "amplitude"}, ...]}
+/// and, where there is exactly one, its "optimum", "algorithm", "evaluations" and "stop" beside them.
+/// "optimum" is null where there is none, "certificate" and "direct" are left out. Numbers that are not
+/// finite are null. Refers to its arguments.
+output::JsonSection json_section(const scene::Scene& scene, std::span<const OptimumResult> results);
+
+/// A row for each evaluation, and one, named "optimum", for the result.
+void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumResult> results);
+
+/// Of one parameter: the resonance peaks over its bounds with the least one marked (NAME_amplitude,
+/// NAME_frequency, NAME_amplitude_over_stick). Of any: the frequency responses at half, once and twice the
+/// optimum (NAME_responses_amplitude, NAME_responses_stick).
+output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
+                              std::span<const OptimumResult> results, const std::string& folder,
+                              const std::string& name);
+
+}  // namespace arcslip::optimize

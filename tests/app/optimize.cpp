@@ -1,0 +1,124 @@
+// arcslip optimize, and studies of kind "optimum".
+
+#include "catch.hpp"
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+using namespace app_test;
+using Json = nlohmann::json;
+
+namespace {
+
+std::vector<std::string> optimize(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"optimize", "scene.json", "--harmonics", "7", "--frequency", "18", "22"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+}  // namespace
+
+TEST_CASE("optimize --json - prints one object with the optimum, its certificate and the direct way") {
+  const Workplace place;
+  const Ended ended = run(place, optimize({"--over", "damper.normal_load=0.1:100", "--json", "-"}));
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.err.empty());
+  const Json json = Json::parse(ended.out);
+  CHECK(json["format"] == "arcslip-optimum-1");
+  REQUIRE(json["optima"].size() == 1);
+  for (const char* key : {"optimum", "algorithm", "evaluations", "stop"})
+    CHECK(json[key] == json["optima"][0][key]);
+  const Json& found = json["optima"][0];
+  CHECK(found["status"] == "complete");
+  CHECK(found["algorithm"] == "LD_SLSQP");
+  // exact: 3.0898689 N, 8.84191062e-4 m at 20.029272 Hz, 49.6565 %; seven harmonics leave some 1e-4 of it
+  CHECK(found["optimum"]["damper.normal_load"].get<double>() == Approx(3.0898689).epsilon(1e-3));
+  CHECK(found["optimum"]["amplitude"].get<double>() == Approx(8.84191062e-4).epsilon(1e-4));
+  CHECK(found["optimum"]["frequency"].get<double>() == Approx(20.029272).epsilon(1e-5));
+  CHECK(found["optimum"]["stick_percent"].get<double>() == Approx(49.6565).epsilon(1e-3));
+  CHECK(found["evaluations"].get<int>() <= 15);
+  CHECK(found["course"].size() == found["evaluations"].get<std::size_t>());
+  CHECK(found["certificate"]["ranges"]["damper.normal_load"].size() == 2);
+  CHECK(found["certificate"]["others_lower"] == true);
+  CHECK(found["direct"]["difference"]["design"].get<double>() < 1e-6);
+  CHECK(found["direct"]["difference"]["amplitude"].get<double>() < 1e-10);
+}
+
+TEST_CASE("optimize prints what an engineer asks for") {
+  const Workplace place;
+  const Ended ended = run(place, optimize({"--over", "damper.normal_load=0.1:100", "--quiet"}));
+  CHECK(ended.exit_code == 0);
+  for (const char* part :
+       {"damper.normal_load = 3.08", " N\n", "A_max = 8.84", "damper sticks 49.6",
+        "within 1 % for damper.normal_load from 2.8", "within 5 %", "1 peak is the highest",
+        "the curve of peaks has its minimum at damper.normal_load = 3.08"})
+    CHECK(ended.out.find(part) != std::string::npos);
+}
+
+TEST_CASE("a study of kind optimum runs with the others, with files and figures") {
+  const Workplace place;
+  Json scene = Json::parse(place.read("scene.json"));
+  scene["harmonics"]["order"] = 5;
+  scene["studies"] = Json::parse(R"([{"name": "best load", "kind": "optimum", "over": ["damper.normal_load"],
+    "bounds": [[0.5, 50]], "frequency": [18, 22], "for_each": {"force.cosine": [1, 2]}}])");
+  place.write("scene.json", scene.dump());
+  const Ended ended = run(place, {"run", "scene.json", "--out", "out", "--quiet"});
+  CAPTURE(ended.err);
+  CHECK(ended.exit_code == 0);
+  const Json json = Json::parse(place.read("out/best_load.json"));
+  REQUIRE(json["optima"].size() == 2);
+  // By scaling, the optimal load grows in proportion to the force.
+  const auto load = [&](std::size_t i) {
+    return json["optima"][i]["optimum"]["damper.normal_load"].get<double>();
+  };
+  CHECK(load(1) == Approx(2 * load(0)).epsilon(1e-6));
+  CHECK(json["optima"][1]["set"]["force.cosine"] == 2.0);
+  const std::string csv = place.read("out/best_load.csv");
+  CHECK(csv.find("optimum,what,force.cosine (N),damper.normal_load (N),amplitude (m),frequency (Hz)\r\n") ==
+        0);
+  CHECK(csv.find("\r\n2,optimum,2,") != std::string::npos);
+  if (std::system("gnuplot --version >/dev/null 2>&1") == 0) {
+    const auto files = place.files();
+    for (const char* file : {"out/best_load_amplitude.svg", "out/best_load_responses_amplitude.png"})
+      CHECK(std::find(files.begin(), files.end(), file) != files.end());
+  }
+}
+
+TEST_CASE("what is asked wrongly of optimize is answered with what is allowed, and exit code 1") {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> rows = {
+      {{"--over", "damper.normal_load=5:1"},
+       "--over damper.normal_load: found 1, must be above the lower bound"},
+      {{"--over", "damper.normal_load=5:5"},
+       "--over damper.normal_load: found 5, must be above the lower bound"},
+      {{"--over", "damper.normal_load=5"}, "found the bounds \"5\", must be two finite numbers, lower:upper"},
+      {{"--over", "damper.normal_load"},
+       "its bounds are not known; give them as --over damper.normal_load=lower:upper"},
+      {{"--over", "damper.normal_load=-1:5"}, "--over damper.normal_load: found -1"},
+      {{"--over", "damper.load=1:5"}, "--over damper.load: unknown parameter \"damper.load\""},
+      {{"--over", "damper.normal_load=1:5", "--over", "damper.normal_load=2:3"}, "again, must be named once"},
+      {{"--over", "damper.normal_load=1:5", "--algorithm", "LD_SLSPQ"}, "did you mean \"LD_SLSQP\"?"},
+      {{}, "the scene has no study of kind optimum, so not all is known: give --over, with bounds"},
+  };
+  for (const auto& [arguments, expected] : rows) {
+    const Workplace place;
+    const Ended ended = run(place, optimize(arguments));
+    INFO(ended.err);
+    CHECK(ended.exit_code == 1);
+    CHECK(ended.out.empty());
+    CHECK(ended.err.find(expected) != std::string::npos);
+  }
+}
+
+TEST_CASE("bounds without slip are a complete answer: the amplitude does not depend on the load") {
+  const Workplace place;
+  const Ended ended = run(place, optimize({"--over", "damper.normal_load=400:1000", "--json", "-"}));
+  CHECK(ended.exit_code == 0);
+  const Json found = Json::parse(ended.out)["optima"][0];
+  CHECK(found["stop"]["reason"] == "flat");
+  CHECK(found["stop"]["message"].get<std::string>().find("no friction element slips at the peak") !=
+        std::string::npos);
+}
