@@ -27,8 +27,8 @@ struct OptimumResult {
   double difference_of_amplitude() const;
 };
 
-/// One for each combination of the study's for_each lists. progress: after each evaluation, `points` is their
-/// number; false stops. Throws as optimum() does.
+/// One for each combination of the study's for_each lists, each from the optimum of the one before. progress:
+/// after each evaluation, `points` is their number; false stops. Throws as optimum() does.
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
                                          const observables::ProgressCallback& progress = {},
                                          const OptimumOptions& options = {});
