@@ -337,7 +337,9 @@ class Search {
           text("; the least amplitude is ", result_.amplitude, " m at ", design_text(result_.design));
       if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best_excess_);
       if (options_.certificate && result_.status == Status::complete && result_.stop.reason != "flat")
-        result_.certificate = certify(peaks_, space_.lower(), space_.upper());
+        result_.certificate = certify(peaks_, space_.lower(), space_.upper(), [this] {
+          return options_.seconds == 0 || seconds() < options_.seconds;
+        });
     }
     result_.work = peaks_.work();
     result_.seconds = seconds();

@@ -48,6 +48,27 @@ double slope_on_way(double from, double to, double s) {
   return by_ratio(from, to) ? on_way(from, to, s) * std::log(to / from) : to - from;
 }
 
+// u and omega, and at a corner the angles of its reversals: the unknowns of slip_corner_points().
+Vector with_angles(const Vector& x, const hbm::SlipCorner& corner) {
+  Vector all(x.size() + 2);
+  all << x, corner.anchor, corner.reversal;
+  return all;
+}
+
+// The unknowns of the equations of a peak.
+Vector unknowns(const Peak& peak) {
+  if (is_end(peak.kind)) return peak.x.head(peak.x.size() - 1);
+  return peak.kind == PeakKind::corner ? with_angles(peak.x, *peak.corner) : peak.x;
+}
+
+void set_unknowns(Peak& peak, const Vector& all) {
+  const Eigen::Index size = std::min(all.size(), peak.x.size());
+  peak.x.head(size) = all.head(size);
+  if (peak.kind != PeakKind::corner) return;
+  peak.corner->anchor = all[size];
+  peak.corner->reversal = all[size + 1];
+}
+
 }  // namespace
 
 const char* name(PeakKind kind) {
@@ -112,7 +133,7 @@ PeakState PeakAmplitude::response(std::span<const double> design) {
                           const continuation::Event* event) {
     if (event) {
       if (event->monitor == "peak")
-        found.peaks.push_back({event->nonsmooth ? PeakKind::kink : PeakKind::resonance, -1, place(now)});
+        found.peaks.push_back({event->nonsmooth ? PeakKind::kink : PeakKind::resonance, place(now)});
       return true;
     }
     if (first.size() == 0) first = place(now);
@@ -136,29 +157,23 @@ PeakState PeakAmplitude::response(std::span<const double> design) {
   const auto& stop = traced.branch.stop;
   found.complete = stop.reason == StopReason::boundary && stop.value == window_.upper;
   if (!found.complete) found.message = stop.message;
-  if (first.size() > 0) found.peaks.insert(found.peaks.begin(), {PeakKind::lower_end, -1, first});
+  if (first.size() > 0) found.peaks.insert(found.peaks.begin(), {PeakKind::lower_end, first});
   if (found.complete) {
     found.upper_end = last.head(problem_->size());
-    found.peaks.push_back({PeakKind::upper_end, -1, last});
+    found.peaks.push_back({PeakKind::upper_end, last});
   }
   return found;
 }
 
-// Whose corner a nonsmooth peak is, if it is one between stick and slip.
+// Whose corner a nonsmooth peak is, if it is one where an element begins to slip.
 void PeakAmplitude::classify(Peak& peak) {
-  const Eigen::Index n = problem_->size();
   const Vector p = parameters(state_.design);
-  Vector dh(n);
-  const auto& elements = problem_->model().elements;
-  for (int e = 0; e < static_cast<int>(elements.size()); ++e) {
-    if (elements[static_cast<std::size_t>(e)].law != model::Law::jenkins) continue;
-    hbm::StickLimit limit(*problem_, e);
-    const auto h = limit.at(peak.x.head(n), p, dh);
-    if (!h || std::abs(*h) > at_limit * limit.limit()) continue;
-    hbm::Corner corner(problem_, e, observables::amplitude_quantity(problem_));
-    if (!corner.slopes(peak.x, p).is_maximum()) continue;
+  for (const hbm::SlipCorner& corner :
+       hbm::slip_corners_near(*problem_, peak.x.head(problem_->size()), p, at_limit)) {
+    hbm::CornerSides sides(problem_, corner, observables::amplitude_quantity(problem_));
+    if (!sides.slopes(with_angles(peak.x, corner), p).is_maximum()) continue;
     peak.kind = PeakKind::corner;
-    peak.element = e;
+    peak.corner = corner;
     return;
   }
 }
@@ -169,7 +184,7 @@ bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
   peak.gradient.resize(static_cast<Eigen::Index>(over_.size()));
   const bool done =
       peak.kind == PeakKind::resonance ? sensitivity_->at_resonance(peak.x, p, over_, peak.gradient)
-      : peak.kind == PeakKind::corner ? sensitivity_->at_corner(peak.element, peak.x, p, over_, peak.gradient)
+      : peak.kind == PeakKind::corner ? sensitivity_->at_corner(*peak.corner, peak.x, p, over_, peak.gradient)
                                       : sensitivity_->at_frequency(peak.x, p, over_, peak.gradient);
   peak.amplitude = sensitivity_->amplitude();
   return done;
@@ -263,7 +278,7 @@ Follower& PeakAmplitude::follower(std::size_t peak) {
     equations = continuation::stationary_points(problem_, model::frequency,
                                                 observables::amplitude_quantity(problem_));
   else if (of.kind == PeakKind::corner)
-    equations = hbm::stick_limit_points(problem_, of.element);
+    equations = hbm::slip_corner_points(problem_, *of.corner);
   else
     p[model::frequency] = of.omega();
   made = std::make_unique<Follower>(equations, over_, p);
@@ -274,22 +289,22 @@ Follower& PeakAmplitude::follower(std::size_t peak) {
 bool PeakAmplitude::holds(std::size_t peak, const Vector& x) {
   const Peak& of = state_.peaks[peak];
   if (is_end(of.kind)) return true;
-  const double omega = x[x.size() - 1];
+  const double omega = x[problem_->size()];
   if (!(omega >= window_.lower && omega <= window_.upper)) return false;
   Follower& follower = *followers_[peak];
   if (of.kind == PeakKind::resonance) {
     const auto second = continuation::cusp_monitor().value;
     return second({x, x, x, 0, follower.at(), follower.factors(), omega}) < 0;
   }
-  hbm::Corner corner(problem_, of.element, observables::amplitude_quantity(problem_));
-  return corner.slopes(x, follower.parameters()).is_maximum();
+  hbm::CornerSides sides(problem_, *of.corner, observables::amplitude_quantity(problem_));
+  return sides.slopes(x, follower.parameters()).is_maximum();
 }
 
 bool PeakAmplitude::follow(std::size_t peak, std::span<const double> to, Peak& followed) {
   Follower& by = follower(peak);
   const std::vector<double>& from = state_.design;
-  const Eigen::Index n = problem_->size(), size = is_end(followed.kind) ? n : n + 1;
-  Vector here = followed.x.head(size);
+  Vector here = unknowns(followed);
+  const Eigen::Index n = problem_->size(), size = here.size();
   if (!by.is_at(here, from) && !by.linearize(here, from)) return false;
   double most = 0;
   for (std::size_t k = 0; k < to.size(); ++k) most = std::max(most, std::abs(way(from[k], to[k])));
@@ -323,7 +338,7 @@ bool PeakAmplitude::follow(std::size_t peak, std::span<const double> to, Peak& f
       step /= 2;
     }
   }
-  followed.x.head(size) = here;
+  set_unknowns(followed, here);
   return measure(followed, to);
 }
 
@@ -335,8 +350,7 @@ double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& 
   const Peak& of = state_.peaks[peak];
   if (of.kind == PeakKind::kink) return std::numeric_limits<double>::quiet_NaN();
   Follower& by = follower(peak);
-  const Eigen::Index size = is_end(of.kind) ? problem_->size() : problem_->size() + 1;
-  const Vector here = of.x.head(size);
+  const Vector here = unknowns(of);
   if (!by.is_at(here, state_.design) && !by.linearize(here, state_.design))
     return std::numeric_limits<double>::quiet_NaN();
   const Vector tangent = by.tangent(k);
@@ -345,7 +359,8 @@ double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& 
   double value[2];
   for (const int side : {0, 1}) {
     Vector x = of.x;
-    x.head(size) += (side == 0 ? -h : h) * tangent;
+    const Eigen::Index size = std::min(x.size(), tangent.size());
+    x.head(size) += (side == 0 ? -h : h) * tangent.head(size);
     design[k] = state_.design[k] + (side == 0 ? -h : h);
     value[side] = observable(observe(x, design));
   }

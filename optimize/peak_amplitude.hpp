@@ -7,10 +7,10 @@
 // tangent, and Newton's method on the equations of the peak, in as many steps as they need.
 //
 //   resonance   dA/ds = 0 along the response (continuation/stationary.hpp)
-//   corner      at which an element passes from full stick to slip (hbm/stick_limit.hpp), with slopes of
-//               opposite sign on its sides
+//   corner      at which an element begins to slip (hbm/slip_corner.hpp), with slopes of opposite sign on its
+//               sides
 //   lower_end, upper_end   the response at the ends of the window
-//   kink        at another corner, where a phase of friction begins or ends: its equation is not known
+//   kink        at another kink, such as where two extremes of the motion are equally high
 //
 // The response is traced anew where a peak cannot be followed, because it vanishes, splits, leaves the window
 // or comes to a corner; at every design where there is a kink; and where a parameter has changed by a factor
@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,10 +40,10 @@ const char* name(PeakKind kind);
 
 struct Peak {
   PeakKind kind = PeakKind::resonance;
-  int element = -1;                 // of the model, whose corner it is
-  continuation::Vector x;           // unknowns and omega (rad/s)
-  double amplitude = 0;             // m
-  continuation::Vector gradient{};  // dA/dp of the design parameters, m over their units
+  continuation::Vector x;                   // unknowns and omega (rad/s)
+  std::optional<hbm::SlipCorner> corner{};  // where it sits at one
+  double amplitude = 0;                     // m
+  continuation::Vector gradient{};          // dA/dp of the design parameters, m over their units
 
   double omega() const { return x[x.size() - 1]; }
 };

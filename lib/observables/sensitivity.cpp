@@ -23,7 +23,6 @@ Sensitivity::Sensitivity(std::shared_ptr<const hbm::HbmProblem> problem)
       quantity_(amplitude_quantity(problem_)),
       extremes_(problem_->harmonics()),
       evaluator_(problem_->hbm_evaluator()),
-      limits_(problem_->model().elements.size()),
       border_(problem_->size(), 1),
       u_(problem_->size()),
       scales_(problem_->size() + 1),
@@ -82,15 +81,15 @@ bool Sensitivity::at_resonance(In x, In p, std::span<const int> parameters, Out 
   return differentiate(parameters, gradient);
 }
 
-bool Sensitivity::at_corner(int element, In x, In p, std::span<const int> parameters, Out gradient) {
+bool Sensitivity::at_corner(const hbm::SlipCorner& corner, In x, In p, std::span<const int> parameters,
+                            Out gradient) {
   if (!move_to(x, p)) return false;
-  auto& limit = limits_[static_cast<std::size_t>(element)];
-  if (!limit) limit = std::make_unique<hbm::StickLimit>(*problem_, element);
-  if (!limit->at(u_, p_, border_.rows.col(0))) return false;
+  hbm::slip_excess_gradient(*problem_, corner, p_, border_.rows.col(0));
   border_.corner(0, 0) = 0;
   if (!factorize() || !differentiate(parameters, gradient)) return false;
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    gradient[static_cast<Eigen::Index>(i)] -= multiplier() * limit->parameter_derivative(parameters[i]);
+    gradient[static_cast<Eigen::Index>(i)] -=
+        multiplier() * hbm::slip_excess_derivative(*problem_, corner, u_, p_, parameters[i]);
   return gradient.allFinite();
 }
 

@@ -10,7 +10,7 @@
 //   at a frequency   r = omega - const: g = dA/domega along the branch.
 //   at a resonance   A is stationary along the branch, so that g = 0 whatever row r_x is there (envelope
 //                    theorem): the tangent is, and the system is regular at folds too.
-//   at a corner      r = h, the stick limit of an element (hbm/stick_limit.hpp), on which the peak sits. F_x
+//   at a corner      r = h, the slip limit of an element (hbm/slip_corner.hpp), on which the peak sits. F_x
 //                    and F_p jump along h_x and h_p: g takes up the jump, and both sides give the same.
 //
 // Units: those of A, m, over those of p_k. A parameter that ties several fields has the sum of their
@@ -18,7 +18,7 @@
 
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/stationary.hpp>
-#include <arcslip/hbm/stick_limit.hpp>
+#include <arcslip/hbm/slip_corner.hpp>
 #include <arcslip/observables/amplitude.hpp>
 
 #include <memory>
@@ -37,8 +37,8 @@ class Sensitivity {
                     continuation::Out gradient);
   bool at_resonance(continuation::In x, continuation::In p, std::span<const int> parameters,
                     continuation::Out gradient);
-  bool at_corner(int element, continuation::In x, continuation::In p, std::span<const int> parameters,
-                 continuation::Out gradient);
+  bool at_corner(const hbm::SlipCorner& corner, continuation::In x, continuation::In p,
+                 std::span<const int> parameters, continuation::Out gradient);
 
   /// At the last solution: A, m, and g, the multiplier of the condition.
   double amplitude() const { return amplitude_; }
@@ -54,7 +54,6 @@ class Sensitivity {
   Amplitude extremes_;
   std::unique_ptr<hbm::HbmEvaluator> evaluator_;
   std::unique_ptr<continuation::LinearSolver> solver_;
-  std::vector<std::unique_ptr<hbm::StickLimit>> limits_;  // of the elements, made when asked for
   continuation::Borders border_;
   continuation::Vector u_, p_, scales_, tangent_, z_, x_, F_p_;
   double amplitude_ = 0;

@@ -160,7 +160,7 @@ TEST_CASE("peaks at corners, where an element begins to slip, are followed along
     const auto& state = peaks.trace(loads);
     CAPTURE(at, state.peaks.size());
     REQUIRE(state.peaks[state.highest].kind == PeakKind::corner);
-    const int element = state.peaks[state.highest].element;
+    const int element = state.peaks[state.highest].corner->element;
     for (std::size_t k = 0; k < loads.size(); ++k) {
       CAPTURE(k);
       const double gradient = peaks.trace(loads).peaks[peaks.state().highest].gradient[static_cast<int>(k)];
@@ -177,7 +177,7 @@ TEST_CASE("peaks at corners, where an element begins to slip, are followed along
     for (double& load : design) load *= 1.002;
     const double followed = peaks.at(design).amplitude();
     CHECK(peaks.work().followed == before + 1);
-    CHECK(peaks.state().peaks[peaks.state().highest].element == element);
+    CHECK(peaks.state().peaks[peaks.state().highest].corner->element == element);
     CHECK(reference::error(followed, peaks.trace(design).amplitude()) < 1e-10);
   }
 }

@@ -167,20 +167,18 @@ namespace {
 // at.
 int check_loads(const scene::Scene& s, const Peaks& peaks, const Peak& peak) {
   observables::Sensitivity sensitivity(peaks.problem);
-  int corner = -1, checked = 0;
-  Vector dh(peaks.problem->size()), gradient(1);
-  for (int e = 0; peak.nonsmooth && e < static_cast<int>(s.elements.size()); ++e) {
-    hbm::StickLimit limit(*peaks.problem, e);
-    const auto h = limit.at(peak.x.head(dh.size()), parameters(peaks), dh);
-    if (h && std::abs(*h) < 1e-8 * limit.limit()) corner = e;
-  }
-  if (peak.nonsmooth && corner < 0) return 0;
+  std::optional<hbm::SlipCorner> corner;
+  int checked = 0;
+  Vector gradient(1);
+  const auto u = peak.x.head(peaks.problem->size());
+  for (const auto& each : hbm::slip_corners_near(*peaks.problem, u, parameters(peaks), 1e-8)) corner = each;
+  if (peak.nonsmooth && !corner) return 0;
   for (const auto& element : s.elements) {
     const std::string name = element.name + ".normal_load";
     CAPTURE(name, peak.nonsmooth, peak.x[peak.x.size() - 1]);
     const std::vector<int> k{model::parameter_index(peaks.problem->model(), name)};
-    if (corner >= 0)
-      REQUIRE(sensitivity.at_corner(corner, peak.x, parameters(peaks), k, gradient));
+    if (peak.nonsmooth)
+      REQUIRE(sensitivity.at_corner(*corner, peak.x, parameters(peaks), k, gradient));
     else
       REQUIRE(sensitivity.at_resonance(peak.x, parameters(peaks), k, gradient));
     const double size = peak.amplitude / scene::value(s, name);
