@@ -9,7 +9,15 @@
 namespace arcslip::optimize {
 namespace {
 
-constexpr double around[] = {0.5, 1, 2};  // times the optimum: where responses are shown
+constexpr double around[] = {0.5, 1, 2};  // times the optimum: where responses are shown, to four digits
+
+// To four digits, as a label of a figure shows it.
+double rounded(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
+  return value == 0 ? 0
+         : unit < 1 ? std::round(value * std::round(1 / unit)) / std::round(1 / unit)
+                    : std::round(value / unit) * unit;
+}
 
 // The frequency responses there, of the values that the parameters may take.
 std::vector<observables::ResponseBranch> responses(const scene::Scene& scene, const scene::Study& study,
@@ -20,7 +28,7 @@ std::vector<observables::ResponseBranch> responses(const scene::Scene& scene, co
     observables::Setting set;
     try {
       for (std::size_t k = 0; k < study.design.size(); ++k) {
-        const double value = factor * optimum.design[k];
+        const double value = rounded(factor * optimum.design[k]);
         scene::set(at, study.design[k].name, value);
         set.emplace_back(study.design[k].name, value);
       }
