@@ -22,7 +22,8 @@ using time::EquationOfMotion;
 using time::PeriodMotion;
 using time::State;
 
-constexpr int expected_maps = 20;  // of shooting, for progress
+constexpr int expected_maps = 20;                            // of shooting, for progress
+constexpr time::EventLimits affordable{100'000, 1'000'000};  // beyond, shooting takes Newmark's steps
 
 /// One way to integrate one equation of motion.
 struct Integrator {
@@ -79,8 +80,8 @@ PeriodMotion periods_between_events(time::EventDriven& events, const State& star
 }
 
 /// Throws NotPiecewiseLinear, SingularMass.
-Integrator event_driven(const EquationOfMotion& equation, long steps) {
-  const auto events = std::make_shared<time::EventDriven>(equation);
+Integrator event_driven(const EquationOfMotion& equation, long steps, const time::EventLimits& limits) {
+  const auto events = std::make_shared<time::EventDriven>(equation, limits);
   Integrator result{"event-driven", time::at_rest(equation), {}, {}};
   result.periods = [events, steps](const State& start, long count, bool with_history) {
     return periods_between_events(*events, start, count, steps, with_history);
@@ -140,7 +141,7 @@ class InTime {
     std::string reason, message;
     if (may_differ || settings_.method == TimeMethod::event_driven) {
       try {
-        integrator = event_driven(equation_, settings_.steps);
+        integrator = event_driven(equation_, settings_.steps, may_differ ? affordable : time::EventLimits{});
         return true;
       } catch (const time::NotPiecewiseLinear& error) {
         reason = "not_piecewise_linear";
@@ -154,8 +155,12 @@ class InTime {
         return false;
       }
     }
-    integrator = newmark(equation_, settings_.steps, [this] { return !go_on(progress_.points); });
+    integrator = in_steps();
     return true;
+  }
+
+  Integrator in_steps() {
+    return newmark(equation_, settings_.steps, [this] { return !go_on(progress_.points); });
   }
 
   // Tells of the progress; false where the user stops.
@@ -186,6 +191,11 @@ class InTime {
     time::ShootingOptions options;
     options.tolerance = settings_.tolerance;
     time::ShootingResult found = time::shoot(flow, integrator.start, motion_.omega, options);
+    const bool may_differ = settings_.method == TimeMethod::shooting && motion_.integrator == "event-driven";
+    if (found.reason == time::ShootingEnd::flow_failed && may_differ && !stopped_) {
+      motion_.integrator = "newmark";
+      return shoot(in_steps());
+    }
     if (!found.converged() && !stopped_) {
       if (const auto start = from_harmonic_balance()) {
         options.transients = 0;

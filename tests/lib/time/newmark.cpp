@@ -90,7 +90,7 @@ TEST_CASE("the paper's oscillator comes to its exact amplitudes at second order"
       // the slipping or stuck structure the amplitude changes by up to 36 times that.
       CHECK(relative(motion.amplitude, exact) < 120 / (steps * steps));
       CHECK(motion.friction.at(0).stick_share * 100 ==
-            Approx(entry["stick_percent"].get<double>()).margin(3e5 / (steps * steps)));
+            Approx(entry["stick_percent"].get<double>()).margin(200 / steps));
       CHECK(motion.energy.friction ==
             Approx(entry["energy_friction"].get<double>()).margin(0.004 * 250 / (steps * steps)));
       CHECK(std::abs(motion.energy.defect()) < 1e-15);
