@@ -262,6 +262,19 @@ TEST_CASE("a massless degree of freedom with a damper follows its equation of fi
   CHECK(error(100) / error(200) == Approx(4).epsilon(0.01));
 }
 
+TEST_CASE("a slider that slips for half of the way in a step sticks for half of it") {
+  // Without mass: x + clamp(...) = cos, in four steps from 1 over 0 to -1 and back. From x = 3/4 to 1/4 the
+  // damper turns from 1/4 to -1/4 N over 1/4 m, half of the way; then it slips.
+  auto equation = oscillator(0, 0, 1, 1, 1);
+  add_damper(equation, vector({1}), 2, 0.25);
+  Newmark newmark(equation, 4);
+  const auto motion = newmark_periods(newmark, at_rest(equation), 1, true, true);
+  REQUIRE(motion.done());
+  CHECK(motion.history.displacement[0] == Approx(0.75).epsilon(1e-14));
+  CHECK(motion.history.displacement[1] == Approx(0.25).epsilon(1e-14));
+  CHECK(motion.friction.at(0).stick_share == Approx(0.25).epsilon(1e-14));
+}
+
 TEST_CASE(
     "what nothing holds, and what grows beyond all numbers, ends with its reason and the motion so far") {
   EquationOfMotion loose = paper(20, 3);
