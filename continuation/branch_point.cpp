@@ -1,10 +1,14 @@
 #include <arcslip/continuation/branch_point.hpp>
 
+#include <arcslip/continuation/inner_problem.hpp>
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -90,6 +94,15 @@ double product(const Problem& problem, double parameter_scale, const Vector& a, 
   return a.head(n).dot(Mb) + a[n] * b[n] / (parameter_scale * parameter_scale);
 }
 
+void check_sizes(const Problem& problem, const Vector& p, const Vector& guess) {
+  if (p.size() != static_cast<Eigen::Index>(problem.parameters().size()))
+    throw std::invalid_argument(std::to_string(p.size()) + " parameters are given, the problem has " +
+                                std::to_string(problem.parameters().size()));
+  if (guess.size() != problem.size() + 1)
+    throw std::invalid_argument("the guess has " + std::to_string(guess.size()) + " entries, needs " +
+                                std::to_string(problem.size()) + " unknowns and a parameter");
+}
+
 }  // namespace
 
 Vector BranchPointLocation::unknowns() const {
@@ -102,6 +115,7 @@ std::optional<BranchPointLocation> locate_branch_point(std::shared_ptr<const Pro
                                                        const Vector& p, int along, const Vector& guess,
                                                        MakeLinearSolver make_solver,
                                                        const NewtonOptions& options) {
+  check_sizes(*given(problem), p, guess);
   const Eigen::Index n = problem->size();
   Vector v(n + 2);
   v << guess, 0;

@@ -305,7 +305,7 @@ class BranchPointSolver final : public LinearSolver {
 
 std::shared_ptr<const Problem> branch_points(std::shared_ptr<const Problem> problem, int along,
                                              Vector unfolding, MakeLinearSolver make_solver) {
-  if (unfolding.size() != problem->size())
+  if (unfolding.size() != given(problem)->size())
     throw std::invalid_argument("the direction of unfolding has " + std::to_string(unfolding.size()) +
                                 " entries for " + std::to_string(problem->size()) + " equations");
   const auto definition = std::make_shared<const Definition>(

@@ -1,4 +1,5 @@
 #include <arcslip/continuation/linear_solver.hpp>
+#include <arcslip/continuation/refused_kind.hpp>
 
 #include <Eigen/LU>
 
@@ -14,7 +15,7 @@ class DenseLU final : public LinearSolver {
 
   bool factorize(const Jacobian& jacobian, const Borders& borders) override {
     const auto* J = std::get_if<Matrix>(&jacobian);
-    if (!J) return false;
+    if (!J) refuse_kind(name(), "dense");
     const Eigen::Index n = J->rows(), m = borders.width();
     if (matrix_.rows() != n + m) {
       matrix_.resize(n + m, n + m);

@@ -56,7 +56,8 @@ EventData describe(const Accepted& now) {
   if (now.bordered.solve_transposed(x)) {
     fold.left_null = x.head(n).normalized();
     Vector du(n), dp(now.p.size());
-    if (now.at.second_derivative(x.head(n), fold.right_null, Vector::Zero(now.p.size()), du, dp)) {
+    if (now.at.second_derivative(x.head(n), fold.right_null, Vector::Zero(now.p.size()), du, dp) &&
+        du.allFinite()) {
       fold.curvature = -du.dot(fold.right_null);
       return fold;
     }

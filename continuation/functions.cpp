@@ -41,7 +41,10 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     if (needs == Needs::residual) return Evaluated::ok;
     if (auto* sparse = std::get_if<SparseMatrix>(&J_)) {
       f_->sparse_jacobian(u_, p_, *sparse);
-      if (sparse->rows() != f_->size || sparse->cols() != f_->size) return Evaluated::failed;
+      if (sparse->rows() != f_->size || sparse->cols() != f_->size)
+        throw std::runtime_error("the sparse Jacobian is " + std::to_string(sparse->rows()) + " x " +
+                                 std::to_string(sparse->cols()) + " for " + std::to_string(f_->size) +
+                                 " unknowns");
       if (!sparse->isCompressed()) sparse->makeCompressed();
       return finite(*sparse) ? Evaluated::ok : Evaluated::outside_domain;
     }

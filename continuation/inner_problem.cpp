@@ -6,8 +6,13 @@
 
 namespace arcslip::continuation {
 
+std::shared_ptr<const Problem> given(std::shared_ptr<const Problem> problem) {
+  if (!problem) throw std::invalid_argument("no problem is given");
+  return problem;
+}
+
 InnerProblem::InnerProblem(std::shared_ptr<const Problem> which, int index, MakeLinearSolver make)
-    : problem(std::move(which)), along(index), make_solver(std::move(make)) {
+    : problem(given(std::move(which))), along(index), make_solver(std::move(make)) {
   const auto count = problem->parameters().size();
   if (along < 0 || static_cast<std::size_t>(along) >= count)
     throw std::out_of_range("there is no parameter " + std::to_string(along) + " among " +
@@ -98,6 +103,8 @@ class AugmentedProblem final : public Problem {
   }
   bool cheap_residual() const override { return false; }
 
+  bool has_among_unknowns(int k) const { return k == inner_->along || is_unknown(*inner_->problem, k); }
+
  private:
   std::shared_ptr<const InnerProblem> inner_;
   Vector further_;
@@ -106,6 +113,11 @@ class AugmentedProblem final : public Problem {
 };
 
 }  // namespace
+
+bool is_unknown(const Problem& problem, int k) {
+  const auto* holds_another = dynamic_cast<const AugmentedProblem*>(&problem);
+  return holds_another && holds_another->has_among_unknowns(k);
+}
 
 std::shared_ptr<const Problem> augmented(std::shared_ptr<const InnerProblem> inner, Vector scales,
                                          std::function<std::unique_ptr<Evaluator>()> evaluator,

@@ -11,6 +11,12 @@
 
 namespace arcslip::continuation {
 
+/// Throws std::invalid_argument for none.
+std::shared_ptr<const Problem> given(std::shared_ptr<const Problem> problem);
+
+/// Whether p_k is among the unknowns: it cannot be free as well.
+bool is_unknown(const Problem& problem, int k);
+
 /// The problem inside, the index of p_a, and how bordered systems with its J are solved.
 struct InnerProblem {
   /// Throws std::out_of_range for an index without parameter.

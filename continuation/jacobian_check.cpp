@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 
 namespace arcslip::continuation {
 namespace {
@@ -33,6 +34,10 @@ std::string describe(const JacobianError& worst, const Problem& problem) {
 JacobianError check_jacobian(const Problem& problem, In u, In p) {
   const Eigen::Index n = problem.size();
   const auto parameters = problem.parameters();
+  if (u.size() != n || p.size() != static_cast<Eigen::Index>(parameters.size()))
+    throw std::invalid_argument("a place of " + std::to_string(u.size()) + " unknowns and " +
+                                std::to_string(p.size()) + " parameters, the problem has " +
+                                std::to_string(n) + " and " + std::to_string(parameters.size()));
   const Vector scales = problem.scales();
   const auto here = problem.evaluator(), beside = problem.evaluator();
   JacobianError worst;

@@ -8,6 +8,7 @@
 #include <arcslip/continuation/bordered_sparse.hpp>
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/refinement.hpp>
+#include <arcslip/continuation/refused_kind.hpp>
 
 #include <klu.h>
 
@@ -36,7 +37,7 @@ class Klu final : public LinearSolver {
 
   bool factorize(const Jacobian& jacobian, const Borders& borders) override {
     const auto* J = std::get_if<SparseMatrix>(&jacobian);
-    if (!J) return false;
+    if (!J) refuse_kind(name(), "sparse");
     if (matrix_.assemble(*J, borders)) forget();
     if (!matrix_.finite()) return false;
     SparseMatrix& A = matrix_.matrix();

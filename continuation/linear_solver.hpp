@@ -33,8 +33,9 @@ class LinearSolver {
   /// As results report it: "dense LU", "KLU".
   virtual const char* name() const = 0;
 
-  /// False where the matrix is singular or not finite, or the solver cannot take this kind of Jacobian; the
-  /// factors are then not usable. J keeps its kind, size and pattern from call to call.
+  /// False where the matrix is singular or not finite; the factors are then not usable. J keeps its kind,
+  /// size and pattern from call to call. Throws std::invalid_argument for a kind that the solver does not
+  /// take.
   virtual bool factorize(const Jacobian& J, const Borders& borders) = 0;
 
   /// x: n + m, on entry the right-hand side (f, g), on return the solution. Not finite where it failed.

@@ -3,6 +3,8 @@
 #include <arcslip/continuation/monitor_calls.hpp>
 #include <arcslip/continuation/text.hpp>
 
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -25,7 +27,12 @@ MonitorFailure::MonitorFailure(const std::string& monitor, double at, const std:
 Monitor bound_monitor(std::string name, int index, double value) {
   Monitor monitor;
   monitor.name = std::move(name);
-  monitor.value = [=](const Accepted& now) { return now.u[index] - value; };
+  monitor.value = [=](const Accepted& now) {
+    if (index < 0 || index >= now.u.size())
+      throw std::out_of_range("there is no unknown " + std::to_string(index) + " among " +
+                              std::to_string(now.u.size()));
+    return now.u[index] - value;
+  };
   monitor.terminal = true;
   return monitor;
 }

@@ -1,7 +1,10 @@
 #include <arcslip/continuation/start_check.hpp>
 
+#include <arcslip/continuation/inner_problem.hpp>
 #include <arcslip/continuation/text.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace arcslip::continuation {
@@ -21,6 +24,22 @@ void check_scales(const Problem& problem) {
                                   text(parameter.scale) + ", must be positive and finite");
 }
 
+// A parameter that can be free, and its window.
+void check_free(const Problem& problem, int free, const Options& options) {
+  const auto parameters = problem.parameters();
+  if (free < 0 || static_cast<std::size_t>(free) >= parameters.size())
+    throw std::invalid_argument("the free parameter is number " + std::to_string(free) + " of " +
+                                std::to_string(parameters.size()));
+  const Parameter& parameter = parameters[static_cast<std::size_t>(free)];
+  if (is_unknown(problem, free))
+    throw std::invalid_argument("the parameter \"" + parameter.name +
+                                "\" is among the unknowns of this problem: another one has to be free");
+  if (!(std::max(options.lower, parameter.lower) < std::min(options.upper, parameter.upper)))
+    throw std::invalid_argument("the window [" + text(options.lower) + ", " + text(options.upper) +
+                                "] has no part within the bounds [" + text(parameter.lower) + ", " +
+                                text(parameter.upper) + "] of the parameter \"" + parameter.name + "\"");
+}
+
 }  // namespace
 
 void check_start(const Problem& problem, const Start& start, const Options& options) {
@@ -33,18 +52,22 @@ void check_start(const Problem& problem, const Start& start, const Options& opti
   if (start.p.size() != static_cast<Eigen::Index>(parameters.size()))
     throw std::invalid_argument("the start has " + std::to_string(start.p.size()) +
                                 " parameters, the problem " + std::to_string(parameters.size()));
-  if (start.free < 0 || static_cast<std::size_t>(start.free) >= parameters.size())
-    throw std::invalid_argument("the free parameter is number " + std::to_string(start.free) + " of " +
-                                std::to_string(parameters.size()));
+  check_free(problem, start.free, options);
   if (start.tangent.size() != 0 && (start.tangent.size() != n + 1 || !start.tangent.allFinite()))
     throw std::invalid_argument("the tangent of the start needs " + std::to_string(n + 1) +
                                 " finite entries, not " + std::to_string(start.tangent.size()));
+  if (start.tangent.size() != 0 && start.tangent.isZero(0))
+    throw std::invalid_argument("the tangent of the start is zero");
   const double p = start.p[start.free];
   if (!start.u.allFinite() || !std::isfinite(p))
     throw std::invalid_argument("the start has numbers that are not finite");
   if (p < options.lower || p > options.upper)
     throw std::invalid_argument("the start is at " + text(p) + ", outside the window [" +
                                 text(options.lower) + ", " + text(options.upper) + "]");
+  const Parameter& free = parameters[static_cast<std::size_t>(start.free)];
+  if (p < free.lower || p > free.upper)
+    throw std::invalid_argument("the start is at " + text(p) + ", outside the bounds [" + text(free.lower) +
+                                ", " + text(free.upper) + "] of the parameter \"" + free.name + "\"");
   check_scales(problem);
 }
 
@@ -62,6 +85,12 @@ void check_state(const Problem& problem, const State& state, std::size_t monitor
                                 std::to_string(n) + ", " + std::to_string(problem.parameters().size()) +
                                 " and " + std::to_string(monitors));
   check_scales(problem);
+}
+
+void check_monitors(const std::vector<Monitor>& monitors) {
+  for (const Monitor& monitor : monitors)
+    if (!monitor.value)
+      throw std::invalid_argument("the monitor \"" + monitor.name + "\" has no value function");
 }
 
 }  // namespace arcslip::continuation

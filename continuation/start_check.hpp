@@ -8,5 +8,6 @@ namespace arcslip::continuation {
 
 void check_start(const Problem& problem, const Start& start, const Options& options);
 void check_state(const Problem& problem, const State& state, std::size_t monitors);
+void check_monitors(const std::vector<Monitor>& monitors);
 
 }  // namespace arcslip::continuation

@@ -1,5 +1,6 @@
 // How a trace begins: from a start, or from where another one was saved.
 
+#include <arcslip/continuation/inner_problem.hpp>
 #include <arcslip/continuation/jacobian_check.hpp>
 #include <arcslip/continuation/start_check.hpp>
 #include <arcslip/continuation/text.hpp>
@@ -18,13 +19,14 @@ constexpr double first_share_of_window = 0.01;  // |dp| of a step where the user
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                std::vector<Monitor> monitors, Observer observer)
-    : problem_(std::move(problem)),
+    : problem_(given(std::move(problem))),
       options_(options),
       monitors_(std::move(monitors)),
       observer_(std::move(observer)),
       n_(problem_->size()) {
   check(options);
   check_start(*problem_, start, options);
+  check_monitors(monitors_);
   s_.free = start.free;
   s_.direction = start.direction < 0 ? -1 : 1;
   s_.p = start.p;
@@ -36,7 +38,7 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
                std::vector<Monitor> monitors, Observer observer)
-    : problem_(std::move(problem)),
+    : problem_(given(std::move(problem))),
       options_(options),
       monitors_(std::move(monitors)),
       observer_(std::move(observer)),
@@ -44,6 +46,7 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Option
       n_(problem_->size()) {
   check(options);
   check_state(*problem_, s_, monitors_.size());
+  check_monitors(monitors_);
   make_tools();
 }
 

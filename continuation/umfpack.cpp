@@ -3,6 +3,7 @@
 
 #include <arcslip/continuation/bordered_sparse.hpp>
 #include <arcslip/continuation/linear_solver.hpp>
+#include <arcslip/continuation/refused_kind.hpp>
 
 #include <umfpack.h>
 
@@ -29,7 +30,7 @@ class Umfpack final : public LinearSolver {
 
   bool factorize(const Jacobian& jacobian, const Borders& borders) override {
     const auto* J = std::get_if<SparseMatrix>(&jacobian);
-    if (!J) return false;
+    if (!J) refuse_kind(name(), "sparse");
     const bool new_pattern = matrix_.assemble(*J, borders);
     umfpack_di_free_numeric(&numeric_);
     if (new_pattern) forget();
