@@ -1,0 +1,154 @@
+// Friction force over a period: histories and loops of one harmonic, of all and of the motion in time (Figs.
+// 3 and 4), the error of one harmonic over the load (Fig. 5), loops of the three states of contact (Fig. 7).
+
+#include "figures.hpp"
+#include "studies.hpp"
+
+#include <arcslip/observables/histories.hpp>
+#include <arcslip/observables/time_study.hpp>
+#include <arcslip/output/units.hpp>
+
+#include <numbers>
+#include <stdexcept>
+
+namespace figures {
+namespace {
+
+using namespace arcslip;
+
+constexpr int angles_of_errors = 3600;
+constexpr double turn = 2 * std::numbers::pi;
+
+scene::Scene with_order(scene::Scene scene, int order) {
+  scene.harmonics.order = order;
+  return scene;
+}
+
+std::string order_label(const scene::Scene& scene) {
+  return "N = " + std::to_string(scene.harmonics.order);
+}
+
+/// angle, time, displacement, force.
+using Rows = std::vector<std::vector<double>>;
+
+Rows balanced(const scene::Scene& scene, const scene::Study& study, const time::History& beside) {
+  std::vector<double> angles;
+  const double omega = study.frequency_from * scene::to_rad_per_s(scene.frequency_unit);
+  for (const double t : beside.time) angles.push_back(omega * t);
+  const auto branch = response_at(scene, study.frequency_from);
+  const auto history = observables::history(scene, branch, branch.points.front(), angles);
+  Rows rows;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    rows.push_back({angles[k], beside.time[k], history.displacement[k], history.elements.front().series[k]});
+  return rows;
+}
+
+void add_histories(const SceneFile& file, std::vector<DataFile>& figures) {
+  const scene::Study& study = file.study("history");
+  const auto motions = observables::motions_in_time(file.scene, study);
+  if (motions.size() != 1 || motions.front().status != observables::Status::complete)
+    throw std::runtime_error(file.name + ": study history is no steady motion in time");
+  const auto& motion = motions.front();
+  const scene::Scene one = with_order(file.scene, 1);
+  const Rows first = balanced(one, study, motion.history), all = balanced(file.scene, study, motion.history);
+  const std::string one_label = order_label(one), all_label = order_label(file.scene);
+  DataFile forces{"figure_03", "Friction force over a period", file.name, {}, {}};
+  forces.columns = {"angle (rad)", "time (s)", "force of one harmonic (N)", "force of all harmonics (N)",
+                    "force in time (N)"};
+  DataFile loops{"figure_04", "Friction force over the displacement", file.name, {}, {}};
+  loops.columns = {"displacement (m)", "force (N)"};
+  Block histories{one_label + ", " + all_label + ", time", {}};
+  Block one_loop{one_label, {}}, all_loop{all_label, {}}, loop_in_time{"time", {}};
+  const auto& element = motion.history.elements.front();
+  for (std::size_t k = 0; k < motion.history.time.size(); ++k) {
+    histories.rows.push_back({motion.omega * motion.history.time[k], motion.history.time[k], first[k][3],
+                              all[k][3], element.force[k]});
+    one_loop.rows.push_back({first[k][2], first[k][3]});
+    all_loop.rows.push_back({all[k][2], all[k][3]});
+    loop_in_time.rows.push_back({motion.history.displacement[k], element.force[k]});
+  }
+  forces.blocks = {histories};
+  loops.blocks = {one_loop, all_loop, loop_in_time};
+  figures.push_back(forces);
+  figures.push_back(loops);
+}
+
+/// Of the force with one harmonic, at its own peak, from that of all harmonics at theirs.
+observables::ForceDifference error_of_one(const scene::Scene& scene, const scene::Study& window,
+                                          const std::vector<double>& force) {
+  const scene::Scene one = with_order(scene, 1);
+  scene::Study study;
+  study.from = window.kind == scene::StudyKind::peaks ? window.frequency_from : window.from;
+  study.to = window.kind == scene::StudyKind::peaks ? window.frequency_to : window.to;
+  const auto found = observables::frequency_response(one, study);
+  if (found.empty()) throw std::runtime_error("no response with one harmonic");
+  const auto history = observables::history(one, found.front(), peak(found.front()),
+                                            observables::even_angles(angles_of_errors));
+  return observables::force_difference(history.elements.front().series, force);
+}
+
+DataFile errors_over_load(const SceneFile& file) {
+  DataFile figure{
+      "figure_05", "Error of the force of one harmonic at the resonance peaks", file.name, {}, {}};
+  const auto add = [&](const ResponseBranch& branch, const ResponsePoint& point, const scene::Study& study,
+                       double load, Block& block) {
+    scene::Scene scene = file.scene;
+    scene::set(scene, branch.over.empty() ? branch.set.front().first : branch.over, load);
+    const auto history =
+        observables::history(file.scene, branch, point, observables::even_angles(angles_of_errors));
+    const auto error = error_of_one(scene, study, history.elements.front().series);
+    block.rows.push_back(
+        {load, stick.of(point), 100 * error.amplitude, 100 * error.rms, 100 * error.maximum});
+  };
+  Block curve{"curve of peaks", {}}, chosen{"chosen loads", {}};
+  const auto curves = branches(file, "error");
+  for (const auto& branch : curves)
+    for (const auto& point : branch.points)
+      if (!point.unbounded) add(branch, point, file.study("error"), point.over, curve);
+  for (const auto& branch : branches(file, "error_at"))
+    add(branch, peak(branch), file.study("error_at"), set_value(branch), chosen);
+  figure.columns = {over(file, curves.front()).name, stick.name, "error of the largest force (%)",
+                    "error in the root mean square (%)", "largest error (%)"};
+  figure.blocks = {curve, chosen};
+  return figure;
+}
+
+DataFile loop_shapes(const SceneFile& file) {
+  DataFile figure{
+      "figure_07", "Loops of the three states of contact, at the resonance peaks", file.name, {}, {}};
+  figure.columns = {"displacement over its largest (-)",
+                    "force over the slip limit (-)",
+                    "displacement (m)",
+                    "force (N)",
+                    stick.name,
+                    "slope of stick (-)"};
+  for (const auto& branch : branches(file, "loops")) {
+    const ResponsePoint& point = peak(branch);
+    const auto history =
+        observables::history(file.scene, branch, point, observables::loop_angles(point, 720));
+    const auto& damper = history.elements.front();
+    scene::Scene scene = file.scene;
+    scene::set(scene, branch.set.front().first, set_value(branch));
+    const auto& values = scene.elements.front().values;  // k_d, mu, Fn
+    const double limit = values[1] * values[2], slope = values[0] * point.amplitude / limit;
+    Block block{set_label(file, branch), {}};
+    for (std::size_t k = 0; k < history.angle.size(); ++k)
+      block.rows.push_back({damper.displacement[k] / point.amplitude, damper.force[k] / limit,
+                            damper.displacement[k], damper.force[k], stick.of(point), slope});
+    figure.blocks.push_back(block);
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::vector<DataFile> contact(const std::string& scenes) {
+  const SceneFile file = read_scene(scenes, "contact.scene.json");
+  std::vector<DataFile> figures;
+  add_histories(file, figures);
+  figures.push_back(errors_over_load(file));
+  figures.push_back(loop_shapes(file));
+  return figures;
+}
+
+}  // namespace figures
