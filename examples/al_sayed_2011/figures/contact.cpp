@@ -50,25 +50,27 @@ void add_histories(const SceneFile& file, std::vector<DataFile>& figures) {
     throw std::runtime_error(file.name + ": study history is no steady motion in time");
   const auto& motion = motions.front();
   const scene::Scene one = with_order(file.scene, 1);
-  const Rows first = balanced(one, study, motion.history), all = balanced(file.scene, study, motion.history);
-  const std::string one_label = order_label(one), all_label = order_label(file.scene);
+  Rows in_time;
+  for (std::size_t k = 0; k < motion.history.time.size(); ++k)
+    in_time.push_back({motion.omega * motion.history.time[k], motion.history.time[k],
+                       motion.history.displacement[k], motion.history.elements.front().force[k]});
   DataFile forces{"figure_03", "Friction force over a period", file.name, {}, {}};
-  forces.columns = {"angle (rad)", "time (s)", "force of one harmonic (N)", "force of all harmonics (N)",
-                    "force in time (N)"};
+  forces.columns = {"angle (rad)", "time (s)", "force (N)", "beside the force in time (N)"};
   DataFile loops{"figure_04", "Friction force over the displacement", file.name, {}, {}};
   loops.columns = {"displacement (m)", "force (N)"};
-  Block histories{one_label + ", " + all_label + ", time", {}};
-  Block one_loop{one_label, {}}, all_loop{all_label, {}}, loop_in_time{"time", {}};
   const auto& element = motion.history.elements.front();
-  for (std::size_t k = 0; k < motion.history.time.size(); ++k) {
-    histories.rows.push_back({motion.omega * motion.history.time[k], motion.history.time[k], first[k][3],
-                              all[k][3], element.force[k]});
-    one_loop.rows.push_back({first[k][2], first[k][3]});
-    all_loop.rows.push_back({all[k][2], all[k][3]});
-    loop_in_time.rows.push_back({motion.history.displacement[k], element.force[k]});
-  }
-  forces.blocks = {histories};
-  loops.blocks = {one_loop, all_loop, loop_in_time};
+  const auto add = [&](const std::string& label, const Rows& rows) {
+    Block force{label, {}}, loop{label, {}};
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      force.rows.push_back({rows[k][0], rows[k][1], rows[k][3], rows[k][3] - element.force[k]});
+      loop.rows.push_back({rows[k][2], rows[k][3]});
+    }
+    forces.blocks.push_back(force);
+    loops.blocks.push_back(loop);
+  };
+  add("time", in_time);
+  add(order_label(file.scene), balanced(file.scene, study, motion.history));
+  add(order_label(one), balanced(one, study, motion.history));
   figures.push_back(forces);
   figures.push_back(loops);
 }

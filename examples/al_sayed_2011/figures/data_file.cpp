@@ -28,10 +28,11 @@ void write(const DataFile& data, const std::string& folder) {
     out << "# " << data.title << "\n# scene: " << data.scene << '\n';
     for (std::size_t i = 0; i < data.columns.size(); ++i)
       out << "# " << i + 1 << ' ' << data.columns[i] << '\n';
+    const char* separator = "";
     for (const Block& block : data.blocks) {
-      out << '"' << block.label << "\"\n";
+      out << separator << '"' << block.label << "\"\n";
       for (const auto& row : block.rows) write_row(out, data, row);
-      out << "\n\n";
+      separator = "\n\n";
     }
   });
 }

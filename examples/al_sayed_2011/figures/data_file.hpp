@@ -13,7 +13,7 @@ struct Block {
 };
 
 /// NAME.dat: a header of comments with title, scene and columns, then the blocks, each after a line with its
-/// label in quotes and followed by two empty lines.
+/// label in quotes, two empty lines between them.
 struct DataFile {
   std::string name, title, scene;
   std::vector<std::string> columns;  // with their units, "frequency (Hz)"
