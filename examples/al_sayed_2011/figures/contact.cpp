@@ -8,7 +8,7 @@
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/output/units.hpp>
 
-#include <numbers>
+#include <cmath>
 #include <stdexcept>
 
 namespace figures {
@@ -17,7 +17,6 @@ namespace {
 using namespace arcslip;
 
 constexpr int angles_of_errors = 3600;
-constexpr double turn = 2 * std::numbers::pi;
 
 scene::Scene with_order(scene::Scene scene, int order) {
   scene.harmonics.order = order;
@@ -68,7 +67,7 @@ void add_histories(const SceneFile& file, std::vector<DataFile>& figures) {
     forces.blocks.push_back(force);
     loops.blocks.push_back(loop);
   };
-  add("time", in_time);
+  add("time solution", in_time);
   add(order_label(file.scene), balanced(file.scene, study, motion.history));
   add(order_label(one), balanced(one, study, motion.history));
   figures.push_back(forces);
@@ -103,7 +102,7 @@ DataFile errors_over_load(const SceneFile& file) {
         {load, stick.of(point), 100 * error.amplitude, 100 * error.rms, 100 * error.maximum});
   };
   Block curve{"curve of peaks", {}}, chosen{"chosen loads", {}};
-  const auto curves = branches(file, "error");
+  const auto curves = smooth_curves(file, "error");
   for (const auto& branch : curves)
     for (const auto& point : branch.points)
       if (!point.unbounded) add(branch, point, file.study("error"), point.over, curve);
@@ -133,7 +132,9 @@ DataFile loop_shapes(const SceneFile& file) {
     scene::set(scene, branch.set.front().first, set_value(branch));
     const auto& values = scene.elements.front().values;  // k_d, mu, Fn
     const double limit = values[1] * values[2], slope = values[0] * point.amplitude / limit;
-    Block block{set_label(file, branch), {}};
+    Block block{
+        set_label(file, branch) + ", τ = " + output::shortest(std::round(10 * stick.of(point)) / 10) + " %",
+        {}};
     for (std::size_t k = 0; k < history.angle.size(); ++k)
       block.rows.push_back({damper.displacement[k] / point.amplitude, damper.force[k] / limit,
                             damper.displacement[k], damper.force[k], stick.of(point), slope});

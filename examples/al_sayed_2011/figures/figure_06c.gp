@@ -4,6 +4,7 @@ load 'style.gp'
 set logscale y
 set format y '10^{%T}'
 set xrange [0:100]
+set yrange [5e-4:0.1]
 set xlabel 'stick τ (%)'
 set ylabel 'peak amplitude A_{max} (m)'
 set key inside top center

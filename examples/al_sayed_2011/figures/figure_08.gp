@@ -7,4 +7,4 @@ set yrange [1e-5:0.1]
 set xlabel 'frequency (Hz)'
 set ylabel 'E_{friction} (J)'
 set key title 'normal load' left
-plot for [i=0:last] data index i using 1:($2 > 0 ? $2 : NaN) with lines linestyle i+1 title columnheader(1)
+plot for [i=0:last] data index i using 1:($2 > 1e-12 ? $2 : 1e-12) with lines linestyle i+1 title columnheader(1)

@@ -7,6 +7,7 @@ set xrange [0:100]
 set yrange [1:1e4]
 set xlabel 'stick τ (%)'
 set ylabel 'force per displacement (N/m)'
+set key inside bottom center
 plot data index 0 using 1:2 with lines linestyle 1 title 'contact, fundamental', \
      data index 0 using 1:3 with lines linestyle 3 title 'viscous', \
-     data index 0 using 1:4 with lines linestyle 1 dashtype (14,5) linewidth 1.5 title 'F_{nl cos}/A_{max}'
+     data index 0 using 1:4 with lines linestyle 2 title 'F_{nl cos}/A_{max}'

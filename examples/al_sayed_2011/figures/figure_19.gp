@@ -11,6 +11,7 @@ set yrange [0.01:100]
 set xlabel 'stick τ (%)'
 set ylabel 'over the value at the least peak'
 set arrow from 50,graph 0 to 50,graph 1 nohead linewidth 1 dashtype (4,4) linecolor rgb '#888888'
+set key inside top center opaque
 plot data index 0 using 1:($2/A_max) with lines linestyle 1 title 'A_{max}', \
-     data index 0 using 1:($3 > 0 ? $3/E_max : NaN) with lines linestyle 2 title 'E_{friction}', \
+     data index 0 using 1:($3 > 1e-12 ? $3/E_max : 1e-12) with lines linestyle 2 title 'E_{friction}', \
      data index 0 using 1:($4/F_max) with lines linestyle 3 title 'F_{o/x}'

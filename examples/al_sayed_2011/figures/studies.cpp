@@ -4,6 +4,7 @@
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace figures {
@@ -47,6 +48,57 @@ std::vector<ResponseBranch> branches(const SceneFile& file, const std::string& n
     if (branch.status == observables::Status::failed)
       throw std::runtime_error(file.name + ": study " + name + ": " + branch.stop.message);
   return found;
+}
+
+namespace {
+
+constexpr double coarse = 1;  // % of the period in stick
+constexpr int passes = 2;
+
+bool is_coarse(const ResponsePoint& a, const ResponsePoint& b) {
+  return !a.unbounded && !b.unbounded && std::abs(stick.of(a) - stick.of(b)) > coarse;
+}
+
+/// Points between two of a curve, by the same study over that range alone, whose steps are shorter.
+std::vector<ResponsePoint> between(const SceneFile& file, scene::Study study, const ResponseBranch& curve,
+                                   const ResponsePoint& begin, const ResponsePoint& end) {
+  scene::Scene scene = file.scene;
+  for (const auto& [name, value] : curve.set) scene::set(scene, name, value);
+  study.for_each.clear();
+  study.from = std::min(begin.over, end.over);
+  study.to = std::max(begin.over, end.over);
+  const auto found = observables::resonance_peaks(scene, study);
+  if (found.size() != 1 || found.front().status != observables::Status::complete) return {};
+  std::vector<ResponsePoint> points = found.front().points;
+  if (points.size() < 2) return {};
+  const bool falls = begin.over > end.over;
+  std::sort(points.begin(), points.end(), [falls](const ResponsePoint& a, const ResponsePoint& b) {
+    return falls ? a.over > b.over : a.over < b.over;
+  });
+  return {points.begin() + 1, points.end() - 1};  // without the two that are there
+}
+
+void refine(const SceneFile& file, const scene::Study& study, ResponseBranch& curve) {
+  std::vector<ResponsePoint> points;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    points.push_back(curve.points[i]);
+    std::size_t end = i;
+    while (end + 1 < curve.points.size() && is_coarse(curve.points[end], curve.points[end + 1])) ++end;
+    if (end == i) continue;
+    const auto more = between(file, study, curve, curve.points[i], curve.points[end]);
+    points.insert(points.end(), more.begin(), more.end());
+    if (!more.empty()) i = end - 1;
+  }
+  curve.points = std::move(points);
+}
+
+}  // namespace
+
+std::vector<ResponseBranch> smooth_curves(const SceneFile& file, const std::string& study) {
+  auto curves = branches(file, study);
+  for (ResponseBranch& curve : curves)
+    for (int pass = 0; pass < passes; ++pass) refine(file, file.study(study), curve);
+  return curves;
 }
 
 const ResponsePoint& peak(const ResponseBranch& branch) {

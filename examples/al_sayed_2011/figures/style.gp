@@ -16,7 +16,6 @@ set border 3 back linewidth 1 linecolor rgb '#333333'
 set tics nomirror out scale 0.8,0.4
 set grid xtics ytics back linetype 1 linewidth 0.5 linecolor rgb '#dddddd'
 set key outside right center vertical Left reverse samplen 3.5 spacing 1.3 width 1
-set samples 2
 
 # A few curves, told apart by colour and by dash.
 set style line 1 linewidth 2.5 linecolor rgb '#0d0887' dashtype solid
