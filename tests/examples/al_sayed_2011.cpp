@@ -185,6 +185,17 @@ TEST_CASE("figures.json has every figure of the paper from 3 to 19, each with a 
   CHECK(found == wanted);
 }
 
+TEST_CASE("docs/al_sayed_2011.md shows every figure") {
+  const std::string page = text_of(source / "docs/al_sayed_2011.md");
+  for (const Json& figure : all_figures()) {
+    const std::string image =
+        "figures/al_sayed_2011/" + fs::path(figure.at("data").get<std::string>()).stem().string() + ".png";
+    CAPTURE(image);
+    CHECK(page.find("](" + image + ")") != std::string::npos);
+    CHECK(fs::exists(source / "docs" / image));
+  }
+}
+
 TEST_CASE("every figure has its data, and what figures.json says of it holds") {
   const Made made;
   REQUIRE(made.ended.exit_code == 0);
