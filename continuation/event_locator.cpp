@@ -41,10 +41,12 @@ Corrector& EventLocator::probe() {
 }
 
 std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
-  std::vector<LocatedEvent> found;
-  const bool kinks = std::any_of(monitors_.begin(), monitors_.end(),
+  const bool kinks = to.piece != from.piece &&
+                     std::any_of(monitors_.begin(), monitors_.end(),
                                  [](const Monitor& each) { return each.kind == MonitorKind::kink; });
-  const Place side = kinks && to.piece != from.piece ? pass_kinks(from, to, found) : from;
+  if (!kinks) return gather(&EventLocator::find, from, to);
+  std::vector<LocatedEvent> found;
+  const Place side = pass_kinks(from, to, found);
   append(found, gather(&EventLocator::find, side, to));
   return found;
 }
