@@ -141,9 +141,12 @@ class Search {
 
   double limit_excess() {
     double excess = 0;
+    const PeakState& state = peaks_.state();
     for (const Limited& each : one_sided_limits()) {
-      const double value = limit_value(each, {});
-      if (value > limit_tolerance) excess = std::max(excess, value);
+      if (state.unbounded || state.peaks.empty()) return 1;
+      for (std::size_t i = 0; i < state.peaks.size(); ++i)
+        if (const double value = limit_value(each, i, {}); value > limit_tolerance)
+          excess = std::max(excess, value);
     }
     return excess;
   }
@@ -157,15 +160,13 @@ class Search {
     return all;
   }
 
-  double limit_value(const Limited& each, std::span<double> gradient) {
+  double limit_value(const Limited& each, std::size_t peak, std::span<double> gradient) {
     const PeakState& state = peaks_.state();
-    std::fill(gradient.begin(), gradient.end(), 0.0);
-    if (state.unbounded || state.peaks.empty()) return 1;
     const auto observable = space_.observable(each.limit->observable);
     const double scale = each.sign / (each.bound != 0 ? std::abs(each.bound) : 1);
     for (std::size_t k = 0; k < std::min(gradient.size(), state.design.size()); ++k)
-      gradient[k] = scale * peaks_.change(state.highest, k, observable) * space_.slope(k, state.design[k]);
-    return scale * (observable(peaks_.observe(state.peaks[state.highest])) - each.bound);
+      gradient[k] = scale * peaks_.change(peak, k, observable) * space_.slope(k, state.design[k]);
+    return scale * (observable(peaks_.observe(state.peaks[peak])) - each.bound);
   }
 
   // ln A/A_start of a peak, by y.
@@ -227,6 +228,8 @@ class Search {
     std::vector<double> y = space_.scaled(start_);
     problem.lower = space_.scaled(space_.lower());
     problem.upper = space_.scaled(space_.upper());
+    constraints_.assign(state.peaks.size() + spare_peaks, {});
+    responses_ = -1;
     if (epigraph) {
       y.push_back(std::log(state.amplitude() / reference_));
       problem.lower.push_back(least_level);
@@ -239,8 +242,6 @@ class Search {
         }
         return x[n];
       };
-      constraints_.assign(state.peaks.size() + spare_peaks, {});
-      responses_ = -1;
       for (std::size_t k = 0; k < constraints_.size(); ++k)
         problem.constraints.push_back({text("peak ", k + 1), [this, n, k](auto x, auto g) {
                                          const PeakState& here = at(x.first(n));
@@ -264,10 +265,14 @@ class Search {
       };
     }
     for (const Limited& each : one_sided_limits())
-      problem.constraints.push_back({each.limit->observable, [this, n, each](auto x, auto g) {
-                                       at(x.first(n));
-                                       return limit_value(each, g);
-                                     }});
+      for (std::size_t c = 0; c < constraints_.size(); ++c)
+        problem.constraints.push_back({each.limit->observable, [this, n, each, c](auto x, auto g) {
+                                         const PeakState& here = at(x.first(n));
+                                         std::fill(g.begin(), g.end(), 0.0);
+                                         if (here.unbounded) return 1.0;
+                                         const auto peak = peak_of_constraint(c);
+                                         return peak ? limit_value(each, *peak, g) : -1.0;
+                                       }});
     space_.add_linear(problem);
 
     Options options;

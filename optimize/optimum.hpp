@@ -2,12 +2,13 @@
 // The design of least resonance: values of named parameters, a normal load or any other, for which the
 // largest amplitude in a window of the excitation frequency is least.
 //
-//   minimise A_max(p) over lower <= p <= upper, limits on observables of the highest peak, linear limits on p
+//   minimise A_max(p) over lower <= p <= upper, limits on observables of the peaks, linear limits on p
 //
-// Searched is ln(A_max) over ln p (over p where a range touches zero or both signs). Where several peaks are
-// watched, algorithms with gradients and constraints solve min t, ln A_k(p) <= t (epigraph); the others see
-// the largest. At the end the response is traced anew: where a peak shows that was not watched, the search
-// goes on from there with it.
+// Limits hold at every peak that is watched (peak_amplitude.hpp), so that they do not jump where two peaks
+// are equally high. Searched is ln(A_max) over ln p (over p where a range touches zero or both signs). Where
+// several peaks are watched, algorithms with gradients and constraints solve min t, ln A_k(p) <= t
+// (epigraph); the others see the largest. At the end the response is traced anew: where a peak shows that was
+// not watched, the search goes on from there with it.
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/optimize/certificate.hpp>
@@ -51,7 +52,7 @@ struct OptimumProgress {
 struct OptimumOptions {
   std::string algorithm{};  // by NLopt's own name; empty: LD_SLSQP
   Tolerances tolerances{
-      .x_relative = 0, .x_absolute = 1e-8, .f_relative = 0, .f_absolute = 1e-14};  // of ln p, ln A
+      .x_relative = 0, .x_absolute = 1e-7, .f_relative = 0, .f_absolute = 1e-13};  // of ln p, ln A
   int evaluations = 1000;
   double seconds = 0;  // 0: no limit
   std::optional<LocalOptions> local{};

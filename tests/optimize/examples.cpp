@@ -77,8 +77,23 @@ TEST_CASE("less wear costs amplitude: the limit on the energy is met and active"
   REQUIRE(s.studies.size() == 2);
   const auto free = optimize::optimum_study(s, s.studies[0])[0].optimum;
   const auto limited = optimize::optimum_study(s, s.studies[1])[0].optimum;
-  REQUIRE(free.point.energy_friction > 1e-3);
-  CHECK(limited.point.energy_friction <= 1e-3 * (1 + 1e-6));
+  // At both of the peaks that are equally high, in frequency responses of their own.
+  const auto energy = [&](const std::vector<double>& loads) {
+    scene::Scene at = s;
+    for (std::size_t k = 0; k < loads.size(); ++k) scene::set(at, s.studies[0].design[k].name, loads[k]);
+    scene::Study frf;
+    frf.from = 8;
+    frf.to = 45;
+    double highest = 0, most = 0;
+    const auto branches = observables::frequency_response(at, frf);
+    for (const auto& event : branches.front().events) highest = std::max(highest, event.point.amplitude);
+    for (const auto& event : branches.front().events)
+      if (event.kind == "peak" && event.point.amplitude > 0.99 * highest)
+        most = std::max(most, event.point.energy_friction);
+    return most;
+  };
+  REQUIRE(energy(free.design) > 1e-3);
+  CHECK(energy(limited.design) <= 1e-3 * (1 + 1e-6));
   CHECK(limited.amplitude > free.amplitude);
 }
 
