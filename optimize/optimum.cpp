@@ -21,11 +21,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_influence = 1e-12;  // d ln A / d ln p of less is none
 constexpr double seen_before = 1e-8;    // relative: a response that is higher by more has a peak not watched
 constexpr int most_rounds = 12;
-constexpr double gain = 1e-7;        // relative, of a round that is worth another one
-constexpr int spare_peaks = 3;       // that may come up during a round
-constexpr double same_peak = 0.03;   // relative change of the frequency between responses
-constexpr double least_level = -60;  // of ln A/A_start, in the epigraph
-constexpr double beyond_all = 60;    // ln A/A_start where it is infinite
+constexpr double gain = 1e-7;            // relative, of a round that is worth another one
+constexpr int spare_peaks = 3;           // that may come up during a round
+constexpr double same_peak = 0.03;       // relative change of the frequency between responses
+constexpr double least_level = -60;      // of ln A/A_start, in the epigraph
+constexpr double beyond_all = 60;        // ln A/A_start where it is infinite
+constexpr double small_gradient = 1e-8;  // of d ln A / d ln p: what is left is rounding
+constexpr double as_good = 1e-13;        // relative: amplitudes that differ by rounding
 constexpr double limit_tolerance = 1e-8;
 
 class Search {
@@ -283,8 +285,21 @@ class Search {
     options.seed = options_.seed;
     options.evaluations = std::max(1, options_.evaluations - static_cast<int>(result_.evaluations.size()));
     if (options_.seconds > 0) options.seconds = std::max(options_.seconds - seconds(), 1e-9);
-    options.progress = [this](const Progress&) { return !user_stopped_; };
-    const Result found = minimize(problem, y, options);
+    const bool smooth = by_gradient && !epigraph && problem.constraints.empty();
+    bool stationary = false;
+    options.progress = [&, smooth](const Progress&) {
+      stationary = smooth && is_stationary();
+      if (stationary) {  // rounding may have made another one look better
+        result_.design = peaks_.state().design;
+        result_.amplitude = peaks_.state().amplitude();
+      }
+      return !user_stopped_ && !stationary;
+    };
+    Result found = minimize(problem, y, options);
+    if (found.reason == Reason::user && !user_stopped_ && stationary) {
+      found.reason = Reason::converged;
+      found.message = text("no entry of d ln A / d ln p is above ", small_gradient, " after ");
+    }
     reason_ = found.reason;
     result_.stop.reason = name(found.reason);
     result_.stop.message = sentence(found);
@@ -294,6 +309,22 @@ class Search {
             ? Status::stopped
             : Status::failed;
     ended_ = result_.status != Status::complete;
+  }
+
+  // At the best design so far: a flat place that is worse is none.
+  bool is_stationary() const {
+    const PeakState& state = peaks_.state();
+    if (state.peaks.empty() || state.peaks.size() > 1 ||
+        state.amplitude() > (1 + as_good) * result_.amplitude)
+      return false;
+    for (std::size_t k = 0; k < state.design.size(); ++k) {
+      const double slope = state.peaks[0].gradient[static_cast<Eigen::Index>(k)] / state.amplitude() *
+                           space_.slope(k, state.design[k]);
+      const bool held = (state.design[k] == space_.lower()[k] && slope > 0) ||
+                        (state.design[k] == space_.upper()[k] && slope < 0);
+      if (!held && std::abs(slope) > small_gradient) return false;
+    }
+    return true;
   }
 
   // Of one round, with the numbers of all of them.
