@@ -88,9 +88,9 @@ struct DesignVariable {
   friend bool operator==(const DesignVariable&, const DesignVariable&) = default;
 };
 
-/// at_least <= observable <= at_most, at the highest resonance peak. Observables: "frequency" (in the scene's
-/// unit), "energy_friction", "energy_viscous" (J per period), and for a friction element NAME
-/// "NAME.stick_percent", "NAME.energy".
+/// at_least <= observable <= at_most, at each resonance peak that is watched, those of at least three
+/// quarters of the highest. Observables: "frequency" (in the scene's unit), "energy_friction",
+/// "energy_viscous" (J per period), and for a friction element NAME "NAME.stick_percent", "NAME.energy".
 struct ObservableLimit {
   std::string observable;
   double at_least = -std::numeric_limits<double>::infinity();
