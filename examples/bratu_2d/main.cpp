@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
   const Start start{.u = Vector::Zero(n), .p = parameter_values(*problem)};
   Options options{.lower = 0, .upper = 8};
   options.step.largest_parameter = 0.5;
+  options.step.contraction =
+      0.1;  // shorter steps, whose chord steps spare the factors: they are the price here
   const Branch branch = trace(problem, start, options, {fold_monitor()}, print);
   std::printf("%ld points, %ld factorizations, %ld solves; %s\n", branch.counts.points,
               branch.counts.factorizations, branch.counts.solves, branch.stop.message.c_str());
