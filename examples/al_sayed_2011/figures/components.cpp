@@ -78,7 +78,7 @@ const Column viscous_part_maxima{"viscous, largest values (N/m)", [](const Respo
 
 std::vector<DataFile> components(const std::string& scenes) {
   const SceneFile file = read_scene(scenes, "components.scene.json");
-  const auto curves = smooth_curves(file, "peaks");
+  const auto curves = branches(file, "peaks");
   const Column load = over(file, curves.front());
   const auto over_stick = [&](const std::string& name, const std::string& title, std::vector<Column> columns,
                               const std::string& special) {

@@ -16,7 +16,7 @@ namespace {
 
 using namespace arcslip;
 
-constexpr int angles_of_errors = 3600;
+constexpr int angles_of_errors = 1440;
 
 scene::Scene with_order(scene::Scene scene, int order) {
   scene.harmonics.order = order;
@@ -102,7 +102,7 @@ DataFile errors_over_load(const SceneFile& file) {
         {load, stick.of(point), 100 * error.amplitude, 100 * error.rms, 100 * error.maximum});
   };
   Block curve{"curve of peaks", {}}, chosen{"chosen loads", {}};
-  const auto curves = smooth_curves(file, "error");
+  const auto curves = branches(file, "error");
   for (const auto& branch : curves)
     for (const auto& point : branch.points)
       if (!point.unbounded) add(branch, point, file.study("error"), point.over, curve);

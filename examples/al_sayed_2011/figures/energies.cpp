@@ -17,7 +17,7 @@ DataFile over_frequency(const std::string& name, const std::string& title, const
 }
 
 DataFile over_stick(const SceneFile& file) {
-  const auto curves = smooth_curves(file, "peaks");
+  const auto curves = branches(file, "peaks");
   const std::vector<Column> columns{stick,          friction_energy, viscous_energy,
                                     total_energy,   friction_share,  over(file, curves.front()),
                                     frequency(file)};

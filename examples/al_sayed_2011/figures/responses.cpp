@@ -12,7 +12,7 @@ std::vector<DataFile> responses(const std::string& scenes) {
   DataFile least{"figure_06c", "Amplitude of the resonance peaks over the share of stick", file.name, {}, {}};
   const std::vector<Column> over_frequency{frequency(file), amplitude};
   const std::vector<Column> stick_over_frequency{frequency(file), stick};
-  const auto curves = smooth_curves(file, "peaks");
+  const auto curves = branches(file, "peaks");
   const std::vector<Column> over_stick{stick, amplitude, over(file, curves.front()), frequency(file)};
   for (const ResponseBranch& curve : curves) {
     least.blocks.push_back(block("curve of peaks", curve, over_stick));

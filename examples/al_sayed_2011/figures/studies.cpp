@@ -36,69 +36,80 @@ SceneFile read_scene(const std::string& folder, const std::string& name) {
   return file;
 }
 
-std::vector<ResponseBranch> branches(const SceneFile& file, const std::string& name) {
-  const scene::Study& study = file.study(name);
-  const bool is_peaks = study.kind == scene::StudyKind::peaks;
-  if (!is_peaks && study.kind != scene::StudyKind::frf)
-    throw std::runtime_error(file.name + ": study " + name + " has to be of kind frf or peaks");
-  auto found = is_peaks ? observables::resonance_peaks(file.scene, study)
-                        : observables::frequency_response(file.scene, study);
-  if (found.empty()) throw std::runtime_error(file.name + ": study " + name + " has no branch");
-  for (const ResponseBranch& branch : found)
-    if (branch.status == observables::Status::failed)
-      throw std::runtime_error(file.name + ": study " + name + ": " + branch.stop.message);
-  return found;
-}
-
 namespace {
 
 constexpr double coarse = 1;  // % of the period in stick
 constexpr int passes = 2;
 
+std::vector<ResponseBranch> run(const scene::Scene& scene, const scene::Study& study) {
+  return study.kind == scene::StudyKind::peaks ? observables::resonance_peaks(scene, study)
+                                               : observables::frequency_response(scene, study);
+}
+
+std::vector<ResponseBranch> branches(const SceneFile& file, const scene::Study& study) {
+  if (study.kind != scene::StudyKind::peaks && study.kind != scene::StudyKind::frf)
+    throw std::runtime_error(file.name + ": study " + study.name + " has to be of kind frf or peaks");
+  auto found = run(file.scene, study);
+  if (found.empty()) throw std::runtime_error(file.name + ": study " + study.name + " has no branch");
+  for (const ResponseBranch& branch : found)
+    if (branch.status == observables::Status::failed)
+      throw std::runtime_error(file.name + ": study " + study.name + ": " + branch.stop.message);
+  return found;
+}
+
 bool is_coarse(const ResponsePoint& a, const ResponsePoint& b) {
   return !a.unbounded && !b.unbounded && std::abs(stick.of(a) - stick.of(b)) > coarse;
 }
 
-/// Points between two of a curve, by the same study over that range alone, whose steps are shorter.
-std::vector<ResponsePoint> between(const SceneFile& file, scene::Study study, const ResponseBranch& curve,
+bool is_same(const ResponsePoint& a, const ResponsePoint& b) {
+  return std::abs(a.amplitude - b.amplitude) <= 1e-6 * a.amplitude;
+}
+
+/// Points between two of a branch, by the same study over that range alone, whose steps are shorter. None
+/// where that leads to another branch.
+std::vector<ResponsePoint> between(const SceneFile& file, scene::Study study, const ResponseBranch& branch,
                                    const ResponsePoint& begin, const ResponsePoint& end) {
+  const auto place = [&](const ResponsePoint& point) {
+    return study.kind == scene::StudyKind::peaks ? point.over
+                                                 : output::in_scene_unit(file.scene, point.omega);
+  };
   scene::Scene scene = file.scene;
-  for (const auto& [name, value] : curve.set) scene::set(scene, name, value);
+  for (const auto& [name, value] : branch.set) scene::set(scene, name, value);
   study.for_each.clear();
-  study.from = std::min(begin.over, end.over);
-  study.to = std::max(begin.over, end.over);
-  const auto found = observables::resonance_peaks(scene, study);
+  study.from = std::min(place(begin), place(end));
+  study.to = std::max(place(begin), place(end));
+  if (!(study.from < study.to)) return {};
+  const auto found = run(scene, study);
   if (found.size() != 1 || found.front().status != observables::Status::complete) return {};
   std::vector<ResponsePoint> points = found.front().points;
-  if (points.size() < 2) return {};
-  const bool falls = begin.over > end.over;
-  std::sort(points.begin(), points.end(), [falls](const ResponsePoint& a, const ResponsePoint& b) {
-    return falls ? a.over > b.over : a.over < b.over;
-  });
+  if (points.size() < 3) return {};
+  if ((place(points.front()) > place(points.back())) != (place(begin) > place(end)))
+    std::reverse(points.begin(), points.end());
+  if (!is_same(points.front(), begin) || !is_same(points.back(), end)) return {};
   return {points.begin() + 1, points.end() - 1};  // without the two that are there
 }
 
-void refine(const SceneFile& file, const scene::Study& study, ResponseBranch& curve) {
+void refine(const SceneFile& file, const scene::Study& study, ResponseBranch& branch) {
   std::vector<ResponsePoint> points;
-  for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    points.push_back(curve.points[i]);
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    points.push_back(branch.points[i]);
     std::size_t end = i;
-    while (end + 1 < curve.points.size() && is_coarse(curve.points[end], curve.points[end + 1])) ++end;
+    while (end + 1 < branch.points.size() && is_coarse(branch.points[end], branch.points[end + 1])) ++end;
     if (end == i) continue;
-    const auto more = between(file, study, curve, curve.points[i], curve.points[end]);
+    const auto more = between(file, study, branch, branch.points[i], branch.points[end]);
     points.insert(points.end(), more.begin(), more.end());
     if (!more.empty()) i = end - 1;
   }
-  curve.points = std::move(points);
+  branch.points = std::move(points);
 }
 
 }  // namespace
 
-std::vector<ResponseBranch> smooth_curves(const SceneFile& file, const std::string& study) {
-  auto curves = branches(file, study);
-  for (ResponseBranch& curve : curves)
-    for (int pass = 0; pass < passes; ++pass) refine(file, file.study(study), curve);
-  return curves;
+std::vector<ResponseBranch> branches(const SceneFile& file, const std::string& study) {
+  auto found = branches(file, file.study(study));
+  for (ResponseBranch& branch : found)
+    for (int pass = 0; pass < passes; ++pass) refine(file, file.study(study), branch);
+  return found;
 }
 
 const ResponsePoint& peak(const ResponseBranch& branch) {

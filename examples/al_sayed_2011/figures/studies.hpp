@@ -27,13 +27,10 @@ struct SceneFile {
 
 SceneFile read_scene(const std::string& folder, const std::string& name);
 
-/// The branches of a study of frequency responses or peaks. Throws std::runtime_error where one failed, or
-/// where there is none.
+/// The branches of a study of frequency responses or peaks, with more points where the share of stick changes
+/// by more than 1 % of the period from one to the next. Throws std::runtime_error where one failed, or where
+/// there is none.
 std::vector<ResponseBranch> branches(const SceneFile& file, const std::string& study);
-
-/// The curves of a study of peaks, with more points where the share of stick goes by more than 1 % of the
-/// period from one to the next. Throws std::runtime_error as branches().
-std::vector<ResponseBranch> smooth_curves(const SceneFile& file, const std::string& study);
 
 /// The only peak of a frequency response. Throws std::runtime_error where there is not one.
 const ResponsePoint& peak(const ResponseBranch& branch);
