@@ -16,8 +16,9 @@ std::string text_of(const std::vector<double>& x) {
   return "(" + list + ")";
 }
 
-std::string tolerance(double relative, double absolute) {
-  return text(relative, " relative") + (absolute > 0 ? text(" or ", absolute, " absolute") : "");
+std::string tolerance(double relative, double absolute) {  // 0: not looked at
+  const std::string first = text(relative, " relative"), second = text(absolute, " absolute");
+  return absolute == 0 ? first : relative == 0 ? second : first + " or " + second;
 }
 
 std::string what(const std::exception_ptr& thrown) {
