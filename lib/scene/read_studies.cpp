@@ -1,57 +1,17 @@
+#include <arcslip/scene/read_design.hpp>
 #include <arcslip/scene/read_studies.hpp>
+#include <arcslip/scene/study_parameters.hpp>
 #include <arcslip/scene/words.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 namespace arcslip::scene::detail {
 namespace {
-
-// Where the parameters of a scene are looked up by name.
-struct Parameters {
-  const std::vector<Tie>& ties;
-  bool ties_complete;
-  const Names& names;
-  std::unordered_map<std::string_view, const Tie*> tie_by_name, tie_of_field;
-};
-
-// The fields that a value for this parameter must suit; empty where a fault is told.
-std::vector<const Field*> fields_of(const std::string& parameter, const std::string& pointer,
-                                    const Parameters& all, Faults& faults) {
-  const auto tied = all.tie_of_field.find(parameter);
-  if (tied != all.tie_of_field.end()) {
-    faults.add(pointer,
-               "found " + shown(parameter) + ", which is tied; must be its tie " + shown(tied->second->name));
-    return {};
-  }
-  const auto tie = all.tie_by_name.find(parameter);
-  Faults ignored;
-  std::vector<const Field*> fields;
-  if (tie != all.tie_by_name.end()) {
-    for (const std::string& member : tie->second->members) {
-      fields.push_back(all.names.field(member, pointer, ignored));
-    }
-  } else if (all.names.may_exist(parameter) ||
-             (!all.ties_complete && parameter.find('.') == std::string::npos)) {
-    return {};  // it may belong to what could not be read
-  } else if (const Field* field = all.names.field(parameter, pointer, ignored)) {
-    fields.push_back(field);
-  } else if (!faults.full()) {
-    std::vector<std::string> known;
-    for (const Tie& each : all.ties) {
-      known.push_back(each.name);
-    }
-    known.insert(known.end(), all.names.fields().begin(), all.names.fields().end());
-    faults.add(pointer, "found the unknown parameter " + shown(parameter) + ", must be one of " +
-                            listed(known) + hint(parameter, known));
-  } else {
-    faults.add({}, {});
-  }
-  return fields;
-}
 
 std::vector<double> read_values(const Place& place, const std::vector<const Field*>& fields, Faults& faults) {
   constexpr std::string_view wanted = "a list of at least one number";
@@ -109,31 +69,12 @@ bool is_file_name(const std::string& name) {
          std::none_of(name.begin(), name.end(), forbidden);
 }
 
-// What every one of the fields allows.
-Field common(const std::vector<const Field*>& fields) {
-  Field all = *fields.front();
-  for (const Field* field : fields) {
-    if (field->lower > all.lower) {
-      all.lower = field->lower;
-      all.lower_open = field->lower_open;
-    } else if (field->lower == all.lower) {
-      all.lower_open = all.lower_open || field->lower_open;
-    }
-    all.upper = std::min(all.upper, field->upper);
-  }
-  return all;
-}
-
 Field frequency_field(FrequencyUnit unit) {
   return {.name = "frequency",
           .unit = unit_name(unit),
           .lower = 0,
           .upper = std::numeric_limits<double>::infinity(),
           .lower_open = true};
-}
-
-std::string with_unit(double value, const Field& field) {
-  return number_text(value) + (field.unit == "-" ? "" : " " + std::string(field.unit));
 }
 
 void read_range(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
@@ -148,146 +89,15 @@ void read_range(const Keys& keys, const Field& bounds, Study& study, Faults& fau
   }
 }
 
-// A parameter that the study is over, and what bounds it; any number where a fault is told.
-Field read_parameter(const Place& place, const Parameters& all, std::string& parameter, Faults& faults) {
-  constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Field any{.name = "over", .unit = "-", .lower = -infinity, .upper = infinity};
-  const auto over = read_string(place, wanted, faults);
-  if (!over) {
-    return any;
-  }
-  parameter = *over;
-  if (*over == "frequency") {
-    faults.add(
-        place.pointer,
-        "found \"frequency\", must be another parameter; over the frequency is a study of kind \"frf\"");
-    return any;
-  }
-  if (std::find(result_names.begin(), result_names.end(), *over) != result_names.end()) {
-    faults.add(place.pointer,
-               "found " + shown(*over) +
-                   ", by which results name a quantity of their own; must be a tie of another name");
-    return any;
-  }
-  const auto fields = fields_of(*over, place.pointer, all, faults);
-  const bool known = !fields.empty() && std::find(fields.begin(), fields.end(), nullptr) == fields.end();
-  return known ? common(fields) : any;
-}
-
 Field read_over(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
   constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
   return read_parameter(keys.require("over", std::string(wanted), faults), all, study.over, faults);
 }
 
-// A pair [lower, upper], or nothing where a fault is told.
-void read_bounds(const Place& place, const Field& field, DesignVariable& variable, Faults& faults) {
-  const std::string wanted = "a pair [lower, upper], each " + allowed_text(field);
-  const Node::List* list = read_list(place, wanted, faults);
-  if (list == nullptr) {
-    return;
-  }
-  if (list->size() != 2) {
-    faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
-    return;
-  }
-  const auto lower = read_number({&list->front(), child(place.pointer, std::size_t{0})}, field, faults);
-  const auto upper = read_number({&list->back(), child(place.pointer, std::size_t{1})}, field, faults);
-  variable.lower = lower.value_or(0);
-  variable.upper = upper.value_or(0);
-  if (lower && upper && !(*lower < *upper)) {
-    faults.add(child(place.pointer, std::size_t{1}), "found " + number_text(*upper) +
-                                                         ", must be above the lower bound, which is " +
-                                                         with_unit(*lower, field));
-  }
-}
-
-// The parameters of a design in "over", and as many pairs in "bounds".
-void read_design(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
-  constexpr std::string_view names = "a list of at least one parameter \"part.field\" or tie";
-  constexpr std::string_view pairs = "a list of pairs [lower, upper], one for each parameter of \"over\"";
-  const Place over = keys.require("over", std::string(names), faults);
-  const Place bounds = keys.require("bounds", std::string(pairs), faults);
-  const Node::List* parameters = read_list(over, names, faults);
-  const Node::List* ranges = read_list(bounds, pairs, faults);
-  if (parameters != nullptr && parameters->empty()) {
-    faults.add(over.pointer, "found an empty list, must be " + std::string(names));
-  }
-  if (parameters != nullptr && ranges != nullptr && parameters->size() != ranges->size()) {
-    faults.add(bounds.pointer, "found " + std::to_string(ranges->size()) + " for " +
-                                   std::to_string(parameters->size()) + " in \"over\", must be " +
-                                   std::string(pairs));
-  }
-  for (std::size_t i = 0; parameters != nullptr && i < parameters->size(); ++i) {
-    const Place item{&(*parameters)[i], child(over.pointer, i)};
-    DesignVariable variable;
-    const Field field = read_parameter(item, all, variable.name, faults);
-    const bool again = std::any_of(study.design.begin(), study.design.end(),
-                                   [&](const DesignVariable& other) { return other.name == variable.name; });
-    if (again && !variable.name.empty()) {
-      faults.add(item.pointer, "found " + shown(variable.name) + " again, must be named once");
-    }
-    if (ranges != nullptr && i < ranges->size()) {
-      read_bounds({&(*ranges)[i], child(bounds.pointer, i)}, field, variable, faults);
-    }
-    study.design.push_back(std::move(variable));
-  }
-}
-
-void read_constraints(const Place& place, Study& study, Faults& faults) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (place.node == nullptr) {
-    return;
-  }
-  const Node::List* list = read_list(place, "a list of objects", faults);
-  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    const Place item{&(*list)[i], child(place.pointer, i)};
-    const Keys keys(item, {"observable", "at_least", "at_most"}, faults);
-    if (!keys.is_object()) {
-      continue;
-    }
-    constexpr std::string_view wanted = "a string, such as \"energy_friction\" or \"damper.stick_percent\"";
-    ObservableLimit limit;
-    limit.observable =
-        read_string(keys.require("observable", std::string(wanted), faults), wanted, faults).value_or("");
-    const Field any{.name = "limit", .unit = "-", .lower = -infinity, .upper = infinity};
-    const Place least = keys.find("at_least"), most = keys.find("at_most");
-    if (least.node != nullptr) {
-      limit.at_least = read_number(least, any, faults).value_or(limit.at_least);
-    }
-    if (most.node != nullptr) {
-      limit.at_most = read_number(most, any, faults).value_or(limit.at_most);
-    }
-    if (least.node == nullptr && most.node == nullptr) {
-      faults.add(item.pointer, "found neither \"at_least\" nor \"at_most\", must have one of them");
-    } else if (!(limit.at_least < limit.at_most)) {
-      faults.add(item.pointer, "found \"at_least\" " + number_text(limit.at_least) + " and \"at_most\" " +
-                                   number_text(limit.at_most) + ", must be the lower and the upper limit");
-    }
-    study.constraints.push_back(std::move(limit));
-  }
-}
-
 void read_window(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
   const std::string wanted = "a window [lower, upper] of two frequencies, each " + allowed_text(bounds);
   const Place place = keys.require("frequency", wanted, faults);
-  const Node::List* list = read_list(place, wanted, faults);
-  if (list == nullptr) {
-    return;
-  }
-  if (list->size() != 2) {
-    faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
-    return;
-  }
-  const auto lower = read_number({&list->front(), child(place.pointer, std::size_t{0})}, bounds, faults);
-  const auto upper = read_number({&list->back(), child(place.pointer, std::size_t{1})}, bounds, faults);
-  study.frequency_from = lower.value_or(0);
-  study.frequency_to = upper.value_or(0);
-  if (lower && upper && !(*lower < *upper)) {
-    faults.add(child(place.pointer, std::size_t{1}), "found " + number_text(*upper) +
-                                                         ", must be above the lower end, which is " +
-                                                         with_unit(*lower, bounds));
-  }
+  std::tie(study.frequency_from, study.frequency_to) = read_pair(place, wanted, bounds, "end", faults);
 }
 
 void read_one_frequency(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
@@ -353,13 +163,7 @@ std::string unused_name(const std::string& wish, std::unordered_map<std::string,
 
 std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const std::vector<Tie>& ties,
                                 bool ties_complete, const Names& names, Faults& faults) {
-  Parameters all{ties, ties_complete, names, {}, {}};
-  for (const Tie& tie : ties) {
-    all.tie_by_name.emplace(tie.name, &tie);
-    for (const std::string& member : tie.members) {
-      all.tie_of_field.emplace(member, &tie);
-    }
-  }
+  const Parameters all(ties, ties_complete, names);
   std::vector<Study> studies;
   std::unordered_map<std::string, std::string> used;  // names and where they stand
   const Node::List* list = read_list(place, "a list of objects", faults);

@@ -1,0 +1,121 @@
+#include <arcslip/scene/study_parameters.hpp>
+#include <arcslip/scene/words.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace arcslip::scene::detail {
+namespace {
+
+// What every one of the fields allows.
+Field common(const std::vector<const Field*>& fields) {
+  Field all = *fields.front();
+  for (const Field* field : fields) {
+    if (field->lower > all.lower) {
+      all.lower = field->lower;
+      all.lower_open = field->lower_open;
+    } else if (field->lower == all.lower) {
+      all.lower_open = all.lower_open || field->lower_open;
+    }
+    all.upper = std::min(all.upper, field->upper);
+  }
+  return all;
+}
+
+}  // namespace
+
+Parameters::Parameters(const std::vector<Tie>& all_ties, bool complete, const Names& all_names)
+    : ties(all_ties), ties_complete(complete), names(all_names) {
+  for (const Tie& tie : ties) {
+    tie_by_name.emplace(tie.name, &tie);
+    for (const std::string& member : tie.members) {
+      tie_of_field.emplace(member, &tie);
+    }
+  }
+}
+
+std::vector<const Field*> fields_of(const std::string& parameter, const std::string& pointer,
+                                    const Parameters& all, Faults& faults) {
+  const auto tied = all.tie_of_field.find(parameter);
+  if (tied != all.tie_of_field.end()) {
+    faults.add(pointer,
+               "found " + shown(parameter) + ", which is tied; must be its tie " + shown(tied->second->name));
+    return {};
+  }
+  const auto tie = all.tie_by_name.find(parameter);
+  Faults ignored;
+  std::vector<const Field*> fields;
+  if (tie != all.tie_by_name.end()) {
+    for (const std::string& member : tie->second->members) {
+      fields.push_back(all.names.field(member, pointer, ignored));
+    }
+  } else if (all.names.may_exist(parameter) ||
+             (!all.ties_complete && parameter.find('.') == std::string::npos)) {
+    return {};  // it may belong to what could not be read
+  } else if (const Field* field = all.names.field(parameter, pointer, ignored)) {
+    fields.push_back(field);
+  } else if (!faults.full()) {
+    std::vector<std::string> known;
+    for (const Tie& each : all.ties) {
+      known.push_back(each.name);
+    }
+    known.insert(known.end(), all.names.fields().begin(), all.names.fields().end());
+    faults.add(pointer, "found the unknown parameter " + shown(parameter) + ", must be one of " +
+                            listed(known) + hint(parameter, known));
+  } else {
+    faults.add({}, {});
+  }
+  return fields;
+}
+
+std::string with_unit(double value, const Field& field) {
+  return number_text(value) + (field.unit == "-" ? "" : " " + std::string(field.unit));
+}
+
+Field read_parameter(const Place& place, const Parameters& all, std::string& parameter, Faults& faults) {
+  constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Field any{.name = "over", .unit = "-", .lower = -infinity, .upper = infinity};
+  const auto over = read_string(place, wanted, faults);
+  if (!over) {
+    return any;
+  }
+  parameter = *over;
+  if (*over == "frequency") {
+    faults.add(
+        place.pointer,
+        "found \"frequency\", must be another parameter; over the frequency is a study of kind \"frf\"");
+    return any;
+  }
+  if (std::find(result_names.begin(), result_names.end(), *over) != result_names.end()) {
+    faults.add(place.pointer,
+               "found " + shown(*over) +
+                   ", by which results name a quantity of their own; must be a tie of another name");
+    return any;
+  }
+  const auto fields = fields_of(*over, place.pointer, all, faults);
+  const bool known = !fields.empty() && std::find(fields.begin(), fields.end(), nullptr) == fields.end();
+  return known ? common(fields) : any;
+}
+
+std::pair<double, double> read_pair(const Place& place, const std::string& wanted, const Field& field,
+                                    std::string_view what, Faults& faults) {
+  const Node::List* list = read_list(place, wanted, faults);
+  if (list == nullptr) {
+    return {};
+  }
+  if (list->size() != 2) {
+    faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
+    return {};
+  }
+  const auto lower = read_number({&list->front(), child(place.pointer, std::size_t{0})}, field, faults);
+  const auto upper = read_number({&list->back(), child(place.pointer, std::size_t{1})}, field, faults);
+  if (lower && upper && !(*lower < *upper)) {
+    faults.add(child(place.pointer, std::size_t{1}), "found " + number_text(*upper) +
+                                                         ", must be above the lower " + std::string(what) +
+                                                         ", which is " + with_unit(*lower, field));
+  }
+  return {lower.value_or(0), upper.value_or(0)};
+}
+
+}  // namespace arcslip::scene::detail
