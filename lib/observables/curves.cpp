@@ -230,10 +230,9 @@ class Curves {
     } else {
       const std::string where = way_.name + " = " + text(part.points.back().over);
       if (stop.reason == StopReason::step_too_small)
-        part.stop.message = "the curve could not be followed beyond " + where + ": probably the " + what_ +
-                            " sits there at a corner of the response, where a phase of friction begins or "
-                            "ends or the largest "
-                            "displacement passes from one instant of the period to another";
+        part.stop.message =
+            "the curve could not be followed beyond " + where + ": probably the " + what_ +
+            " sits there at a corner of the response, where a phase of friction begins or ends";
       else
         part.stop.message += ", near " + where;
     }

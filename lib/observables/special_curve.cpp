@@ -3,6 +3,7 @@
 #include <arcslip/observables/unbounded.hpp>
 
 #include <arcslip/continuation/corrector.hpp>
+#include <arcslip/elements/reversals.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,8 @@ constexpr double near_corner = 1e-3;  // relative: where a corner is looked for
 constexpr double besides[] = {1e-6, 1e-5, 1e-4,
                               1e-3};  // of the parameter: from one part of the curve to the next
 constexpr double least_change =
-    1e-12;  // of the parameter, from a corner to the smooth part that begins there
+    1e-12;                         // of the parameter, from a corner to the smooth part that begins there
+constexpr double as_large = 1e-4;  // relative: one of two extremes that change places
 constexpr int most_parts = 64;
 
 // n: where the frequency stands among the unknowns.
@@ -130,6 +132,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start) {
     Place end{result_.end, last.parameter, before < 0 ? -1 : 1, at.corner};
     if (end.corner) end.corner = at_angles(*end.corner, last.u);
     const auto next = leaves ? from_corner(end, by == slip_event) : to_corner(end);
+    if (!next && !leaves && kind_.maximum && is_surpassed(end)) result_.vanishes = true;
     if (!next) break;
     result_.events.push_back({arclength_, {"corner", true, true, result_.points.back().point}});
     if (next->direction != end.direction) result_.turns.push_back(arclength_);
@@ -268,6 +271,27 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Pla
     }
   }
   return {};
+}
+
+// Whether the displacement has two largest values in the period, at different instants. The largest of two
+// functions of the frequency has a kink upwards where they cross: there is no peak, and one that comes to it
+// ends, surpassed by the other.
+bool SpecialCurveTracer::is_surpassed(const Place& at) const {
+  const auto& harmonics = problem_->harmonics();
+  const auto evaluator = problem_->hbm_evaluator();
+  const auto u = at.x.head(problem_->size());
+  if (evaluator->move_to(u, parameters(at.x, at.over), continuation::Needs::residual) !=
+      continuation::Evaluated::ok)
+    return false;
+  Vector motion(harmonics.size());
+  evaluator->stiffness().response(u, evaluator->force_factor(), motion);
+  double largest = 0, second = 0;
+  elements::Reversals reversals(harmonics);
+  for (const auto& turn : reversals.find(motion)) {
+    second = std::max(second, std::min(largest, std::abs(turn.x)));
+    largest = std::max(largest, std::abs(turn.x));
+  }
+  return second > (1 - as_large) * largest;
 }
 
 // The smooth curve that begins where the slope vanishes on one side of a corner. There h is given, not the

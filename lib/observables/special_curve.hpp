@@ -61,14 +61,15 @@ struct SpecialCurve {
   };
   std::vector<At> points;
   std::vector<EventAt>
-      events;  // those of the monitors, and "corner" where the curve comes to one or leaves it
+      events;                 // those of the monitors, and "corner" where the curve comes to one or leaves it
   std::vector<double> turns;  // arclengths of the corners where the parameter turns back
   continuation::Stop stop;
   continuation::Counts counts;
   continuation::Vector end;  // unknowns and frequency at the last point
   bool left_window = false;  // of the frequency
-  bool vanishes = false;     // at a corner that the branch over the frequency touches from one side
-  std::string unbounded;     // why, where the response grows without bound
+  bool vanishes =
+      false;  // at a corner that the branch over the frequency touches from one side, or surpassed
+  std::string unbounded;  // why, where the response grows without bound
 };
 
 class SpecialCurveTracer {
@@ -95,6 +96,7 @@ class SpecialCurveTracer {
   continuation::Branch trace(const Place& from);
   std::optional<Place> to_corner(const Place& at);
   std::optional<Place> from_corner(const Place& at, bool slip) const;
+  bool is_surpassed(const Place& at) const;
   std::optional<continuation::Vector> corrected(const continuation::Problem& problem,
                                                 const continuation::Vector& x, double over,
                                                 const continuation::Vector& row) const;

@@ -239,3 +239,37 @@ TEST_CASE("a study of peaks ends with the callback, and no other curve is begun"
   CHECK(branches[0].stop.reason == "user");
   CHECK(branches[0].points.size() == 5);
 }
+
+TEST_CASE(
+    "a peak that another instant of the period surpasses ends there: the response has it before, not "
+    "beyond") {
+  const scene::Scene s = random_scenes::make(5, random_scenes::Excitation::first_and_second);
+  scene::Study study = s.studies.front();
+  study.kind = scene::StudyKind::peaks;
+  study.over = "d1.normal_load";
+  study.frequency_from = study.from;
+  study.frequency_to = study.to;
+  study.from = 1;
+  study.to = 3;
+  const auto branches = observables::resonance_peaks(s, study);
+  const auto surpassed = std::find_if(branches.begin(), branches.end(), [](const ResponseBranch& branch) {
+    return branch.stop.reason == "fold" && events(branch, "fold").empty();
+  });
+  REQUIRE(surpassed != branches.end());
+  CHECK(surpassed->status == observables::Status::complete);
+  const ResponsePoint& end = surpassed->points.back();
+  const auto has_peak = [&](double load) {
+    scene::Scene with = s;
+    scene::set(with, study.over, load);
+    scene::Study frf = s.studies.front();
+    frf.from = end.omega / scenes::hertz * 0.99;
+    frf.to = end.omega / scenes::hertz * 1.01;
+    const auto branch = observables::frequency_response(with, frf).front();
+    return std::any_of(branch.events.begin(), branch.events.end(), [&](const auto& event) {
+      return event.kind == "peak" && std::abs(event.point.omega / end.omega - 1) < 1e-3;
+    });
+  };
+  const double back = surpassed->points.front().over > end.over ? 1 : -1;
+  CHECK(has_peak(end.over * (1 + 3e-3 * back)));
+  CHECK_FALSE(has_peak(end.over * (1 - 3e-3 * back)));
+}
