@@ -1,10 +1,14 @@
 #include <arcslip/optimize/optimum_output.hpp>
 
+#include <arcslip/output/draw_figures.hpp>
 #include <arcslip/output/json_text.hpp>
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <iterator>
 #include <ostream>
 
@@ -121,6 +125,33 @@ Json json_of(const scene::Scene& scene, const OptimumResult& result) {
   return json;
 }
 
+double to_four_digits(double value) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.4g", value);
+  return std::strtod(digits.data(), nullptr);
+}
+
+// The ranges of tolerance behind the curve of peaks of the same setting, and the load at its minimum.
+void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> results,
+                    output::FigureData& data) {
+  for (output::FigureLine& line : data.lines) {
+    const auto result = std::find_if(results.begin(), results.end(),
+                                     [&](const OptimumResult& each) { return each.set == line.set; });
+    if (result == results.end()) continue;
+    if (const auto& certificate = result->optimum.certificate; certificate && !certificate->ranges.empty()) {
+      auto ranges = certificate->ranges[0];
+      std::sort(ranges.begin(), ranges.end(), [](auto& a, auto& b) { return a.share > b.share; });
+      for (const ToleranceRange& range : ranges)
+        line.bands.push_back(
+            {"within " + output::quantity(100 * range.share, "%"), {range.lower, range.upper}});
+    }
+    if (!line.label.empty()) continue;
+    const std::string unit = output::parameter_unit(scene, result->problem.over[0].name);
+    for (output::FigureMark& mark : line.marks)
+      if (mark.kind == "minimum") mark.label = output::quantity(to_four_digits(mark.record[0]), unit);
+  }
+}
+
 }  // namespace
 
 output::JsonSection json_section(const scene::Scene& scene, std::span<const OptimumResult> results) {
@@ -186,7 +217,11 @@ output::Figures write_figures(const scene::Scene& scene, scene::StudyKind,
       responses.push_back(std::move(branch));
     }
   }
-  if (!curves.empty()) add(output::write_figures(scene, scene::StudyKind::peaks, curves, folder, name));
+  if (!curves.empty()) {
+    output::FigureData data = output::figure_data(scene, scene::StudyKind::peaks, curves);
+    add_tolerances(scene, results, data);
+    add(output::draw_figures(scene, data, folder, name));
+  }
   if (!responses.empty())
     add(output::write_figures(scene, scene::StudyKind::frf, responses, folder, name + "_responses"));
   return all;

@@ -28,8 +28,9 @@ output::JsonSection json_section(const scene::Scene& scene, std::span<const Opti
 /// A row for each evaluation, and one, named "optimum", for the result.
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumResult> results);
 
-/// Of one parameter: the resonance peaks over its bounds with the least one marked (NAME_amplitude,
-/// NAME_frequency, NAME_amplitude_over_stick). Of any: the frequency responses at half, once and twice the
+/// Of one parameter: the resonance peaks over its bounds with the least one marked, and the ranges in
+/// which the amplitude is within 1 % and 5 % of it shaded (NAME_amplitude, NAME_frequency; unshaded
+/// NAME_amplitude_over_stick). Of any: the frequency responses at half, once and twice the
 /// optimum (NAME_responses_amplitude, NAME_responses_stick).
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
                               std::span<const OptimumResult> results, const std::string& folder,

@@ -35,6 +35,13 @@ inline constexpr std::array<std::string_view, 6> mark_kinds = {"peak",    "fold"
 struct FigureMark {
   std::string kind;
   Record record;
+  std::string label{};  // empty: that of its line
+};
+
+/// Values of what the study goes over (column 0) that are shaded over the height of the figure.
+struct FigureBand {
+  std::string label;  // "within 5 %"
+  Range range;
 };
 
 /// One line of a figure: the branches with the same set parameters.
@@ -43,7 +50,8 @@ struct FigureLine {
   std::vector<std::pair<std::string, double>> set;  // what the label tells, with names
   std::vector<std::vector<Record>> parts;           // drawn apart
   std::vector<FigureMark> marks;
-  bool unbounded = false;  // somewhere, where nothing can be drawn
+  bool unbounded = false;           // somewhere, where nothing can be drawn
+  std::vector<FigureBand> bands{};  // the widest first
 };
 
 struct FigureData {

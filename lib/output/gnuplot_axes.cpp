@@ -44,8 +44,10 @@ void write_logarithmic_tics(std::ostream& out, char axis, const Range& range) {
   out << ")\nset format " << axis << " '%g'\n";
 }
 
-/// The axis of a column: just its range, or with room at both ends, of which the upper one may hold labels.
-Axis axis_of(const FigureColumn& column, bool has_room) {
+/// The axis of a column: just its range, or with room at both ends, of which the upper one may hold labels,
+/// and the lower one where there are minima.
+Axis axis_of(const FigureColumn& column, bool has_room, bool has_minima = false) {
+  const double parts_below = has_minima ? 2 : 1;
   if (column.scale == Scale::percent) {
     return {{-3, 103}};
   }
@@ -58,14 +60,15 @@ Axis axis_of(const FigureColumn& column, bool has_room) {
       return {column.range, true};
     }
     const double spread = std::pow(upper / lower, 0.05);
-    return {{lower / std::max(spread, 1.05), upper * std::max(spread * spread, 1.15)}, true};
+    return {{lower / std::max(std::pow(spread, parts_below), 1.05), upper * std::max(spread * spread, 1.15)},
+            true};
   }
   if (lower == upper) {
     const double width = lower == 0 ? 1 : std::max(std::abs(lower), 1e-300) / 10;
     return {{lower - width, upper + width}};
   }
   const double room = has_room ? 0.05 * (upper - lower) : 0;
-  return {{lower - room, upper + 2 * room}};
+  return {{lower - parts_below * room, upper + 2 * room}};
 }
 
 void write_axis(std::ostream& out, char name, const std::string& label, const Axis& axis) {
@@ -100,8 +103,13 @@ Place Axes::place(const Record& values, const GnuplotFigure& figure) const {
 }
 
 Axes axes_of(const FigureData& data, const GnuplotFigure& figure) {
+  const auto has_minimum = [](const FigureLine& line) {
+    return std::any_of(line.marks.begin(), line.marks.end(),
+                       [](const FigureMark& mark) { return mark.kind == "minimum"; });
+  };
+  const bool has_minima = std::any_of(data.lines.begin(), data.lines.end(), has_minimum);
   // What a study goes over fills its axis; in a curve of folds it is the result that the frequency shows.
-  return {axis_of(data.columns[figure.x], figure.x != 0), axis_of(data.columns[figure.y], true)};
+  return {axis_of(data.columns[figure.x], figure.x != 0), axis_of(data.columns[figure.y], true, has_minima)};
 }
 
 void write_axes(std::ostream& out, const GnuplotFigure& figure, const Axes& axes) {

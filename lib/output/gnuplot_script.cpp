@@ -9,19 +9,29 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ostream>
 
 namespace arcslip::output {
 namespace {
 
-constexpr int longest_title = 76;        // characters across a figure
-constexpr std::size_t most_in_key = 24;  // lines that a key has room for
+constexpr int longest_title = 76;                // characters across a figure
+constexpr std::size_t most_in_key = 24;          // lines that a key has room for
+constexpr const char* other_colour = "#444444";  // in the key, of what lines of several colours have
 
 /// How the marks of a kind look, in the order of mark_kinds.
 constexpr std::array<const char*, mark_kinds.size()> mark_styles = {
     "pointtype 7 pointsize 0.8",  "pointtype 4 pointsize 1 linewidth 1.5",
     "pointtype 9 pointsize 1",    "pointtype 11 pointsize 1",
     "pointtype 13 pointsize 1.1", "pointtype 5 pointsize 0.7"};
+
+constexpr double band_opacity = 0.12;
+
+/// How the k-th band of a line looks, from 0: each lies upon those that are wider.
+std::string band_style(std::size_t k, const std::string& colour) {
+  const double opacity = 1 - std::pow(1 - band_opacity, static_cast<double>(k + 1));
+  return "fillcolor rgb '" + colour + "' fillstyle transparent solid " + shortest(opacity) + " noborder";
+}
 
 /// Whether marks of this kind carry the label of their line: folds come in pairs that would repeat it.
 bool is_labelled(const std::string& kind) {
@@ -55,8 +65,9 @@ void write_labels(std::ostream& out, const FigureData& data, const GnuplotFigure
   std::vector<Label> labels;
   for (std::size_t i = 0; i < data.lines.size(); ++i) {
     for (const FigureMark& mark : data.lines[i].marks) {
-      if (is_labelled(mark.kind) && axes.shows(mark.record, figure) && !data.lines[i].label.empty()) {
-        wishes.push_back({axes.place(mark.record, figure), data.lines[i].label});
+      const std::string& label = mark.label.empty() ? data.lines[i].label : mark.label;
+      if (is_labelled(mark.kind) && axes.shows(mark.record, figure) && !label.empty()) {
+        wishes.push_back({axes.place(mark.record, figure), label});
         labels.push_back({mark.record[figure.x], mark.record[figure.y], i});
       }
     }
@@ -73,6 +84,21 @@ void write_labels(std::ostream& out, const FigureData& data, const GnuplotFigure
         << (shift.alignment == 0 ? " center" : (shift.alignment > 0 ? " left" : " right")) << " offset "
         << shortest(shift.x) << "," << shortest(shift.y) << " front noenhanced font ',13' textcolor rgb '"
         << line_colour(labels[i].line, data.lines.size()) << "'\n";
+  }
+}
+
+/// Bands behind the lines, where the figure is over what they are ranges of.
+void write_bands(std::ostream& out, const FigureData& data, const GnuplotFigure& figure) {
+  out << "unset object\n";
+  if (figure.x != 0) {
+    return;
+  }
+  for (std::size_t i = 0; i < data.lines.size(); ++i) {
+    for (const FigureBand& band : data.lines[i].bands) {
+      out << "set object rectangle from " << shortest(band.range.lower) << ", graph 0 to "
+          << shortest(band.range.upper) << ", graph 1 behind "
+          << band_style(0, line_colour(i, data.lines.size())) << '\n';
+    }
   }
 }
 
@@ -104,6 +130,20 @@ bool has_mark(const FigureLine& line, std::string_view kind) {
                      [&](const FigureMark& mark) { return mark.kind == kind; });
 }
 
+/// An entry for each band, the narrowest first; lines have the same, so that one line tells them all.
+void add_bands_to_key(const FigureData& data, std::vector<std::string>& curves) {
+  const auto has_bands = [](const FigureLine& line) { return !line.bands.empty(); };
+  const auto line = std::find_if(data.lines.begin(), data.lines.end(), has_bands);
+  if (line == data.lines.end()) {
+    return;
+  }
+  const std::string colour = data.lines.size() == 1 ? line_colour(0, 1) : other_colour;
+  for (std::size_t k = line->bands.size(); k-- > 0;) {
+    curves.push_back("NaN with filledcurves " + band_style(k, colour) + " title " +
+                     quoted(line->bands[k].label) + " noenhanced");
+  }
+}
+
 void write_plot(std::ostream& out, const FigureData& data, const GnuplotFigure& figure) {
   const std::string columns = " using " + std::to_string(figure.x + 1) + ":" + std::to_string(figure.y + 1);
   const std::size_t count = data.lines.size();
@@ -131,9 +171,12 @@ void write_plot(std::ostream& out, const FigureData& data, const GnuplotFigure& 
   curves.insert(curves.end(), marks.begin(), marks.end());
   for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
     if (in_figure[k]) {
-      curves.push_back(std::string("NaN with points ") + mark_styles[k] + " linecolor rgb '#444444' title '" +
-                       std::string(mark_kinds[k]) + "'");
+      curves.push_back(std::string("NaN with points ") + mark_styles[k] + " linecolor rgb '" + other_colour +
+                       "' title '" + std::string(mark_kinds[k]) + "'");
     }
+  }
+  if (figure.x == 0) {
+    add_bands_to_key(data, curves);
   }
   out << "plot ";
   const char* separator = "";
@@ -233,6 +276,7 @@ void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::
     const Axes axes = axes_of(data, figure);
     out << "\n# " << figure.name << '\n';
     write_axes(out, figure, axes);
+    write_bands(out, data, figure);
     write_labels(out, data, figure, axes);
     out << "set terminal svg size 800,500 font 'Helvetica,15' background rgb 'white' dashlength 0.5\n"
         << "set output '" << figure.name << ".svg'.suffix\n";

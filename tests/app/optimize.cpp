@@ -81,6 +81,14 @@ TEST_CASE("a study of kind optimum runs with the others, with files and figures"
   CHECK(csv.find("optimum,what,force.cosine (N),damper.normal_load (N),amplitude (m),frequency (Hz)\r\n") ==
         0);
   CHECK(csv.find("\r\n2,optimum,2,") != std::string::npos);
+  const std::string script = place.read("out/best_load.gp");
+  for (const Json& each : json["optima"])
+    for (const Json& range : each["certificate"]["ranges"]["damper.normal_load"]) {
+      const std::string band = "set object rectangle from " + range["lower"].dump() + ", graph 0 to " +
+                               range["upper"].dump() + ", graph 1 behind";
+      CAPTURE(band);
+      CHECK(script.find(band) != std::string::npos);
+    }
   if (std::system("gnuplot --version >/dev/null 2>&1") == 0) {
     const auto files = place.files();
     for (const char* file : {"out/best_load_amplitude.svg", "out/best_load_responses_amplitude.png"})

@@ -2,6 +2,7 @@
 #include "lib/output/support.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
+#include <arcslip/output/draw_figures.hpp>
 #include <arcslip/output/figure_labels.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/process.hpp>
@@ -250,6 +251,41 @@ TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitu
       CAPTURE(c.figure, text);
       CHECK(content(folder / c.figure).find(text) != std::string::npos);
     }
+  }
+}
+
+TEST_CASE("bands lie behind the curve over the parameter, named in the key, and not over the stick share") {
+  const TemporaryFolder folder;
+  auto data = output::figure_data(support::scene(), StudyKind::peaks, std::vector{support::peaks()});
+  data.lines[0].bands = {{"within 5 %", {2.5, 6}}, {"within 1 %", {3.25, 5}}};
+  data.lines[0].marks[0].label = "4.0 N";
+  const auto figures = output::draw_figures(support::scene(), data, folder.path(), "x");
+  const std::string script = content(folder / "x.gp");
+  const auto part = [&](const std::string& from, const std::string& to) {
+    const auto begin = script.find("# " + from + "\n");
+    return script.substr(begin, script.find("# " + to + "\n") - begin);
+  };
+  const std::string wide = "set object rectangle from 2.5, graph 0 to 6, graph 1 behind";
+  const std::string narrow = "set object rectangle from 3.25, graph 0 to 5, graph 1 behind";
+  for (const std::string& figure :
+       {part("x_amplitude", "x_frequency"), part("x_frequency", "x_amplitude_over_stick")}) {
+    CHECK(figure.find(wide) < figure.find(narrow));
+    CHECK(figure.find(narrow) < figure.find("plot data"));
+    CHECK(figure.find("title 'within 1 %'") < figure.find("title 'within 5 %'"));
+    CHECK(figure.find("title 'within 5 %'") != std::string::npos);
+  }
+  const std::string over_stick = script.substr(script.find("# x_amplitude_over_stick\n"));
+  CHECK(over_stick.find("\nunset object\n") != std::string::npos);
+  CHECK(over_stick.find("rectangle") == std::string::npos);
+  CHECK(over_stick.find("within") == std::string::npos);
+  if (!have_gnuplot()) {
+    return;
+  }
+  CHECK(figures.problem == "");
+  const std::string svg = content(folder / "x_amplitude.svg");
+  for (const char* text : {"within 1 %", "within 5 %", "4.0 N"}) {
+    CAPTURE(text);
+    CHECK(svg.find(text) != std::string::npos);
   }
 }
 
