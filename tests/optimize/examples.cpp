@@ -7,6 +7,7 @@
 #include <arcslip/optimize/optimum_study.hpp>
 
 #include <cmath>
+#include <numbers>
 
 using namespace arcslip;
 
@@ -102,5 +103,105 @@ TEST_CASE("the examples' gradients are differences of responses") {
     CAPTURE(file);
     const scene::Scene s = example(file);
     CHECK(check_gradients(s, s.studies[0]) >= 6);
+  }
+  const scene::Scene one = example("levels/scene.json");  // one parameter, one peak
+  CHECK(check_gradients(one, one.studies[0]) == 3);
+}
+
+TEST_CASE("the optimal load grows with the force in proportion, and less beside a cubic spring") {
+  scene::Scene s = example("levels/scene.json");
+  const scene::Study& study = s.studies[0];
+  const auto load_over_force = [&](double cubic) {
+    scene::set(s, "hardening.stiffness", cubic);
+    const auto results = optimize::optimum_study(s, study);
+    std::vector<double> ratios;
+    for (const auto& result : results) {
+      CAPTURE(cubic, result.set[0].second, result.stop.message, result.direct.message);
+      CHECK(result.status == observables::Status::complete);
+      REQUIRE(result.direct.found);
+      CHECK(result.difference_of_design() < 1e-7);
+      CHECK(result.difference_of_amplitude() < 1e-12);
+      REQUIRE(result.optimum.certificate);
+      CHECK(result.optimum.certificate->others_lower);
+      ratios.push_back(result.optimum.design[0] / result.set[0].second);
+    }
+    return ratios;
+  };
+  // Displacements, forces and the load over the level are the same at every level, for any c and N.
+  const auto linear = load_over_force(0);
+  REQUIRE(linear.size() == 4);
+  for (const double ratio : linear) CHECK(std::abs(ratio / linear[0] - 1) < 1e-7);
+  // The spring raises the frequency, so that the viscous damper takes a larger part.
+  const auto cubic = load_over_force(1e9);
+  REQUIRE(cubic.size() == 4);
+  for (std::size_t i = 0; i < cubic.size(); ++i) CHECK(cubic[i] < (i == 0 ? linear[0] : cubic[i - 1]));
+  CHECK(cubic.back() < 0.91 * cubic.front());
+}
+
+TEST_CASE("with one harmonic the optimal loads beside a cubic spring are those of describing functions") {
+  scene::Scene s = example("levels/scene.json");
+  s.harmonics.order = 1;
+  const double m = 1.24, k = 17890, c = 3, cubic = 1e9, kd = 3500, mu = 0.5;
+  // x = A cos(t), cos(b) = 1 - 2 mu Fn / (kd A): the dynamic stiffness D(w) has the real part
+  // k + 3/4 cubic A^2 + kd (b - sin(b) cos(b)) / pi - m w^2 and the imaginary part kd sin(b)^2 / pi + c w.
+  // At a peak A = f0 / min |D| over w; where A is least over Fn, that min is greatest.
+  const auto least_stiffness = [&](double amplitude, double load) {
+    const double b = std::acos(1 - 2 * mu * load / (kd * amplitude));
+    const double real =
+        k + 0.75 * cubic * amplitude * amplitude + kd * (b - std::sin(b) * std::cos(b)) / std::numbers::pi;
+    const double imaginary = kd * std::sin(b) * std::sin(b) / std::numbers::pi;
+    double w = std::sqrt(real / m);
+    for (int i = 0; i < 20; ++i) {  // Newton for d|D|^2/dw = 0
+      const double slope = -2 * m * w * (real - m * w * w) + c * (imaginary + c * w);
+      w -= slope / (-2 * m * real + 6 * m * m * w * w + c * c);
+    }
+    return std::hypot(real - m * w * w, imaginary + c * w);
+  };
+  const auto best_load = [&](double amplitude) {  // by golden section
+    const double share = (std::sqrt(5.0) - 1) / 2;
+    double lower = 0, upper = kd * amplitude / mu;
+    while (upper - lower > 1e-9 * upper) {
+      const double a = upper - share * (upper - lower), b = lower + share * (upper - lower);
+      if (least_stiffness(amplitude, a) > least_stiffness(amplitude, b))
+        upper = b;
+      else
+        lower = a;
+    }
+    return (lower + upper) / 2;
+  };
+  const auto results = optimize::optimum_study(s, s.studies[0]);
+  REQUIRE(results.size() == 4);
+  for (const auto& result : results) {
+    const double force = result.set[0].second;
+    double lower = 1e-5, upper = 1e-1;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = std::sqrt(lower * upper);
+      (middle * least_stiffness(middle, best_load(middle)) < force ? lower : upper) = middle;
+    }
+    CAPTURE(force);
+    CHECK(result.optimum.amplitude == Approx(lower).epsilon(1e-12));
+    CHECK(result.optimum.design[0] == Approx(best_load(lower)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE(
+    "with one harmonic and no viscous damping the optimal load is pi f0 / (2 mu), cubic spring or not") {
+  scene::Scene s = example("levels/scene.json");
+  s.harmonics.order = 1;
+  scene::set(s, "c.value", 0);
+  for (const double cubic : {0.0, 1e9}) {
+    scene::set(s, "hardening.stiffness", cubic);
+    for (const double force : {1.0, 2.0, 4.0}) {
+      scene::set(s, "force.cosine", force);
+      // above pi f0 / (4 mu), below which the resonance is unbounded without the spring
+      scene::set(s, "damper.normal_load", 3 * force);
+      const optimize::OptimumProblem problem{
+          {{"damper.normal_load", 1.7 * force, 20 * force}}, 15, 60, {}, {}};
+      const auto found = optimize::optimum(s, problem);
+      CAPTURE(cubic, force, found.stop.message);
+      REQUIRE(found.design.size() == 1);
+      // mu = 0.5
+      CHECK(found.design[0] == Approx(std::numbers::pi * force).epsilon(1e-6));
+    }
   }
 }
