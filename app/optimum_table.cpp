@@ -35,7 +35,13 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
       out << "  " << over[k].name << " is at its " << (certificate.at_bound[k] < 0 ? "lower" : "upper")
           << " bound\n";
   int active = 0;
-  for (const auto& peak : certificate.peaks) active += peak.active;
+  for (const auto& peak : certificate.peaks) {
+    active += peak.active;
+    const bool lower = peak.kind == optimize::PeakKind::lower_end;
+    if (peak.active && (lower || peak.kind == optimize::PeakKind::upper_end))
+      out << "  the amplitude is largest at the " << (lower ? "lower" : "upper")
+          << " end of the window: a wider one may hold a higher peak\n";
+  }
   out << "  " << active << (active == 1 ? " peak is" : " peaks are")
       << " the highest; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
   for (const auto& other : certificate.others)
