@@ -1,4 +1,5 @@
 #include "bad_scenes.hpp"
+#include "bad_studies.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -337,186 +338,6 @@ void add_ties(std::vector<BadScene>& rows) {
                   "found \"d.normal_load\", which is tied; must be its tie \"t\""});
 }
 
-void add_studies(std::vector<BadScene>& rows) {
-  const std::string study =
-      "{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"for_each\": {\"d.normal_load\": [1, 2]}}";
-  const auto with_study = [&](const std::string& text) { return good_scene_with(study, text); };
-  rows.push_back({"studies that are no list", good_scene_with("[" + study + "]", "{}"), "/studies",
-                  "found an object, must be a list of objects"});
-  rows.push_back({"study that is no object", with_study("\"frf\""), "/studies/0",
-                  "found \"frf\" (a string), must be an object with the keys \"name\", \"kind\""});
-  rows.push_back({"study without a kind", with_study("{\"from\": 1, \"to\": 2}"), "/studies/0/kind",
-                  "found no key \"kind\", which is required: must be one of \"frf\""});
-  rows.push_back({"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
-                  "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"time\", "
-                  "\"optimum\"; did you "
-                  "mean \"frf\"?"});
-  rows.push_back({"kind that is no string", with_study("{\"kind\": 1}"), "/studies/0/kind",
-                  "found 1 (a number), must be one of \"frf\""});
-  rows.push_back({"unknown key of a study",
-                  with_study("{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"foreach\": {}}"),
-                  "/studies/0/foreach", "did you mean \"for_each\"?"});
-  rows.push_back({"name of a study that is no string",
-                  with_study("{\"name\": 1, \"kind\": \"frf\", \"from\": 1, \"to\": 2}"), "/studies/0/name",
-                  "found 1 (a number), must be a string, the name of the study"});
-  for (const std::string name : {"", "../x", "a/b", "a\\\\b", "a\\nb"}) {
-    rows.push_back({"study \"" + name + "\"",
-                    with_study("{\"name\": \"" + name + "\", \"kind\": \"frf\", \"from\": 1, \"to\": 2}"),
-                    "/studies/0/name", "must be a name of 1 to 100 characters"});
-  }
-  rows.push_back({"two studies of one name",
-                  with_study("{\"name\": \"x\", \"kind\": \"frf\", \"from\": 1, \"to\": 2}, "
-                             "{\"name\": \"x\", \"kind\": \"frf\", \"from\": 1, \"to\": 2}"),
-                  "/studies/1/name", "found the name \"x\" again, which is also at /studies/0/name"});
-  rows.push_back({"no from", with_study("{\"kind\": \"frf\", \"to\": 2}"), "/studies/0/from",
-                  "found no key \"from\", which is required: must be above 0 Hz"});
-  rows.push_back(
-      {"no to", with_study("{\"kind\": \"frf\", \"from\": 2}"), "/studies/0/to", "found no key \"to\""});
-  rows.push_back({"from of zero", with_study("{\"kind\": \"frf\", \"from\": 0, \"to\": 2}"),
-                  "/studies/0/from", "found 0, must be above 0 Hz"});
-  rows.push_back({"from that is no number", with_study("{\"kind\": \"frf\", \"from\": \"1\", \"to\": 2}"),
-                  "/studies/0/from", "found \"1\" (a string), must be a number, above 0 Hz"});
-  rows.push_back({"from above to", with_study("{\"kind\": \"frf\", \"from\": 3, \"to\": 2}"), "/studies/0/to",
-                  "found 2, must be above \"from\", which is 3 Hz"});
-  rows.push_back({"from equal to to", with_study("{\"kind\": \"frf\", \"from\": 2, \"to\": 2}"),
-                  "/studies/0/to", "found 2, must be above \"from\", which is 2 Hz"});
-  const auto with_sweep = [&](const std::string& text) {
-    return good_scene_with("{\"d.normal_load\": [1, 2]}", text);
-  };
-  rows.push_back({"for_each that is no object", with_sweep("[1]"), "/studies/0/for_each",
-                  "found a list, must be an object"});
-  rows.push_back({"sweep of an unknown parameter", with_sweep("{\"d.normal_laod\": [1]}"),
-                  "/studies/0/for_each/d.normal_laod", "did you mean \"d.normal_load\"?"});
-  rows.push_back(
-      {"sweep of the frequency", with_sweep("{\"frequency\": [1]}"), "/studies/0/for_each/frequency",
-       "found the unknown parameter \"frequency\", must be one of \"m.value\", \"k.value\", \"k2.value\""});
-  rows.push_back({"sweep twice", with_sweep("{\"m.value\": [1], \"m.value\": [2]}"),
-                  "/studies/0/for_each/m.value", "found the key \"m.value\" again, must stand only once"});
-  rows.push_back({"sweep without values", with_sweep("{\"m.value\": []}"), "/studies/0/for_each/m.value",
-                  "found an empty list, must be a list of at least one number"});
-  rows.push_back({"sweep that is no list", with_sweep("{\"m.value\": 3}"), "/studies/0/for_each/m.value",
-                  "found 3 (a number), must be a list of at least one number"});
-  rows.push_back({"sweep over strings", with_sweep("{\"m.value\": [1, \"2\"]}"),
-                  "/studies/0/for_each/m.value/1",
-                  "found \"2\" (a string), must be a number, at least 0 kg"});
-  rows.push_back({"sweep out of bounds", with_sweep("{\"m.value\": [1, -2]}"),
-                  "/studies/0/for_each/m.value/1", "found -2, must be at least 0 kg"});
-  rows.push_back({"sweep to 1e999", with_sweep("{\"k.value\": [1, 1e999]}"), "/studies/0/for_each/k.value/1",
-                  "found 1e999 (a number that is too large), must be a finite number"});
-}
-
-void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
-  const auto add = [&](const std::string& name, const std::string& study, const std::string& place,
-                       const std::string& message) {
-    rows.push_back(
-        {name,
-         good_scene_with(
-             "{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"for_each\": {\"d.normal_load\": [1, 2]}}",
-             "{" + study + "}"),
-         "/studies/0/" + place, message});
-  };
-  const std::string kind = "\"kind\": \"peaks\", ";
-  const std::string trace = "\"kind\": \"trace\", \"over\": \"d.normal_load\", \"from\": 1, \"to\": 2, ";
-  const std::string over = "\"over\": \"d.normal_load\", ";
-  const std::string range = "\"from\": 1, \"to\": 2, ";
-  const std::string window = "\"frequency\": [1, 2]";
-
-  add("no parameter to go over", kind + range + window, "over",
-      "found no key \"over\", which is required: must be a string, the parameter \"part.field\" or tie");
-  add("over that is no string", kind + range + window + ", \"over\": [\"d.normal_load\"]", "over",
-      "found a list, must be a string, the parameter \"part.field\" or tie");
-  add("over an unknown parameter", kind + range + window + ", \"over\": \"d.normal_laod\"", "over",
-      "found the unknown parameter \"d.normal_laod\", must be one of \"m.value\"");
-  add("over a part without its field", kind + range + window + ", \"over\": \"d\"", "over",
-      "found the unknown parameter \"d\", must be one of \"m.value\"");
-  add("over the frequency", kind + range + window + ", \"over\": \"frequency\"", "over",
-      "must be another parameter; over the frequency is a study of kind \"frf\"");
-  rows.push_back({"over a tied field",
-                  good_scene_with("\"studies\": [{\"kind\": \"frf\", \"from\": 1, \"to\": 2, "
-                                  "\"for_each\": {\"d.normal_load\": [1, 2]}}]",
-                                  "\"ties\": {\"t\": [\"d.normal_load\"]}, \"studies\": [{" + kind + over +
-                                      range + window + "}]"),
-                  "/studies/0/over", "found \"d.normal_load\", which is tied; must be its tie \"t\""});
-  rows.push_back(
-      {"over a tie with the name of a result",
-       good_scene_with("\"studies\": [{\"kind\": \"frf\", \"from\": 1, \"to\": 2, "
-                       "\"for_each\": {\"d.normal_load\": [1, 2]}}]",
-                       "\"ties\": {\"phase\": [\"d.normal_load\"]}, \"studies\": [{" + kind +
-                           "\"over\": \"phase\", " + range + window + "}]"),
-       "/studies/0/over",
-       "found \"phase\", by which results name a quantity of their own; must be a tie of another name"});
-  add("over the same parameter as for_each",
-      kind + over + range + window + ", \"for_each\": {\"d.normal_load\": [1, 2]}", "for_each/d.normal_load",
-      "found \"d.normal_load\", which the study is \"over\"; must be another parameter");
-  add("no beginning of the parameter", kind + over + "\"to\": 2, " + window, "from",
-      "found no key \"from\", which is required: must be at least 0 N");
-  add("beginning below the parameter's bound", kind + over + "\"from\": -1, \"to\": 2, " + window, "from",
-      "found -1, must be at least 0 N");
-  add("beginning at an open bound", kind + "\"over\": \"d.stiffness\", \"from\": 0, \"to\": 2, " + window,
-      "from", "found 0, must be above 0 N/m");
-  add("parameter from above to", kind + over + "\"from\": 3, \"to\": 2, " + window, "to",
-      "found 2, must be above \"from\", which is 3 N");
-  add("pure number from above to",
-      kind + "\"over\": \"d.friction_coefficient\", \"from\": 0.5, \"to\": 0.5, " + window, "to",
-      "found 0.5, must be above \"from\", which is 0.5");
-  add("window of frequencies in a trace", trace + window, "frequency",
-      "found a list, must be one frequency, above 0 Hz");
-  add("trace without its frequency", trace + "\"for_each\": {}", "frequency",
-      "found no key \"frequency\", which is required: must be one frequency, above 0 Hz");
-  add("trace at zero frequency", trace + "\"frequency\": 0", "frequency", "found 0, must be above 0 Hz");
-  add("one frequency in place of a window", kind + over + range + "\"frequency\": 1.5", "frequency",
-      "found 1.5 (a number), must be a window [lower, upper] of two frequencies, each above 0 Hz");
-  add("no window", kind + over + "\"from\": 1, \"to\": 2", "frequency",
-      "found no key \"frequency\", which is required: must be a window [lower, upper] of two frequencies");
-  add("window of three frequencies", kind + over + range + "\"frequency\": [1, 2, 3]", "frequency",
-      "found a list of 3, must be a window [lower, upper] of two frequencies");
-  add("window from zero", kind + over + range + "\"frequency\": [0, 2]", "frequency/0",
-      "found 0, must be above 0 Hz");
-  add("window that ends before it begins", kind + over + range + "\"frequency\": [2, 1]", "frequency/1",
-      "found 1, must be above the lower end, which is 2 Hz");
-  add("window with a string", kind + over + range + "\"frequency\": [1, \"2\"]", "frequency/1",
-      "found \"2\" (a string), must be a number, above 0 Hz");
-  add("parameter of a study over the frequency", "\"kind\": \"frf\", " + over + "\"from\": 1, \"to\": 2",
-      "over",
-      "found the key \"over\", which belongs to studies of kind \"trace\", \"peaks\", \"folds\", "
-      "\"optimum\", must be one "
-      "of "
-      "\"name\", \"kind\", \"from\", \"to\", \"for_each\"");
-  add("misspelt key of a study over a parameter", kind + over + range + window + ", \"frequencies\": 1",
-      "frequencies", "did you mean \"frequency\"?");
-
-  const std::string time = "\"kind\": \"time\", ";
-  const std::string at = time + "\"frequency\": 1, ";
-  add("motion in time without its frequency", time + "\"steps\": 100", "frequency",
-      "found no key \"frequency\", which is required: must be one frequency, above 0 Hz");
-  add("motion in time at two frequencies", time + window, "frequency",
-      "found a list, must be one frequency, above 0 Hz");
-  add("motion in time by an unknown method", at + "\"method\": \"newmrak\"", "method",
-      "found \"newmrak\", must be one of \"shooting\", \"newmark-shooting\", \"newmark\", \"event-driven\"; "
-      "did "
-      "you mean \"newmark\"?");
-  add("motion in time by a method that is no string", at + "\"method\": 2", "method",
-      "found 2 (a number), must be one of \"shooting\"");
-  add("no step in a period", at + "\"steps\": 0", "steps", "found 0, must be an integer from 1 to 10000000");
-  add("half a step in a period", at + "\"steps\": 100.5", "steps",
-      "found 100.5, must be an integer from 1 to 10000000");
-  add("no period at all", at + "\"periods\": 0", "periods",
-      "found 0, must be an integer from 1 to 100000000");
-  add("no recorded period", at + "\"recorded\": -1", "recorded",
-      "found -1, must be an integer from 1 to 100000000");
-  add("more to record than a result can hold", at + "\"recorded\": 20000", "recorded",
-      "found 20000 periods of 1000 steps to record, must be at most 10000000 steps together");
-  add("negative tolerance of a motion", at + "\"tolerance\": -1e-9", "tolerance", "found -1e-09, must be");
-  add("tolerance of a motion that is no number", at + "\"tolerance\": \"1e-9\"", "tolerance",
-      "found \"1e-9\" (a string), must be a number");
-  add("range in a motion in time", at + "\"from\": 1", "from",
-      "found the key \"from\", which belongs to studies of kind \"frf\", \"trace\", \"peaks\", \"folds\", "
-      "must be");
-  add("steps in a frequency response", "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"steps\": 100", "steps",
-      "found the key \"steps\", which belongs to studies of kind \"time\", must be");
-  add("misspelt key of a motion in time", at + "\"step\": 100", "step", "did you mean \"steps\"?");
-}
-
 }  // namespace
 
 const std::string& good_scene() {
@@ -558,8 +379,7 @@ const std::vector<BadScene>& bad_scenes() {
     add_parts(all);
     add_rest(all);
     add_ties(all);
-    add_studies(all);
-    add_studies_over_a_parameter(all);
+    add_bad_studies(all);
     return all;
   }();
   return rows;
