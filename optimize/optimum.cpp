@@ -1,6 +1,7 @@
 #include <arcslip/optimize/optimum.hpp>
 
 #include <arcslip/optimize/design_space.hpp>
+#include <arcslip/optimize/epigraph.hpp>
 #include <arcslip/optimize/text.hpp>
 
 #include <arcslip/observables/curves.hpp>
@@ -233,17 +234,8 @@ class Search {
     constraints_.assign(state.peaks.size() + spare_peaks, {});
     responses_ = -1;
     if (epigraph) {
-      y.push_back(std::log(state.amplitude() / reference_));
-      problem.lower.push_back(least_level);
-      problem.upper.push_back(beyond_all);
-      problem.objective = [this, n](auto x, auto g) {
-        at(x.first(n));
-        if (!g.empty()) {
-          std::fill(g.begin(), g.end(), 0.0);
-          g[n] = 1;
-        }
-        return x[n];
-      };
+      add_level(problem, y, std::log(state.amplitude() / reference_), least_level, beyond_all,
+                [this](auto x) { at(x); });
       for (std::size_t k = 0; k < constraints_.size(); ++k)
         problem.constraints.push_back({text("peak ", k + 1), [this, n, k](auto x, auto g) {
                                          const PeakState& here = at(x.first(n));

@@ -1,6 +1,7 @@
 #include <arcslip/optimize/robust.hpp>
 
 #include <arcslip/optimize/design_space.hpp>
+#include <arcslip/optimize/epigraph.hpp>
 #include <arcslip/optimize/text.hpp>
 
 #include <algorithm>
@@ -117,17 +118,8 @@ class RobustSearch {
     problem.upper = space_.scaled(space_.upper());
     std::vector<double> y = space_.scaled(start_);
     if (epigraph) {
-      y.push_back(std::log(result_.value / reference_));
-      problem.lower.push_back(-far_above);
-      problem.upper.push_back(far_above);
-      problem.objective = [this, n](auto x, auto g) {
-        at(x.first(n));
-        if (!g.empty()) {
-          std::fill(g.begin(), g.end(), 0.0);
-          g[n] = 1;
-        }
-        return x[n];
-      };
+      add_level(problem, y, std::log(result_.value / reference_), -far_above, far_above,
+                [this](auto x) { at(x); });
       for (std::size_t c = 0; c < peaks_.size(); ++c)
         problem.constraints.push_back({text("case ", c + 1), [this, n, c](auto x, auto g) {
                                          at(x.first(n));
