@@ -1,10 +1,9 @@
 #include <arcslip/optimize/optimum.hpp>
 
+#include <arcslip/optimize/constraint_peaks.hpp>
 #include <arcslip/optimize/design_space.hpp>
 #include <arcslip/optimize/epigraph.hpp>
 #include <arcslip/optimize/text.hpp>
-
-#include <arcslip/observables/curves.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -24,7 +23,6 @@ constexpr double seen_before = 1e-8;    // relative: a response that is higher b
 constexpr int most_rounds = 12;
 constexpr double gain = 1e-7;            // relative, of a round that is worth another one
 constexpr int spare_peaks = 3;           // that may come up during a round
-constexpr double same_peak = 0.03;       // relative change of the frequency between responses
 constexpr double least_level = -60;      // of ln A/A_start, in the epigraph
 constexpr double beyond_all = 60;        // ln A/A_start where it is infinite
 constexpr double small_gradient = 1e-8;  // of d ln A / d ln p: what is left is rounding
@@ -181,34 +179,8 @@ class Search {
     return std::log(of.amplitude / reference_);
   }
 
-  // Each constraint keeps its peak while peaks are followed, and takes the nearest one, if there is one near,
-  // of a new response.
   std::optional<std::size_t> peak_of_constraint(std::size_t k) {
-    const PeakState& state = peaks_.state();
-    if (responses_ != peaks_.work().responses) {
-      responses_ = peaks_.work().responses;
-      std::vector<bool> taken(state.peaks.size(), false);
-      for (Constrained& each : constraints_) {
-        each.peak.reset();
-        double nearest = same_peak * each.omega;
-        for (std::size_t i = 0; i < state.peaks.size(); ++i)
-          if (!taken[i] && std::abs(state.peaks[i].omega() - each.omega) < nearest) {
-            nearest = std::abs(state.peaks[i].omega() - each.omega);
-            each.peak = i;
-          }
-        if (each.peak) taken[*each.peak] = true;
-      }
-      for (std::size_t i = 0; i < state.peaks.size(); ++i) {
-        const auto free = std::find_if(constraints_.begin(), constraints_.end(),
-                                       [](const Constrained& each) { return !each.peak; });
-        if (taken[i] || free == constraints_.end()) continue;
-        free->peak = i;
-        free->omega = state.peaks[i].omega();
-      }
-    }
-    Constrained& here = constraints_[k];
-    if (here.peak) here.omega = state.peaks[*here.peak].omega();
-    return here.peak;
+    return constraints_.peak(k, peaks_.state(), peaks_.work().responses);
   }
 
   const PeakState& at(std::span<const double> y) {
@@ -231,8 +203,7 @@ class Search {
     std::vector<double> y = space_.scaled(start_);
     problem.lower = space_.scaled(space_.lower());
     problem.upper = space_.scaled(space_.upper());
-    constraints_.assign(state.peaks.size() + spare_peaks, {});
-    responses_ = -1;
+    constraints_ = ConstraintPeaks(state.peaks.size() + spare_peaks);
     if (epigraph) {
       add_level(problem, y, std::log(state.amplitude() / reference_), least_level, beyond_all,
                 [this](auto x) { at(x); });
@@ -398,12 +369,7 @@ class Search {
   double unit_;
   PeakAmplitude peaks_;
   Optimum result_;
-  struct Constrained {
-    double omega = 0;
-    std::optional<std::size_t> peak{};
-  };
-  std::vector<Constrained> constraints_;  // of the epigraph
-  int responses_ = -1;                    // when they were given their peaks
+  ConstraintPeaks constraints_;  // of the epigraph
   std::vector<double> start_;
   double reference_ = 1;  // A at the start
   double best_excess_ = infinity;
@@ -419,31 +385,6 @@ class Search {
 
 Optimum optimum(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options) {
   return Search(scene, problem, options).run();
-}
-
-DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem) {
-  if (problem.over.size() != 1)
-    throw OptionsError(text("the direct way is over one parameter, not ", problem.over.size()));
-  const DesignSpace space(scene, problem);
-  scene::Study study;
-  study.kind = scene::StudyKind::peaks;
-  study.over = problem.over[0].name;
-  study.from = problem.over[0].lower;
-  study.to = problem.over[0].upper;
-  study.frequency_from = problem.frequency_from;
-  study.frequency_to = problem.frequency_to;
-  DirectOptimum result;
-  result.curves = observables::resonance_peaks(scene, study);
-  for (const auto& curve : result.curves)
-    for (const auto& event : curve.events)
-      if (event.kind == "minimum" && (!result.found || event.point.amplitude < result.point.amplitude)) {
-        result.found = true;
-        result.point = event.point;
-      }
-  if (!result.found)
-    result.message =
-        "no curve of peaks has a minimum within the bounds; " + result.curves.front().stop.message;
-  return result;
 }
 
 }  // namespace arcslip::optimize
