@@ -46,8 +46,7 @@ class RobustSearch {
   }
 
   RobustOptimum run() {
-    std::vector<std::string> notes;
-    start_ = space_.start(notes);
+    start_ = space_.start(result_.notes);
     reference_ = value(start_, true);
     if (!std::isfinite(reference_)) {
       result_.stop.reason = "unbounded";

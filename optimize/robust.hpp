@@ -23,12 +23,13 @@ enum class Robust { worst, mean };
 
 struct RobustOptimum {
   observables::Status status = observables::Status::failed;
-  observables::Stop stop;          // reason: the name of a Reason, or "unbounded"
-  std::vector<double> design;      // empty where there is none
-  double value = 0;                // of the criterion, m
-  std::vector<double> amplitudes;  // A_max of each case there, m
-  int evaluations = 0;             // designs, each for all cases
-  PeakWork work;                   // of all cases
+  observables::Stop stop;            // reason: the name of a Reason, or "unbounded"
+  std::vector<double> design;        // empty where there is none
+  double value = 0;                  // of the criterion, m
+  std::vector<double> amplitudes;    // A_max of each case there, m
+  int evaluations = 0;               // designs, each for all cases
+  PeakWork work;                     // of all cases
+  std::vector<std::string> notes{};  // what was changed: a start that was moved
 };
 
 /// From the scene's own values, which must not be unbounded in any case. Limits on observables are not taken.

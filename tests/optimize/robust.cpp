@@ -50,6 +50,15 @@ TEST_CASE("the best load for the worst of several levels of excitation is that o
   CHECK(reference::error(found.value, peak(pi / 2, 1)) < 1e-10);
 }
 
+TEST_CASE("a start of a robust search outside the bounds is moved, and that is said") {
+  scene::Scene s = closed_form();
+  scene::set(s, "damper.normal_load", 200);
+  const auto found = optimize::robust_optimum(s, over_load, {{{{"force.cosine", 1}}}}, Robust::worst);
+  CHECK(reference::error(found.design[0], pi) < 1e-6);
+  REQUIRE(found.notes.size() == 1);
+  CHECK(found.notes[0].find("was moved to 100") != std::string::npos);
+}
+
 TEST_CASE("the best load for the weighted mean over levels is where the mean's derivative vanishes") {
   const auto found = optimize::robust_optimum(
       closed_form(), over_load, {{{{"force.cosine", 0.5}}, 3}, {{{"force.cosine", 1}}, 1}}, Robust::mean);
