@@ -26,14 +26,8 @@
 namespace arcslip::optimize {
 
 using scene::DesignVariable;
+using scene::LinearLimit;
 using scene::ObservableLimit;
-
-/// at_least <= sum of weight * parameter <= at_most.
-struct LinearLimit {
-  std::vector<std::pair<std::string, double>> weights;
-  double at_least = -std::numeric_limits<double>::infinity();
-  double at_most = std::numeric_limits<double>::infinity();
-};
 
 struct OptimumProblem {
   std::vector<DesignVariable> over;

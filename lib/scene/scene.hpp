@@ -98,6 +98,26 @@ struct ObservableLimit {
   friend bool operator==(const ObservableLimit&, const ObservableLimit&) = default;
 };
 
+/// at_least <= sum of weight * parameter <= at_most; the parameters are those of a design.
+struct LinearLimit {
+  std::vector<std::pair<std::string, double>> weights;
+  double at_least = -std::numeric_limits<double>::infinity();
+  double at_most = std::numeric_limits<double>::infinity();
+  friend bool operator==(const LinearLimit&, const LinearLimit&) = default;
+};
+
+/// One of several circumstances that a design is to serve: a level of the excitation, a sample of what
+/// scatters, a place where the amplitude is read.
+struct DesignCase {
+  std::vector<std::pair<std::string, double>> set;  // parameters and their values
+  double weight = 1;                                // of its amplitude, > 0
+  std::optional<Direction> response{};              // none: the scene's
+  friend bool operator==(const DesignCase&, const DesignCase&) = default;
+};
+
+/// What is to be least: the largest weighted amplitude of all cases, or their weighted mean.
+enum class Criterion { worst, mean };
+
 /// What is to be computed, as data. A for_each list holds a parameter's name and the values it takes;
 /// several lists make their product.
 struct Study {
@@ -108,9 +128,15 @@ struct Study {
   std::string over{};                           // the parameter of trace, peaks and folds; empty for others
   double frequency_from = 0, frequency_to = 0;  // trace, time: both the fixed frequency; else the window
   TimeSettings time{};
-  std::vector<DesignVariable> design{};        // optimum: what it is over, with bounds
-  std::string algorithm{};                     // optimum: by NLopt's own name; empty: the default
-  std::vector<ObservableLimit> constraints{};  // optimum
+  std::vector<DesignVariable> design{};           // optimum: what it is over, with bounds
+  std::string algorithm{};                        // optimum: by NLopt's own name; empty: the default
+  std::vector<ObservableLimit> constraints{};     // optimum
+  std::vector<LinearLimit> linear_constraints{};  // optimum
+  std::vector<DesignCase> cases{};                // optimum: none is one, the scene as it is
+  Criterion criterion = Criterion::worst;         // optimum, over the cases
+  std::vector<DesignVariable>
+      scatter{};  // optimum, worst: the highest of all values between these bounds counts
+  std::optional<DesignVariable> along{};  // optimum: it is followed over this parameter, from lower to upper
   friend bool operator==(const Study&, const Study&) = default;
 };
 
