@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
@@ -22,14 +23,16 @@ struct ToleranceRange {
 struct CertifiedPeak {
   PeakKind kind = PeakKind::resonance;
   double omega = 0, amplitude = 0;  // rad/s, m
-  bool active = false;              // as high as the highest, within 1e-6
+  bool active = false;              // as high as the highest, within 1e-6; mean: of its case
   double weight = 0;                // its multiplier: those of the active peaks add up to 1
+  std::size_t in_case = 0;          // of Optimum::cases
 };
 
 /// A response on another branch than that of the peaks.
 struct OtherResponse {
   std::string found_by;             // "sweep downwards", "deflation"
   double omega = 0, amplitude = 0;  // rad/s, m
+  std::size_t in_case = 0;          // of Optimum::cases
 };
 
 struct Certificate {

@@ -1,14 +1,23 @@
 #pragma once
 // The design of least resonance: values of named parameters, a normal load or any other, for which the
-// largest amplitude in a window of the excitation frequency is least.
+// largest amplitude in a window of the excitation frequency is least, in one case or in several.
 //
-//   minimise A_max(p) over lower <= p <= upper, limits on observables of the peaks, linear limits on p
+//   worst   minimise over p  max_c w_c A_c(p)
+//   mean    minimise over p  sum_c w_c A_c(p) / sum_c w_c
 //
-// Limits hold at every peak that is watched (peak_amplitude.hpp), so that they do not jump where two peaks
-// are equally high. Searched is ln(A_max) over ln p (over p where a range touches zero or both signs). Where
-// several peaks are watched, algorithms with gradients and constraints solve min t, ln A_k(p) <= t
-// (epigraph); the others see the largest. At the end the response is traced anew: where a peak shows that was
-// not watched, the search goes on from there with it.
+//   A_c(p): the largest amplitude over the window in case c; lower <= p <= upper, limits on observables of
+//   the peaks, linear limits on p. No case: one of weight 1, the scene as it is, and A_1 is minimised.
+//
+// Limits hold at every peak that is watched (peak_amplitude.hpp) in every case, so that they do not jump
+// where two peaks are equally high. Searched is the logarithm of the criterion over ln p (over p where a
+// range touches zero or both signs). Where what is to be least has a kink, algorithms with gradients and
+// constraints bound each peak k by a level instead (epigraph): min t, ln w_c A_ck(p) <= t, or for the mean
+// with a level for each case; the others see the criterion itself. At the end the responses are traced anew:
+// where a peak shows that was not watched, the search goes on from there with it.
+//
+// What scatters (worst): q_lower <= q <= q_upper of parameters that are not the design's, and the largest
+// amplitude over all of them counts. Some q make cases; the worst q at the design found makes another, until
+// none is higher (Mutapcic & Boyd 2009).
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/optimize/certificate.hpp>
@@ -16,6 +25,7 @@
 #include <arcslip/optimize/peak_amplitude.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -25,6 +35,8 @@
 
 namespace arcslip::optimize {
 
+using scene::Criterion;
+using scene::DesignCase;
 using scene::DesignVariable;
 using scene::LinearLimit;
 using scene::ObservableLimit;
@@ -34,13 +46,16 @@ struct OptimumProblem {
   double frequency_from = 0, frequency_to = 0;  // window, in the scene's unit
   std::vector<ObservableLimit> limits{};
   std::vector<LinearLimit> linear_limits{};
+  std::vector<DesignCase> cases{};  // none: one, the scene as it is
+  Criterion criterion = Criterion::worst;
+  std::vector<DesignVariable> scatter{};  // each case counts with its highest amplitude between these bounds
 };
 
 struct OptimumProgress {
   int evaluations = 0;
   std::span<const double> design;  // of the last one
-  double omega = 0;                // of its highest peak, rad/s; 0 where there is none
-  double amplitude = 0, best = 0;  // m; of the last one, and the least so far where all limits hold
+  double omega = 0;                // of the highest peak of the highest case, rad/s; 0 where there is none
+  double amplitude = 0, best = 0;  // m, of the criterion: there, and the least so far where all limits hold
 };
 
 struct OptimumOptions {
@@ -59,33 +74,51 @@ struct OptimumOptions {
 /// A design that was tried.
 struct Evaluation {
   std::vector<double> design;
-  double amplitude = 0;  // m; infinity where it is unbounded
+  double amplitude = 0;  // m, of the criterion over the cases of that time; infinity where one is unbounded
+};
+
+/// A case at the optimum; where parameters scatter, a case with values that they take.
+struct CaseResult {
+  std::size_t of = 0;                                   // of OptimumProblem::cases; 0 where there are none
+  std::vector<std::pair<std::string, double>> set;      // what that case sets
+  std::vector<std::pair<std::string, double>> scatter;  // what scatters, here
+  double weight = 1;
+  double amplitude = 0;              // A_c, m, without the weight
+  observables::ResponsePoint point;  // at its highest peak
+  bool active = false;    // worst: w_c A_c is the highest, within 1e-6, relative; mean: every case is
+  double multiplier = 0;  // its share in the balance of gradients at the optimum; all add up to 1
 };
 
 struct Optimum {
   observables::Status status = observables::Status::failed;
   /// reason: the name of a Reason, or "flat" (the amplitude does not depend on the design), "unbounded" (it
-  /// is infinite wherever it was looked at), "no_response".
+  /// is infinite wherever it was looked at), "no_response", "scatter_limit" (the worst of what scatters was
+  /// still higher when as many cases as allowed had been added).
   observables::Stop stop;
   std::vector<double> design;        // best so far; empty where there is none
-  double amplitude = 0;              // A_max there, m
-  observables::ResponsePoint point;  // at the highest peak
+  double amplitude = 0;              // of the criterion there, m: A_max where there is one case of weight 1
+  std::vector<CaseResult> cases;     // in the order of the problem; those of one case follow one another
+  observables::ResponsePoint point;  // at the highest peak of the case of highest w_c A_c
   bool feasible = false;             // all limits hold there
   std::string algorithm;
-  bool epigraph = false;  // several peaks, each a constraint
+  bool epigraph = false;   // several peaks, each a constraint
+  int scatter_rounds = 0;  // searches for the worst of what scatters
   std::vector<Evaluation> evaluations;
-  PeakWork work;
+  PeakWork work;                   // of all cases
   double seconds = 0;              // of the search and its certificate
   std::vector<std::string> notes;  // what was changed or seen: a start that was moved, peaks that came up
   std::optional<Certificate> certificate;
 };
 
 /// From the scene's own values of the parameters. Throws OptionsError for bad input: no, reversed or equal
-/// bounds, bounds that the parameters may not take, a name twice, an unknown algorithm or observable;
-/// scene::ParameterError for an unknown parameter.
+/// bounds, bounds that the parameters may not take, a name twice, an unknown algorithm or observable, a
+/// weight that is not above 0, a case or scatter in a parameter of the design, a response of a case that is
+/// none, scatter beside the mean; scene::ParameterError for an unknown parameter.
 Optimum optimum(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options = {});
 
-/// The direct way, over one parameter: the least minimum of A_max on the curves of resonance peaks.
+/// The direct way, over one parameter and without cases: the least minimum of A_max on the curves of
+/// resonance peaks. Throws as optimum(), and OptionsError where there are several parameters, cases, or
+/// scatter.
 struct DirectOptimum {
   bool found = false;
   observables::ResponsePoint point;                 // `over` is the parameter
