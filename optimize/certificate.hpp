@@ -1,7 +1,7 @@
 #pragma once
-// How sure, and how sharp, an optimum is.
+// How sure, and how sharp, an optimum is: of V, the amplitude or what is made of several (cases.hpp).
 
-#include <arcslip/optimize/peak_amplitude.hpp>
+#include <arcslip/optimize/cases.hpp>
 
 #include <Eigen/Core>
 
@@ -13,7 +13,7 @@
 
 namespace arcslip::optimize {
 
-/// The values of one parameter, with the others as at the optimum, for which A_max <= (1 + share) A_opt.
+/// The values of one parameter, with the others as at the optimum, for which V <= (1 + share) V_opt.
 struct ToleranceRange {
   double share = 0;
   double lower = 0, upper = 0;
@@ -36,21 +36,22 @@ struct OtherResponse {
 };
 
 struct Certificate {
-  std::vector<double> gradient;  // dA/dp_k at the highest peak, m over the unit of p_k
+  std::vector<double> gradient;  // dV/dp_k, of a highest peak where there are several, m over the unit of p_k
   double stationarity = 0;       // |sum of weights * d ln A / d ln p|, without what a bound holds
   std::vector<double>
       to_minimum;             // Newton step from the optimum to the zero of the gradient; empty if kinked
-  Eigen::MatrixXd curvature;  // d2A/dp_j dp_k; empty where several peaks are active, or at a kink
+  Eigen::MatrixXd curvature;  // d2V/dp_j dp_k; empty where several peaks of a case are active (worst: of all
+                              // cases), or at a kink
   std::vector<std::vector<ToleranceRange>> ranges;  // of each parameter: shares 0.01 and 0.05
   std::vector<CertifiedPeak> peaks;                 // that are watched
   std::vector<int> at_bound;                        // of each parameter: -1 lower, 1 upper, 0 inside
   std::vector<OtherResponse> others;                // found on other branches, at the optimum's design
-  bool others_lower = true;                         // none of them is higher
+  bool others_lower = true;  // none of them is higher than the highest of its case (worst: of all, weighted)
 };
 
-/// At the design of the last traced response of `peaks`, which is the optimum; it moves elsewhere meanwhile.
-/// go_on: asked between parts; false ends the certificate where it is.
-Certificate certify(PeakAmplitude& peaks, std::span<const double> lower, std::span<const double> upper,
+/// At the design where the cases stand, which is the optimum; they move elsewhere meanwhile. go_on: asked
+/// between parts; false ends the certificate where it is.
+Certificate certify(Cases& cases, std::span<const double> lower, std::span<const double> upper,
                     const std::function<bool()>& go_on = {});
 
 }  // namespace arcslip::optimize

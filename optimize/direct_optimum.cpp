@@ -8,6 +8,8 @@ namespace arcslip::optimize {
 DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem) {
   if (problem.over.size() != 1)
     throw OptionsError(text("the direct way is over one parameter, not ", problem.over.size()));
+  if (!problem.cases.empty() || !problem.scatter.empty())
+    throw OptionsError("the direct way takes no cases, and nothing that scatters");
   const DesignSpace space(scene, problem);
   scene::Study study;
   study.kind = scene::StudyKind::peaks;

@@ -1,9 +1,11 @@
 #pragma once
-// min over y of max_k f_k(y) as min t subject to f_k(y) <= t: t becomes the last variable. Not installed.
+// min over y of sum_g max_k f_gk(y) as min sum_g exp(t_g) subject to ln f_gk(y) <= t_g: the levels t_g become
+// the last variables. One group: min t_1. Not installed.
 
 #include <arcslip/optimize/minimize.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <utility>
@@ -11,21 +13,26 @@
 
 namespace arcslip::optimize {
 
-/// Adds t to the variables of a problem and to its start, and makes it the objective. visit: told of every y
-/// at which the objective is asked for. The constraints f_k(y) - t <= 0 are the caller's.
-inline void add_level(Problem& problem, std::vector<double>& start, double level, double lower, double upper,
-                      std::function<void(std::span<const double>)> visit) {
+/// Adds levels to the variables of a problem and to its start, and makes ln sum_g exp(t_g) the objective.
+/// visit: told of every y at which the objective is asked for. The constraints ln f_gk(y) - t_g <= 0 are the
+/// caller's.
+inline void add_levels(Problem& problem, std::vector<double>& start, std::span<const double> levels,
+                       double lower, double upper, std::function<void(std::span<const double>)> visit) {
   const std::size_t n = start.size();
-  start.push_back(level);
-  problem.lower.push_back(lower);
-  problem.upper.push_back(upper);
+  start.insert(start.end(), levels.begin(), levels.end());
+  problem.lower.insert(problem.lower.end(), levels.size(), lower);
+  problem.upper.insert(problem.upper.end(), levels.size(), upper);
   problem.objective = [n, visit = std::move(visit)](std::span<const double> x, std::span<double> g) {
     visit(x.first(n));
+    const auto t = x.subspan(n);
+    const double most = *std::max_element(t.begin(), t.end());
+    double sum = 0;
+    for (const double each : t) sum += std::exp(each - most);
     if (!g.empty()) {
       std::fill(g.begin(), g.end(), 0.0);
-      g[n] = 1;
+      for (std::size_t k = 0; k < t.size(); ++k) g[n + k] = std::exp(t[k] - most) / sum;
     }
-    return x[n];
+    return most + std::log(sum);
   };
 }
 

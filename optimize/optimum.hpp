@@ -17,7 +17,7 @@
 //
 // What scatters (worst): q_lower <= q <= q_upper of parameters that are not the design's, and the largest
 // amplitude over all of them counts. Some q make cases; the worst q at the design found makes another, until
-// none is higher (Mutapcic & Boyd 2009).
+// local searches find none that is higher (Mutapcic & Boyd 2009). Limits hold at the q that are cases.
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/optimize/certificate.hpp>
@@ -63,7 +63,8 @@ struct OptimumOptions {
   Tolerances tolerances{
       .x_relative = 0, .x_absolute = 1e-7, .f_relative = 0, .f_absolute = 1e-13};  // of ln p, ln A
   int evaluations = 1000;
-  double seconds = 0;  // 0: no limit
+  int scatter_rounds = 30;  // searches for the worst of what scatters, >= 1
+  double seconds = 0;       // 0: no limit
   std::optional<LocalOptions> local{};
   int population = 0;
   unsigned long seed = 1;
@@ -93,11 +94,11 @@ struct Optimum {
   observables::Status status = observables::Status::failed;
   /// reason: the name of a Reason, or "flat" (the amplitude does not depend on the design), "unbounded" (it
   /// is infinite wherever it was looked at), "no_response", "scatter_limit" (the worst of what scatters was
-  /// still higher when as many cases as allowed had been added).
+  /// still higher after scatter_rounds).
   observables::Stop stop;
   std::vector<double> design;        // best so far; empty where there is none
   double amplitude = 0;              // of the criterion there, m: A_max where there is one case of weight 1
-  std::vector<CaseResult> cases;     // in the order of the problem; those of one case follow one another
+  std::vector<CaseResult> cases;     // of the problem, each with some of what scatters; then those added
   observables::ResponsePoint point;  // at the highest peak of the case of highest w_c A_c
   bool feasible = false;             // all limits hold there
   std::string algorithm;

@@ -1,0 +1,140 @@
+#include <arcslip/optimize/formulation.hpp>
+
+#include <arcslip/optimize/epigraph.hpp>
+#include <arcslip/optimize/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace arcslip::optimize {
+namespace {
+
+constexpr int spare_peaks = 3;       // that may come up during a round, in each case
+constexpr double least_level = -60;  // of ln V/V_0
+constexpr double beyond_all = 60;    // ln V/V_0 where it is infinite
+constexpr double tolerance = 1e-8;   // of limits on observables, relative
+
+}  // namespace
+
+Formulation::Formulation(const OptimumProblem& problem, const DesignSpace& space, Cases& cases)
+    : space_(space), cases_(cases) {
+  for (const ObservableLimit& limit : problem.limits) {
+    const auto add = [&](double sign, double bound) {
+      if (std::isfinite(bound))
+        limits_.push_back({space.observable(limit.observable), limit.observable, sign, bound});
+    };
+    add(1, limit.at_most);
+    add(-1, limit.at_least);
+  }
+}
+
+Problem Formulation::problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
+                             std::function<void(std::span<const double>)> move) {
+  const std::size_t n = y.size();
+  reference_ = reference;
+  move_ = std::move(move);
+  constraints_.clear();
+  std::vector<std::size_t> peaks(cases_.groups(), 0);
+  for (std::size_t c = 0; c < cases_.size(); ++c) {
+    constraints_.emplace_back(cases_.state(c).peaks.size() + spare_peaks);
+    peaks[cases_.group(c)] += cases_.state(c).peaks.size();
+  }
+  epigraph_ = *std::max_element(peaks.begin(), peaks.end()) > 1 && algorithm.takes_constraints &&
+              algorithm.name.size() > 1 && algorithm.name[1] == 'D';
+  Problem problem;
+  problem.lower = space_.scaled(space_.lower());
+  problem.upper = space_.scaled(space_.upper());
+  if (epigraph_)
+    add_epigraph(problem, y);
+  else
+    problem.objective = [this](auto x, auto g) {
+      move_(x);
+      const double value = cases_.value();
+      std::fill(g.begin(), g.end(), 0.0);
+      if (std::isinf(value)) return value;
+      if (!g.empty()) {
+        const Vector gradient = cases_.gradient();
+        for (std::size_t k = 0; k < g.size(); ++k)
+          g[k] = gradient[static_cast<Eigen::Index>(k)] / value * space_.slope(k, cases_.state(0).design[k]);
+      }
+      return std::log(value / reference_);
+    };
+  add_limits(problem, n);
+  space_.add_linear(problem);
+  return problem;
+}
+
+void Formulation::add_epigraph(Problem& problem, std::vector<double>& y) {
+  const std::size_t n = y.size();
+  std::vector<double> levels;
+  for (std::size_t g = 0; g < cases_.groups(); ++g)
+    levels.push_back(std::log(cases_.height(cases_.highest_of(g)) / reference_));
+  add_levels(problem, y, levels, least_level, beyond_all, move_);
+  for (std::size_t c = 0; c < cases_.size(); ++c)
+    for (std::size_t k = 0; k < constraints_[c].size(); ++k)
+      problem.constraints.push_back(
+          {cases_.size() > 1 ? text("peak ", k + 1, " of case ", c + 1) : text("peak ", k + 1),
+           [this, n, c, k](auto x, auto g) {
+             move_(x.first(n));
+             std::fill(g.begin(), g.end(), 0.0);
+             const std::size_t t = n + cases_.group(c);
+             if (cases_.state(c).unbounded) return beyond_all - x[t];
+             const auto at = peak(c, k);
+             if (!at) return -1.0;
+             const double value = level(c, *at, g.first(std::min(n, g.size())));
+             if (!g.empty()) g[t] = -1;
+             return value - x[t];
+           }});
+}
+
+void Formulation::add_limits(Problem& problem, std::size_t n) {
+  for (const Limited& each : limits_)
+    for (std::size_t c = 0; c < cases_.size(); ++c)
+      for (std::size_t k = 0; k < constraints_[c].size(); ++k)
+        problem.constraints.push_back({each.name, [this, n, c, k, &each](auto x, auto g) {
+                                         move_(x.first(n));
+                                         std::fill(g.begin(), g.end(), 0.0);
+                                         if (cases_.state(c).unbounded) return 1.0;
+                                         const auto at = peak(c, k);
+                                         return at ? limit(each, c, *at, g.first(std::min(n, g.size())))
+                                                   : -1.0;
+                                       }});
+}
+
+double Formulation::excess() {
+  double excess = 0;
+  for (const Limited& each : limits_)
+    for (std::size_t c = 0; c < cases_.size(); ++c) {
+      const PeakState& state = cases_.state(c);
+      if (state.unbounded || state.peaks.empty()) return 1;
+      for (std::size_t i = 0; i < state.peaks.size(); ++i)
+        if (const double value = limit(each, c, i, {}); value > tolerance) excess = std::max(excess, value);
+    }
+  return excess;
+}
+
+// ln w A/V_0 of a peak, by y.
+double Formulation::level(std::size_t c, std::size_t peak, std::span<double> gradient) const {
+  const PeakState& state = cases_.state(c);
+  const Peak& of = state.peaks[peak];
+  for (std::size_t k = 0; k < gradient.size(); ++k)
+    gradient[k] = of.gradient[static_cast<Eigen::Index>(k)] / of.amplitude * space_.slope(k, state.design[k]);
+  return std::log(cases_.weight(c) * of.amplitude / reference_);
+}
+
+double Formulation::limit(const Limited& each, std::size_t c, std::size_t peak, std::span<double> gradient) {
+  PeakAmplitude& peaks = cases_.peaks(c);
+  const PeakState& state = peaks.state();
+  const double scale = each.sign / (each.bound != 0 ? std::abs(each.bound) : 1);
+  for (std::size_t k = 0; k < gradient.size(); ++k)
+    gradient[k] = scale * peaks.change(peak, k, each.observable) * space_.slope(k, state.design[k]);
+  return scale * (each.observable(peaks.observe(state.peaks[peak])) - each.bound);
+}
+
+std::optional<std::size_t> Formulation::peak(std::size_t c, std::size_t constraint) {
+  return constraints_[c].peak(constraint, cases_.state(c), cases_.peaks(c).work().responses);
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,57 @@
+#pragma once
+// What is to be least, and the limits, as a problem of NLopt. Not installed.
+//
+//   smooth     objective ln V/V_0 (cases.hpp), with the gradient of a highest peak
+//   epigraph   levels t_g for groups g of cases, constraints ln w_c A_ck/V_0 <= t_g for the peaks k
+//
+// and for both a constraint for each limit on an observable at each peak of each case, and linear limits.
+
+#include <arcslip/optimize/cases.hpp>
+#include <arcslip/optimize/constraint_peaks.hpp>
+#include <arcslip/optimize/design_space.hpp>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace arcslip::optimize {
+
+class Formulation {
+ public:
+  /// Throws OptionsError for an unknown observable and reversed limits. Refers to its arguments.
+  Formulation(const OptimumProblem& problem, const DesignSpace& space, Cases& cases);
+
+  /// For a run from where the cases stand, all finite. reference: V_0. move: takes the cases to y's design.
+  /// y: the start; levels are added to it. Refers to this object.
+  Problem problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
+                  std::function<void(std::span<const double> y)> move);
+
+  /// Whether the last one was an epigraph.
+  bool epigraph() const { return epigraph_; }
+
+  /// By how much the worst of the limits is exceeded where the cases stand, relative; 0 where all hold.
+  double excess();
+
+ private:
+  struct Limited {
+    PeakAmplitude::Observable observable;
+    std::string name;
+    double sign, bound;  // sign * (observable - bound)/scale <= 0
+  };
+
+  double level(std::size_t c, std::size_t peak, std::span<double> gradient) const;
+  double limit(const Limited& each, std::size_t c, std::size_t peak, std::span<double> gradient);
+  std::optional<std::size_t> peak(std::size_t c, std::size_t constraint);
+  void add_epigraph(Problem& problem, std::vector<double>& y);
+  void add_limits(Problem& problem, std::size_t n);
+
+  const DesignSpace& space_;
+  Cases& cases_;
+  std::vector<Limited> limits_;
+  std::vector<ConstraintPeaks> constraints_;  // of each case
+  std::function<void(std::span<const double>)> move_;
+  double reference_ = 1;
+  bool epigraph_ = false;
+};
+
+}  // namespace arcslip::optimize

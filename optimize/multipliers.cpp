@@ -1,0 +1,124 @@
+#include <arcslip/optimize/multipliers.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::optimize {
+namespace {
+
+constexpr double as_high = 1e-6;      // relative: a peak nearer to the highest is active
+constexpr double on_bound = 1e-9;     // relative
+constexpr double no_descent = 1e-12;  // of |G|^2: a multiplier that would gain less stays 0
+constexpr int steps_per_column = 20;  // far more than there are: guards against cycling by rounding
+
+// Minimum of |G m| with the sums of the groups, over the columns that are free; the others stay 0.
+Eigen::VectorXd minimum_of(const Eigen::MatrixXd& G, const std::vector<std::size_t>& group,
+                           const std::vector<double>& shares, const std::vector<bool>& is_free) {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index i = 0; i < G.cols(); ++i)
+    if (is_free[static_cast<std::size_t>(i)]) columns.push_back(i);
+  const auto k = static_cast<Eigen::Index>(columns.size()), m = static_cast<Eigen::Index>(shares.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(k + m, k + m);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(k + m);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const Eigen::Index column = columns[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < k; ++j)
+      A(i, j) = G.col(column).dot(G.col(columns[static_cast<std::size_t>(j)]));
+    const auto row = k + static_cast<Eigen::Index>(group[static_cast<std::size_t>(column)]);
+    A(i, row) = A(row, i) = 1;
+  }
+  for (Eigen::Index g = 0; g < m; ++g) b[k + g] = shares[static_cast<std::size_t>(g)];
+  const Eigen::VectorXd x = A.fullPivLu().solve(b);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(G.cols());
+  for (Eigen::Index i = 0; i < k; ++i) weights[columns[static_cast<std::size_t>(i)]] = x[i];
+  return weights;
+}
+
+}  // namespace
+
+Eigen::VectorXd least_combination(const Eigen::MatrixXd& G, const std::vector<std::size_t>& group,
+                                  const std::vector<double>& shares) {
+  const auto n = static_cast<std::size_t>(G.cols());
+  std::vector<bool> is_free(n, true);
+  Eigen::VectorXd weights(G.cols());
+  for (std::size_t i = 0; i < n; ++i)
+    weights[static_cast<Eigen::Index>(i)] =
+        shares[group[i]] / static_cast<double>(std::count(group.begin(), group.end(), group[i]));
+  for (std::size_t step = 0; step < steps_per_column * n; ++step) {
+    const Eigen::VectorXd next = minimum_of(G, group, shares, is_free);
+    double way = 1;
+    Eigen::Index first = -1;  // that becomes 0 on the way
+    for (Eigen::Index i = 0; i < next.size(); ++i)
+      if (next[i] < 0 && weights[i] / (weights[i] - next[i]) < way) {
+        way = weights[i] / (weights[i] - next[i]);
+        first = i;
+      }
+    weights += way * (next - weights);
+    if (first >= 0) {
+      weights[first] = 0;
+      is_free[static_cast<std::size_t>(first)] = false;
+      continue;
+    }
+    // d|G m|^2/2 of a column against that of the free ones of its group, which are equal.
+    const Eigen::VectorXd slope = G.transpose() * (G * weights);
+    std::vector<double> level(shares.size(), 0);
+    for (std::size_t i = 0; i < n; ++i)
+      if (is_free[i]) level[group[i]] = slope[static_cast<Eigen::Index>(i)];
+    std::size_t best = n;
+    double most = -no_descent * G.squaredNorm();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double gain = slope[static_cast<Eigen::Index>(i)] - level[group[i]];
+      if (is_free[i] || gain >= most) continue;
+      most = gain;
+      best = i;
+    }
+    if (best == n) break;
+    is_free[best] = true;
+  }
+  return weights;
+}
+
+Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper) {
+  Balance result;
+  const std::vector<double>& design = cases.state(0).design;
+  const auto n = static_cast<Eigen::Index>(design.size());
+  for (std::size_t k = 0; k < design.size(); ++k) {
+    const double width = on_bound * (upper[k] - lower[k]);
+    result.at_bound.push_back(design[k] <= lower[k] + width ? -1 : design[k] >= upper[k] - width ? 1 : 0);
+  }
+  std::vector<std::size_t> group, count(cases.groups(), 0);
+  std::vector<double> heights, shares;
+  for (std::size_t g = 0; g < cases.groups(); ++g) {
+    heights.push_back(cases.height(cases.highest_of(g)));
+    shares.push_back(heights[g] / cases.value());
+  }
+  for (std::size_t c = 0; c < cases.size(); ++c)
+    for (std::size_t i = 0; i < cases.state(c).peaks.size(); ++i) {
+      const Peak& peak = cases.state(c).peaks[i];
+      const std::size_t g = cases.group(c);
+      if (cases.weight(c) * peak.amplitude < (1 - as_high) * heights[g]) continue;
+      result.active.push_back({c, i});
+      group.push_back(g);
+      if (++count[g] > 1 || peak.kind == PeakKind::kink) result.smooth = false;
+    }
+  Eigen::MatrixXd G(n, static_cast<Eigen::Index>(result.active.size()));
+  for (std::size_t i = 0; i < result.active.size(); ++i) {
+    const Peak& peak = cases.state(result.active[i].in_case).peaks[result.active[i].peak];
+    for (Eigen::Index k = 0; k < n; ++k)
+      G(k, static_cast<Eigen::Index>(i)) =
+          peak.gradient[k] * design[static_cast<std::size_t>(k)] / peak.amplitude;
+  }
+  Eigen::VectorXd weights = least_combination(G, group, shares), sum = G * weights;
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (result.at_bound[static_cast<std::size_t>(k)] * sum[k] < 0) G.row(k).setZero();
+  weights = least_combination(G, group, shares);
+  sum = G * weights;
+  result.stationarity = sum.norm();
+  for (std::size_t i = 0; i < result.active.size(); ++i)
+    result.active[i].multiplier = weights[static_cast<Eigen::Index>(i)];
+  return result;
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,40 @@
+#pragma once
+// The balance of gradients at a minimum of V (cases.hpp): multipliers m_ck >= 0 of the active peaks, those
+// whose w_c A_ck is the highest of their group g,
+//
+//   minimise |sum of m_ck d ln A_ck / d ln p|  such that the m_ck of group g add up to its share of V
+//
+// without the components that a bound holds against the descent. The minimum is 0 where p is stationary, and
+// all multipliers add up to 1. Not installed.
+
+#include <arcslip/optimize/cases.hpp>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace arcslip::optimize {
+
+struct ActivePeak {
+  std::size_t in_case, peak;  // of the cases, and of its state
+  double multiplier = 0;
+};
+
+struct Balance {
+  std::vector<ActivePeak> active;
+  double stationarity = 0;    // the norm that is left
+  std::vector<int> at_bound;  // of each parameter: -1 lower, 1 upper, 0 inside
+  bool smooth = true;         // one active peak in each group, and none at a kink
+};
+
+/// Where the cases stand, V finite.
+Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper);
+
+/// m >= 0 of least |G m| such that the entries of each group add up to its share (> 0, groups counted from
+/// 0, none empty). An active-set method: G need not have full rank.
+Eigen::VectorXd least_combination(const Eigen::MatrixXd& G, const std::vector<std::size_t>& group,
+                                  const std::vector<double>& shares);
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,163 @@
+#include <arcslip/optimize/scenarios.hpp>
+
+#include <arcslip/optimize/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace arcslip::optimize {
+namespace {
+
+constexpr std::size_t most_with_corners = 3;  // parameters: beyond, their corners are too many
+
+bool contains(const std::vector<DesignVariable>& variables, const std::string& name) {
+  return std::any_of(variables.begin(), variables.end(),
+                     [&](const DesignVariable& variable) { return variable.name == name; });
+}
+
+scene::Scene with_case(scene::Scene scene, const DesignCase& each) {
+  for (const auto& [name, value] : each.set) scene::set(scene, name, value);
+  if (each.response) scene.response = *each.response;
+  return scene;
+}
+
+void check(const DesignCase& each, const scene::Scene& scene, const OptimumProblem& problem) {
+  if (!(each.weight > 0 && std::isfinite(each.weight)))
+    throw OptionsError(text("the weight of a case is ", each.weight, ", must be above 0"));
+  for (const auto& [name, value] : each.set) {
+    if (contains(problem.over, name))
+      throw OptionsError("a case sets \"" + name + "\", which the search is over");
+    if (contains(problem.scatter, name)) throw OptionsError("a case sets \"" + name + "\", which scatters");
+  }
+  if (!each.response) return;
+  bool some = false;
+  for (const scene::Term& term : *each.response) {
+    if (term.dof < 0 || term.dof >= static_cast<int>(scene.dofs.size()))
+      throw OptionsError(
+          text("the response of a case is at degree of freedom ", term.dof, " of ", scene.dofs.size()));
+    if (!std::isfinite(term.weight))
+      throw OptionsError(text("a weight in the response of a case is ", term.weight));
+    some = some || term.weight != 0;
+  }
+  if (!some) throw OptionsError("the response of a case is at no degree of freedom");
+}
+
+}  // namespace
+
+Scenarios::Scenarios(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space)
+    : scene_(scene), problem_(problem), space_(space), cases_(problem.cases) {
+  for (const DesignCase& each : cases_) check(each, scene, problem);
+  if (cases_.empty()) cases_.emplace_back();
+  const double unit = scene::to_rad_per_s(scene.frequency_unit);
+  window_ = {problem.frequency_from * unit, problem.frequency_to * unit};
+  if (problem.scatter.empty()) return;
+  for (const DesignVariable& variable : problem.scatter)
+    if (contains(problem.over, variable.name))
+      throw OptionsError("\"" + variable.name + "\" scatters, and the search is over it");
+  if (problem.criterion == Criterion::mean)
+    throw OptionsError("what scatters counts with its worst, and goes with the criterion worst only");
+  box_.emplace(scene, OptimumProblem{problem.scatter, problem.frequency_from, problem.frequency_to});
+}
+
+std::vector<double> Scenarios::centre() const {
+  std::vector<double> y = box_->scaled(box_->lower());
+  const std::vector<double> upper = box_->scaled(box_->upper());
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = 0.5 * (y[i] + upper[i]);
+  return box_->design(y);
+}
+
+std::vector<Scenario> Scenarios::first() const {
+  std::vector<std::vector<double>> values;
+  if (!box_) {
+    values.emplace_back();
+  } else if (const std::size_t n = problem_.scatter.size(); n <= most_with_corners) {
+    for (std::size_t corner = 0; corner < std::size_t{1} << n; ++corner) {
+      values.emplace_back();
+      for (std::size_t k = 0; k < n; ++k)
+        values.back().push_back((corner >> k & 1) != 0 ? box_->upper()[k] : box_->lower()[k]);
+    }
+  } else {
+    values.push_back(centre());
+    for (std::size_t k = 0; k < n; ++k)
+      for (const double end : {box_->lower()[k], box_->upper()[k]}) {
+        values.push_back(values.front());
+        values.back()[k] = end;
+      }
+  }
+  std::vector<Scenario> all;
+  for (std::size_t of = 0; of < cases_.size(); ++of)
+    for (const std::vector<double>& each : values) all.push_back({of, each});
+  return all;
+}
+
+std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario) const {
+  const DesignCase& of = cases_[scenario.of];
+  auto model = space_.model();
+  if (!of.set.empty() || of.response || box_) {
+    scene::Scene scene = with_case(scene_, of);
+    for (std::size_t k = 0; k < scenario.scatter.size(); ++k)
+      scene::set(scene, problem_.scatter[k].name, scenario.scatter[k]);
+    model = std::make_shared<const model::Model>(model::build(scene));
+  }
+  return std::make_unique<PeakAmplitude>(model, space_.parameters(), window_);
+}
+
+CaseResult Scenarios::result(const Scenario& scenario) const {
+  CaseResult result;
+  result.of = scenario.of;
+  result.set = cases_[scenario.of].set;
+  for (std::size_t k = 0; k < scenario.scatter.size(); ++k)
+    result.scatter.emplace_back(problem_.scatter[k].name, scenario.scatter[k]);
+  result.weight = weight(scenario);
+  return result;
+}
+
+std::string Scenarios::text(const Scenario& scenario) const {
+  if (cases_.size() == 1 && !box_) return "";
+  return (cases_.size() > 1 ? optimize::text("in case ", scenario.of + 1) : "") +
+         (cases_.size() > 1 && box_ ? " " : "") + (box_ ? "with " + box_->text(scenario.scatter) : "") + ": ";
+}
+
+Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
+                                  std::vector<std::vector<double>> starts,
+                                  const std::function<bool()>& go_on) const {
+  Worst worst;
+  PeakAmplitude peaks(std::move(model), box_->parameters(), window_);
+  Problem problem;
+  problem.lower = box_->scaled(box_->lower());
+  problem.upper = box_->scaled(box_->upper());
+  problem.objective = [&](auto y, auto g) {
+    const PeakState& state = peaks.at(box_->design(y));
+    const double amplitude = state.amplitude();
+    if (std::isnan(amplitude))
+      throw std::runtime_error("no response was found at " + box_->text(state.design) + ": " + state.message);
+    if (amplitude > worst.amplitude) {
+      worst.scatter = state.design;
+      worst.amplitude = amplitude;
+    }
+    std::fill(g.begin(), g.end(), 0.0);
+    if (state.unbounded) return 0.0;  // nothing is worse: the callback ends it
+    for (std::size_t k = 0; k < g.size(); ++k)
+      g[k] = -state.peaks[state.highest].gradient[static_cast<Eigen::Index>(k)] / amplitude *
+             box_->slope(k, state.design[k]);
+    return -std::log(amplitude);
+  };
+  Options options;
+  options.tolerances = {.x_relative = 0, .x_absolute = 1e-7, .f_relative = 0, .f_absolute = 1e-13};
+  bool more = true;
+  options.progress = [&](const Progress&) {
+    more = go_on();
+    return more && std::isfinite(worst.amplitude);
+  };
+  starts.push_back(centre());
+  for (const std::vector<double>& start : starts) {
+    if (!more || !std::isfinite(worst.amplitude)) break;
+    const Result found = minimize(problem, box_->scaled(start), options);
+    if (found.reason != Reason::user && found.reason != Reason::rounding && !is_converged(found.reason))
+      throw std::runtime_error("the worst of what scatters was not found: " + found.message);
+  }
+  return worst;
+}
+
+}  // namespace arcslip::optimize
