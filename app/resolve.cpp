@@ -253,7 +253,7 @@ scene::Study optimum_of_verb(scene::Scene& scene, const Options& options) {
     study.frequency_to = options.frequency.back();
   }
   if (!options.algorithm.empty()) {
-    study.algorithm = options.algorithm;
+    study.search.algorithm = options.algorithm;
   }
   check_study(scene, index, options);
   return study;

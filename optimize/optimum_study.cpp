@@ -46,6 +46,17 @@ std::vector<observables::ResponseBranch> responses(const scene::Scene& scene, co
   return all;
 }
 
+OptimumOptions options_of(const scene::SearchSettings& search) {
+  OptimumOptions options;
+  options.algorithm = search.algorithm;
+  options.evaluations = search.evaluations;
+  options.seconds = search.seconds;
+  if (!search.local.empty()) options.local = LocalOptions{search.local, options.tolerances};
+  options.population = search.population;
+  options.seed = static_cast<unsigned long>(search.seed);
+  return options;
+}
+
 }  // namespace
 
 double OptimumResult::difference_of_design() const {
@@ -59,8 +70,7 @@ double OptimumResult::difference_of_amplitude() const {
 }
 
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
-                                         const observables::ProgressCallback& progress,
-                                         const OptimumOptions& options) {
+                                         const observables::ProgressCallback& progress) {
   const auto all = observables::combinations(study);
   const double unit = scene::to_rad_per_s(scene.frequency_unit);
   std::vector<OptimumResult> results;
@@ -72,24 +82,24 @@ std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene:
         scene::set(with, study.design[i].name, results.back().optimum.design[i]);
     OptimumResult result;
     result.set = all[k];
-    result.problem = {study.design, study.frequency_from, study.frequency_to, study.constraints, {}};
-    OptimumOptions own = options;
-    if (!study.algorithm.empty()) own.algorithm = study.algorithm;
+    result.problem = {study.design, study.frequency_from, study.frequency_to, study.constraints,
+                      study.linear_constraints};
+    OptimumOptions options = options_of(study.search);
     bool go_on = true;
-    own.progress = [&](const OptimumProgress& now) {
+    options.progress = [&](const OptimumProgress& now) {
       observables::Progress told;
       told.branch = static_cast<int>(k);
       told.branches = static_cast<int>(all.size());
       told.points = now.evaluations;
       told.frequency = now.omega / unit;
-      go_on = (!progress || progress(told)) && (!options.progress || options.progress(now));
+      go_on = !progress || progress(told);
       return go_on;
     };
-    result.optimum = optimum(with, result.problem, own);
+    result.optimum = optimum(with, result.problem, options);
     result.status = result.optimum.status;
     result.stop = result.optimum.stop;
     if (go_on && !result.optimum.design.empty()) {
-      if (study.design.size() == 1 && study.constraints.empty())
+      if (study.design.size() == 1 && study.constraints.empty() && study.linear_constraints.empty())
         result.direct = direct_optimum(with, result.problem);
       if (std::isfinite(result.optimum.amplitude)) result.responses = responses(with, study, result.optimum);
     }

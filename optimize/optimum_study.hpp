@@ -30,7 +30,6 @@ struct OptimumResult {
 /// One for each combination of the study's for_each lists, each from the optimum of the one before. progress:
 /// after each evaluation, `points` is their number; false stops. Throws as optimum() does.
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
-                                         const observables::ProgressCallback& progress = {},
-                                         const OptimumOptions& options = {});
+                                         const observables::ProgressCallback& progress = {});
 
 }  // namespace arcslip::optimize

@@ -112,8 +112,28 @@ void set(Scene& scene, std::string_view parameter, double value) {
     *slot.value = value;
   }
   for (Study& study : scene.studies) {
-    std::erase_if(study.for_each, [&](const auto& list) { return list.first == parameter; });
+    drop(study, parameter);
   }
+}
+
+void drop(Study& study, std::string_view parameter) {
+  const auto is_it = [&](const auto& named) { return named.first == parameter; };
+  std::erase_if(study.for_each, is_it);
+  std::erase_if(study.scatter, [&](const DesignVariable& v) { return v.name == parameter; });
+  std::vector<DesignCase> cases;
+  for (DesignCase& each : study.cases) {
+    const bool dropped = std::erase_if(each.set, is_it) > 0;
+    const auto same = std::find_if(cases.begin(), cases.end(), [&](const DesignCase& other) {
+      return dropped && other.set == each.set && other.response == each.response;
+    });
+    if (same == cases.end()) {
+      cases.push_back(std::move(each));
+    } else {
+      same->weight = study.criterion == Criterion::mean ? same->weight + each.weight
+                                                        : std::max(same->weight, each.weight);
+    }
+  }
+  study.cases = std::move(cases);
 }
 
 }  // namespace arcslip::scene

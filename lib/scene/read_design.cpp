@@ -5,6 +5,49 @@
 #include <tuple>
 
 namespace arcslip::scene::detail {
+namespace {
+
+std::pair<double, double> read_limits(const Keys& keys, Faults& faults) {
+  const Place least = keys.find("at_least"), most = keys.find("at_most");
+  const double at_least = read_number(least, any_number, faults).value_or(any_number.lower);
+  const double at_most = read_number(most, any_number, faults).value_or(any_number.upper);
+  if (least.node == nullptr && most.node == nullptr) {
+    faults.add(keys.pointer(), "found neither \"at_least\" nor \"at_most\", must have one of them");
+  } else if (!(at_least < at_most)) {
+    faults.add(keys.pointer(), "found \"at_least\" " + number_text(at_least) + " and \"at_most\" " +
+                                   number_text(at_most) + ", must be the lower and the upper limit");
+  }
+  return {at_least, at_most};
+}
+
+std::vector<std::pair<std::string, double>> read_sum(const Place& place, const Study& study, Faults& faults) {
+  const std::size_t before = faults.count();
+  std::vector<std::pair<std::string, double>> weights;
+  std::vector<std::string> known;
+  for (const DesignVariable& variable : study.design) {
+    known.push_back(variable.name);
+  }
+  for (const Member* member : members(place, faults)) {
+    const Place item{&member->value, child(place.pointer, member->key)};
+    if (faults.full()) {
+      faults.add({}, {});
+    } else if (std::find(known.begin(), known.end(), member->key) == known.end()) {
+      faults.add(item.pointer, "found " + shown(member->key) +
+                                   ", must be one of the parameters that the study is \"over\", " +
+                                   listed(known) + hint(member->key, known));
+    } else {
+      weights.emplace_back(member->key, read_number(item, any_number, faults).value_or(0));
+    }
+  }
+  const bool any = std::any_of(weights.begin(), weights.end(), [](auto& each) { return each.second != 0; });
+  if (!any && faults.count() == before) {
+    faults.add(place.pointer,
+               "found no weight other than 0, must have one for at least one of " + listed(known));
+  }
+  return weights;
+}
+
+}  // namespace
 
 void read_design(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
   constexpr std::string_view names = "a list of at least one parameter \"part.field\" or tie";
@@ -40,36 +83,29 @@ void read_design(const Keys& keys, const Parameters& all, Study& study, Faults& 
 }
 
 void read_constraints(const Place& place, Study& study, Faults& faults) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (place.node == nullptr) {
     return;
   }
   const Node::List* list = read_list(place, "a list of objects", faults);
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const Place item{&(*list)[i], child(place.pointer, i)};
-    const Keys keys(item, {"observable", "at_least", "at_most"}, faults);
+    const Keys keys(item, {"observable", "sum", "at_least", "at_most"}, faults);
     if (!keys.is_object()) {
       continue;
     }
-    constexpr std::string_view wanted = "a string, such as \"energy_friction\" or \"damper.stick_percent\"";
-    ObservableLimit limit;
-    limit.observable =
-        read_string(keys.require("observable", std::string(wanted), faults), wanted, faults).value_or("");
-    const Field any{.name = "limit", .unit = "-", .lower = -infinity, .upper = infinity};
-    const Place least = keys.find("at_least"), most = keys.find("at_most");
-    if (least.node != nullptr) {
-      limit.at_least = read_number(least, any, faults).value_or(limit.at_least);
+    if (keys.has("observable") == keys.has("sum")) {
+      faults.add(item.pointer, keys.has("sum")
+                                   ? "found \"observable\" and \"sum\" together, must have one of them"
+                                   : "found neither \"observable\" nor \"sum\", must have one of them");
     }
-    if (most.node != nullptr) {
-      limit.at_most = read_number(most, any, faults).value_or(limit.at_most);
+    const auto [at_least, at_most] = read_limits(keys, faults);
+    if (keys.has("sum")) {
+      study.linear_constraints.push_back({read_sum(keys.find("sum"), study, faults), at_least, at_most});
+    } else {
+      constexpr std::string_view wanted = "a string, such as \"energy_friction\" or \"damper.stick_percent\"";
+      study.constraints.push_back(
+          {read_string(keys.find("observable"), wanted, faults).value_or(""), at_least, at_most});
     }
-    if (least.node == nullptr && most.node == nullptr) {
-      faults.add(item.pointer, "found neither \"at_least\" nor \"at_most\", must have one of them");
-    } else if (!(limit.at_least < limit.at_most)) {
-      faults.add(item.pointer, "found \"at_least\" " + number_text(limit.at_least) + " and \"at_most\" " +
-                                   number_text(limit.at_most) + ", must be the lower and the upper limit");
-    }
-    study.constraints.push_back(std::move(limit));
   }
 }
 

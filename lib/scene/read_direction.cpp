@@ -2,15 +2,9 @@
 #include <arcslip/scene/words.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace arcslip::scene::detail {
 namespace {
-
-constexpr Field weight_bounds{.name = "weight",
-                              .unit = "-",
-                              .lower = -std::numeric_limits<double>::infinity(),
-                              .upper = std::numeric_limits<double>::infinity()};
 
 constexpr std::string_view dofs_wanted = "a list of at least one name";
 
@@ -74,7 +68,7 @@ bool read_weights(const Place& place, const Dofs& dofs, Direction& direction, Fa
   bool good = true;
   for (const Member& member : *place.node->get<Node::Object>()) {
     const Place item{&member.value, child(place.pointer, member.key)};
-    const auto weight = read_number(item, weight_bounds, faults);
+    const auto weight = read_number(item, any_number, faults);
     good = add_term(member.key, weight.value_or(0), item.pointer, dofs, direction, faults) && weight && good;
   }
   return good;

@@ -1,3 +1,4 @@
+#include <arcslip/scene/read_cases.hpp>
 #include <arcslip/scene/read_design.hpp>
 #include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/study_parameters.hpp>
@@ -12,52 +13,6 @@
 
 namespace arcslip::scene::detail {
 namespace {
-
-std::vector<double> read_values(const Place& place, const std::vector<const Field*>& fields, Faults& faults) {
-  constexpr std::string_view wanted = "a list of at least one number";
-  std::vector<double> values;
-  const Node::List* list = read_list(place, wanted, faults);
-  if (list != nullptr && list->empty()) {
-    faults.add(place.pointer, "found an empty list, must be " + std::string(wanted));
-  }
-  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    const Node& node = (*list)[i];
-    const auto* number = node.get<double>();
-    const auto bad = std::find_if(fields.begin(), fields.end(), [&](const Field* field) {
-      return number == nullptr || !within(*field, *number);
-    });
-    if (number != nullptr && bad == fields.end()) {
-      values.push_back(*number);
-    } else if (bad != fields.end()) {
-      read_number({&node, child(place.pointer, i)}, **bad, faults);
-    } else {
-      add_wrong_type({&node, child(place.pointer, i)}, "a number", faults);
-    }
-  }
-  return values;
-}
-
-void read_for_each(const Place& place, const Parameters& all, Study& study, Faults& faults) {
-  if (place.node == nullptr || !Keys(place, {}, faults).is_object()) {
-    return;
-  }
-  std::unordered_set<std::string_view> seen;
-  for (const Member& member : *place.node->get<Node::Object>()) {
-    if (!seen.insert(member.key).second) {
-      continue;  // told as a duplicate key
-    }
-    const Place item{&member.value, child(place.pointer, member.key)};
-    const bool in_design = std::any_of(study.design.begin(), study.design.end(),
-                                       [&](const DesignVariable& v) { return v.name == member.key; });
-    if (in_design || (!study.over.empty() && member.key == study.over)) {
-      faults.add(item.pointer,
-                 "found " + shown(member.key) + ", which the study is \"over\"; must be another parameter");
-      continue;
-    }
-    const auto fields = fields_of(member.key, item.pointer, all, faults);
-    study.for_each.emplace_back(member.key, read_values(item, fields, faults));
-  }
-}
 
 // Results are filed under the study's name.
 bool is_file_name(const std::string& name) {
@@ -77,16 +32,15 @@ Field frequency_field(FrequencyUnit unit) {
           .lower_open = true};
 }
 
-void read_range(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
+std::pair<double, double> read_range(const Keys& keys, const Field& bounds, Faults& faults) {
   const auto from = read_number(keys.require("from", allowed_text(bounds), faults), bounds, faults);
   const Place to_place = keys.require("to", allowed_text(bounds), faults);
   const auto to = read_number(to_place, bounds, faults);
-  study.from = from.value_or(0);
-  study.to = to.value_or(0);
   if (from && to && !(*from < *to)) {
     faults.add(to_place.pointer, "found " + number_text(*to) + ", must be above \"from\", which is " +
                                      with_unit(*from, bounds));
   }
+  return {from.value_or(0), to.value_or(0)};
 }
 
 Field read_over(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
@@ -128,6 +82,41 @@ void read_time(const Keys& keys, TimeSettings& time, Faults& faults) {
   }
 }
 
+void read_search(const Keys& keys, SearchSettings& search, Faults& faults) {
+  constexpr std::string_view algorithm = "a string, the name of an algorithm of NLopt";
+  search.algorithm = read_string(keys.find("algorithm"), algorithm, faults).value_or("");
+  search.local = read_string(keys.find("local"), algorithm, faults).value_or("");
+  const auto whole = [&](const char* key, int least, int& value) {
+    value = read_integer(keys.find(key), least, largest_search, faults).value_or(value);
+  };
+  whole("evaluations", 1, search.evaluations);
+  whole("population", 0, search.population);
+  whole("seed", 0, search.seed);
+  const Field seconds{
+      .name = "seconds", .unit = "s", .lower = 0, .upper = std::numeric_limits<double>::infinity()};
+  search.seconds = read_number(keys.find("seconds"), seconds, faults).value_or(search.seconds);
+}
+
+void read_along(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
+  const Place place = keys.find("along");
+  for (const char* key : {"from", "to"}) {
+    if (place.node == nullptr && keys.has(key)) {
+      faults.add(keys.find(key).pointer,
+                 "found the key " + quoted(key) + " without \"along\", the parameter of which it is a value");
+    }
+  }
+  if (place.node == nullptr) {
+    return;
+  }
+  DesignVariable along;
+  const Field field = read_parameter(place, all, along.name, faults);
+  const bool taken = is_taken(along.name, place.pointer, study, faults);
+  std::tie(along.lower, along.upper) = read_range(keys, field, faults);
+  if (!taken) {
+    study.along = std::move(along);
+  }
+}
+
 // Says of a key of other kinds which ones these are.
 std::string kinds_with(std::string_view key) {
   std::vector<std::string> kinds;
@@ -161,9 +150,8 @@ std::string unused_name(const std::string& wish, std::unordered_map<std::string,
 
 }  // namespace
 
-std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const std::vector<Tie>& ties,
-                                bool ties_complete, const Names& names, Faults& faults) {
-  const Parameters all(ties, ties_complete, names);
+std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Parameters& all,
+                                const Dofs& dofs, Faults& faults) {
   std::vector<Study> studies;
   std::unordered_map<std::string, std::string> used;  // names and where they stand
   const Node::List* list = read_list(place, "a list of objects", faults);
@@ -197,24 +185,24 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const st
     }
     const Field frequency = frequency_field(unit);
     if (study.kind == StudyKind::frf) {
-      read_range(keys, frequency, study, faults);
+      std::tie(study.from, study.to) = read_range(keys, frequency, faults);
     } else if (study.kind == StudyKind::time) {
       read_one_frequency(keys, frequency, study, faults);
       read_time(keys, study.time, faults);
     } else if (study.kind == StudyKind::optimum) {
       read_design(keys, all, study, faults);
       read_window(keys, frequency, study, faults);
-      const Place algorithm = keys.find("algorithm");
-      if (algorithm.node != nullptr) {
-        study.algorithm =
-            read_string(algorithm, "a string, the name of an algorithm of NLopt", faults).value_or("");
-      }
+      read_search(keys, study.search, faults);
       read_constraints(keys.find("constraints"), study, faults);
+      read_cases(keys.find("cases"), all, dofs, study, faults);
+      read_scatter(keys.find("scatter"), all, study, faults);
+      read_criterion(keys, study, faults);
+      read_along(keys, all, study, faults);
     } else {
-      read_range(keys, read_over(keys, all, study, faults), study, faults);
+      std::tie(study.from, study.to) = read_range(keys, read_over(keys, all, study, faults), faults);
       (study.kind == StudyKind::trace ? read_one_frequency : read_window)(keys, frequency, study, faults);
     }
-    read_for_each(keys.find("for_each"), all, study, faults);
+    study.for_each = read_value_lists(keys.find("for_each"), all, study, faults);
   }
   std::unordered_map<std::string, int> next;
   for (Study& study : studies) {

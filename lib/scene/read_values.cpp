@@ -54,6 +54,20 @@ Place Keys::require(std::string_view key, const std::string& what, Faults& fault
   return place;
 }
 
+std::vector<const Member*> members(const Place& place, Faults& faults) {
+  std::vector<const Member*> all;
+  if (place.node == nullptr || !Keys(place, {}, faults).is_object()) {
+    return all;
+  }
+  std::unordered_set<std::string_view> seen;
+  for (const Member& member : *place.node->get<Node::Object>()) {
+    if (seen.insert(member.key).second) {  // the second is told as a duplicate key
+      all.push_back(&member);
+    }
+  }
+  return all;
+}
+
 std::optional<double> read_number(const Place& place, const Field& bounds, Faults& faults) {
   if (place.node == nullptr) {
     return {};

@@ -7,6 +7,7 @@
 #include <arcslip/scene/words.hpp>
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,12 @@ class Keys {
   std::string pointer_;
 };
 
+/// What allows every finite number.
+inline constexpr Field any_number{.name = "value",
+                                  .unit = "-",
+                                  .lower = -std::numeric_limits<double>::infinity(),
+                                  .upper = std::numeric_limits<double>::infinity()};
+
 /// Each of these tells a fault and returns nothing where the value is absent or not as it must be.
 std::optional<double> read_number(const Place& place, const Field& bounds, Faults& faults);
 /// `why` follows the bounds in a message.
@@ -48,6 +55,10 @@ std::optional<int> read_integer(const Place& place, int lower, int upper, Faults
                                 std::string_view why = {});
 std::optional<std::string> read_string(const Place& place, std::string_view what, Faults& faults);
 const Node::List* read_list(const Place& place, std::string_view what, Faults& faults);
+
+/// The members of an object whose keys are names, each once: duplicates are told. None where there is no
+/// object.
+std::vector<const Member*> members(const Place& place, Faults& faults);
 
 /// "found 3 (a number), must be a string".
 void add_wrong_type(const Place& place, std::string_view must_be, Faults& faults);
@@ -57,10 +68,8 @@ template <class Words, class Choice>
 Choice read_choice(const Place& place, const Words& words, Choice otherwise, Faults& faults) {
   const std::vector<std::string> known = texts(words);
   if (const auto text = read_string(place, "one of " + listed(known), faults)) {
-    for (const auto& word : words) {
-      if (word.text == *text) {
-        return word.value;
-      }
+    if (const auto value = value_of<Choice>(words, *text)) {
+      return *value;
     }
     faults.add(place.pointer,
                "found " + shown(*text) + ", must be one of " + listed(known) + hint(*text, known));

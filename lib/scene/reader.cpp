@@ -116,8 +116,8 @@ Scene read_scene(const Node& node, Faults& faults) {
   }
 
   scene.response = read_response(root.find("response"), dofs, faults);
-  scene.studies =
-      read_studies(root.find("studies"), scene.frequency_unit, scene.ties, ties_sound, names, faults);
+  scene.studies = read_studies(root.find("studies"), scene.frequency_unit,
+                               Parameters(scene.ties, ties_sound, names), dofs, faults);
   return scene;
 }
 

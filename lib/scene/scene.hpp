@@ -81,6 +81,17 @@ struct TimeSettings {
   friend bool operator==(const TimeSettings&, const TimeSettings&) = default;
 };
 
+/// Of the search of a study of kind optimum. Algorithms are called by NLopt's own names.
+struct SearchSettings {
+  std::string algorithm{};  // empty: the default, LD_SLSQP
+  std::string local{};      // what AUGLAG and MLSL search with; empty: none
+  int evaluations = 1000;   // designs that are looked at, at most
+  double seconds = 0;       // 0: no limit
+  int population = 0;       // of the stochastic algorithms; 0: their own choice
+  int seed = 1;             // of the stochastic algorithms: the same seed gives the same run
+  friend bool operator==(const SearchSettings&, const SearchSettings&) = default;
+};
+
 /// A parameter of a design, and the values it may take.
 struct DesignVariable {
   std::string name;
@@ -128,15 +139,14 @@ struct Study {
   std::string over{};                           // the parameter of trace, peaks and folds; empty for others
   double frequency_from = 0, frequency_to = 0;  // trace, time: both the fixed frequency; else the window
   TimeSettings time{};
-  std::vector<DesignVariable> design{};           // optimum: what it is over, with bounds
-  std::string algorithm{};                        // optimum: by NLopt's own name; empty: the default
+  std::vector<DesignVariable> design{};  // optimum: what it is over, with bounds
+  SearchSettings search{};
   std::vector<ObservableLimit> constraints{};     // optimum
   std::vector<LinearLimit> linear_constraints{};  // optimum
   std::vector<DesignCase> cases{};                // optimum: none is one, the scene as it is
   Criterion criterion = Criterion::worst;         // optimum, over the cases
-  std::vector<DesignVariable>
-      scatter{};  // optimum, worst: the highest of all values between these bounds counts
-  std::optional<DesignVariable> along{};  // optimum: it is followed over this parameter, from lower to upper
+  std::vector<DesignVariable> scatter{};          // optimum, worst: the highest between these bounds counts
+  std::optional<DesignVariable> along{};          // optimum: followed over this one, from lower to upper
   friend bool operator==(const Study&, const Study&) = default;
 };
 
@@ -192,6 +202,8 @@ inline constexpr int largest_order = 2000;              // of the harmonics
 inline constexpr int largest_samples = 1'000'000;       // per period
 inline constexpr int largest_steps = 10'000'000;        // per period, and with history in all
 inline constexpr int largest_periods = 100'000'000;     // of a transient
+inline constexpr int largest_search = 100'000'000;      // evaluations, and other whole numbers of a search
+inline constexpr int largest_cases = 1000;              // of a design
 inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 
@@ -215,10 +227,13 @@ std::vector<std::string> parameter_names(const Scene& scene);
 std::vector<const Field*> parameter_fields(const Scene& scene, std::string_view parameter);
 /// Value of a parameter. Throws ParameterError, with the nearest known name, where there is none.
 double value(const Scene& scene, std::string_view parameter);
-/// Gives a parameter a value and drops it from every for_each list. Throws ParameterError where there is no
-/// such parameter, where the value is out of its bounds, and where the field is tied: its tie is to be set
-/// then.
+/// Gives a parameter a value and drops it from the lists of every study, as drop() does. Throws
+/// ParameterError where there is no such parameter, where the value is out of its bounds, and where the field
+/// is tied: its tie is to be set then.
 void set(Scene& scene, std::string_view parameter, double value);
+/// Takes a parameter from for_each, cases and scatter. Cases that are the same then become one, with the
+/// largest of their weights (worst) or the sum of them (mean).
+void drop(Study& study, std::string_view parameter);
 
 /// Factor from the scene's frequency unit to rad/s.
 double to_rad_per_s(FrequencyUnit unit);
@@ -230,6 +245,10 @@ std::string_view kind_name(StudyKind kind);
 std::string_view method_name(TimeMethod method);
 /// The method of that name, or none.
 std::optional<TimeMethod> method_of(std::string_view name);
+/// "worst", as a scene file writes it.
+std::string_view criterion_name(Criterion criterion);
+/// The criterion of that name, or none.
+std::optional<Criterion> criterion_of(std::string_view name);
 
 /// The known word nearest to `word` (edit distance at most a third of its length, at least 2), or "".
 std::string nearest(std::string_view word, std::span<const std::string> known);

@@ -22,6 +22,30 @@ Field common(const std::vector<const Field*>& fields) {
   return all;
 }
 
+std::vector<double> read_values(const Place& place, const std::vector<const Field*>& fields, Faults& faults) {
+  constexpr std::string_view wanted = "a list of at least one number";
+  std::vector<double> values;
+  const Node::List* list = read_list(place, wanted, faults);
+  if (list != nullptr && list->empty()) {
+    faults.add(place.pointer, "found an empty list, must be " + std::string(wanted));
+  }
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    const Node& node = (*list)[i];
+    const auto* number = node.get<double>();
+    const auto bad = std::find_if(fields.begin(), fields.end(), [&](const Field* field) {
+      return number == nullptr || !within(*field, *number);
+    });
+    if (number != nullptr && bad == fields.end()) {
+      values.push_back(*number);
+    } else if (bad != fields.end()) {
+      read_number({&node, child(place.pointer, i)}, **bad, faults);
+    } else {
+      add_wrong_type({&node, child(place.pointer, i)}, "a number", faults);
+    }
+  }
+  return values;
+}
+
 }  // namespace
 
 Parameters::Parameters(const std::vector<Tie>& all_ties, bool complete, const Names& all_names)
@@ -72,30 +96,71 @@ std::string with_unit(double value, const Field& field) {
   return number_text(value) + (field.unit == "-" ? "" : " " + std::string(field.unit));
 }
 
+Field bounds_of(const std::string& parameter, const std::string& pointer, const Parameters& all,
+                Faults& faults) {
+  const auto fields = fields_of(parameter, pointer, all, faults);
+  const bool known = !fields.empty() && std::find(fields.begin(), fields.end(), nullptr) == fields.end();
+  return known ? common(fields) : any_number;
+}
+
+bool is_taken(const std::string& parameter, const std::string& pointer, const Study& study, Faults& faults) {
+  const auto is_it = [&](const auto& variable) { return variable.name == parameter; };
+  const bool is_set = std::any_of(study.cases.begin(), study.cases.end(), [&](const DesignCase& each) {
+    return std::any_of(each.set.begin(), each.set.end(),
+                       [&](const auto& value) { return value.first == parameter; });
+  });
+  const bool is_over = std::any_of(study.design.begin(), study.design.end(), is_it);
+  std::string why;
+  if (is_over || (!study.over.empty() && parameter == study.over)) {
+    why = ", which the study is \"over\"";
+  } else if (is_set) {
+    why = ", to which \"cases\" give values";
+  } else if (std::any_of(study.scatter.begin(), study.scatter.end(), is_it)) {
+    why = ", which is in \"scatter\"";
+  } else if (study.along && is_it(*study.along)) {
+    why = ", which the study goes \"along\"";
+  }
+  if (!why.empty()) {
+    faults.add(pointer, "found " + shown(parameter) + why + "; must be another parameter");
+  }
+  return !why.empty();
+}
+
 Field read_parameter(const Place& place, const Parameters& all, std::string& parameter, Faults& faults) {
   constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Field any{.name = "over", .unit = "-", .lower = -infinity, .upper = infinity};
   const auto over = read_string(place, wanted, faults);
   if (!over) {
-    return any;
+    return any_number;
   }
   parameter = *over;
   if (*over == "frequency") {
     faults.add(
         place.pointer,
         "found \"frequency\", must be another parameter; over the frequency is a study of kind \"frf\"");
-    return any;
+    return any_number;
   }
   if (std::find(result_names.begin(), result_names.end(), *over) != result_names.end()) {
     faults.add(place.pointer,
                "found " + shown(*over) +
                    ", by which results name a quantity of their own; must be a tie of another name");
-    return any;
+    return any_number;
   }
-  const auto fields = fields_of(*over, place.pointer, all, faults);
-  const bool known = !fields.empty() && std::find(fields.begin(), fields.end(), nullptr) == fields.end();
-  return known ? common(fields) : any;
+  return bounds_of(*over, place.pointer, all, faults);
+}
+
+std::vector<std::pair<std::string, std::vector<double>>> read_value_lists(const Place& place,
+                                                                          const Parameters& all,
+                                                                          const Study& study,
+                                                                          Faults& faults) {
+  std::vector<std::pair<std::string, std::vector<double>>> lists;
+  for (const Member* member : members(place, faults)) {
+    const Place item{&member->value, child(place.pointer, member->key)};
+    const auto fields = fields_of(member->key, item.pointer, all, faults);
+    if (fields.empty() || !is_taken(member->key, item.pointer, study, faults)) {
+      lists.emplace_back(member->key, read_values(item, fields, faults));
+    }
+  }
+  return lists;
 }
 
 std::pair<double, double> read_pair(const Place& place, const std::string& wanted, const Field& field,

@@ -14,6 +14,7 @@ namespace arcslip::scene::detail {
 
 /// Where the parameters of a scene are looked up by name.
 struct Parameters {
+  /// Where the ties are not complete, others may exist.
   Parameters(const std::vector<Tie>& ties, bool ties_complete, const Names& names);
 
   const std::vector<Tie>& ties;
@@ -33,6 +34,19 @@ Field read_parameter(const Place& place, const Parameters& all, std::string& par
 /// lower and an upper ... of.
 std::pair<double, double> read_pair(const Place& place, const std::string& wanted, const Field& field,
                                     std::string_view what, Faults& faults);
+
+/// Lists of values by the names of parameters, of which their fields allow each. What the study has already
+/// read under such a name is a fault.
+std::vector<std::pair<std::string, std::vector<double>>> read_value_lists(const Place& place,
+                                                                          const Parameters& all,
+                                                                          const Study& study, Faults& faults);
+
+/// Tells a fault where the study has this parameter already: over, cases, scatter or along. Then true.
+bool is_taken(const std::string& parameter, const std::string& pointer, const Study& study, Faults& faults);
+
+/// The bounds of all fields that a parameter sets; any number where a fault is told.
+Field bounds_of(const std::string& parameter, const std::string& pointer, const Parameters& all,
+                Faults& faults);
 
 /// "3 N".
 std::string with_unit(double value, const Field& field);

@@ -4,6 +4,7 @@
 #include <arcslip/scene/scene.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,9 @@ inline constexpr std::array<Word<TimeMethod>, 4> time_methods = {
      {"newmark", TimeMethod::newmark},
      {"event-driven", TimeMethod::event_driven}}};
 
+inline constexpr std::array<Word<Criterion>, 2> criteria = {
+    {{"worst", Criterion::worst}, {"mean", Criterion::mean}}};
+
 /// What results call their own quantities, beside which the parameter of a study stands by its name.
 inline constexpr std::array<std::string_view, 19> result_names = {"kind",
                                                                   "nonsmooth",
@@ -65,7 +69,9 @@ inline std::vector<std::string> study_keys(StudyKind kind) {
     return {"name", "kind", "frequency", "method", "steps", "periods", "recorded", "tolerance", "for_each"};
   }
   if (kind == StudyKind::optimum) {
-    return {"name", "kind", "over", "bounds", "frequency", "algorithm", "constraints", "for_each"};
+    return {"name",        "kind",    "over",       "bounds", "frequency",   "algorithm", "local",
+            "evaluations", "seconds", "population", "seed",   "constraints", "cases",     "criterion",
+            "scatter",     "along",   "from",       "to",     "for_each"};
   }
   return {"name", "kind", "over", "from", "to", "frequency", "for_each"};
 }
@@ -88,6 +94,17 @@ constexpr std::string_view word_of(const Words& words, Choice value) {
     }
   }
   return {};
+}
+
+/// The value of a word, or none.
+template <class Choice, class Words>
+std::optional<Choice> value_of(const Words& words, std::string_view text) {
+  for (const auto& word : words) {
+    if (word.text == text) {
+      return word.value;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace arcslip::scene::detail

@@ -89,8 +89,52 @@ Node node(const Harmonics& harmonics) {
                        {"samples", node(harmonics.samples)}}};
 }
 
-// What a study of kind optimum has between its kind and its lists.
-void add_design(const Study& study, Node::Object& object) {
+void add_limits(double at_least, double at_most, Node::Object& object) {
+  if (std::isfinite(at_least)) {
+    object.push_back({"at_least", node(at_least)});
+  }
+  if (std::isfinite(at_most)) {
+    object.push_back({"at_most", node(at_most)});
+  }
+}
+
+Node node(const std::vector<std::pair<std::string, double>>& values) {
+  Node::Object object;
+  for (const auto& [name, value] : values) {
+    object.push_back({name, node(value)});
+  }
+  return {std::move(object)};
+}
+
+Node constraints_node(const Study& study) {
+  Node::List list;
+  for (const ObservableLimit& limit : study.constraints) {
+    Node::Object each = {{"observable", node(limit.observable)}};
+    add_limits(limit.at_least, limit.at_most, each);
+    list.push_back({std::move(each)});
+  }
+  for (const LinearLimit& limit : study.linear_constraints) {
+    Node::Object each = {{"sum", node(limit.weights)}};
+    add_limits(limit.at_least, limit.at_most, each);
+    list.push_back({std::move(each)});
+  }
+  return {std::move(list)};
+}
+
+Node node(const std::vector<DesignCase>& cases, const std::vector<std::string>& dofs) {
+  Node::List list;
+  for (const DesignCase& each : cases) {
+    Node::Object object = {{"set", node(each.set)}, {"weight", node(each.weight)}};
+    if (each.response) {
+      object.push_back({"response", {Node::Object{place_member(*each.response, dofs)}}});
+    }
+    list.push_back({std::move(object)});
+  }
+  return {std::move(list)};
+}
+
+// What a study of kind optimum has between its kind and for_each.
+void add_design(const Study& study, const std::vector<std::string>& dofs, Node::Object& object) {
   std::vector<std::string> over;
   Node::List bounds;
   for (const DesignVariable& variable : study.design) {
@@ -100,24 +144,34 @@ void add_design(const Study& study, Node::Object& object) {
   object.push_back({"over", node(over)});
   object.push_back({"bounds", {std::move(bounds)}});
   object.push_back({"frequency", node(std::vector{study.frequency_from, study.frequency_to})});
-  if (!study.algorithm.empty()) {
-    object.push_back({"algorithm", node(study.algorithm)});
-  }
-  Node::List constraints;
-  for (const ObservableLimit& limit : study.constraints) {
-    Node::Object each = {{"observable", node(limit.observable)}};
-    if (std::isfinite(limit.at_least)) {
-      each.push_back({"at_least", node(limit.at_least)});
+  for (const auto& [key, name] :
+       {std::pair{"algorithm", study.search.algorithm}, std::pair{"local", study.search.local}}) {
+    if (!name.empty()) {
+      object.push_back({key, node(name)});
     }
-    if (std::isfinite(limit.at_most)) {
-      each.push_back({"at_most", node(limit.at_most)});
-    }
-    constraints.push_back({std::move(each)});
   }
-  object.push_back({"constraints", {std::move(constraints)}});
+  object.push_back({"evaluations", node(study.search.evaluations)});
+  object.push_back({"seconds", node(study.search.seconds)});
+  object.push_back({"population", node(study.search.population)});
+  object.push_back({"seed", node(study.search.seed)});
+  object.push_back({"constraints", constraints_node(study)});
+  if (!study.cases.empty()) {
+    object.push_back({"cases", node(study.cases, dofs)});
+  }
+  object.push_back({"criterion", node(word_of(criteria, study.criterion))});
+  Node::Object scatter;
+  for (const DesignVariable& variable : study.scatter) {
+    scatter.push_back({variable.name, node(std::vector{variable.lower, variable.upper})});
+  }
+  object.push_back({"scatter", {std::move(scatter)}});
+  if (study.along) {
+    object.push_back({"along", node(study.along->name)});
+    object.push_back({"from", node(study.along->lower)});
+    object.push_back({"to", node(study.along->upper)});
+  }
 }
 
-Node node(const Study& study) {
+Node node(const Study& study, const std::vector<std::string>& dofs) {
   const bool is_time = study.kind == StudyKind::time;
   const bool is_optimum = study.kind == StudyKind::optimum;
   const bool has_over = study.kind != StudyKind::frf && !is_time && !is_optimum;
@@ -126,7 +180,7 @@ Node node(const Study& study) {
     object.push_back({"over", node(study.over)});
   }
   if (is_optimum) {
-    add_design(study, object);
+    add_design(study, dofs, object);
   } else if (!is_time) {
     object.push_back({"from", node(study.from)});
     object.push_back({"to", node(study.to)});
@@ -151,10 +205,10 @@ Node node(const Study& study) {
   return {std::move(object)};
 }
 
-Node node(const std::vector<Study>& studies) {
+Node node(const std::vector<Study>& studies, const std::vector<std::string>& dofs) {
   Node::List list;
   for (const Study& study : studies) {
-    list.push_back(node(study));
+    list.push_back(node(study, dofs));
   }
   return {std::move(list)};
 }
@@ -173,7 +227,7 @@ Node node(const Scene& scene) {
                        {"ties", node(scene.ties)},
                        {"harmonics", node(scene.harmonics)},
                        {"response", {Node::Object{place_member(scene.response, scene.dofs)}}},
-                       {"studies", node(scene.studies)}}};
+                       {"studies", node(scene.studies, scene.dofs)}}};
 }
 
 }  // namespace
@@ -207,13 +261,16 @@ std::string_view method_name(TimeMethod method) {
   return detail::word_of(detail::time_methods, method);
 }
 
+std::string_view criterion_name(Criterion criterion) {
+  return detail::word_of(detail::criteria, criterion);
+}
+
+std::optional<Criterion> criterion_of(std::string_view name) {
+  return detail::value_of<Criterion>(detail::criteria, name);
+}
+
 std::optional<TimeMethod> method_of(std::string_view name) {
-  for (const auto& word : detail::time_methods) {
-    if (word.text == name) {
-      return word.value;
-    }
-  }
-  return std::nullopt;
+  return detail::value_of<TimeMethod>(detail::time_methods, name);
 }
 
 }  // namespace arcslip::scene

@@ -380,6 +380,7 @@ const std::vector<BadScene>& bad_scenes() {
     add_rest(all);
     add_ties(all);
     add_bad_studies(all);
+    add_bad_designs(all);
     return all;
   }();
   return rows;

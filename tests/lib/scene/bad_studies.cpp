@@ -177,7 +177,7 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "found \"1e-9\" (a string), must be a number");
   add("range in a motion in time", at + "\"from\": 1", "from",
       "found the key \"from\", which belongs to studies of kind \"frf\", \"trace\", \"peaks\", \"folds\", "
-      "must be");
+      "\"optimum\", must be");
   add("steps in a frequency response", "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"steps\": 100", "steps",
       "found the key \"steps\", which belongs to studies of kind \"time\", must be");
   add("misspelt key of a motion in time", at + "\"step\": 100", "step", "did you mean \"steps\"?");

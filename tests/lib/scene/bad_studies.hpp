@@ -6,5 +6,6 @@
 namespace arcslip::scene::test {
 
 void add_bad_studies(std::vector<BadScene>& rows);
+void add_bad_designs(std::vector<BadScene>& rows);  // of kind "optimum"
 
 }  // namespace arcslip::scene::test

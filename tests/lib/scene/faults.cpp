@@ -120,18 +120,51 @@ TEST_CASE("all faults of a study of an optimum are told in one go") {
   for (const Fault& fault : faults) {
     pointers.push_back(fault.pointer);
   }
-  const std::vector<std::string> expected = {"/studies/0/bounds",
-                                             "/studies/0/over/1",
-                                             "/studies/0/bounds/1/0",
-                                             "/studies/0/over/2",
-                                             "/studies/0/bounds/2/1",
-                                             "/studies/0/over/3",
-                                             "/studies/0/frequency/1",
-                                             "/studies/0/algorithm",
-                                             "/studies/0/constraints/0",
+  const std::vector<std::string> expected = {
+      "/studies/0/bounds",        "/studies/0/over/1",        "/studies/0/bounds/1/0",
+      "/studies/0/over/2",        "/studies/0/bounds/2/1",    "/studies/0/over/3",
+      "/studies/0/frequency/1",   "/studies/0/algorithm",     "/studies/0/constraints/0",
+      "/studies/0/constraints/1", "/studies/0/constraints/2", "/studies/0/for_each/d.normal_load"};
+  CHECK(pointers == expected);
+}
+
+TEST_CASE("all faults of cases, of what scatters and of settings of a search are told in one go") {
+  const std::vector<Fault> faults = faults_of(
+      good_scene_with(R"({"kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}})",
+                      R"({"kind": "optimum", "over": ["d.normal_load"], "bounds": [[1, 2]],
+          "frequency": [1, 2], "evaluations": 0, "seed": 1.5, "seconds": -1, "local": 3,
+          "constraints": [{"sum": {"d.normal_laod": 1, "m.value": 1}, "at_most": 3},
+                          {"sum": {}, "observable": "frequency"}],
+          "cases": [{"set": {"d.normal_load": 1, "m.value": -1, "c.value": 1, "k": 1}, "weight": 0},
+                    {"response": {"at": "c"}, "wieght": 1}, 3],
+          "criterion": "mena", "scatter": {"c.value": [1, 2], "k2.value": [2, 1]},
+          "along": "d.stiffness", "from": 0, "to": 2, "for_each": {"d.stiffness": [1], "c.value": [1]}})"));
+  std::vector<std::string> pointers;
+  for (const Fault& fault : faults) {
+    pointers.push_back(fault.pointer);
+  }
+  const std::vector<std::string> expected = {"/studies/0/local",
+                                             "/studies/0/evaluations",
+                                             "/studies/0/seed",
+                                             "/studies/0/seconds",
+                                             "/studies/0/constraints/0/sum/d.normal_laod",
+                                             "/studies/0/constraints/0/sum/m.value",
                                              "/studies/0/constraints/1",
-                                             "/studies/0/constraints/2/observable",
-                                             "/studies/0/for_each/d.normal_load"};
+                                             "/studies/0/constraints/1",
+                                             "/studies/0/constraints/1/sum",
+                                             "/studies/0/cases/0/set/d.normal_load",
+                                             "/studies/0/cases/0/set/m.value",
+                                             "/studies/0/cases/0/set/k",
+                                             "/studies/0/cases/0/weight",
+                                             "/studies/0/cases/1/wieght",
+                                             "/studies/0/cases/1/response/at",
+                                             "/studies/0/cases/2",
+                                             "/studies/0/scatter/c.value",
+                                             "/studies/0/scatter/k2.value/1",
+                                             "/studies/0/criterion",
+                                             "/studies/0/from",
+                                             "/studies/0/for_each/d.stiffness",
+                                             "/studies/0/for_each/c.value"};
   CHECK(pointers == expected);
 }
 

@@ -58,6 +58,32 @@ TEST_CASE("a parameter that is set has the value and is swept no more") {
   CHECK(scene.studies[0].for_each[0].first == "load");
 }
 
+TEST_CASE(
+    "a parameter that is set is dropped from cases and scatter, and cases that are the same become one") {
+  using Set = std::vector<std::pair<std::string, double>>;
+  const auto study_after_set = [](Criterion criterion) {
+    Scene scene = tied_scene();
+    Study study{"best", StudyKind::optimum, 0, 0, {}};
+    study.criterion = criterion;
+    study.scatter = {{"load", 1, 2}, {"m.value", 1, 2}};
+    study.cases = {{Set{{"m.value", 1}, {"load", 1}}, 2, {}},
+                   {Set{{"m.value", 2}, {"load", 1}}, 3, {}},
+                   {Set{{"load", 2}}, 4, {}},
+                   {Set{{"m.value", 1}, {"load", 1}}, 5, Direction{{0, 2}}}};
+    scene.studies = {study};
+    set(scene, "m.value", 4);
+    return scene.studies[0];
+  };
+  for (const Criterion criterion : {Criterion::worst, Criterion::mean}) {
+    const Study study = study_after_set(criterion);
+    CHECK(study.scatter == std::vector<DesignVariable>{{"load", 1, 2}});
+    REQUIRE(study.cases.size() == 3);
+    CHECK(study.cases[0] == DesignCase{Set{{"load", 1}}, criterion == Criterion::worst ? 3.0 : 5.0, {}});
+    CHECK(study.cases[1] == DesignCase{Set{{"load", 2}}, 4, {}});
+    CHECK(study.cases[2] == DesignCase{Set{{"load", 1}}, 5, Direction{{0, 2}}});
+  }
+}
+
 TEST_CASE("a tie that is set gives its value to all its members") {
   Scene scene = tied_scene();
   CHECK(value(scene, "load") == 3);

@@ -53,7 +53,17 @@ const char* const full_scene = R"({
      "frequency": [0.1, 2], "algorithm": "LD_MMA",
      "constraints": [{"observable": "energy_friction", "at_most": 0.5}, {"observable": "frequency", "at_least": 1}],
      "for_each": {"f.sine": [1, 2]}},
-    {"kind": "optimum", "over": ["load"], "bounds": [[0.1, 5]], "frequency": [0.1, 2]}
+    {"kind": "optimum", "over": ["load"], "bounds": [[0.1, 5]], "frequency": [0.1, 2]},
+    {"name": "levels", "kind": "optimum", "over": ["load", "k.value"], "bounds": [[0.1, 5], [1, 2]],
+     "frequency": [0.1, 2], "algorithm": "G_MLSL_LDS", "local": "LN_BOBYQA", "evaluations": 50, "seconds": 0.25,
+     "population": 4, "seed": 7, "cases": {"f.sine": [1, 2], "n.stiffness": [0, 1, 1e20]}, "criterion": "mean",
+     "constraints": [{"sum": {"k.value": 1, "load": -0.5}, "at_least": 0}, {"observable": "frequency", "at_most": 1}]},
+    {"name": "blades", "kind": "optimum", "over": ["load"], "bounds": [[0.1, 5]], "frequency": [0.1, 2],
+     "cases": [{"set": {"f.sine": 0.3333333333333333, "f.cosine": -1}, "weight": 3}, {},
+               {"response": {"direction": {"b.l/a~de": -1e-300, "blade 1": 2}}}, {"weight": 1e300}],
+     "scatter": {"n.stiffness": [-1, 1e300], "d1.stiffness": [1, 2]}},
+    {"name": "followed", "kind": "optimum", "over": ["load"], "bounds": [[0.1, 5]], "frequency": [0.1, 2],
+     "along": "f.sine", "from": 1, "to": 8}
   ]
 })";
 
@@ -66,6 +76,33 @@ TEST_CASE("what is written is read as the same scene") {
     CHECK(again == scene);
     CHECK(write(again) == write(scene));
     CHECK(again.title == scene.title);
+  }
+}
+
+TEST_CASE("lists of values for cases make their product, the last list fastest") {
+  const Scene scene = read_text(full_scene);
+  const Study& study = scene.studies[8];
+  REQUIRE(study.name == "levels");
+  REQUIRE(study.cases.size() == 6);
+  using Set = std::vector<std::pair<std::string, double>>;
+  CHECK(study.cases[0] == DesignCase{Set{{"f.sine", 1}, {"n.stiffness", 0}}, 1, {}});
+  CHECK(study.cases[2] == DesignCase{Set{{"f.sine", 1}, {"n.stiffness", 1e20}}, 1, {}});
+  CHECK(study.cases[3] == DesignCase{Set{{"f.sine", 2}, {"n.stiffness", 0}}, 1, {}});
+}
+
+TEST_CASE("a study of an optimum is written with its cases, what scatters, and what it goes along") {
+  const std::string text = write(read_text(full_scene));
+  for (const char* line :
+       {R"({"sum": {"k.value": 1, "load": -0.5}, "at_least": 0})",
+        R"("local": "LN_BOBYQA", "evaluations": 50,)",
+        R"({"set": {"f.sine": 2, "n.stiffness": 1e+20}, "weight": 1})", R"("criterion": "mean")",
+        R"({"set": {"f.sine": 0.3333333333333333, "f.cosine": -1}, "weight": 3},)",
+        R"({"set": {}, "weight": 1e+300})",
+        R"("response": {"direction": {"b.l/a~de": -1e-300, "blade 1": 2}}})",
+        R"("scatter": {"n.stiffness": [-1, 1e+300], "d1.stiffness": [1, 2]})",
+        R"("along": "f.sine", "from": 1, "to": 8,)", R"("constraints": [], "criterion": "worst",)"}) {
+    CAPTURE(line);
+    CHECK(text.find(line) != std::string::npos);
   }
 }
 
