@@ -11,7 +11,6 @@
 namespace arcslip::optimize {
 namespace {
 
-constexpr double difference = 1e-4;      // of the parameters, relative: curvature from gradients
 constexpr double same_amplitude = 1e-7;  // relative
 constexpr double same_response = 1e-6;   // relative
 constexpr int most_steps = 20;           // to an end of a tolerance range
@@ -62,21 +61,14 @@ class Certifier {
   void curvature() {
     if (!smooth_) return;
     const auto n = static_cast<Eigen::Index>(design_.size());
-    Eigen::MatrixXd H(n, n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      auto design = design_;
-      double& value = design[static_cast<std::size_t>(k)];
-      const double h = difference * std::max(std::abs(value), difference), at = value;
-      Vector side[2];
-      for (const int s : {0, 1}) {
-        value = at + (s == 0 ? -h : h);
-        cases_.at(design);
-        if (!std::isfinite(cases_.value())) return;
-        side[s] = cases_.gradient();
-      }
-      H.col(k) = (side[1] - side[0]) / (2 * h);
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+    for (std::size_t g = 0; g < cases_.groups(); ++g) {
+      const std::size_t c = cases_.highest_of(g);
+      const continuation::Matrix of_peak = cases_.peaks(c).hessian(cases_.state(c).highest);
+      if (of_peak.size() == 0) return;
+      H += cases_.weight(c) * of_peak;
     }
-    result_.curvature = 0.5 * (H + H.transpose());
+    result_.curvature = H;
     const bool inside =
         std::all_of(result_.at_bound.begin(), result_.at_bound.end(), [](int bound) { return bound == 0; });
     if (!inside || result_.curvature.llt().info() != Eigen::Success) return;

@@ -346,21 +346,38 @@ observables::ResponsePoint PeakAmplitude::observe(const Vector& x, std::span<con
   return section_->observe(x, parameters(design));
 }
 
-double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& observable) {
+continuation::Matrix PeakAmplitude::tangents(std::size_t peak) {
   const Peak& of = state_.peaks[peak];
-  if (of.kind == PeakKind::kink) return std::numeric_limits<double>::quiet_NaN();
+  if (of.kind == PeakKind::kink) return {};
   Follower& by = follower(peak);
   const Vector here = unknowns(of);
-  if (!by.is_at(here, state_.design) && !by.linearize(here, state_.design))
-    return std::numeric_limits<double>::quiet_NaN();
-  const Vector tangent = by.tangent(k);
+  if (!by.is_at(here, state_.design) && !by.linearize(here, state_.design)) return {};
+  continuation::Matrix all = continuation::Matrix::Zero(of.x.size(), static_cast<Eigen::Index>(over_.size()));
+  const Eigen::Index size = std::min(here.size(), of.x.size());
+  for (std::size_t k = 0; k < over_.size(); ++k)
+    all.col(static_cast<Eigen::Index>(k)).head(size) = by.tangent(k).head(size);
+  if (!all.allFinite()) return {};
+  return all;
+}
+
+continuation::Matrix PeakAmplitude::hessian(std::size_t peak) {
+  const continuation::Matrix along = tangents(peak);
+  Peak of = state_.peaks[peak];
+  continuation::Matrix second(along.cols(), along.cols());
+  if (along.size() == 0 || !measure(of, state_.design) || !sensitivity_->second_derivatives(along, second))
+    return {};
+  return second;
+}
+
+double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& observable) {
+  const Peak& of = state_.peaks[peak];
+  const continuation::Matrix along = tangents(peak);
+  if (along.size() == 0) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> design = state_.design;
   const double h = difference * std::max(std::abs(design[k]), difference);
   double value[2];
   for (const int side : {0, 1}) {
-    Vector x = of.x;
-    const Eigen::Index size = std::min(x.size(), tangent.size());
-    x.head(size) += (side == 0 ? -h : h) * tangent.head(size);
+    const Vector x = of.x + (side == 0 ? -h : h) * along.col(static_cast<Eigen::Index>(k));
     design[k] = state_.design[k] + (side == 0 ? -h : h);
     value[side] = observable(observe(x, design));
   }

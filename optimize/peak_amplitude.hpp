@@ -98,6 +98,14 @@ class PeakAmplitude {
   /// along the tangent. NaN at a kink.
   double change(std::size_t peak, std::size_t k, const Observable& observable);
 
+  /// d2A/dp_j dp_k of a peak of the state, symmetric (sensitivity.hpp). Empty at a kink, or where the
+  /// equations of the peak are singular.
+  continuation::Matrix hessian(std::size_t peak);
+
+  /// dx/dp_k = d(u, omega)/dp_k of a peak of the state, a column for each design parameter. Empty as
+  /// hessian().
+  continuation::Matrix tangents(std::size_t peak);
+
   /// The model with a design's values.
   std::shared_ptr<const model::Model> model_at(std::span<const double> design) const;
   /// Of the last response, in its scale.

@@ -1,7 +1,9 @@
 #include <arcslip/observables/sensitivity.hpp>
 
+#include <arcslip/continuation/neighbours.hpp>
 #include <arcslip/observables/curve_section.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +11,8 @@ namespace arcslip::observables {
 namespace {
 
 constexpr double like = 0.9;  // cosine of two tangents of which one serves as border row for the other
+constexpr double room = 10;   // steps of a difference that have to lie in its smooth piece
+constexpr double inside_stick = 1e-8;  // of mu F_n: from a corner
 
 }  // namespace
 
@@ -29,7 +33,8 @@ Sensitivity::Sensitivity(std::shared_ptr<const hbm::HbmProblem> problem)
       tangent_(scales_.size()),
       z_(scales_.size()),
       x_(problem_->harmonics().size()),
-      F_p_(problem_->size()) {
+      F_p_(problem_->size()),
+      L_x_(scales_.size()) {
   scales_ << problem_->scales(), problem_->parameters()[model::frequency].scale;
   // Until there is a tangent, a border row that no symmetry makes orthogonal to it.
   for (Eigen::Index i = 0; i < scales_.size(); ++i)
@@ -41,6 +46,7 @@ bool Sensitivity::move_to(In x, In p) {
   u_ = x.head(n);
   p_ = p;
   p_[model::frequency] = x[n];
+  corner_.reset();
   if (evaluator_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return false;
   evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
   evaluator_->stiffness().response(u_, evaluator_->force_factor(), x_);
@@ -84,18 +90,23 @@ bool Sensitivity::at_resonance(In x, In p, std::span<const int> parameters, Out 
 bool Sensitivity::at_corner(const hbm::SlipCorner& corner, In x, In p, std::span<const int> parameters,
                             Out gradient) {
   if (!move_to(x, p)) return false;
+  corner_ = corner;
   hbm::slip_excess_gradient(*problem_, corner, p_, border_.rows.col(0));
   border_.corner(0, 0) = 0;
-  if (!factorize() || !differentiate(parameters, gradient)) return false;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    gradient[static_cast<Eigen::Index>(i)] -=
-        multiplier() * hbm::slip_excess_derivative(*problem_, corner, u_, p_, parameters[i]);
+  return factorize() && differentiate(parameters, gradient) && condition_derivatives(gradient);
+}
+
+bool Sensitivity::condition_derivatives(Out gradient) {
+  for (std::size_t k = 0; k < parameters_.size(); ++k)
+    gradient[static_cast<Eigen::Index>(k)] -=
+        multiplier() * hbm::slip_excess_derivative(*problem_, *corner_, u_, p_, parameters_[k]);
   return gradient.allFinite();
 }
 
 // Without what the condition itself depends on.
 bool Sensitivity::differentiate(std::span<const int> parameters, Out gradient) {
   const Eigen::Index n = u_.size();
+  parameters_.assign(parameters.begin(), parameters.end());
   quantity_.gradient(*evaluator_, u_, p_, z_.head(n));
   z_[n] = quantity_.parameter_derivative(*evaluator_, u_, p_, model::frequency);
   if (!solver_->solve_transposed(z_)) return false;
@@ -105,6 +116,80 @@ bool Sensitivity::differentiate(std::span<const int> parameters, Out gradient) {
         quantity_.parameter_derivative(*evaluator_, u_, p_, parameters[i]) - z_.head(n).dot(F_p_);
   }
   return gradient.allFinite();
+}
+
+bool Sensitivity::second_derivatives(const continuation::Matrix& tangents,
+                                     Eigen::Ref<continuation::Matrix> second) {
+  const auto m = static_cast<Eigen::Index>(parameters_.size());
+  if (corner_ && !stick_side()) return false;
+  u0_ = u_;
+  p0_ = p_;
+  const std::uint64_t piece = evaluator_->piece();
+  Vector here(m);
+  continuation::Matrix slopes(m, 2);
+  slopes_of_lagrangian(tangents, here);
+  const double size = std::hypot(u0_.norm() / scales_[0], p0_[model::frequency] / scales_[u0_.size()]);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const int of = parameters_[static_cast<std::size_t>(j)];
+    const double p_scale =
+        std::max(std::abs(p0_[of]), problem_->parameters()[static_cast<std::size_t>(of)].scale);
+    const double length = std::hypot(tangents.col(j).cwiseQuotient(scales_).norm(), 1 / p_scale);
+    const double h = continuation::difference * std::max(1.0, size) / length;
+    const auto quotient = continuation::difference_within_piece(h, [&](std::size_t i, double distance) {
+      const auto moved = [&](double by, Needs needs) {
+        u_ = u0_ + by * tangents.col(j).head(u_.size());
+        p_ = p0_;
+        p_[model::frequency] += by * tangents(u_.size(), j);
+        p_[of] += by;
+        return evaluator_->move_to(u_, p_, needs) == Evaluated::ok && evaluator_->piece() == piece;
+      };
+      if (!moved(room * distance, Needs::residual) || !moved(distance, Needs::jacobian)) return false;
+      slopes_of_lagrangian(tangents, slopes.col(static_cast<Eigen::Index>(i)));
+      return true;
+    });
+    if (!quotient) return false;
+    second.col(j) =
+        quotient->here * here + quotient->weight[0] * slopes.col(0) + quotient->weight[1] * slopes.col(1);
+  }
+  for (Eigen::Index j = 0; j < m; ++j)
+    for (Eigen::Index k = 0; k < j; ++k) second(j, k) = second(k, j) = 0.5 * (second(j, k) + second(k, j));
+  return second.allFinite();
+}
+
+// From a corner to a place beside it, where the element sticks; w and g are those of that side.
+bool Sensitivity::stick_side() {
+  const auto& dh = border_.rows.col(0);
+  u_ -= inside_stick * hbm::slip_limit(*problem_, corner_->element, p_) / dh.squaredNorm() * dh;
+  if (evaluator_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return false;
+  evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
+  Vector unused(static_cast<Eigen::Index>(parameters_.size()));
+  const std::vector<int> parameters = parameters_;
+  return factorize() && differentiate(parameters, unused);
+}
+
+// L_x . dx/dp_k + L_pk where the evaluator is, for all k.
+void Sensitivity::slopes_of_lagrangian(const continuation::Matrix& tangents, Out slopes) {
+  const Eigen::Index n = u_.size();
+  const auto w = z_.head(n);
+  quantity_.gradient(*evaluator_, u_, p_, L_x_.head(n));
+  L_x_.head(n).noalias() -= std::get<continuation::Matrix>(evaluator_->jacobian()).transpose() * w;
+  evaluator_->parameter_derivative(model::frequency, F_p_);
+  L_x_[n] = quantity_.parameter_derivative(*evaluator_, u_, p_, model::frequency) - w.dot(F_p_);
+  std::optional<hbm::SlipCorner> corner = corner_;
+  if (corner) {
+    hbm::slip_excess(*problem_, *corner, u_, p_);
+    hbm::slip_excess_gradient(*problem_, *corner, p_, F_p_);
+    L_x_.head(n) -= multiplier() * F_p_;
+  }
+  for (std::size_t k = 0; k < parameters_.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    evaluator_->parameter_derivative(parameters_[k], F_p_);
+    slopes[column] = L_x_.dot(tangents.col(column)) - w.dot(F_p_) +
+                     quantity_.parameter_derivative(*evaluator_, u_, p_, parameters_[k]);
+    if (corner)
+      slopes[column] -=
+          multiplier() * hbm::slip_excess_derivative(*problem_, *corner, u_, p_, parameters_[k]);
+  }
 }
 
 }  // namespace arcslip::observables

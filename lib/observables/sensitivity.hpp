@@ -13,6 +13,17 @@
 //   at a corner      r = h, the slip limit of an element (hbm/slip_corner.hpp), on which the peak sits. F_x
 //                    and F_p jump along h_x and h_p: g takes up the jump, and both sides give the same.
 //
+// The second derivative needs no other solution. Along D_k = (dx/dp_k, e_k) F and r stay zero to first order.
+// Differentiated twice, both have F_x x_jk = -D_j.F'' D_k, so that with A_x from above x_jk drops out:
+//
+//   d2A/dp_j dp_k = D_j . L'' D_k = d/dh (L_x . dx/dp_k + L_pk)(x + h dx/dp_j, p + h e_j),   L = A - w.F - g
+//   r
+//
+// at fixed w and g. At these the gradient of L is that of A wherever it is asked for, solution or not, so
+// that a central difference of it is good to h^2. r has to say what moves the place: at a resonance g = 0,
+// and only dx/dp_k knows of it. At a corner L is taken on the side that sticks, where F is smooth: beside
+// slip that has just begun F'' grows without bound.
+//
 // Units: those of A, m, over those of p_k. A parameter that ties several fields has the sum of their
 // derivatives.
 
@@ -22,6 +33,7 @@
 #include <arcslip/observables/amplitude.hpp>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +52,11 @@ class Sensitivity {
   bool at_corner(const hbm::SlipCorner& corner, continuation::In x, continuation::In p,
                  std::span<const int> parameters, continuation::Out gradient);
 
+  /// d2A/dp_j dp_k where the last gradient was, symmetric. tangents: dx/dp_k of what is followed there, n +
+  /// 1, a column for each parameter of that gradient. False: no room for a difference within one smooth
+  /// piece.
+  bool second_derivatives(const continuation::Matrix& tangents, Eigen::Ref<continuation::Matrix> second);
+
   /// At the last solution: A, m, and g, the multiplier of the condition.
   double amplitude() const { return amplitude_; }
   double multiplier() const { return z_[z_.size() - 1]; }
@@ -48,6 +65,9 @@ class Sensitivity {
   bool move_to(continuation::In x, continuation::In p);
   bool factorize();
   bool differentiate(std::span<const int> parameters, continuation::Out gradient);
+  bool condition_derivatives(continuation::Out gradient);
+  bool stick_side();
+  void slopes_of_lagrangian(const continuation::Matrix& tangents, continuation::Out slopes);
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
   continuation::Quantity quantity_;
@@ -56,6 +76,9 @@ class Sensitivity {
   std::unique_ptr<continuation::LinearSolver> solver_;
   continuation::Borders border_;
   continuation::Vector u_, p_, scales_, tangent_, z_, x_, F_p_;
+  std::vector<int> parameters_;              // of the last gradient
+  std::optional<hbm::SlipCorner> corner_{};  // at which the place of the last gradient is held
+  continuation::Vector u0_, p0_, L_x_;
   double amplitude_ = 0;
 };
 

@@ -42,6 +42,33 @@ double gradient_error(PeakAmplitude& peaks, double load) {
   return std::abs(gradient - (above - below) / (2 * h)) * load / amplitude;
 }
 
+// The largest difference between the second derivatives of the highest peak and central differences of its
+// gradients, times the parameters, over the amplitude, or relative where they are larger than that.
+double hessian_error(PeakAmplitude& peaks, const Design& design, double step = 1e-5) {
+  const PeakKind kind = peaks.trace(design).peaks[peaks.state().highest].kind;
+  const double amplitude = peaks.state().amplitude();
+  const continuation::Matrix second = peaks.hessian(peaks.state().highest);
+  if (second.size() == 0) return HUGE_VAL;
+  double error = (second - second.transpose()).cwiseAbs().maxCoeff() > 0 ? HUGE_VAL : 0;
+  for (std::size_t j = 0; j < design.size(); ++j) {
+    continuation::Vector gradient[2];
+    for (const int side : {0, 1}) {
+      Design beside = design;
+      beside[j] *= side == 0 ? 1 - step : 1 + step;
+      const auto& state = peaks.at(beside);
+      if (state.peaks[state.highest].kind != kind) return HUGE_VAL;
+      gradient[side] = state.peaks[state.highest].gradient;
+    }
+    for (std::size_t k = 0; k < design.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(j), column = static_cast<Eigen::Index>(k);
+      const double difference = (gradient[1][column] - gradient[0][column]) / (2 * step * design[j]);
+      const double unit = amplitude / (design[j] * design[k]) + std::abs(second(row, column));
+      error = std::max(error, std::abs(second(row, column) - difference) / unit);
+    }
+  }
+  return error;
+}
+
 }  // namespace
 
 TEST_CASE("peaks that are followed come to the exact peaks, without another response") {
@@ -180,4 +207,67 @@ TEST_CASE("peaks at corners, where an element begins to slip, are followed along
     CHECK(peaks.state().peaks[peaks.state().highest].corner->element == element);
     CHECK(reference::error(followed, peaks.trace(design).amplitude()) < 1e-10);
   }
+}
+
+TEST_CASE("one harmonic, no damping: second derivatives by load, friction, stiffness and force are exact") {
+  scene::Scene s = scenes::paper(1);
+  scene::set(s, "c.value", 0);
+  PeakAmplitude peaks = peaks_over(
+      s, {"damper.normal_load", "damper.friction_coefficient", "damper.stiffness", "force.cosine"}, 18, 22);
+  for (const double load : {1.7, 2.0, 3.0, std::numbers::pi, 5.0, 20.0, 60.0}) {
+    const double mu = 0.5, kd = 3500, p = mu * load, q = std::numbers::pi / 4, r = p - q;
+    // kd A = p^2/(p - q), q = pi f0/4
+    const double g = p * p / r, g_p = p * (p - 2 * q) / (r * r), g_q = p * p / (r * r);
+    const double g_pp = 2 * q * q / (r * r * r), g_pq = -2 * p * q / (r * r * r),
+                 g_qq = 2 * p * p / (r * r * r);
+    continuation::Matrix exact(4, 4);
+    exact << mu * mu * g_pp, g_p + p * g_pp, -mu * g_p / kd, mu * q * g_pq,  //
+        0, load * load * g_pp, -load * g_p / kd, load * q * g_pq,            //
+        0, 0, 2 * g / (kd * kd), -q * g_q / kd,                              //
+        0, 0, 0, q * q * g_qq;
+    exact /= kd;
+    const Design design = {load, mu, kd, 1};
+    peaks.trace(design);
+    const continuation::Matrix second = peaks.hessian(peaks.state().highest);
+    REQUIRE(second.size() == 16);
+    for (int j = 0; j < 4; ++j)
+      for (int k = j; k < 4; ++k) {
+        CAPTURE(load, j, k);
+        const double unit = peaks.state().amplitude() / design[static_cast<std::size_t>(j)] /
+                            design[static_cast<std::size_t>(k)];
+        CHECK(std::abs(second(j, k) - exact(j, k)) < 1e-8 * (unit + std::abs(exact(j, k))));
+        CHECK(second(j, k) == second(k, j));
+      }
+  }
+}
+
+TEST_CASE("second derivatives are the differences of gradients, from full slip to full stick") {
+  PeakAmplitude peaks = peaks_over(scenes::paper(15), {"damper.normal_load", "damper.stiffness"}, 18, 22);
+  for (const double load : {0.05, 0.3, 1.0, 1.6, 2.0, 3.0, 3.3, 5.0, 10.0, 30.0, 100.0, 400.0}) {
+    CAPTURE(load);
+    CHECK(hessian_error(peaks, {load, 3500}) < 1e-6);
+  }
+}
+
+TEST_CASE("second derivatives of peaks on a chain with two dampers") {
+  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/two_dampers/scene.json");
+  PeakAmplitude peaks = peaks_over(s, {"d1.normal_load", "d2.normal_load", "c1.value"}, 8, 45);
+  for (const Design& design : {Design{2, 2, 0.3}, {0.5, 3, 0.3}, {5, 0.7, 0.1}, {0.1, 0.2, 0.3}}) {
+    CAPTURE(design);
+    CHECK(hessian_error(peaks, design) < 1e-6);
+  }
+}
+
+TEST_CASE("second derivatives at the ends of the window and at corners") {
+  for (const auto& [from, to] : {std::pair{18.0, 19.8}, std::pair{20.1, 22.0}}) {
+    PeakAmplitude peaks = paper_peaks(15, from, to);
+    CAPTURE(from);
+    CHECK(hessian_error(peaks, {3}) < 1e-5);
+  }
+  std::vector<std::string> over;
+  for (int i = 0; i < 6; ++i) over.push_back("d" + std::to_string(i) + ".normal_load");
+  PeakAmplitude peaks = peaks_over(row(10, 6, 7), over, 8.42, 8.52);
+  const Design corner = {0.69, 0.494, 0.343, 0.572, 2, 0.463};
+  CHECK(hessian_error(peaks, corner) < 1e-5);
+  REQUIRE(peaks.trace(corner).peaks[peaks.state().highest].kind == PeakKind::corner);
 }
