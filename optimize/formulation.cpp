@@ -30,19 +30,22 @@ Formulation::Formulation(const OptimumProblem& problem, const DesignSpace& space
   }
 }
 
+bool Formulation::wants_epigraph(const Algorithm& algorithm) const {
+  if (!algorithm.takes_constraints || algorithm.name[1] != 'D') return false;
+  std::vector<std::size_t> peaks(cases_.groups(), 0);
+  for (std::size_t c = 0; c < cases_.size(); ++c) peaks[cases_.group(c)] += cases_.state(c).peaks.size();
+  return *std::max_element(peaks.begin(), peaks.end()) > 1;
+}
+
 Problem Formulation::problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
                              std::function<void(std::span<const double>)> move) {
   const std::size_t n = y.size();
   reference_ = reference;
   move_ = std::move(move);
   constraints_.clear();
-  std::vector<std::size_t> peaks(cases_.groups(), 0);
-  for (std::size_t c = 0; c < cases_.size(); ++c) {
+  for (std::size_t c = 0; c < cases_.size(); ++c)
     constraints_.emplace_back(cases_.state(c).peaks.size() + spare_peaks);
-    peaks[cases_.group(c)] += cases_.state(c).peaks.size();
-  }
-  epigraph_ = *std::max_element(peaks.begin(), peaks.end()) > 1 && algorithm.takes_constraints &&
-              algorithm.name.size() > 1 && algorithm.name[1] == 'D';
+  epigraph_ = wants_epigraph(algorithm);
   Problem problem;
   problem.lower = space_.scaled(space_.lower());
   problem.upper = space_.scaled(space_.upper());

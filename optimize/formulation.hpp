@@ -26,7 +26,8 @@ class Formulation {
   Problem problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
                   std::function<void(std::span<const double> y)> move);
 
-  /// Whether the last one was an epigraph.
+  /// Whether it would be an epigraph where the cases stand, and whether the last one was.
+  bool wants_epigraph(const Algorithm& algorithm) const;
   bool epigraph() const { return epigraph_; }
 
   /// By how much the worst of the limits is exceeded where the cases stand, relative; 0 where all hold.

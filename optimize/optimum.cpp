@@ -3,6 +3,7 @@
 #include <arcslip/optimize/design_space.hpp>
 #include <arcslip/optimize/formulation.hpp>
 #include <arcslip/optimize/multipliers.hpp>
+#include <arcslip/optimize/release.hpp>
 #include <arcslip/optimize/scenarios.hpp>
 #include <arcslip/optimize/text.hpp>
 
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace arcslip::optimize {
@@ -46,8 +48,11 @@ class Search {
       do {
         begin();
         for (int round = 0; !ended_; ++round) {
+          const auto before = std::pair(result_.status, result_.stop);
           minimize_once();
-          if (!verify() || round + 1 == most_rounds) break;
+          if (result_.status == Status::failed && result_.amplitude == stuck_value_)
+            std::tie(result_.status, result_.stop) = before;  // the optimum is still that of the round before
+          if ((!verify() && !release()) || round + 1 == most_rounds) break;
         }
       } while (add_worst_scatter());
     } catch (const std::exception& thrown) {
@@ -166,7 +171,7 @@ class Search {
 
   void minimize_once() {
     round_responses_ = cases_.work().responses;
-    round_value_ = cases_.value();
+    round_value_ = std::min(cases_.value(), result_.amplitude);
     std::vector<double> y = space_.scaled(start_);
     const Problem problem = formulation_.problem(y, algorithm_, reference_, [this](auto at) { move_to(at); });
     result_.epigraph = result_.epigraph || formulation_.epigraph();
@@ -239,7 +244,7 @@ class Search {
   // because others came up and went during a round that was not in vain.
   bool verify() {
     if (result_.design.empty() || !std::isfinite(result_.amplitude)) return false;
-    const bool changed = result_.epigraph && cases_.work().responses > round_responses_;
+    const int responses = cases_.work().responses;
     const bool gained = result_.amplitude < (1 - gain) * round_value_;
     const double seen = result_.amplitude;
     start_ = result_.design;
@@ -249,12 +254,32 @@ class Search {
         result_.notes.push_back(scenarios_.text(all_[c]) + "the response at " + space_.text(start_) +
                                 " ends within the window: " + state.message);
     const double now = cases_.value();
+    const bool changed =
+        formulation_.epigraph() ? responses > round_responses_ : formulation_.wants_epigraph(algorithm_);
     if (!(std::abs(now / seen - 1) > seen_before)) return changed && gained && !ended_;
     result_.notes.push_back(text("at ", space_.text(start_), " a peak of ", now,
                                  " m came up beside those that were followed, the highest of which has ",
                                  seen, " m"));
     result_.amplitude = now;
     return !ended_;
+  }
+
+  // Goes on with the dampers slipping that stick at the optimum; after that, once for each gain. A global
+  // search looks for such designs itself.
+  bool release() {
+    if (ended_ || algorithm_.global || !cases_.stand_at(result_.design)) return false;
+    if (!(result_.amplitude < (1 - gain) * stuck_value_)) return false;
+    stuck_value_ = result_.amplitude;
+    const auto design = released(cases_, space_.parameters(), space_.lower());
+    if (!design) return false;
+    const std::string stuck = space_.text(result_.design);
+    evaluate(*design, true);
+    if (!std::isfinite(cases_.value())) return false;
+    result_.notes.push_back("at " + stuck +
+                            " a friction element sticks; the search went on with it slipping, from " +
+                            space_.text(*design));
+    start_ = *design;
+    return true;
   }
 
   // True where the search is to go on with it, from the design found.
@@ -283,7 +308,7 @@ class Search {
     }
     if (found.empty() || result_.status == Status::stopped) return false;
     for (const Scenario& each : found) add(each);
-    best_excess_ = infinity;
+    best_excess_ = stuck_value_ = infinity;
     if (result_.scatter_rounds < options_.scatter_rounds) return true;
     evaluate(start_);
     result_.status = Status::stopped;
@@ -362,8 +387,9 @@ class Search {
   std::vector<double> start_;
   double reference_ = 1;  // V at the start
   double best_excess_ = infinity;
-  int round_responses_ = 0;  // traced before the round
-  double round_value_ = infinity;
+  int round_responses_ = 0;        // traced before the round
+  double round_value_ = infinity;  // least before it
+  double stuck_value_ = infinity;  // least one from which stuck dampers were released
   bool ended_ = false, user_stopped_ = false;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };

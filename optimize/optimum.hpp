@@ -13,7 +13,8 @@
 // range touches zero or both signs). Where what is to be least has a kink, algorithms with gradients and
 // constraints bound each peak k by a level instead (epigraph): min t, ln w_c A_ck(p) <= t, or for the mean
 // with a level for each case; the others see the criterion itself. At the end the responses are traced anew:
-// where a peak shows that was not watched, the search goes on from there with it.
+// where a peak shows that was not watched, the search goes on from there with it; and where a damper sticks,
+// with it slipping (release.hpp).
 //
 // What scatters (worst): q_lower <= q <= q_upper of parameters that are not the design's, and the largest
 // amplitude over all of them counts. Some q make cases; the worst q at the design found makes another, until

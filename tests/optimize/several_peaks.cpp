@@ -6,6 +6,7 @@
 
 #include <arcslip/optimize/optimum.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace arcslip;
@@ -51,6 +52,38 @@ TEST_CASE("two dampers: without gradients the same optimum comes out, and with a
   const Optimum one = optimize::optimum(tied, {{{"load", 0.05, 50}}, 8, 45}, {.certificate = false});
   CHECK(one.status == observables::Status::complete);
   CHECK(one.amplitude > best);
+}
+
+TEST_CASE("a damper that sticks where the search begins slips where it ends") {
+  scene::Scene s = row(2, 2, 5);
+  auto problem = over_loads(2, 8, 45);
+  const Optimum slipping = optimize::optimum(s, problem, {.certificate = false});
+  for (const char* const parameter : {"d1.normal_load", "d1.friction_coefficient"}) {
+    problem.over[1].name = parameter;
+    s = row(2, 2, 5);
+    scene::set(s, parameter, 40);
+    for (const char* const algorithm : {"LD_SLSQP", "LD_MMA"}) {
+      const Optimum found = optimize::optimum(s, problem, {.algorithm = algorithm, .certificate = false});
+      CAPTURE(parameter, algorithm, found.stop.message);
+      CHECK(found.status == observables::Status::complete);
+      CHECK(found.amplitude == Approx(slipping.amplitude).epsilon(1e-7));
+      CHECK(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
+        return note.find("a friction element sticks") != std::string::npos;
+      }));
+    }
+  }
+}
+
+TEST_CASE("a damper that sticks whatever its load within the bounds stays as it is") {
+  scene::Scene s = row(2, 2, 5);
+  scene::set(s, "d1.normal_load", 40);
+  auto problem = over_loads(2, 8, 45);
+  problem.over[1].lower = 30;
+  const Optimum both = optimize::optimum(s, problem, {.certificate = false});
+  problem.over.pop_back();
+  const Optimum first = optimize::optimum(s, problem, {.certificate = false});
+  CHECK(both.status == observables::Status::complete);
+  CHECK(both.amplitude == Approx(first.amplitude).epsilon(1e-9));
 }
 
 TEST_CASE("a linear limit on the loads holds, and is active where the optimum without it lies beyond") {

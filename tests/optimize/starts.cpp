@@ -9,6 +9,7 @@
 #include <arcslip/optimize/optimum.hpp>
 
 #include <cmath>
+#include <random>
 
 using namespace arcslip;
 
@@ -51,4 +52,22 @@ TEST_CASE("six dampers on ten masses: the search by gradients is as good as that
       optimize::optimum(s, problem, {.algorithm = "LN_BOBYQA", .evaluations = 200, .certificate = false});
   CHECK(found.amplitude <= by_models.amplitude * (1 + 1e-8));
   CHECK(by_models.amplitude == Approx(found.amplitude).epsilon(1e-3));
+}
+
+TEST_CASE(
+    "six dampers on ten masses: from each of 20 random designs, most of which stick, the same optimum") {
+  scene::Scene s = row(10, 6, 7);
+  const auto problem = over_loads(6, 2, 20);
+  const auto best = optimize::optimum(s, problem, {.certificate = false});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> logarithm(std::log(0.05), std::log(50.0));
+  for (int start = 0; start < 20; ++start) {
+    for (int i = 0; i < 6; ++i)
+      scene::set(s, "d" + std::to_string(i) + ".normal_load", std::exp(logarithm(random)));
+    const auto found = optimize::optimum(s, problem, {.certificate = false});
+    CAPTURE(start, found.stop.message);
+    CHECK(found.status == observables::Status::complete);
+    CHECK(found.amplitude == Approx(best.amplitude).epsilon(1e-10));
+    for (std::size_t i = 0; i < 6; ++i) CHECK(found.design[i] == Approx(best.design[i]).epsilon(1e-5));
+  }
 }
