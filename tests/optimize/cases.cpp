@@ -82,6 +82,155 @@ TEST_CASE("the best load for the weighted mean over levels is where the mean's d
   CHECK(std::abs(3 * slope(0.5) + slope(1)) < 1e-6);
 }
 
+TEST_CASE("levels with weights: where their weighted peaks cross, the multipliers balance their slopes") {
+  // 3 A(p; 1/2) rises beyond p = q, A(p; 1) falls up to p = 2 q: they cross between, by bisection.
+  double below = pi / 4, above = pi / 2;
+  while (above - below > 1e-15) {
+    const double p = 0.5 * (below + above);
+    (3 * peak(p, 0.5) < peak(p, 1) ? below : above) = p;
+    if (p == 0.5 * (below + above)) break;
+  }
+  const double load = below / 0.5;
+  const auto found = optimize::optimum(
+      closed_form(), over_load_in({{{{"force.cosine", 0.5}}, 3}, {{{"force.cosine", 1}}, 1}}));
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.epigraph);
+  CHECK(reference::error(found.design[0], load) < 1e-8);
+  CHECK(reference::error(found.amplitude, peak(below, 1)) < 1e-8);
+  REQUIRE(found.cases.size() == 2);
+  // p A'/A = 2 - p/(p - q): 1/3 and -3 at p = 5 q/4.
+  CHECK(found.cases[0].multiplier == Approx(0.9).epsilon(1e-7));
+  CHECK(found.cases[1].multiplier == Approx(0.1).epsilon(1e-7));
+  CHECK(found.cases[0].active);
+  CHECK(found.cases[0].amplitude == Approx(peak(below, 0.5)).epsilon(1e-8));
+  CHECK(found.cases[0].set == std::vector<std::pair<std::string, double>>{{"force.cosine", 0.5}});
+  CHECK(found.cases[0].weight == 3);
+  CHECK(found.cases[1].point.amplitude == Approx(found.amplitude).epsilon(1e-12));
+
+  REQUIRE(found.certificate);
+  CHECK(found.certificate->stationarity < 1e-7);
+  CHECK(found.certificate->curvature.size() == 0);
+  REQUIRE(found.certificate->peaks.size() == 2);
+  CHECK(found.certificate->peaks[1].in_case == 1);
+  CHECK(found.certificate->peaks[1].weight == Approx(0.1).epsilon(1e-7));
+  // Within 5 %: below, the higher level's curve; above, the lower one's.
+  const auto& range = found.certificate->ranges[0][1];
+  CHECK(peak(0.5 * range.lower, 1) == Approx(1.05 * found.amplitude).epsilon(1e-7));
+  CHECK(3 * peak(0.5 * range.upper, 0.5) == Approx(1.05 * found.amplitude).epsilon(1e-7));
+}
+
+TEST_CASE("algorithms of every kind come to the crossing of two levels") {
+  for (const char* algorithm :
+       {"LD_SLSQP", "LD_MMA", "LD_CCSAQ", "LN_COBYLA", "LN_BOBYQA", "LN_SBPLX", "GN_DIRECT_L"}) {
+    CAPTURE(algorithm);
+    const auto found = optimize::optimum(
+        closed_form(), over_load_in({{{{"force.cosine", 0.5}}, 3}, {{{"force.cosine", 1}}, 1}}),
+        {.algorithm = algorithm, .evaluations = 300, .certificate = false});
+    CHECK(found.epigraph == (algorithm[1] == 'D'));
+    CHECK(reference::error(found.design[0], 2.5 * pi / 4) < 1e-4);
+    CHECK(found.amplitude >= peak(1.25 * pi / 4, 1) * (1 - 1e-9));
+  }
+}
+
+TEST_CASE("the certificate of a weighted mean has the curvature and the ranges of the mean") {
+  const auto found = optimize::optimum(
+      closed_form(),
+      over_load_in({{{{"force.cosine", 0.5}}, 3}, {{{"force.cosine", 1}}, 1}}, Criterion::mean));
+  REQUIRE(found.certificate);
+  const double p = 0.5 * found.design[0];
+  const auto second = [&](double f0) {  // A'' = 2 q^2/(p - q)^3/kd
+    const double q = pi * f0 / 4;
+    return 2 * q * q / std::pow(p - q, 3) / 3500;
+  };
+  REQUIRE(found.certificate->curvature.size() == 1);
+  CHECK(found.certificate->curvature(0, 0) == Approx(0.25 * (3 * second(0.5) + second(1)) / 4).epsilon(1e-6));
+  const auto mean = [](double at) { return (3 * peak(at, 0.5) + peak(at, 1)) / 4; };
+  for (const auto& range : found.certificate->ranges[0])
+    for (const double end : {range.lower, range.upper})
+      CHECK(mean(0.5 * end) == Approx((1 + range.share) * mean(p)).epsilon(2e-6 * range.share));
+  CHECK(found.certificate->stationarity < 1e-7);
+  // Every case is active, with its share of the mean.
+  REQUIRE(found.cases.size() == 2);
+  CHECK(found.cases[0].active);
+  CHECK(found.cases[1].active);
+  CHECK(found.cases[0].multiplier == Approx(3 * peak(p, 0.5) / 4 / mean(p)).epsilon(1e-8));
+  CHECK(found.cases[1].multiplier == Approx(peak(p, 1) / 4 / mean(p)).epsilon(1e-8));
+}
+
+TEST_CASE("a limit holds in every case, in one that is not the highest too") {
+  // stick = acos(2 q/p - 1)/pi of the period: 60 % of it at the higher level is more at the lower one.
+  auto problem = over_load_in({{{{"force.cosine", 0.5}}, 4}, {{{"force.cosine", 1}}, 1}});
+  problem.limits = {{.observable = "damper.stick_percent", .at_least = 60}};
+  const auto found = optimize::optimum(closed_form(), problem);
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.feasible);
+  const double p = pi / 2 / (1 + std::cos(0.6 * pi));
+  CHECK(reference::error(0.5 * found.design[0], p) < 1e-7);
+  CHECK(reference::error(found.amplitude, 4 * peak(p, 0.5)) < 1e-7);
+  REQUIRE(found.cases.size() == 2);
+  CHECK(found.cases[0].active);
+  CHECK_FALSE(found.cases[1].active);
+  CHECK(found.cases[1].point.elements[0].stick_percent == Approx(60).epsilon(1e-6));
+}
+
+TEST_CASE("one case of weight 1 is the scene with what the case sets") {
+  scene::Scene s = scenes::paper(7, 5);
+  const auto in_a_case = optimize::optimum(s, over_load_in({{{{"force.cosine", 1.5}}}}));
+  scene::set(s, "force.cosine", 1.5);
+  const auto plain = optimize::optimum(s, over_load);
+  CHECK(in_a_case.design == plain.design);
+  CHECK(in_a_case.amplitude == plain.amplitude);
+  CHECK(in_a_case.stop.message == plain.stop.message);
+  REQUIRE(plain.cases.size() == 1);
+  CHECK(plain.cases[0].set.empty());
+  CHECK(plain.cases[0].amplitude == Approx(plain.amplitude).epsilon(1e-10));
+  CHECK(plain.cases[0].multiplier == 1);
+  const auto twice = optimize::optimum(s, over_load_in({{{}, 2}}));
+  CHECK(twice.amplitude == Approx(2 * plain.amplitude).epsilon(1e-12));
+  const auto mean = optimize::optimum(s, over_load_in({{{}, 2}}, Criterion::mean));
+  CHECK(mean.amplitude == Approx(plain.amplitude).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "limits of time and evaluations, the user and what is thrown end a search over cases as one over none") {
+  const scene::Scene s = scenes::paper(7, 50);
+  for (const Criterion criterion : {Criterion::worst, Criterion::mean}) {
+    const auto problem = over_load_in({{{{"force.cosine", 0.5}}, 3}, {{{"force.cosine", 1}}, 1}}, criterion);
+    const auto few = optimize::optimum(s, problem, {.evaluations = 3});
+    CHECK(few.status == observables::Status::stopped);
+    CHECK(few.stop.reason == "evaluation_limit");
+    CHECK(few.evaluations.size() <= 4);
+    CHECK(few.cases.size() == 2);
+    CHECK_FALSE(few.certificate);
+    const auto late = optimize::optimum(s, problem, {.seconds = 1e-6});
+    CHECK(late.status == observables::Status::stopped);
+    CHECK(late.stop.reason == "time_limit");
+    CHECK(late.design == std::vector<double>{50});
+    for (const bool throws : {false, true}) {
+      int calls = 0;
+      optimize::OptimumOptions options;
+      options.progress = [&](const optimize::OptimumProgress&) {
+        if (++calls < 4) return true;
+        if (throws) throw std::runtime_error("disk full");
+        return false;
+      };
+      const auto found = optimize::optimum(s, problem, options);
+      CHECK(found.stop.reason == (throws ? "objective_failed" : "user"));
+      CHECK(found.status == (throws ? observables::Status::failed : observables::Status::stopped));
+      CHECK(found.cases.size() == 2);
+    }
+  }
+}
+
+TEST_CASE("where nothing slips in the highest case the criterion is flat, and that is said") {
+  const scene::Scene s = scenes::paper(7, 450);
+  optimize::OptimumProblem problem = over_load_in({{{{"force.cosine", 0.5}}}, {}});
+  problem.over = {{"damper.normal_load", 400, 1000}};
+  const auto found = optimize::optimum(s, problem);
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.stop.reason == "flat");
+}
+
 TEST_CASE("a start that is unbounded in one case is moved to where it is finite in all, and that is said") {
   scene::Scene s = closed_form();
   scene::set(s, "damper.normal_load", 2);  // mu Fn = 1 is above pi/4, and below pi/2
