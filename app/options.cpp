@@ -1,5 +1,7 @@
 #include "options.hpp"
 
+#include "option_values.hpp"
+
 #include <arcslip/output/units.hpp>
 #include <arcslip/output/version.hpp>
 
@@ -7,8 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <map>
 
 namespace arcslip::app {
@@ -42,82 +42,13 @@ std::string verb_names() {
   return names;
 }
 
-/// The whole text as a finite number, or nothing.
-std::optional<double> number(const std::string& text) {
-  const char* begin = text.data();
-  const char* const end = begin + text.size();
-  begin += begin != end && *begin == '+' ? 1 : 0;
-  double value = 0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  return error == std::errc() && stop == end && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
-std::pair<std::string, double> assignment(const std::string& text) {
-  const auto equals = text.rfind('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw UsageError("--set " + text + ": give it as name.field=value, such as --set damper.normal_load=3");
-  }
-  const std::string value = text.substr(equals + 1);
-  if (const auto parsed = number(value)) {
-    return {text.substr(0, equals), *parsed};
-  }
-  throw UsageError("--set " + text + ": found the value \"" + value + "\", must be a finite number");
-}
-
 /// What the parser keeps as text until all of it is read.
 struct Texts {
   std::vector<std::string> set, frequency, design;
   std::string harmonics, from, to;
   std::string steps, periods, recorded, tolerance, method;
+  std::string along, criterion, evaluations, seconds;
 };
-
-/// --from or --to of a study over a parameter.
-std::optional<double> parameter_value(const std::string& option, const std::string& text) {
-  const auto value = number(text);
-  if (!text.empty() && !value) {
-    throw UsageError(option + " " + text + ": must be a value of the parameter, a finite number");
-  }
-  return value;
-}
-
-std::optional<double> frequency(const std::string& option, const std::string& text) {
-  if (text.empty()) {
-    return std::nullopt;
-  }
-  const auto value = number(text);
-  if (!value || *value <= 0) {
-    throw UsageError(option + " " + text + ": must be a frequency above 0, a finite number");
-  }
-  return value;
-}
-
-std::optional<int> whole_number(const std::string& option, const std::string& text, const std::string& what) {
-  if (text.empty()) {
-    return std::nullopt;
-  }
-  int value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size()) {
-    throw UsageError(option + " " + text + ": must be a whole number, " + what);
-  }
-  return value;
-}
-
-std::optional<double> tolerance(const std::string& text) {
-  const auto value = number(text);
-  if (!text.empty() && !value) {
-    throw UsageError("--tolerance " + text + ": must be a finite number from 0 to 1");
-  }
-  return value;
-}
-
-std::optional<scene::TimeMethod> method(const std::string& text) {
-  const auto found = scene::method_of(text);
-  if (!text.empty() && !found) {
-    throw UsageError("--method " + text + ": must be shooting, newmark-shooting, newmark or event-driven");
-  }
-  return found;
-}
 
 CLI::App* add_verb(CLI::App& app, const VerbText& text, Options& options, Texts& texts) {
   CLI::App* verb = app.add_subcommand(text.name, text.help);
@@ -126,9 +57,10 @@ CLI::App* add_verb(CLI::App& app, const VerbText& text, Options& options, Texts&
       ->type_name("");
   verb->group("Verbs");
   verb->footer(std::string(exit_codes));
-  verb->add_option(
-          "--set", texts.set,
-          "give a parameter a value, as damper.normal_load=3; replaces its list in for_each; may be repeated")
+  verb->add_option("--set", texts.set,
+                   "give a parameter a value, as damper.normal_load=3; replaces its values in for_each, "
+                   "cases and scatter; may "
+                   "be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME.FIELD=VALUE");
   verb->add_option("--harmonics", texts.harmonics, "highest harmonic of the balance")->type_name("N");
@@ -185,28 +117,25 @@ void add_design(CLI::App& verb, Options& options, Texts& texts) {
       ->expected(2)
       ->allow_extra_args(false)
       ->type_name("F");
-  verb.add_option("--algorithm", options.algorithm, "an algorithm of NLopt, by its own name, as LD_SLSQP")
+  verb.add_option("--along", texts.along,
+                  "a parameter over which the optimum is followed, with its range, as force.cosine=1:8")
+      ->type_name("NAME.FIELD=A:B");
+  verb.add_option(
+          "--criterion", texts.criterion,
+          "what is to be least of the study's cases: the worst of their amplitudes (the default), or their "
+          "mean")
+      ->type_name("C");
+  verb.add_option("--algorithm", options.algorithm,
+                  "an algorithm of NLopt, by its own name (default: LD_SLSQP)")
       ->type_name("NAME");
-}
-
-DesignRange design_range(const std::string& text) {
-  const auto equals = text.find('=');
-  const std::string name = text.substr(0, equals);
-  if (name.empty()) {
-    throw UsageError("--over " + text + ": give it as name.field or name.field=lower:upper");
-  }
-  if (equals == std::string::npos) {
-    return {name, std::nullopt};
-  }
-  const std::string bounds = text.substr(equals + 1);
-  const auto colon = bounds.find(':');
-  const auto lower = number(bounds.substr(0, colon));
-  const auto upper = colon == std::string::npos ? std::nullopt : number(bounds.substr(colon + 1));
-  if (!lower || !upper) {
-    throw UsageError("--over " + text + ": found the bounds \"" + bounds +
-                     "\", must be two finite numbers, lower:upper");
-  }
-  return {name, std::pair(*lower, *upper)};
+  verb.add_option("--local", options.local, "the algorithm inside MLSL and AUGLAG, as LN_BOBYQA")
+      ->type_name("NAME");
+  const scene::SearchSettings usual;
+  verb.add_option("--evaluations", texts.evaluations,
+                  "designs to be looked at, at most (default: " + std::to_string(usual.evaluations) + ")")
+      ->type_name("N");
+  verb.add_option("--seconds", texts.seconds, "time for the search, at most; 0, the default: no limit")
+      ->type_name("S");
 }
 
 void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts) {
@@ -233,18 +162,6 @@ void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts
     verb.add_flag("--coefficients", options.coefficients, "JSON with the harmonics of each response");
   }
   verb.add_flag("--quiet", options.quiet, "no progress and no notes, only errors");
-}
-
-std::vector<double> frequencies(const std::vector<std::string>& texts) {
-  std::vector<double> values;
-  for (const std::string& text : texts) {
-    values.push_back(frequency("--frequency", text).value());
-  }
-  if (values.size() == 2 && !(values[0] < values[1])) {
-    throw UsageError("--frequency " + texts[0] + " " + texts[1] +
-                     ": must be a window, the lower frequency before the upper one");
-  }
-  return values;
 }
 
 void check_consistent(const Options& options, bool json_given, bool csv_given, bool out_given,
@@ -327,14 +244,21 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   options.steps = whole_number("--steps", texts.steps, "the steps per period");
   options.periods = whole_number("--periods", texts.periods, "the periods of a transient at most");
   options.recorded = whole_number("--recorded", texts.recorded, "the periods with history");
-  options.tolerance = tolerance(texts.tolerance);
+  options.tolerance = number("--tolerance", texts.tolerance, "a finite number from 0 to 1");
   options.method = method(texts.method);
   for (const std::string& text : texts.design) {
-    options.design.push_back(design_range(text));
+    options.design.push_back(design_range("--over", text));
   }
+  if (given(*verb, "--along")) {
+    options.along = design_range("--along", texts.along);
+  }
+  options.criterion = criterion(texts.criterion);
+  options.evaluations = whole_number("--evaluations", texts.evaluations, "the designs to be looked at");
+  options.seconds = number("--seconds", texts.seconds, "a finite number of seconds");
   const bool of_frequency = options.verb == Verb::run || options.verb == Verb::frf;
-  options.from = of_frequency ? frequency("--from", texts.from) : parameter_value("--from", texts.from);
-  options.to = of_frequency ? frequency("--to", texts.to) : parameter_value("--to", texts.to);
+  const std::string value = "a value of the parameter, a finite number";
+  options.from = of_frequency ? frequency("--from", texts.from) : number("--from", texts.from, value);
+  options.to = of_frequency ? frequency("--to", texts.to) : number("--to", texts.to, value);
   options.frequency = frequencies(texts.frequency);
   check_consistent(options, given(*verb, "--json"), given(*verb, "--csv"), given(*verb, "--out"),
                    given(*verb, "--over"));

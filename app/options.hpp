@@ -27,11 +27,15 @@ struct Options {
   std::string scene;                                // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
-  std::string over;                 // the parameter of trace, peaks and folds, "" where it is not given
-  std::optional<double> from, to;   // run, frf: in the scene's frequency unit; else of `over`
-  std::vector<double> frequency;    // in the scene's unit: none, one (trace, time), or the window (others)
-  std::vector<DesignRange> design;  // optimize: what it is over
-  std::string algorithm;            // optimize: by NLopt's own name
+  std::string over;                  // the parameter of trace, peaks and folds, "" where it is not given
+  std::optional<double> from, to;    // run, frf: in the scene's frequency unit; else of `over`
+  std::vector<double> frequency;     // in the scene's unit: none, one (trace, time), or the window (others)
+  std::vector<DesignRange> design;   // optimize: what it is over
+  std::optional<DesignRange> along;  // optimize: what the optimum is followed over
+  std::optional<scene::Criterion> criterion;    // optimize
+  std::string algorithm, local;                 // optimize: by NLopt's own names
+  std::optional<int> evaluations;               // optimize
+  std::optional<double> seconds;                // optimize
   std::optional<int> steps, periods, recorded;  // time
   std::optional<double> tolerance;              // time
   std::optional<scene::TimeMethod> method;      // time

@@ -41,15 +41,15 @@ std::string range_unit(const scene::Scene& scene, const scene::Study& study) {
   return study.over == "frequency" ? "" : output::parameter_unit(scene, study.over);
 }
 
-/// Throws where --over names no parameter at all; what else may be wrong with it is told by check_study().
-void check_over(const scene::Scene& scene, const Options& options) {
-  if (options.over.empty() || options.over == "frequency") {
+/// Throws where an option names no parameter at all; what else may be wrong with it is told by check_study().
+void check_parameter(const scene::Scene& scene, const std::string& option, const std::string& parameter) {
+  if (parameter.empty() || parameter == "frequency") {
     return;
   }
   try {
-    scene::parameter_fields(scene, options.over);
+    scene::parameter_fields(scene, parameter);
   } catch (const scene::ParameterError& error) {
-    throw UsageError("--over " + options.over + ": " + error.what());
+    throw UsageError(option + " " + parameter + ": " + error.what());
   }
 }
 
@@ -71,6 +71,12 @@ std::string option_of(const std::string& key, const Options& options) {
     std::from_chars(place.data(), place.data() + place.size(), index);
     return "--over " + options.design[std::min(index, options.design.size() - 1)].parameter;
   }
+  if (options.along && (key == "along" || key == "from" || key == "to")) {
+    return "--along " + options.along->parameter;
+  }
+  if (key == "criterion" && options.criterion) {
+    return "--criterion " + std::string(scene::criterion_name(*options.criterion));
+  }
   if (key == "over" && !options.over.empty()) {
     return "--over " + options.over;
   }
@@ -80,14 +86,18 @@ std::string option_of(const std::string& key, const Options& options) {
   if (key == "to" && options.to) {
     return "--to " + output::shortest(*options.to);
   }
-  for (const auto& [name, value] : {std::pair{"steps", options.steps}, std::pair{"periods", options.periods},
-                                    std::pair{"recorded", options.recorded}}) {
+  for (const auto& [name, value] :
+       {std::pair{"steps", options.steps}, std::pair{"periods", options.periods},
+        std::pair{"recorded", options.recorded}, std::pair{"evaluations", options.evaluations}}) {
     if (key == name && value) {
       return std::string("--") + name + " " + std::to_string(*value);
     }
   }
-  if (key == "tolerance" && options.tolerance) {
-    return "--tolerance " + output::shortest(*options.tolerance);
+  for (const auto& [name, value] :
+       {std::pair{"tolerance", options.tolerance}, std::pair{"seconds", options.seconds}}) {
+    if (key == name && value) {
+      return std::string("--") + name + " " + output::shortest(*value);
+    }
   }
   return "";
 }
@@ -129,6 +139,34 @@ std::size_t study_to_follow(scene::Scene& scene, scene::StudyKind kind, const Op
   return static_cast<std::size_t>(study - scene.studies.begin());
 }
 
+/// What the options say of a search.
+void set_search(scene::SearchSettings& search, const Options& options) {
+  search.algorithm = options.algorithm.empty() ? search.algorithm : options.algorithm;
+  search.local = options.local.empty() ? search.local : options.local;
+  search.evaluations = options.evaluations.value_or(search.evaluations);
+  search.seconds = options.seconds.value_or(search.seconds);
+}
+
+/// The parameter over which the optimum is to be followed, in place of the study's own.
+void set_along(scene::Study& study, const scene::Scene& scene, const Options& options) {
+  if (options.along) {
+    const auto& [parameter, range] = *options.along;
+    check_parameter(scene, "--along", parameter);
+    if (!range) {
+      throw UsageError("--along " + parameter + ": its range is not known; give it as --along " + parameter +
+                       "=from:to");
+    }
+    scene::drop(study, parameter);
+    study.along = {parameter, range->first, range->second};
+  }
+  for (const auto& [parameter, value] : options.set) {
+    if (study.along && study.along->name == parameter) {
+      throw UsageError("--set " + parameter + "=" + output::shortest(value) +
+                       ": the study goes along this parameter; give --along for its range");
+    }
+  }
+}
+
 /// What the options say of a study in time.
 void set_time(scene::TimeSettings& time, const Options& options) {
   time.method = options.method.value_or(time.method);
@@ -161,7 +199,7 @@ void set_range(scene::Study& study, const scene::Scene& scene, const Options& op
 }
 
 scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Options& options) {
-  check_over(scene, options);
+  check_parameter(scene, "--over", options.over);
   const bool is_frf = kind == scene::StudyKind::frf, is_time = kind == scene::StudyKind::time;
   const std::size_t studies_before = scene.studies.size();
   const std::size_t index = study_to_follow(scene, kind, options);
@@ -227,11 +265,7 @@ scene::Study optimum_of_verb(scene::Scene& scene, const Options& options) {
   }
   std::vector<scene::DesignVariable> design;
   for (const DesignRange& range : options.design) {
-    try {
-      scene::parameter_fields(scene, range.parameter);
-    } catch (const scene::ParameterError& error) {
-      throw UsageError("--over " + range.parameter + ": " + error.what());
-    }
+    check_parameter(scene, "--over", range.parameter);
     const auto known = std::find_if(study.design.begin(), study.design.end(),
                                     [&](const auto& v) { return v.name == range.parameter; });
     if (!range.bounds && known == study.design.end()) {
@@ -245,16 +279,19 @@ scene::Study optimum_of_verb(scene::Scene& scene, const Options& options) {
   if (!design.empty()) {
     study.design = std::move(design);
   }
-  for (const scene::DesignVariable& variable : study.design) {
-    std::erase_if(study.for_each, [&](const auto& list) { return list.first == variable.name; });
+  for (const DesignRange& range : options.design) {
+    scene::drop(study, range.parameter);
+    if (study.along && study.along->name == range.parameter) {
+      study.along.reset();
+    }
   }
   if (!options.frequency.empty()) {
     study.frequency_from = options.frequency.front();
     study.frequency_to = options.frequency.back();
   }
-  if (!options.algorithm.empty()) {
-    study.search.algorithm = options.algorithm;
-  }
+  set_search(study.search, options);
+  set_along(study, scene, options);
+  study.criterion = options.criterion.value_or(study.criterion);
   check_study(scene, index, options);
   return study;
 }

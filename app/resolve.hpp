@@ -19,7 +19,7 @@ void set_range(scene::Study& study, const scene::Scene& scene, const Options& op
 scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Options& options);
 
 /// The same of the verb optimize: the scene's first study of kind optimum, with the parameters, bounds,
-/// window and algorithm of the command line.
+/// window and settings of the command line.
 scene::Study optimum_of_verb(scene::Scene& scene, const Options& options);
 
 }  // namespace arcslip::app

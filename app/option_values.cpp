@@ -1,0 +1,111 @@
+#include "option_values.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace arcslip::app {
+namespace {
+
+std::optional<double> number(const std::string& text) {
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  begin += begin != end && *begin == '+' ? 1 : 0;
+  double value = 0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  return error == std::errc() && stop == end && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+std::pair<std::string, double> assignment(const std::string& text) {
+  const auto equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw UsageError("--set " + text + ": give it as name.field=value, such as --set damper.normal_load=3");
+  }
+  const std::string value = text.substr(equals + 1);
+  if (const auto parsed = number(value)) {
+    return {text.substr(0, equals), *parsed};
+  }
+  throw UsageError("--set " + text + ": found the value \"" + value + "\", must be a finite number");
+}
+
+std::optional<double> number(const std::string& option, const std::string& text, const std::string& what) {
+  const auto value = number(text);
+  if (!text.empty() && !value) {
+    throw UsageError(option + " " + text + ": must be " + what);
+  }
+  return value;
+}
+
+std::optional<double> frequency(const std::string& option, const std::string& text) {
+  if (text.empty()) {
+    return std::nullopt;
+  }
+  const auto value = number(text);
+  if (!value || *value <= 0) {
+    throw UsageError(option + " " + text + ": must be a frequency above 0, a finite number");
+  }
+  return value;
+}
+
+std::optional<int> whole_number(const std::string& option, const std::string& text, const std::string& what) {
+  if (text.empty()) {
+    return std::nullopt;
+  }
+  int value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size()) {
+    throw UsageError(option + " " + text + ": must be a whole number, " + what);
+  }
+  return value;
+}
+
+std::optional<scene::TimeMethod> method(const std::string& text) {
+  const auto found = scene::method_of(text);
+  if (!text.empty() && !found) {
+    throw UsageError("--method " + text + ": must be shooting, newmark-shooting, newmark or event-driven");
+  }
+  return found;
+}
+
+std::optional<scene::Criterion> criterion(const std::string& text) {
+  const auto found = scene::criterion_of(text);
+  if (!text.empty() && !found) {
+    throw UsageError("--criterion " + text + ": must be worst or mean");
+  }
+  return found;
+}
+
+DesignRange design_range(const std::string& option, const std::string& text) {
+  const auto equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (name.empty()) {
+    throw UsageError(option + " " + text + ": give it as name.field=lower:upper");
+  }
+  if (equals == std::string::npos) {
+    return {name, std::nullopt};
+  }
+  const std::string bounds = text.substr(equals + 1);
+  const auto colon = bounds.find(':');
+  const auto lower = number(bounds.substr(0, colon));
+  const auto upper = colon == std::string::npos ? std::nullopt : number(bounds.substr(colon + 1));
+  if (!lower || !upper) {
+    throw UsageError(option + " " + text + ": found the bounds \"" + bounds +
+                     "\", must be two finite numbers, lower:upper");
+  }
+  return {name, std::pair(*lower, *upper)};
+}
+
+std::vector<double> frequencies(const std::vector<std::string>& texts) {
+  std::vector<double> values;
+  for (const std::string& text : texts) {
+    values.push_back(frequency("--frequency", text).value());
+  }
+  if (values.size() == 2 && !(values[0] < values[1])) {
+    throw UsageError("--frequency " + texts[0] + " " + texts[1] +
+                     ": must be a window, the lower frequency before the upper one");
+  }
+  return values;
+}
+
+}  // namespace arcslip::app
