@@ -1,7 +1,9 @@
 #include "optimum_table.hpp"
 
+#include <arcslip/optimize/case_label.hpp>
 #include <arcslip/output/units.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ostream>
@@ -9,6 +11,8 @@
 
 namespace arcslip::app {
 namespace {
+
+constexpr std::size_t most_cases = 24;  // lines of a table for people
 
 std::string number(double value, const char* format = "%.8g") {
   char text[64];
@@ -19,6 +23,27 @@ std::string number(double value, const char* format = "%.8g") {
 std::string with_unit(const scene::Scene& scene, const std::string& parameter, double value) {
   const std::string unit = output::parameter_unit(scene, parameter);
   return number(value) + (unit.empty() || unit == "-" ? "" : " " + unit);
+}
+
+std::string place(const scene::Scene& scene, const observables::ResponsePoint& point) {
+  std::string text = number(output::in_scene_unit(scene, point.omega), "%.8f") + " " +
+                     std::string(scene::unit_name(scene.frequency_unit));
+  for (const auto& element : point.elements)
+    if (element.has_stick)
+      text += ", " + element.name + " sticks " + number(element.stick_percent, "%.4f") + " %";
+  return text;
+}
+
+void write_cases(std::ostream& out, const scene::Scene& scene, const optimize::OptimumResult& result) {
+  const bool mean = result.problem.criterion == scene::Criterion::mean;
+  const auto& cases = result.optimum.cases;
+  for (std::size_t c = 0; c < std::min(cases.size(), most_cases); ++c)
+    out << "    " << optimize::case_text(scene, result.problem, cases[c]) << ": "
+        << number(cases[c].amplitude, "%.8e") << " m at " << place(scene, cases[c].point)
+        << (cases[c].weight == 1 ? "" : ", weight " + number(cases[c].weight, "%.4g"))
+        << (cases[c].active && !mean ? ", active" : "") << '\n';
+  if (cases.size() > most_cases)
+    out << "    and " << cases.size() - most_cases << " cases more, which --json and --csv tell\n";
 }
 
 void write_certificate(std::ostream& out, const scene::Scene& scene, const optimize::OptimumResult& result) {
@@ -66,13 +91,14 @@ void write_table(std::ostream& out, const scene::Scene& scene,
     for (std::size_t k = 0; k < found.design.size(); ++k)
       out << "  " << result.problem.over[k].name << " = "
           << with_unit(scene, result.problem.over[k].name, found.design[k]) << '\n';
-    out << "  A_max = " << number(found.amplitude, "%.8e") << " m at "
-        << number(output::in_scene_unit(scene, found.point.omega), "%.8f") << ' '
-        << scene::unit_name(scene.frequency_unit);
-    for (const auto& element : found.point.elements)
-      if (element.has_stick)
-        out << ", " << element.name << " sticks " << number(element.stick_percent, "%.4f") << " %";
-    out << '\n';
+    if (result.has_cases()) {
+      out << "  " << scene::criterion_name(result.problem.criterion) << " of " << found.cases.size()
+          << (found.cases.size() == 1 ? " case = " : " cases = ") << number(found.amplitude, "%.8e")
+          << " m\n";
+      write_cases(out, scene, result);
+    } else {
+      out << "  A_max = " << number(found.amplitude, "%.8e") << " m at " << place(scene, found.point) << '\n';
+    }
     if (!found.feasible) out << "  a constraint is not met there\n";
     out << "  " << found.algorithm << ", " << found.evaluations.size() << " evaluations, "
         << found.work.responses << " responses traced, " << number(found.seconds, "%.3f")

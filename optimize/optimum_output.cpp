@@ -1,15 +1,10 @@
 #include <arcslip/optimize/optimum_output.hpp>
 
-#include <arcslip/output/draw_figures.hpp>
 #include <arcslip/output/json_text.hpp>
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <iterator>
 #include <ostream>
 
 namespace arcslip::optimize {
@@ -48,7 +43,36 @@ Json optimum_of(const scene::Scene& scene, const OptimumResult& result) {
   return json;
 }
 
-Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, const Certificate& c) {
+// As a scene file has it.
+Json place_of(const scene::Scene& scene, const scene::Direction& direction) {
+  const auto name = [&](const scene::Term& term) { return scene.dofs[static_cast<std::size_t>(term.dof)]; };
+  if (direction.size() == 1 && direction[0].weight == 1) return {{"at", name(direction[0])}};
+  Json weights = Json::object();
+  for (const scene::Term& term : direction) weights[name(term)] = term.weight;
+  return {{"direction", weights}};
+}
+
+Json cases_of(const scene::Scene& scene, const OptimumResult& result) {
+  Json list = Json::array();
+  for (const CaseResult& each : result.optimum.cases) {
+    Json& json = list.emplace_back(Json{{"set", output::detail::named_values(each.set)}});
+    if (!result.problem.scatter.empty()) {
+      json["scatter"] = output::detail::named_values(each.scatter);
+      json["of"] = each.of + 1;
+    }
+    if (each.of < result.problem.cases.size() && result.problem.cases[each.of].response)
+      json["response"] = place_of(scene, *result.problem.cases[each.of].response);
+    json["weight"] = each.weight;
+    json["amplitude"] = each.amplitude;
+    add_place(json, scene, each.point);
+    json["active"] = each.active;
+    json["multiplier"] = each.multiplier;
+  }
+  return list;
+}
+
+Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, const Certificate& c,
+                    bool has_cases) {
   Json json = {{"gradient", named(problem, c.gradient)}, {"stationarity", c.stationarity}};
   if (!c.to_minimum.empty()) json["to_minimum"] = named(problem, c.to_minimum);
   if (c.curvature.size() > 0) {
@@ -74,6 +98,7 @@ Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, co
                      {"amplitude", peak.amplitude},
                      {"active", peak.active},
                      {"weight", peak.weight}});
+  for (std::size_t i = 0; has_cases && i < peaks.size(); ++i) peaks[i]["case"] = c.peaks[i].in_case + 1;
   json["at_bound"] = Json::object();
   for (std::size_t k = 0; k < c.at_bound.size(); ++k)
     json["at_bound"][problem.over[k].name] = c.at_bound[k] < 0   ? "lower"
@@ -84,6 +109,7 @@ Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, co
     others.push_back({{"found_by", other.found_by},
                       {"frequency", output::in_scene_unit(scene, other.omega)},
                       {"amplitude", other.amplitude}});
+  for (std::size_t i = 0; has_cases && i < others.size(); ++i) others[i]["case"] = c.others[i].in_case + 1;
   json["others_lower"] = c.others_lower;
   return json;
 }
@@ -107,6 +133,11 @@ Json json_of(const scene::Scene& scene, const OptimumResult& result) {
   json["stop"] = output::detail::stop(result.stop);
   json["set"] = output::detail::named_values(result.set);
   json["optimum"] = optimum_of(scene, result);
+  if (result.has_cases()) {
+    json["criterion"] = scene::criterion_name(result.problem.criterion);
+    json["cases"] = cases_of(scene, result);
+  }
+  if (!result.problem.scatter.empty()) json["scatter_rounds"] = found.scatter_rounds;
   json["algorithm"] = found.algorithm;
   json["epigraph"] = found.epigraph;
   json["evaluations"] = found.evaluations.size();
@@ -115,7 +146,8 @@ Json json_of(const scene::Scene& scene, const OptimumResult& result) {
   json["factorizations"] = found.work.factorizations;
   json["seconds"] = found.seconds;
   json["notes"] = found.notes;
-  if (found.certificate) json["certificate"] = certificate_of(scene, result.problem, *found.certificate);
+  if (found.certificate)
+    json["certificate"] = certificate_of(scene, result.problem, *found.certificate, result.has_cases());
   if (result.direct.found || !result.direct.message.empty()) json["direct"] = direct_of(scene, result);
   Json& course = json["course"] = Json::array();
   for (const Evaluation& evaluation : found.evaluations) {
@@ -123,33 +155,6 @@ Json json_of(const scene::Scene& scene, const OptimumResult& result) {
     course.back()["amplitude"] = evaluation.amplitude;
   }
   return json;
-}
-
-double to_four_digits(double value) {
-  std::array<char, 32> digits{};
-  std::snprintf(digits.data(), digits.size(), "%.4g", value);
-  return std::strtod(digits.data(), nullptr);
-}
-
-// The ranges of tolerance behind the curve of peaks of the same setting, and the load at its minimum.
-void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> results,
-                    output::FigureData& data) {
-  for (output::FigureLine& line : data.lines) {
-    const auto result = std::find_if(results.begin(), results.end(),
-                                     [&](const OptimumResult& each) { return each.set == line.set; });
-    if (result == results.end()) continue;
-    if (const auto& certificate = result->optimum.certificate; certificate && !certificate->ranges.empty()) {
-      auto ranges = certificate->ranges[0];
-      std::sort(ranges.begin(), ranges.end(), [](auto& a, auto& b) { return a.share > b.share; });
-      for (const ToleranceRange& range : ranges)
-        line.bands.push_back(
-            {"within " + output::quantity(100 * range.share, "%"), {range.lower, range.upper}});
-    }
-    if (!line.label.empty()) continue;
-    const std::string unit = output::parameter_unit(scene, result->problem.over[0].name);
-    for (output::FigureMark& mark : line.marks)
-      if (mark.kind == "minimum") mark.label = output::quantity(to_four_digits(mark.record[0]), unit);
-  }
 }
 
 }  // namespace
@@ -182,7 +187,7 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Opt
   out << ",amplitude (m)," << output::with_unit("frequency", scene::unit_name(scene.frequency_unit)) << end;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const OptimumResult& result = results[i];
-    const auto row = [&](const char* what, std::span<const double> design, double amplitude,
+    const auto row = [&](const std::string& what, std::span<const double> design, double amplitude,
                          const std::string& frequency) {
       out << i + 1 << ',' << what;
       for (const auto& [name, value] : result.set) out << ',' << cell(value);
@@ -192,39 +197,12 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Opt
     for (const Evaluation& evaluation : result.optimum.evaluations)
       row("evaluation", evaluation.design, evaluation.amplitude, "");
     if (result.optimum.design.empty()) continue;
+    for (std::size_t c = 0; result.has_cases() && c < result.optimum.cases.size(); ++c)
+      row("case " + std::to_string(c + 1), result.optimum.design, result.optimum.cases[c].amplitude,
+          cell(output::in_scene_unit(scene, result.optimum.cases[c].point.omega)));
     row("optimum", result.optimum.design, result.optimum.amplitude,
         cell(output::in_scene_unit(scene, result.optimum.point.omega)));
   }
-}
-
-output::Figures write_figures(const scene::Scene& scene, scene::StudyKind,
-                              std::span<const OptimumResult> results, const std::string& folder,
-                              const std::string& name) {
-  output::Figures all;
-  const auto add = [&](output::Figures&& more) {
-    std::move(more.sources.begin(), more.sources.end(), std::back_inserter(all.sources));
-    std::move(more.images.begin(), more.images.end(), std::back_inserter(all.images));
-    if (all.problem.empty()) all.problem = std::move(more.problem);
-  };
-  std::vector<observables::ResponseBranch> curves, responses;
-  for (const OptimumResult& result : results) {
-    for (observables::ResponseBranch curve : result.direct.curves) {
-      curve.set = result.set;
-      curves.push_back(std::move(curve));
-    }
-    for (observables::ResponseBranch branch : result.responses) {
-      branch.set.insert(branch.set.begin(), result.set.begin(), result.set.end());
-      responses.push_back(std::move(branch));
-    }
-  }
-  if (!curves.empty()) {
-    output::FigureData data = output::figure_data(scene, scene::StudyKind::peaks, curves);
-    add_tolerances(scene, results, data);
-    add(output::draw_figures(scene, data, folder, name));
-  }
-  if (!responses.empty())
-    add(output::write_figures(scene, scene::StudyKind::frf, responses, folder, name + "_responses"));
-  return all;
 }
 
 }  // namespace arcslip::optimize

@@ -13,6 +13,9 @@ namespace arcslip::optimize {
 
 /// The key "optima" of a document: a list of
 ///   {"study", "kind", "status", "stop", "set",
+///    "criterion", "cases": [{"set", "scatter", "of", "response", "weight", "amplitude" (m), "frequency",
+///                            "omega", "stick_percent", "energy_friction", "elements", "active",
+///                            "multiplier"}, ...], "scatter_rounds",
 ///    "optimum": {each parameter by its name, "amplitude" (m), "frequency" (scene's unit), "omega" (rad/s),
 ///                "stick_percent" where there is one friction element, "energy_friction" (J), "feasible"},
 ///    "algorithm", "epigraph", "evaluations", "responses", "followed", "factorizations", "seconds", "notes",
@@ -21,17 +24,21 @@ namespace arcslip::optimize {
 ///    "direct": {the parameter, "amplitude", "frequency", "omega", "difference": {"design", "amplitude"}},
 ///    "course": [{each parameter, "amplitude"}, ...]}
 /// and, where there is exactly one, its "optimum", "algorithm", "evaluations" and "stop" beside them.
-/// "optimum" is null where there is none, "certificate" and "direct" are left out. Numbers that are not
+/// "optimum" is null where there is none, "certificate" and "direct" are left out, and so is all of cases
+/// where the problem has none. Numbers that are not
 /// finite are null. Refers to its arguments.
 output::JsonSection json_section(const scene::Scene& scene, std::span<const OptimumResult> results);
 
-/// A row for each evaluation, and one, named "optimum", for the result.
+/// A row for each evaluation, one, "case 1" and so on, for each case, and one, "optimum", for the result.
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumResult> results);
 
 /// Of one parameter: the resonance peaks over its bounds with the least one marked, and the ranges in
 /// which the amplitude is within 1 % and 5 % of it shaded (NAME_amplitude, NAME_frequency; unshaded
 /// NAME_amplitude_over_stick). Of any: the frequency responses at half, once and twice the
-/// optimum (NAME_responses_amplitude, NAME_responses_stick).
+/// optimum, or only once where there are several results (NAME_responses_amplitude, NAME_responses_stick).
+/// With cases, of each result by itself (NAME_1, NAME_2 ... where there are several): the highest peak of
+/// each case, times its weight, and the criterion over the bounds, with the optimum and its ranges
+/// (NAME_amplitude), and the responses of the cases at the optimum.
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
                               std::span<const OptimumResult> results, const std::string& folder,
                               const std::string& name);

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
 namespace arcslip::optimize {
 namespace {
 
 constexpr double around[] = {0.5, 1, 2};  // times the optimum: where responses are shown, to four digits
+constexpr std::size_t most_shown = 12;    // cases in one figure
 
 // To four digits, as a label of a figure shows it.
 double rounded(double value) {
@@ -19,29 +22,48 @@ double rounded(double value) {
                     : std::round(value / unit) * unit;
 }
 
-// The frequency responses there, of the values that the parameters may take.
-std::vector<observables::ResponseBranch> responses(const scene::Scene& scene, const scene::Study& study,
-                                                   const Optimum& optimum) {
-  std::vector<observables::ResponseBranch> all;
-  for (const double factor : around) {
-    scene::Scene at = scene;
-    observables::Setting set;
-    try {
-      for (std::size_t k = 0; k < study.design.size(); ++k) {
-        const double value = rounded(factor * optimum.design[k]);
-        scene::set(at, study.design[k].name, value);
-        set.emplace_back(study.design[k].name, value);
-      }
-    } catch (const scene::ParameterError&) {
-      continue;  // beyond what the parameter may be
+// The frequency responses at a multiple of the optimum, if the parameters may have it.
+std::vector<observables::ResponseBranch> responses(scene::Scene scene, const OptimumProblem& problem,
+                                                   const std::vector<double>& design, double factor) {
+  observables::Setting set;
+  try {
+    for (std::size_t k = 0; k < design.size(); ++k) {
+      const double value = rounded(factor * design[k]);
+      scene::set(scene, problem.over[k].name, value);
+      set.emplace_back(problem.over[k].name, value);
     }
-    scene::Study frf;
-    frf.from = study.frequency_from;
-    frf.to = study.frequency_to;
-    for (auto& branch : observables::frequency_response(at, frf)) {
-      branch.set = set;
-      all.push_back(std::move(branch));
-    }
+  } catch (const scene::ParameterError&) {
+    return {};
+  }
+  scene::Study frf;
+  frf.from = problem.frequency_from;
+  frf.to = problem.frequency_to;
+  auto branches = observables::frequency_response(scene, frf);
+  for (auto& branch : branches) branch.set = set;
+  return branches;
+}
+
+// Of the highest cases.
+std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const OptimumProblem& problem,
+                                        const Optimum& optimum) {
+  const auto& cases = optimum.cases;
+  std::vector<std::size_t> shown(cases.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  if (shown.size() > most_shown) {
+    const auto height = [&](std::size_t c) { return cases[c].weight * cases[c].amplitude; };
+    std::stable_sort(shown.begin(), shown.end(),
+                     [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
+    shown.resize(most_shown);
+    std::sort(shown.begin(), shown.end());
+  }
+  std::vector<CaseCurves> all;
+  for (const std::size_t c : shown) {
+    CaseCurves& curves = all.emplace_back(CaseCurves{c});
+    const scene::Scene in_case = scene_of(scene, problem, cases[c]);
+    if (problem.over.size() == 1)
+      curves.peaks =
+          direct_optimum(in_case, {problem.over, problem.frequency_from, problem.frequency_to}).curves;
+    curves.responses = responses(in_case, problem, optimum.design, 1);
   }
   return all;
 }
@@ -69,6 +91,13 @@ double OptimumResult::difference_of_amplitude() const {
   return std::abs(optimum.amplitude / direct.point.amplitude - 1);
 }
 
+scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of) {
+  for (const auto* values : {&of.set, &of.scatter})
+    for (const auto& [name, value] : *values) scene::set(scene, name, value);
+  if (of.of < problem.cases.size()) scene.response = problem.cases[of.of].response.value_or(scene.response);
+  return scene;
+}
+
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
                                          const observables::ProgressCallback& progress) {
   const auto all = observables::combinations(study);
@@ -82,8 +111,9 @@ std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene:
         scene::set(with, study.design[i].name, results.back().optimum.design[i]);
     OptimumResult result;
     result.set = all[k];
-    result.problem = {study.design, study.frequency_from, study.frequency_to, study.constraints,
-                      study.linear_constraints};
+    result.problem = {
+        study.design, study.frequency_from, study.frequency_to, study.constraints, study.linear_constraints,
+        study.cases,  study.criterion,      study.scatter};
     OptimumOptions options = options_of(study.search);
     bool go_on = true;
     options.progress = [&](const OptimumProgress& now) {
@@ -99,9 +129,17 @@ std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene:
     result.status = result.optimum.status;
     result.stop = result.optimum.stop;
     if (go_on && !result.optimum.design.empty()) {
-      if (study.design.size() == 1 && study.constraints.empty() && study.linear_constraints.empty())
+      const bool limited = !study.constraints.empty() || !study.linear_constraints.empty();
+      const bool bounded = std::isfinite(result.optimum.amplitude);
+      if (result.has_cases() && bounded)
+        result.curves = curves_of_cases(with, result.problem, result.optimum);
+      if (!result.has_cases() && study.design.size() == 1 && !limited)
         result.direct = direct_optimum(with, result.problem);
-      if (std::isfinite(result.optimum.amplitude)) result.responses = responses(with, study, result.optimum);
+      for (const double factor : around)
+        if (!result.has_cases() && bounded && (factor == 1 || all.size() == 1)) {
+          auto more = responses(with, result.problem, result.optimum.design, factor);
+          std::move(more.begin(), more.end(), std::back_inserter(result.responses));
+        }
     }
     results.push_back(std::move(result));
     if (!go_on) break;

@@ -1,0 +1,202 @@
+// The figures of optima.
+#include <arcslip/optimize/case_label.hpp>
+#include <arcslip/optimize/optimum_output.hpp>
+#include <arcslip/output/draw_figures.hpp>
+#include <arcslip/output/units.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <set>
+
+namespace arcslip::optimize {
+namespace {
+
+using observables::ResponseBranch;
+
+double to_four_digits(double value) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.4g", value);
+  return std::strtod(digits.data(), nullptr);
+}
+
+std::string value_label(const scene::Scene& scene, const OptimumProblem& problem, double value) {
+  return output::quantity(to_four_digits(value), output::parameter_unit(scene, problem.over[0].name));
+}
+
+std::vector<output::FigureBand> bands(const Optimum& optimum) {
+  std::vector<output::FigureBand> all;
+  if (!optimum.certificate || optimum.certificate->ranges.empty()) return all;
+  auto ranges = optimum.certificate->ranges[0];
+  std::sort(ranges.begin(), ranges.end(), [](auto& a, auto& b) { return a.share > b.share; });
+  for (const ToleranceRange& range : ranges)
+    all.push_back({"within " + output::quantity(100 * range.share, "%"), {range.lower, range.upper}});
+  return all;
+}
+
+// The ranges of tolerance behind the curve of peaks of the same setting, and the load at its minimum.
+void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> results,
+                    output::FigureData& data) {
+  for (output::FigureLine& line : data.lines) {
+    const auto result = std::find_if(results.begin(), results.end(),
+                                     [&](const OptimumResult& each) { return each.set == line.set; });
+    if (result == results.end()) continue;
+    line.bands = bands(result->optimum);
+    if (!line.label.empty()) continue;
+    for (output::FigureMark& mark : line.marks)
+      if (mark.kind == "minimum") mark.label = value_label(scene, result->problem, mark.record[0]);
+  }
+}
+
+// One line for each case, whatever the cases set: branches are told apart by their number until then.
+output::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind kind,
+                                  const OptimumResult& result,
+                                  std::vector<ResponseBranch> CaseCurves::*branches, bool weighted) {
+  const OptimumProblem& problem = result.problem;
+  std::vector<ResponseBranch> all;
+  for (const CaseCurves& curves : result.curves)
+    for (ResponseBranch branch : curves.*branches) {
+      const double factor = weighted ? result.optimum.cases[curves.of].weight : 1;
+      branch.set = {{problem.over[0].name, static_cast<double>(curves.of)}};
+      for (auto& point : branch.points) point.amplitude *= factor;
+      for (auto& event : branch.events) event.point.amplitude *= factor;
+      all.push_back(std::move(branch));
+    }
+  output::FigureData data = output::figure_data(scene, kind, all);
+  if (!result.set.empty()) data.title += ": " + output::assignment(scene, result.set);
+  std::set<std::vector<std::string>> names;
+  for (output::FigureLine& line : data.lines) {
+    const CaseResult& each = result.optimum.cases[static_cast<std::size_t>(line.set[0].second)];
+    line.set = result.set;
+    line.set.insert(line.set.end(), each.set.begin(), each.set.end());
+    line.set.insert(line.set.end(), each.scatter.begin(), each.scatter.end());
+    line.label = case_label(scene, problem, each);
+    if (weighted && each.weight != 1)
+      line.label += ", times " + output::shortest(to_four_digits(each.weight));
+    std::vector<std::string>& own = data.parameters;
+    own.clear();
+    for (const auto* values : {&each.set, &each.scatter})
+      for (const auto& value : *values) own.push_back(value.first);
+    names.insert(own);
+  }
+  if (names.size() != 1) {  // no common title: each line with names
+    data.parameters.clear();
+    for (std::size_t i = 0; i < data.lines.size(); ++i)
+      data.lines[i].label = case_text(scene, problem, result.optimum.cases[result.curves[i].of]);
+  }
+  return data;
+}
+
+// The highest of a line at a value of the parameter, between its points; NaN beyond them.
+double height(const output::FigureLine& line, std::size_t column, double at) {
+  double highest = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& part : line.parts)
+    for (std::size_t i = 1; i < part.size(); ++i) {
+      const auto &a = part[i - 1], &b = part[i];
+      if ((at - a[0]) * (at - b[0]) > 0 || a[0] == b[0]) continue;
+      const double t = (at - a[0]) / (b[0] - a[0]);
+      highest = std::fmax(highest, (1 - t) * a[column] + t * b[column]);
+    }
+  return highest;
+}
+
+// Of what is to be least: its curve, made of the lines, the optimum on it and the ranges around.
+void add_criterion(const scene::Scene& scene, const OptimumResult& result, output::FigureData& data) {
+  const bool mean = result.problem.criterion == Criterion::mean;
+  const std::size_t amplitude = data.amplitude_column();
+  std::set<double> places;
+  for (const output::FigureLine& line : data.lines)
+    for (const auto& part : line.parts)
+      for (const auto& record : part) places.insert(record[0]);
+  double sum = 0;
+  for (const CaseCurves& each : result.curves) sum += result.optimum.cases[each.of].weight;
+  output::FigureLine criterion;
+  criterion.label = mean ? "mean" : "worst";
+  auto& curve = criterion.parts.emplace_back();
+  const auto record = [&](double at, double value) {
+    output::Record values(data.columns.size(), std::numeric_limits<double>::quiet_NaN());
+    values[0] = at;
+    values[amplitude] = value;
+    return values;
+  };
+  for (const double at : places) {
+    double value = 0;
+    for (const output::FigureLine& line : data.lines) {
+      const double own = height(line, amplitude, at);
+      value = mean ? value + own / sum : std::max(value, own);
+    }
+    if (std::isfinite(value)) curve.push_back(record(at, value));
+  }
+  criterion.marks.push_back({"minimum", record(result.optimum.design[0], result.optimum.amplitude),
+                             value_label(scene, result.problem, result.optimum.design[0])});
+  criterion.bands = bands(result.optimum);
+  for (output::FigureLine& line : data.lines) line.marks.clear();
+  data.lines.push_back(std::move(criterion));
+}
+
+class Drawing {
+ public:
+  Drawing(const scene::Scene& scene, const std::string& folder) : scene_(scene), folder_(folder) {}
+
+  void add(const output::FigureData& data, const std::string& name) {
+    if (data.lines.empty()) return;
+    output::Figures more = output::draw_figures(scene_, data, folder_, name);
+    std::move(more.sources.begin(), more.sources.end(), std::back_inserter(all.sources));
+    std::move(more.images.begin(), more.images.end(), std::back_inserter(all.images));
+    if (all.problem.empty()) all.problem = std::move(more.problem);
+  }
+
+  output::Figures all;
+
+ private:
+  const scene::Scene& scene_;
+  const std::string& folder_;
+};
+
+void draw_cases(const scene::Scene& scene, const OptimumResult& result, const std::string& name,
+                Drawing& drawing) {
+  const auto& cases = result.optimum.cases;
+  const bool weighted = std::any_of(cases.begin(), cases.end(), [](auto& each) { return each.weight != 1; });
+  output::FigureData peaks =
+      lines_of_cases(scene, scene::StudyKind::peaks, result, &CaseCurves::peaks, weighted);
+  if (!peaks.lines.empty()) {
+    add_criterion(scene, result, peaks);
+    if (weighted) peaks.columns[peaks.amplitude_column()].label = "amplitude times weight (m)";
+    drawing.add(peaks, name);
+  }
+  drawing.add(lines_of_cases(scene, scene::StudyKind::frf, result, &CaseCurves::responses, false),
+              name + "_responses");
+}
+
+}  // namespace
+
+output::Figures write_figures(const scene::Scene& scene, scene::StudyKind,
+                              std::span<const OptimumResult> results, const std::string& folder,
+                              const std::string& name) {
+  Drawing drawing(scene, folder);
+  std::vector<ResponseBranch> curves, responses;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const OptimumResult& result = results[i];
+    if (!result.curves.empty())
+      draw_cases(scene, result, results.size() > 1 ? name + "_" + std::to_string(i + 1) : name, drawing);
+    for (ResponseBranch curve : result.direct.curves) {
+      curve.set = result.set;
+      curves.push_back(std::move(curve));
+    }
+    for (ResponseBranch branch : result.responses) {
+      branch.set.insert(branch.set.begin(), result.set.begin(), result.set.end());
+      responses.push_back(std::move(branch));
+    }
+  }
+  output::FigureData peaks = output::figure_data(scene, scene::StudyKind::peaks, curves);
+  add_tolerances(scene, results, peaks);
+  drawing.add(peaks, name);
+  drawing.add(output::figure_data(scene, scene::StudyKind::frf, responses), name + "_responses");
+  return std::move(drawing.all);
+}
+
+}  // namespace arcslip::optimize
