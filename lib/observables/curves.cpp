@@ -1,5 +1,6 @@
 #include <arcslip/observables/curves.hpp>
 
+#include <arcslip/observables/curve_parts.hpp>
 #include <arcslip/observables/special_curve.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
@@ -17,7 +18,12 @@ using continuation::Monitor;
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double same = 1e-6;  // special points that differ by less, relatively, are one
+// Shares of the range of the parameter.
+constexpr double between_ends[] = {0.5,   0.25,  0.75, 0.125,
+                                   0.375, 0.625, 0.875};  // where a response is looked at in any case
+constexpr double least_apart = 1.0 / 64;                  // of responses that are looked at
+constexpr double just_beyond = 1e-3;                      // the end of a curve
+constexpr std::size_t most_responses = 24;
 
 std::string text(double value) {
   std::ostringstream s;
@@ -26,88 +32,170 @@ std::string text(double value) {
   return s.str();
 }
 
-// The curves of one kind over one parameter, for one setting.
+// The curves of one kind over one parameter, for one setting. They begin at the special points of responses
+// at some values of the parameter: first both ends of its range, then beside the places where a curve has
+// ended within it, and wherever the range is not looked at from near. Each curve is followed once, from the
+// first response that shows it.
 class Curves {
  public:
   Curves(scene::StudyKind kind, const scene::Scene& scene, const scene::Study& study, const Setting& set,
          const ProgressCallback& report, const Progress& progress)
       : peaks_(kind == scene::StudyKind::peaks),
-        what_(peaks_ ? "resonance peak" : "fold"),
         unit_(scene.frequency_unit),
         to_rad_per_s_(scene::to_rad_per_s(unit_)),
         window_{study.frequency_from * to_rad_per_s_, study.frequency_to * to_rad_per_s_},
         way_(over_parameter(scene, study.over, study.from, study.to)),
-        backwards_(over_parameter(scene, study.over, study.to, study.from)),
-        set_(set),
+        parts_(kind, unit_, way_, set),
         report_(report),
         progress_(progress) {}
 
   std::vector<ResponseBranch> run() {
-    SpecialPoints found = special_points(way_, window_, event());
-    if (found.unbounded && found.points.empty()) {  // from where it is bounded, then
-      const std::string why = found.failure;
-      SpecialPoints other = special_points(backwards_, window_, event());
-      if (!other.points.empty()) {
-        std::swap(way_, backwards_);
-        found = std::move(other);
-      }
-    }
+    look_at(0);
+    if (!stopped_) look_at(1);
+    for (const double share : between_ends) to_look_at_.push_back(share);
+    for (std::size_t i = 0; i < to_look_at_.size() && looked_at_.size() < most_responses && !stopped_; ++i)
+      if (!is_looked_at(to_look_at_[i])) look_at(to_look_at_[i]);
     std::vector<ResponseBranch> branches;
-    std::vector<Vector> ends;
-    for (const SpecialPoint& start : found.points) {
-      const auto is_start = [&](const Vector& end) { return (start.x - end).norm() <= same * end.norm(); };
-      if (std::any_of(ends.begin(), ends.end(), is_start)) continue;
-      const auto began = std::chrono::steady_clock::now();
-      const SpecialCurve curve = trace(found.problem, start);
-      auto parts = split(curve);
-      SolverSummary& solver = parts.front().solver;
-      solver.unknowns = found.problem->size() + 1;
-      add(curve.counts, solver);
-      solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-      for (auto& part : parts) branches.push_back(std::move(part));
-      if (curve.end.size() > 0) ends.push_back(curve.end);
-      if (curve.stop.reason == StopReason::user && curve.unbounded.empty()) return branches;
+    for (const Found& found : found_)
+      for (auto& part : reported(found)) branches.push_back(std::move(part));
+    if (stopped_) return branches;
+    if (branches.empty()) {
+      const std::string& why = failure_.empty() ? unbounded_ : failure_;
+      branches.push_back(parts_.failed(way_.from, "no " + what() + " was found at " + way_.name + " = " +
+                                                      text(way_.from) + ", nor up to " + text(way_.to) +
+                                                      ", between " + frequency_text(window_.lower, unit_) +
+                                                      " and " + frequency_text(window_.upper, unit_) +
+                                                      (why.empty() ? "" : ": " + why)));
+    } else if (!failure_.empty()) {
+      branches.push_back(parts_.failed(failed_at_, failure_));
     }
-    if (branches.empty())
-      branches.push_back(failed(StopReason::start_failed,
-                                "no " + what_ + " was found at " + way_.name + " = " + text(way_.from) +
-                                    " between " + frequency_text(window_.lower, unit_) + " and " +
-                                    frequency_text(window_.upper, unit_) +
-                                    (found.failure.empty() ? "" : ": " + found.failure)));
     return branches;
   }
 
  private:
-  std::string event() const { return peaks_ ? "peak" : "fold"; }
+  struct Found {
+    SpecialCurve curve;
+    int unknowns;
+    double seconds;
+  };
 
-  std::string place(const Vector& x) const {
-    return way_.name + " = " + text(way_.from) + " and " + frequency_text(x[x.size() - 1], unit_);
+  std::string what() const { return peaks_ ? "resonance peak" : "fold"; }
+
+  bool is_looked_at(double share) const {
+    return std::any_of(looked_at_.begin(), looked_at_.end(),
+                       [&](double other) { return std::abs(other - share) < least_apart; });
   }
 
-  ResponseBranch failed(StopReason reason, const std::string& message) const {
-    ResponseBranch result = described(*way_.model, set_, way_.name);
-    result.status = Status::failed;
-    result.stop = {name(reason), way_.from, 0, message};
-    return result;
+  // share: of the range, 0 at its beginning.
+  void look_at(double share) {
+    looked_at_.push_back(share);
+    const double over = way_.value(share);
+    const SpecialPoints response = special_points(way_, over, window_, peaks_ ? "peak" : "fold");
+    for (const SpecialPoint& start : response.points) {
+      follow(start, share);
+      if (stopped_) return;
+    }
+    if (unbounded_.empty()) unbounded_ = response.unbounded;
+    if (response.failure.empty() || !failure_.empty()) return;
+    failed_at_ = over;
+    failure_ = "the response at " + way_.name + " = " + text(over) +
+               " could not be followed through the window, and curves may be missing: " + response.failure;
   }
 
-  SpecialCurve trace(const std::shared_ptr<const hbm::HbmProblem>& problem, const SpecialPoint& start) {
+  void follow(const SpecialPoint& start, double share) {
+    const auto began = std::chrono::steady_clock::now();
+    SpecialCurveTracer tracer = make_tracer(start.problem);
+    const auto passes = [&](const Found& found) { return tracer.passes(found.curve, start); };
+    if (std::any_of(found_.begin(), found_.end(), passes)) return;
+    const int ahead = way_.direction();
+    SpecialCurve curve = tracer.run(start, share == 1 ? -ahead : ahead);
+    if (share > 0 && share < 1 && !is_stopped(curve.end) && !curve.end.closed) {
+      SpecialCurve back = tracer.run(start, -ahead);
+      if (!goes_the_same_way(curve, back)) curve = joined(std::move(back), std::move(curve));
+    }
+    if (curve.end.closed) curve = begun_at_a_turn(std::move(curve));
+    drop_parts_of(tracer, curve);
+    stopped_ = is_stopped(curve.end) || (curve.begin && is_stopped(*curve.begin));
+    look_beyond(curve.end);
+    if (curve.begin) look_beyond(*curve.begin);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
+    found_.push_back({std::move(curve), start.problem->size() + 1, seconds.count()});
+  }
+
+  static bool is_stopped(const SpecialCurveEnd& end) {
+    return end.stop.reason == StopReason::user && end.unbounded.empty();
+  }
+
+  // From a corner that is special on one side of it only.
+  static bool goes_the_same_way(const SpecialCurve& a, const SpecialCurve& b) {
+    if (a.points.size() < 2 || b.points.size() < 2) return b.points.size() < 2;
+    const auto way = [](const SpecialCurve& curve) {
+      return curve.points[1].point.over - curve.points[0].point.over;
+    };
+    return way(a) * way(b) > 0;
+  }
+
+  // So that a closed curve is not cut in the middle of a part.
+  static SpecialCurve begun_at_a_turn(SpecialCurve curve) {
+    const auto turns = CurveParts::turns(curve);
+    if (turns.empty()) return curve;
+    const double begin = turns.front(),
+                 length = curve.points.back().arclength - curve.points.front().arclength;
+    const auto rotate = [&](auto& all) {
+      for (auto& each : all)
+        if (each.arclength <= begin) each.arclength += length;
+      std::stable_sort(all.begin(), all.end(),
+                       [](const auto& a, const auto& b) { return a.arclength < b.arclength; });
+    };
+    rotate(curve.points);
+    rotate(curve.events);
+    std::rotate(curve.turns.begin(),
+                curve.turns.begin() + (!curve.turns.empty() && curve.turns.front() == begin),
+                curve.turns.end());
+    if (!curve.turns.empty() && curve.turns.back() == begin) curve.turns.back() += length;
+    return curve;
+  }
+
+  void look_beyond(const SpecialCurveEnd& end) {
+    if (end.closed || end.over == way_.lower() || end.over == way_.upper()) return;
+    to_look_at_.push_back(way_.share(end.over) + just_beyond * end.direction * way_.direction());
+  }
+
+  // A curve that failed is covered by one that came from its other side through all of it.
+  void drop_parts_of(const SpecialCurveTracer& tracer, const SpecialCurve& curve) {
+    std::erase_if(found_, [&](const Found& earlier) {
+      const auto& points = earlier.curve.points;
+      const auto passes = [&](const SpecialCurve::At& at) {
+        return tracer.passes(curve, tracer.point_of(at));
+      };
+      return !points.empty() && passes(points.front()) && passes(points[points.size() / 2]) &&
+             passes(points.back());
+    });
+  }
+
+  std::vector<ResponseBranch> reported(const Found& found) const {
+    auto parts = parts_.of(found.curve);
+    SolverSummary& solver = parts.front().solver;
+    solver.unknowns = found.unknowns;
+    solver.seconds = found.seconds;
+    add(found.curve.counts, solver);
+    return parts;
+  }
+
+  SpecialCurveTracer make_tracer(const std::shared_ptr<const hbm::HbmProblem>& problem) {
     const auto section = std::make_shared<CurveSection>(problem, way_.index);
     const Eigen::Index n = problem->size();
-    long points = 0;
-    double last = start.x[start.x.size() - 1];
-    const auto progress = [&](double over, double omega) {
+    const auto progress = [this, points = 0L, last = 0.0](double over, double omega) mutable {
       progress_.points = ++points;
       progress_.frequency = omega / to_rad_per_s_;
-      progress_.step = (omega - last) / to_rad_per_s_;
+      progress_.step = last > 0 ? (omega - last) / to_rad_per_s_ : 0;
       progress_.share_done = way_.share(over);
       last = omega;
       return !report_ || report_(progress_);
     };
     return SpecialCurveTracer(problem, peaks_ ? peak_kind(problem) : fold_kind(), way_, window_,
                               with_folds(peaks_ ? peak_monitors(section) : fold_monitors(n)),
-                              peaks_ ? peak_monitors(section) : turn_monitors(n), section, progress)
-        .run(start);
+                              peaks_ ? peak_monitors(section) : turn_monitors(n), section, progress);
   }
 
   static std::vector<Monitor> peak_monitors(const std::shared_ptr<CurveSection>& section) {
@@ -135,118 +223,19 @@ class Curves {
     return monitors;
   }
 
-  // At a cusp a curve of folds turns in everything, and where a curve of peaks turns, dA/ds = dA/dp dp/ds is
-  // zero: neither is an event of its own.
-  bool belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const {
-    const char* first = peaks_ ? "fold" : "cusp";
-    return each.event.kind != first && each.event.kind != "corner" &&
-           std::any_of(curve.events.begin(), curve.events.end(), [&](const auto& other) {
-             const auto &a = other.event.point, &b = each.event.point;
-             return other.event.kind == first && std::abs(a.omega - b.omega) <= same * a.omega &&
-                    std::abs(a.over - b.over) <= same * (way_.upper() - way_.lower());
-           });
-  }
-
-  // A curve of peaks turns where a peak meets a minimum of the amplitude over the frequency, which the curve
-  // follows from there to the next turn: that part is left out.
-  std::vector<ResponseBranch> split(const SpecialCurve& curve) const {
-    std::vector<ResponseBranch> parts;
-    std::vector<double> turns;
-    if (peaks_) {
-      turns = curve.turns;
-      for (const auto& each : curve.events)
-        if (each.event.kind == "fold") turns.push_back(each.arclength);
-      std::sort(turns.begin(), turns.end());
-    }
-    turns.push_back(HUGE_VAL);
-    std::vector<std::pair<double, double>> course;
-    for (const auto& at : curve.points) course.emplace_back(at.arclength, at.point.amplitude);
-    double begin = -HUGE_VAL;
-    for (std::size_t k = 0; k < turns.size(); begin = turns[k++]) {
-      const double end = turns[k];
-      double peaks = 0, others = 0;  // arclengths
-      const SpecialCurve::At* before = nullptr;
-      ResponseBranch part = described(*way_.model, set_, way_.name);
-      for (const auto& at : curve.points) {
-        if (!(at.arclength >= begin && at.arclength < end)) continue;
-        const double length = before ? at.arclength - before->arclength : 0;
-        (at.second <= 0 ? peaks : others) += length;
-        before = &at;
-        part.points.push_back(at.point);
-      }
-      if (part.points.empty() || (peaks_ && others > peaks)) continue;
-      for (std::size_t i = 0; i < curve.events.size(); ++i) {
-        const auto& each = curve.events[i];
-        if (each.arclength < begin || each.arclength > end || belongs_to_another(curve, each)) continue;
-        const bool extreme = each.event.kind == "minimum" || each.event.kind == "maximum";
-        if (extreme && !departs(course, each.arclength, each.event.point.amplitude)) continue;
-        part.events.push_back(each.event);
-        if (peaks_ && each.arclength == begin) part.points.insert(part.points.begin(), each.event.point);
-        if (peaks_ && each.arclength == end) part.points.push_back(each.event.point);
-      }
-      finish(part, curve, end);
-      parts.push_back(std::move(part));
-    }
-    if (parts.empty()) {
-      parts.push_back(described(*way_.model, set_, way_.name));
-      finish(parts.back(), curve, HUGE_VAL);
-    }
-    return parts;
-  }
-
-  void finish(ResponseBranch& part, const SpecialCurve& curve, double end) const {
-    const continuation::Stop& stop = curve.stop;
-    part.status = status_of(stop.reason);
-    part.stop = {name(stop.reason), stop.value, stop.limit, stop.message};
-    if (!part.points.empty() && (end < HUGE_VAL || curve.vanishes)) {
-      const ResponsePoint& last = part.points.back();
-      part.status = Status::complete;
-      part.stop = {
-          "fold", last.over, last.over,
-          (peaks_ ? "the peak meets a minimum of the amplitude over the frequency, and there is none beyond "
-                  : "the fold meets another at a corner of the response, and there is none beyond ") +
-              way_.name + " = " + text(last.over)};
-    } else if (!curve.unbounded.empty()) {
-      const ResponsePoint& last = part.points.back();
-      part.status = Status::complete;
-      part.stop = {"unbounded", last.over, last.over,
-                   "the " + what_ + " grows without bound near " + way_.name + " = " + text(last.over) +
-                       ", and beyond " + curve.unbounded};
-    } else if (curve.left_window) {
-      const ResponsePoint& last = part.points.back();
-      part.status = Status::complete;
-      part.stop = {name(StopReason::boundary), last.over, way_.to,
-                   "the " + what_ + " leaves the window at " + frequency_text(last.omega, unit_) + ", at " +
-                       way_.name + " = " + text(last.over)};
-    } else if (stop.reason == StopReason::boundary) {
-      part.stop.limit = way_.to;
-      part.stop.message =
-          stop.value == way_.to
-              ? "reached the end of the range at " + way_.name + " = " + text(way_.to)
-              : "came back to the beginning of the range at " + way_.name + " = " + text(way_.from);
-    } else if (part.points.empty()) {
-      part.stop.message = "no curve was begun from the " + what_ + " at " + way_.name + " = " +
-                          text(way_.from) + ": " + stop.message;
-    } else {
-      const std::string where = way_.name + " = " + text(part.points.back().over);
-      if (stop.reason == StopReason::step_too_small)
-        part.stop.message =
-            "the curve could not be followed beyond " + where + ": probably the " + what_ +
-            " sits there at a corner of the response, where a phase of friction begins or ends";
-      else
-        part.stop.message += ", near " + where;
-    }
-  }
-
   bool peaks_;
-  std::string what_;
   scene::FrequencyUnit unit_;
   double to_rad_per_s_;
   FrequencyWindow window_;
-  OverParameter way_, backwards_;
-  const Setting& set_;
+  OverParameter way_;
+  CurveParts parts_;
   const ProgressCallback& report_;
   Progress progress_;
+  std::vector<double> looked_at_, to_look_at_;  // shares of the range
+  std::vector<Found> found_;
+  bool stopped_ = false;  // by the user
+  double failed_at_ = 0;
+  std::string failure_, unbounded_;
 };
 
 std::vector<ResponseBranch> all_curves(scene::StudyKind kind, const scene::Scene& scene,

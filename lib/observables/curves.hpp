@@ -18,20 +18,24 @@ namespace arcslip::observables {
 std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const scene::Study& study,
                                                const ProgressCallback& progress = {});
 
-/// study.kind peaks: the curves of resonance peaks, dA/ds = 0 along the frequency, over study.over; one for
-/// each peak in the frequency window at study.from. Where the resonance is unbounded there, they begin at
-/// study.to. A curve ends at the end of the range, where the peak leaves the window, where it grows without
-/// bound ("unbounded"), or where it meets a minimum of the amplitude ("fold"); where the curve beyond comes
-/// to a peak again, that is another branch. Events: "minimum" and "maximum" of the peak amplitude over the
-/// parameter, "fold", where the curve turns in it, and "corner", where the peak comes to a corner of the
-/// response, at which an element begins to slip, or leaves it.
+/// study.kind peaks: the curves of resonance peaks, dA/ds = 0 along the frequency, over study.over. They are
+/// those of the peaks in the frequency window at both ends of the range, at seven values between, and beside
+/// each place where a curve ends within the range; each is there once. One that both is born and vanishes
+/// between two neighbouring ones of these values, an eighth of the range apart, may be missing. A curve that
+/// is there at study.from begins there, another at study.to, another where it is born. It ends at an end of
+/// the range, where the peak leaves the window, where it grows without bound ("unbounded"), where it meets a
+/// minimum of the amplitude ("fold"), or where it has come back to its beginning ("closed"); where the curve
+/// beyond comes to a peak again, that is another branch. Events: "minimum" and "maximum" of the peak
+/// amplitude over the parameter, "fold", where the curve turns in it, and "corner", where the peak comes to a
+/// corner of the response, at which an element begins to slip, or leaves it. Where a response cannot be
+/// followed through the window, a branch without points says so.
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const scene::Study& study,
                                             const ProgressCallback& progress = {});
 
-/// study.kind folds: the curves of folds in frequency over study.over; one for each fold in the frequency
-/// window, or for both of them where one curve goes through both. Events: "cusp", "fold", where the curve
-/// turns in the parameter, "turn", where it turns in the frequency (folds in the parameter at fixed frequency
-/// begin or end there), and "corner" as on peaks.
+/// study.kind folds: the curves of folds in frequency over study.over, found in the same way; one curve goes
+/// through two folds where these meet in a cusp. Events: "cusp", "fold", where the curve turns in the
+/// parameter, "turn", where it turns in the frequency (folds in the parameter at fixed frequency begin or end
+/// there), and "corner" as on peaks.
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const scene::Study& study,
                                         const ProgressCallback& progress = {});
 

@@ -16,9 +16,6 @@ using continuation::Vector;
 
 constexpr double beyond_display =
     1e6;  // |u| in scales: where it is asked whether the response is bounded at all
-constexpr double least_beyond = 1e-6;  // of the pole's frequency: nearer, a start would be taken for the pole
-constexpr double without_course = 1.0 / 150;  // of the window: as far beyond a pole that the branch begins at
-constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an unbounded peak is taken up
 
 // One branch over the window [from, to], and what has to be known to go on beyond an unbounded peak.
 class Sweep {
@@ -123,8 +120,7 @@ class Sweep {
     }
   }
 
-  // The peak at infinity, and where the branch is to be taken up on the other side of the pole: as far beyond
-  // it as it was before.
+  // The peak at infinity, and where the branch is to be taken up on the other side of the pole.
   void end_unbounded(ResponseBranch& result, const Unboundedness& growth,
                      const std::vector<std::pair<double, double>>& course) {
     const double omega = course.back().first;
@@ -136,12 +132,7 @@ class Sweep {
     peak.point.omega = omega;
     peak.point.unbounded = true;
     result.events.push_back(std::move(peak));
-    far_side_ = omega + (upper_ - lower_) * without_course;
-    for (auto it = course.rbegin(); it != course.rend(); ++it) {
-      if (it->second > next_to_pole) continue;
-      far_side_ = std::max(2 * omega - it->first, (1 + least_beyond) * omega);
-      break;
-    }
+    far_side_ = beyond_pole(course, upper_ - lower_);
   }
 
   std::string with_unit(double omega) const { return frequency_text(omega, frequency_unit_); }

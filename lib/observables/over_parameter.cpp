@@ -34,6 +34,18 @@ double OverParameter::share(double value) const {
   return std::clamp(share, 0.0, 1.0);
 }
 
+double OverParameter::value(double share) const {
+  if (share <= 0) return from;
+  if (share >= 1) return to;
+  return has_one_sign() ? from * std::pow(to / from, share) : from + share * (to - from);
+}
+
+std::shared_ptr<const model::Model> OverParameter::at(double value) const {
+  auto moved = std::make_shared<model::Model>(*model);
+  moved->parameters[static_cast<std::size_t>(index)].value = value;
+  return moved;
+}
+
 OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to) {
   scene::set(scene, over, to);
   scene::set(scene, over, from);

@@ -27,6 +27,12 @@ struct OverParameter {
 
   /// 0 at `from`, 1 at `to`, by the logarithm in a range of one sign.
   double share(double value) const;
+
+  /// The inverse of it; exactly `from` and `to` at 0 and 1.
+  double value(double share) const;
+
+  /// The model with `over` at another value.
+  std::shared_ptr<const model::Model> at(double value) const;
 };
 
 /// Throws scene::ParameterError where the scene has no parameter `over`, or it may not take these values.

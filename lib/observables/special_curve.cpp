@@ -1,5 +1,6 @@
 #include <arcslip/observables/special_curve.hpp>
 
+#include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
 #include <arcslip/continuation/corrector.hpp>
@@ -17,7 +18,6 @@ using continuation::Monitor;
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
 constexpr double grown = 1e5;   // |u| in scales: where it is asked whether a response just ahead is unbounded
 constexpr double ahead = 1e-2;  // of the parameter
 constexpr const char* window_event = "window";
@@ -45,35 +45,6 @@ Monitor window_monitor(const FrequencyWindow& window, Eigen::Index n) {
 }
 
 }  // namespace
-
-SpecialPoints special_points(const OverParameter& way, const FrequencyWindow& window,
-                             const std::string& kind) {
-  SpecialPoints found;
-  if (const auto growth = unbounded_resonance(way.model, window.lower); growth.unbounded) {
-    found.unbounded = true;
-    found.failure = growth.message;
-    return found;
-  }
-  const auto record = [&](Observer& observer, const Accepted& now, const continuation::Event* event) {
-    if (event) {
-      if (event->monitor != kind) return true;
-      Vector x(now.u.size() + 1);
-      x << now.u, now.parameter;
-      found.points.push_back({std::move(x), event->nonsmooth});
-      return true;
-    }
-    if (now.u.norm() <= beyond_display * observer.problem().displacement()) return true;
-    const auto growth = unboundedness(observer.problem(), now.p, now.u);
-    found.unbounded = growth.unbounded;
-    if (growth.unbounded) found.failure = growth.message;
-    return !growth.unbounded;
-  };
-  const auto swept = frequency_branch(way.model, window, window.lower, record);
-  found.problem = swept.problem;
-  if (found.failure.empty() && swept.branch.stop.reason != StopReason::boundary)
-    found.failure = swept.branch.stop.message;
-  return found;
-}
 
 SpecialKind peak_kind(const std::shared_ptr<const hbm::HbmProblem>& problem) {
   return {"peak", amplitude_quantity(problem), true};
@@ -104,38 +75,48 @@ SpecialCurveTracer::SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> pr
       progress_(std::move(progress)),
       smooth_(continuation::stationary_points(problem_, model::frequency, kind_.quantity)) {}
 
-SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start) {
-  Place at{start.x, way_.from, way_.direction(), {}};
+SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
+  result_ = {};
+  arclength_ = 0;
+  SpecialCurveEnd& end = result_.end;
+  Place at{start.x, start.over, direction, {}};
+  end.x = at.x;
+  end.over = at.over;
+  end.direction = direction;
   if (start.nonsmooth) {
     const auto corner = to_corner(at);
     if (!corner) {
-      result_.stop.reason = StopReason::start_failed;
-      result_.stop.message = "it is a corner of the response, but none where an element begins to slip";
+      end.stop.reason = StopReason::start_failed;
+      end.stop.message = "it is a corner of the response, but none where an element begins to slip";
       return std::move(result_);
     }
     at = *corner;
   }
   for (int part = 0; part < most_parts; ++part) {
+    const std::size_t before_part = result_.points.size();
     const continuation::Branch branch = trace(at);
-    result_.stop = branch.stop;
-    if (branch.points.empty()) break;
+    end.stop = branch.stop;
+    end.closed = part == 0 && branch.stop.reason == StopReason::closed;
+    if (branch.points.empty() || end.closed || comes_back(before_part)) break;
     const continuation::Point& last = branch.points.back();
-    result_.end = last.u.head(problem_->size() + 1);
+    const double before = last.tangent[last.tangent.size() - 1];
+    end.x = last.u.head(problem_->size() + 1);
+    end.over = last.parameter;
+    end.direction = before < 0 ? -1 : 1;
     const bool leaves = branch.stop.reason == StopReason::event;
     const std::string by = leaves ? branch.events.back().monitor : "";
     const bool passes = leaves ? by == stick_event || by == slip_event
                                : !at.corner && branch.stop.reason == StopReason::step_too_small;
-    result_.left_window = by == window_event;
-    result_.vanishes = by == fold_event;
+    end.left_window = by == window_event;
+    end.vanishes = by == fold_event;
     if (!passes) break;
-    const double before = last.tangent[last.tangent.size() - 1];
-    Place end{result_.end, last.parameter, before < 0 ? -1 : 1, at.corner};
-    if (end.corner) end.corner = at_angles(*end.corner, last.u);
-    const auto next = leaves ? from_corner(end, by == slip_event) : to_corner(end);
-    if (!next && !leaves && kind_.maximum && is_surpassed(end)) result_.vanishes = true;
+    Place place{end.x, end.over, end.direction, at.corner};
+    if (place.corner) place.corner = at_angles(*place.corner, last.u);
+    const auto next = leaves ? from_corner(place, by == slip_event) : to_corner(place);
+    if (!next && !leaves && kind_.maximum && is_surpassed(place)) end.vanishes = true;
     if (!next) break;
     result_.events.push_back({arclength_, {"corner", true, true, result_.points.back().point}});
-    if (next->direction != end.direction) result_.turns.push_back(arclength_);
+    if (next->direction != place.direction) result_.turns.push_back(arclength_);
     at = *next;
   }
   std::stable_sort(result_.events.begin(), result_.events.end(),
@@ -176,14 +157,15 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
       return true;
     }
     if (std::exchange(first, false)) return true;
-    result_.points.push_back({arclength, corner ? 0 : second(now), section_->observe(now)});
+    result_.points.push_back({arclength, corner ? 0 : second(now), section_->observe(now), from.corner});
+    if (corner) result_.points.back().corner = at_angles(*from.corner, now.u);
     if (terminal) return true;
     const double omega = now.u[n];
     if (now.u.head(n).norm() > grown * problem_->displacement()) {
       Vector p = parameters(now.u, now.parameter);
       p[way_.index] *= 1 + (now.tangent[now.u.size()] < 0 ? -ahead : ahead);
       if (const auto growth = unboundedness(*problem_, p, now.u.head(n)); growth.unbounded) {
-        result_.unbounded = growth.message;
+        result_.end.unbounded = growth.message;
         return false;
       }
     }
@@ -200,13 +182,7 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
     std::erase_if(result_.events, beyond);
     std::erase_if(result_.points, beyond);
   }
-  auto& counts = result_.counts;
-  counts.points += branch.counts.points;
-  counts.rejected_steps += branch.counts.rejected_steps;
-  counts.residuals += branch.counts.residuals;
-  counts.jacobians += branch.counts.jacobians;
-  counts.factorizations += branch.counts.factorizations;
-  counts.solves += branch.counts.solves;
+  add(branch.counts, result_.counts);
   return branch;
 }
 
@@ -216,9 +192,10 @@ Vector SpecialCurveTracer::parameters(const Vector& x, double over) const {
   return p;
 }
 
-// The solution near (x, over) in the plane row . ((x, over)' - (x, over)) = 0.
+// The solution near (x, over) in the plane row . ((x, over)' - (x, over)) = 0, no farther off than `reach`,
+// relative.
 std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem& problem, const Vector& x,
-                                                    double over, const Vector& row) const {
+                                                    double over, const Vector& row, double reach) const {
   continuation::Counts counts;
   continuation::Corrector corrector(problem, parameters(x, over), way_.index, {}, counts);
   const Eigen::Index n = x.size();
@@ -227,8 +204,7 @@ std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem&
   scales << problem.scales(), over;
   const Vector guess = v;
   if (!corrector.correct(v, row, false).converged) return {};
-  if ((v - guess).cwiseQuotient(scales).norm() > near_corner * (1 + guess.cwiseQuotient(scales).norm()))
-    return {};
+  if ((v - guess).cwiseQuotient(scales).norm() > reach * (1 + guess.cwiseQuotient(scales).norm())) return {};
   return v;
 }
 
@@ -257,7 +233,8 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Pla
       for (const int direction : {at.direction, -at.direction}) {
         const double over = at.over * (1 + direction * beside);
         if (!inside(over)) continue;
-        const auto v = corrected(*points, with_angles(at.x, corner), over, Vector::Unit(n + 4, n + 3));
+        const auto v =
+            corrected(*points, with_angles(at.x, corner), over, Vector::Unit(n + 4, n + 3), near_corner);
         if (!v) continue;
         const Vector all = v->head(n + 3);
         found.push_back(sides.slopes(all, parameters(all, over)));
@@ -265,7 +242,7 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Pla
           return Place{all.head(n + 1), over, direction, at_angles(corner, all)};
       }
       if (found.size() == 2 && (found[0].stick * found[1].stick < 0) != (found[0].slip * found[1].slip < 0)) {
-        result_.vanishes = true;
+        result_.end.vanishes = true;
         return {};
       }
     }
@@ -307,7 +284,7 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const P
   dh *= (slip ? 1 : -1) * hbm::slip_limit(*problem_, at.corner->element, p) / dh.squaredNorm();
   for (const double beside : besides) {
     guess.head(n) = at.x.head(n) + beside * dh;
-    const auto v = corrected(*smooth_, guess, at.over, row);
+    const auto v = corrected(*smooth_, guess, at.over, row, near_corner);
     if (!v) continue;
     const double over = (*v)[n + 1];
     if (inside(over) && std::abs(over - at.over) > least_change * at.over)

@@ -1,7 +1,7 @@
 #pragma once
 // Curves of special points of the branches over the excitation frequency, over one more parameter: resonance
-// peaks and folds. Found on the branch at the range's beginning, followed by continuation of the equations
-// that define them (continuation/stationary.hpp).
+// peaks and folds. Found on a branch at one value of the parameter (special_points.hpp), followed from there
+// by continuation of the equations that define them (continuation/stationary.hpp).
 //
 // A special point may come to a corner of the branches, where a friction element begins to slip at a reversal
 // of its motion, and sit there while the parameter goes on: the slope has opposite signs on the two sides.
@@ -12,6 +12,7 @@
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/over_parameter.hpp>
+#include <arcslip/observables/special_points.hpp>
 
 #include <functional>
 #include <memory>
@@ -20,24 +21,6 @@
 #include <vector>
 
 namespace arcslip::observables {
-
-/// A special point on the branch over the frequency, to start from.
-struct SpecialPoint {
-  continuation::Vector x;  // unknowns and frequency
-  bool nonsmooth = false;
-};
-
-/// Those in a frequency window at the beginning of the range.
-struct SpecialPoints {
-  std::shared_ptr<const hbm::HbmProblem> problem;
-  std::vector<SpecialPoint> points;
-  bool unbounded = false;  // an unbounded resonance ends the branch
-  std::string failure;     // why there are none, or not all
-};
-
-/// kind: the event, "peak" or "fold".
-SpecialPoints special_points(const OverParameter& way, const FrequencyWindow& window,
-                             const std::string& kind);
 
 /// What is special, as the zero of the slope of a quantity along the branch over the frequency.
 struct SpecialKind {
@@ -48,12 +31,26 @@ struct SpecialKind {
 SpecialKind peak_kind(const std::shared_ptr<const hbm::HbmProblem>& problem);
 SpecialKind fold_kind();
 
+/// Where a curve begins or ends, and why.
+struct SpecialCurveEnd {
+  continuation::Stop stop;
+  continuation::Vector x;    // unknowns and frequency
+  double over = 0;           // the parameter
+  int direction = 1;         // of the parameter, where it stopped
+  bool left_window = false;  // of the frequency
+  bool vanishes =
+      false;            // at a corner that the branch over the frequency touches from one side, or surpassed
+  bool closed = false;  // there the curve came back to its beginning
+  std::string unbounded{};  // why, where the response grows without bound
+};
+
 /// What was recorded of one curve, in the order of arclength.
 struct SpecialCurve {
   struct At {
     double arclength = 0;
     double second = 0;  // derivative of the quantity along the frequency branch; 0 at corners
     ResponsePoint point;
+    std::optional<hbm::SlipCorner> corner{};  // none on smooth parts
   };
   struct EventAt {
     double arclength = 0;
@@ -63,14 +60,13 @@ struct SpecialCurve {
   std::vector<EventAt>
       events;                 // those of the monitors, and "corner" where the curve comes to one or leaves it
   std::vector<double> turns;  // arclengths of the corners where the parameter turns back
-  continuation::Stop stop;
+  std::optional<SpecialCurveEnd> begin;  // none: at the end of the range where it was found
+  SpecialCurveEnd end;
   continuation::Counts counts;
-  continuation::Vector end;  // unknowns and frequency at the last point
-  bool left_window = false;  // of the frequency
-  bool vanishes =
-      false;  // at a corner that the branch over the frequency touches from one side, or surpassed
-  std::string unbounded;  // why, where the response grows without bound
 };
+
+/// One curve from the two halves that were followed from one point of it, in the order of `ahead`.
+SpecialCurve joined(SpecialCurve back, SpecialCurve ahead);
 
 class SpecialCurveTracer {
  public:
@@ -83,7 +79,16 @@ class SpecialCurveTracer {
                      std::vector<continuation::Monitor> corner_monitors,
                      std::shared_ptr<CurveSection> section, Progress progress);
 
-  SpecialCurve run(const SpecialPoint& start);
+  /// direction: of the parameter, +1 or -1.
+  SpecialCurve run(const SpecialPoint& start, int direction);
+
+  /// Whether a curve passes through a special point.
+  bool passes(const SpecialCurve& curve, const SpecialPoint& through) const {
+    return passage(curve, curve.points.size(), through) > 0;
+  }
+
+  /// A point of a curve, to start from or to look for.
+  SpecialPoint point_of(const SpecialCurve::At& at) const;
 
  private:
   struct Place {
@@ -94,12 +99,17 @@ class SpecialCurveTracer {
   };
 
   continuation::Branch trace(const Place& from);
+  // The point of a curve, among its first `points`, before which it passes through a special point; 0: none.
+  std::size_t passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through) const;
+  bool comes_back(std::size_t begin);
+  void end_at(std::size_t count, bool closed);
   std::optional<Place> to_corner(const Place& at);
   std::optional<Place> from_corner(const Place& at, bool slip) const;
   bool is_surpassed(const Place& at) const;
   std::optional<continuation::Vector> corrected(const continuation::Problem& problem,
                                                 const continuation::Vector& x, double over,
-                                                const continuation::Vector& row) const;
+                                                const continuation::Vector& row, double reach) const;
+  bool is_same(const continuation::Vector& x, const continuation::Vector& y) const;
   // The unknowns at a corner: those of the smooth parts, and its two angles.
   static continuation::Vector with_angles(const continuation::Vector& x, const hbm::SlipCorner& corner);
   static hbm::SlipCorner at_angles(hbm::SlipCorner corner, const continuation::Vector& all);

@@ -56,13 +56,26 @@ bool departs(const std::vector<std::pair<double, double>>& course, double arclen
   return std::any_of(first, after, differs) && std::any_of(after, last, differs);
 }
 
-void add(const continuation::Counts& counts, SolverSummary& to) {
+namespace {
+
+template <class To>
+void add_to(To& to, const continuation::Counts& counts) {
   to.points += counts.points;
   to.rejected_steps += counts.rejected_steps;
   to.residuals += counts.residuals;
   to.jacobians += counts.jacobians;
   to.factorizations += counts.factorizations;
   to.solves += counts.solves;
+}
+
+}  // namespace
+
+void add(const continuation::Counts& counts, SolverSummary& to) {
+  add_to(to, counts);
+}
+
+void add(const continuation::Counts& counts, continuation::Counts& to) {
+  add_to(to, counts);
 }
 
 Status status_of(StopReason reason) {

@@ -28,6 +28,7 @@ ResponseBranch described(const model::Model& model, const Setting& set, const st
 bool departs(const std::vector<std::pair<double, double>>& course, double arclength, double amplitude);
 
 void add(const continuation::Counts& counts, SolverSummary& to);
+void add(const continuation::Counts& counts, continuation::Counts& to);
 
 Status status_of(continuation::StopReason reason);
 

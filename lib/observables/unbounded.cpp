@@ -2,6 +2,7 @@
 
 #include <arcslip/hbm/steady_state.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -13,7 +14,10 @@ namespace {
 constexpr double beside = 1e-9, further_off = 1e-5;  // of omega: where it is looked for a pole
 constexpr double grows = 100;                        // between these: less is no pole, whose growth is 1e4
 constexpr double large = 1e6;                        // of that response, as a shape of large amplitude
-constexpr double negligible = 1e-9;  // share of a shape in an element or damper that does not count
+constexpr double negligible = 1e-9;    // share of a shape in an element or damper that does not count
+constexpr double least_beyond = 1e-6;  // of the pole's frequency: nearer, a start would be taken for the pole
+constexpr double without_course = 1.0 / 150;  // of the window: as far beyond a pole that the branch begins at
+constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an unbounded peak is taken up
 
 }  // namespace
 
@@ -84,6 +88,13 @@ Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& mod
       hbm::linear_response(problem, hbm::parameters_at(problem, omega * (1 + further_off))).norm();
   if (!u.allFinite() || !(u.norm() > grows * off)) return {};
   return unboundedness(problem, p, large * u);
+}
+
+double beyond_pole(const std::vector<std::pair<double, double>>& course, double width) {
+  const double omega = course.back().first;
+  for (auto it = course.rbegin(); it != course.rend(); ++it)
+    if (it->second <= next_to_pole) return std::max(2 * omega - it->first, (1 + least_beyond) * omega);
+  return omega + width * without_course;
 }
 
 }  // namespace arcslip::observables

@@ -10,6 +10,8 @@
 #include <arcslip/hbm/problem.hpp>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace arcslip::observables {
 
@@ -26,5 +28,10 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
 /// At an excitation frequency omega (rad/s) with the model's own parameters, where the response without
 /// elements has a pole within about 1e-7 omega. Nothing is unbounded where there is no such pole.
 Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega);
+
+/// Where a branch that an unbounded peak has ended is to be taken up on the other side of the pole, rad/s: as
+/// far beyond it as it was before. course: frequency and |u| in scales of its points, the last at the pole.
+/// width: of the window of frequencies, rad/s.
+double beyond_pole(const std::vector<std::pair<double, double>>& course, double width);
 
 }  // namespace arcslip::observables

@@ -1,0 +1,169 @@
+#include <arcslip/observables/curve_parts.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::StopReason;
+
+constexpr double same = 1e-6;  // events that differ by less, relatively, are one
+
+std::string text(double value) {
+  std::ostringstream s;
+  s.precision(8);
+  s << value;
+  return s.str();
+}
+
+// Between two turns at one corner.
+bool is_one_place(const ResponseBranch& part) {
+  const ResponsePoint &first = part.points.front(), &last = part.points.back();
+  return part.points.size() <= 2 && std::abs(first.over - last.over) <= same * std::abs(last.over) &&
+         std::abs(first.omega - last.omega) <= same * last.omega;
+}
+
+}  // namespace
+
+CurveParts::CurveParts(scene::StudyKind kind, scene::FrequencyUnit unit, OverParameter way, Setting set)
+    : peaks_(kind == scene::StudyKind::peaks),
+      what_(peaks_ ? "resonance peak" : "fold"),
+      unit_(unit),
+      way_(std::move(way)),
+      set_(std::move(set)) {}
+
+ResponseBranch CurveParts::failed(double over, const std::string& message) const {
+  ResponseBranch result = described(*way_.model, set_, way_.name);
+  result.status = Status::failed;
+  result.stop = {name(StopReason::start_failed), over, 0, message};
+  return result;
+}
+
+// At a cusp a curve of folds turns in everything, and where a curve of peaks turns, dA/ds = dA/dp dp/ds is
+// zero: neither is an event of its own.
+bool CurveParts::belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const {
+  const char* first = peaks_ ? "fold" : "cusp";
+  return each.event.kind != first && each.event.kind != "corner" &&
+         std::any_of(curve.events.begin(), curve.events.end(), [&](const auto& other) {
+           const auto &a = other.event.point, &b = each.event.point;
+           return other.event.kind == first && std::abs(a.omega - b.omega) <= same * a.omega &&
+                  std::abs(a.over - b.over) <= same * (way_.upper() - way_.lower());
+         });
+}
+
+std::vector<double> CurveParts::turns(const SpecialCurve& curve) {
+  std::vector<double> turns = curve.turns;
+  for (const auto& each : curve.events)
+    if (each.event.kind == "fold") turns.push_back(each.arclength);
+  std::sort(turns.begin(), turns.end());
+  return turns;
+}
+
+std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
+  std::vector<ResponseBranch> parts;
+  std::vector<double> ends;
+  if (peaks_) ends = turns(curve);
+  ends.push_back(HUGE_VAL);
+  std::vector<std::pair<double, double>> course;
+  for (const auto& at : curve.points) course.emplace_back(at.arclength, at.point.amplitude);
+  double begin = -HUGE_VAL;
+  for (std::size_t k = 0; k < ends.size(); begin = ends[k++]) {
+    const double end = ends[k];
+    double peaks = 0, others = 0;  // arclengths
+    const SpecialCurve::At* before = nullptr;
+    ResponseBranch part = described(*way_.model, set_, way_.name);
+    for (const auto& at : curve.points) {
+      if (!(at.arclength >= begin && at.arclength < end)) continue;
+      const double length = before ? at.arclength - before->arclength : 0;
+      (at.second <= 0 ? peaks : others) += length;
+      before = &at;
+      part.points.push_back(at.point);
+    }
+    if (part.points.empty() || (peaks_ && others > peaks)) continue;
+    for (const auto& each : curve.events) {
+      if (each.arclength < begin || each.arclength > end || belongs_to_another(curve, each)) continue;
+      const bool extreme = each.event.kind == "minimum" || each.event.kind == "maximum";
+      if (extreme && !departs(course, each.arclength, each.event.point.amplitude)) continue;
+      part.events.push_back(each.event);
+      if (peaks_ && each.arclength == begin) part.points.insert(part.points.begin(), each.event.point);
+      if (peaks_ && each.arclength == end) part.points.push_back(each.event.point);
+    }
+    if (is_one_place(part) && curve.points.size() > part.points.size()) continue;
+    finish(part, curve, begin == -HUGE_VAL, end == HUGE_VAL);
+    parts.push_back(std::move(part));
+  }
+  if (parts.empty()) {
+    parts.push_back(described(*way_.model, set_, way_.name));
+    finish(parts.back(), curve, true, true);
+  }
+  return parts;
+}
+
+void CurveParts::finish(ResponseBranch& part, const SpecialCurve& curve, bool is_first, bool is_last) const {
+  const double first = curve.points.empty() ? curve.end.over : curve.points.front().point.over;
+  if (is_last) {
+    part.stop = stop(curve.end, first, !part.points.empty(), part.status);
+  } else {
+    SpecialCurveEnd turn;
+    turn.vanishes = true;
+    turn.over = part.points.back().over;
+    part.stop = stop(turn, first, true, part.status);
+  }
+  if (!is_first || !curve.begin) return;
+  Status status = Status::complete;
+  const Stop begin = stop(*curve.begin, HUGE_VAL, true, status);
+  if (status != Status::failed) return;
+  const std::string end = part.stop.message;
+  if (part.status != Status::failed) part.stop = begin;
+  part.status = Status::failed;
+  part.stop.message = "at its beginning, " + begin.message + "; at its end, " + end;
+}
+
+Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points, Status& status) const {
+  const std::string where = way_.name + " = " + text(end.over);
+  if (has_points && end.vanishes) {
+    status = Status::complete;
+    return {
+        "fold", end.over, end.over,
+        (peaks_ ? "the peak meets a minimum of the amplitude over the frequency, and there is none beyond "
+                : "the fold meets another at a corner of the response, and there is none beyond ") +
+            where};
+  }
+  if (!end.unbounded.empty()) {
+    status = Status::complete;
+    return {"unbounded", end.over, end.over,
+            "the " + what_ + " grows without bound near " + where + ", and beyond " + end.unbounded};
+  }
+  if (end.closed) {
+    status = Status::complete;
+    return {name(StopReason::closed), end.over, end.over, "the curve is closed: it came back to " + where};
+  }
+  if (end.left_window) {
+    status = Status::complete;
+    return {name(StopReason::boundary), end.over, way_.to,
+            "the " + what_ + " leaves the window at " + frequency_text(end.x[end.x.size() - 1], unit_) +
+                ", at " + where};
+  }
+  status = status_of(end.stop.reason);
+  Stop stop{name(end.stop.reason), end.stop.value, end.stop.limit, end.stop.message};
+  if (end.stop.reason == StopReason::boundary) {
+    stop.limit = begin == way_.to ? way_.from : way_.to;
+    stop.message = (stop.value != begin  ? "reached the end of the range at "
+                    : begin == way_.from ? "came back to the beginning of the range at "
+                                         : "came back to the end of the range at ") +
+                   way_.name + " = " + text(stop.value);
+  } else if (!has_points) {
+    stop.message = "no curve was begun from the " + what_ + " at " + where + ": " + stop.message;
+  } else if (end.stop.reason == StopReason::step_too_small) {
+    stop.message = "the curve could not be followed beyond " + where + ": probably the " + what_ +
+                   " sits there at a corner of the response, where a phase of friction begins or ends";
+  } else {
+    stop.message += ", near " + where;
+  }
+  return stop;
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,41 @@
+#pragma once
+// What is reported of a curve of special points: its parts, why each ends, and which of its events count.
+
+#include <arcslip/observables/over_parameter.hpp>
+#include <arcslip/observables/response.hpp>
+#include <arcslip/observables/special_curve.hpp>
+#include <arcslip/observables/study_branches.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <string>
+#include <vector>
+
+namespace arcslip::observables {
+
+class CurveParts {
+ public:
+  /// kind: peaks or folds.
+  CurveParts(scene::StudyKind kind, scene::FrequencyUnit unit, OverParameter way, Setting set);
+
+  /// A curve of peaks turns where a peak meets a minimum of the amplitude over the frequency, which the curve
+  /// follows from there to the next turn: that part is left out. A curve of folds is one part.
+  std::vector<ResponseBranch> of(const SpecialCurve& curve) const;
+
+  /// Arclengths at which a curve turns back in the parameter, ascending.
+  static std::vector<double> turns(const SpecialCurve& curve);
+
+  ResponseBranch failed(double over, const std::string& message) const;
+
+ private:
+  bool belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const;
+  void finish(ResponseBranch& part, const SpecialCurve& curve, bool is_first, bool is_last) const;
+  Stop stop(const SpecialCurveEnd& end, double begin, bool has_points, Status& status) const;
+
+  bool peaks_;
+  std::string what_;
+  scene::FrequencyUnit unit_;
+  OverParameter way_;
+  Setting set_;
+};
+
+}  // namespace arcslip::observables
