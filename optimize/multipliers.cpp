@@ -13,25 +13,40 @@ constexpr double on_bound = 1e-9;     // relative
 constexpr double no_descent = 1e-12;  // of |G|^2: a multiplier that would gain less stays 0
 constexpr int steps_per_column = 20;  // far more than there are: guards against cycling by rounding
 
-// Minimum of |G m| with the sums of the groups, over the columns that are free; the others stay 0.
+// Minimum of |G m| with the sums of the groups, over the columns that are free; the others stay 0. What is
+// alone in its group has its share.
 Eigen::VectorXd minimum_of(const Eigen::MatrixXd& G, const std::vector<std::size_t>& group,
                            const std::vector<double>& shares, const std::vector<bool>& is_free) {
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index i = 0; i < G.cols(); ++i)
-    if (is_free[static_cast<std::size_t>(i)]) columns.push_back(i);
-  const auto k = static_cast<Eigen::Index>(columns.size()), m = static_cast<Eigen::Index>(shares.size());
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(k + m, k + m);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(k + m);
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const Eigen::Index column = columns[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = 0; j < k; ++j)
-      A(i, j) = G.col(column).dot(G.col(columns[static_cast<std::size_t>(j)]));
-    const auto row = k + static_cast<Eigen::Index>(group[static_cast<std::size_t>(column)]);
-    A(i, row) = A(row, i) = 1;
-  }
-  for (Eigen::Index g = 0; g < m; ++g) b[k + g] = shares[static_cast<std::size_t>(g)];
-  const Eigen::VectorXd x = A.fullPivLu().solve(b);
+  std::vector<std::size_t> members(shares.size(), 0);
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (is_free[i]) ++members[group[i]];
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(G.cols());
+  std::vector<Eigen::Index> columns, row(shares.size(), -1);  // rows of the sums
+  Eigen::Index rows = 0;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const std::size_t g = group[i];
+    if (!is_free[i]) continue;
+    if (members[g] == 1) {
+      weights[column] = shares[g];
+      continue;
+    }
+    columns.push_back(column);
+    if (row[g] < 0) row[g] = rows++;
+  }
+  if (columns.empty()) return weights;
+  const auto k = static_cast<Eigen::Index>(columns.size());
+  const Eigen::MatrixXd free = G(Eigen::all, columns);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(k + rows, k + rows);
+  Eigen::VectorXd b(k + rows);
+  A.topLeftCorner(k, k) = free.transpose() * free;
+  b.head(k) = -free.transpose() * (G * weights);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const std::size_t g = group[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
+    A(i, k + row[g]) = A(k + row[g], i) = 1;
+    b[k + row[g]] = shares[g];
+  }
+  const Eigen::VectorXd x = A.fullPivLu().solve(b);
   for (Eigen::Index i = 0; i < k; ++i) weights[columns[static_cast<std::size_t>(i)]] = x[i];
   return weights;
 }
