@@ -1,0 +1,122 @@
+#include <arcslip/optimize/trials.hpp>
+
+#include <arcslip/optimize/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace arcslip::optimize {
+namespace {
+
+constexpr double worse = 1e-8;         // relative: an amplitude in the scatter that is higher by more counts
+constexpr double same_scatter = 1e-9;  // relative: values that were there before
+
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+    return std::abs(x - y) <= same_scatter * std::max(std::abs(x), std::abs(y));
+  });
+}
+
+}  // namespace
+
+Trials::Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options)
+    : options_(options),
+      space_(scene, problem),
+      scenarios_(scene, problem, space_),
+      cases_(problem.criterion),
+      formulation_(problem, space_, cases_) {
+  for (const Scenario& each : scenarios_.first()) add(each);
+}
+
+void Trials::add(const Scenario& scenario) {
+  all_.push_back(scenario);
+  cases_.add(scenarios_.peaks(scenario), scenarios_.weight(scenario));
+  best_.excess = std::numeric_limits<double>::infinity();
+}
+
+void Trials::evaluate(std::span<const double> design, bool trace) {
+  if (!trace && cases_.stand_at(design)) return;
+  if (trace)
+    cases_.trace(design);
+  else
+    cases_.at(design);
+  const double value = cases_.value();
+  evaluations_.push_back({{design.begin(), design.end()}, value});
+  if (std::isnan(value)) return;
+  const double excess = std::max(formulation_.excess(), space_.excess(design));
+  if (excess < best_.excess || (excess == best_.excess && value < best_.value)) {
+    best_.excess = excess;
+    best_.design.assign(design.begin(), design.end());
+    best_.value = value;
+  }
+  tell();
+}
+
+void Trials::tell() {
+  if (!options_.progress) return;
+  const Evaluation& last = evaluations_.back();
+  const PeakState& state = cases_.state(cases_.highest());
+  const double best = best_.excess == 0 ? best_.value : std::numeric_limits<double>::infinity();
+  if (!options_.progress({static_cast<int>(evaluations_.size()), last.design,
+                          state.peaks.empty() ? 0.0 : state.peaks[state.highest].omega(), last.amplitude,
+                          best}))
+    user_stopped_ = true;
+}
+
+void Trials::move_to(std::span<const double> y) {
+  const std::vector<double> design = space_.design(y);
+  evaluate(design);
+  for (std::size_t c = 0; c < cases_.size(); ++c) {
+    const PeakState& state = cases_.state(c);
+    if (!state.unbounded && state.peaks.empty())
+      throw std::runtime_error(where(c) + "no response was found at " + space_.text(design) + ": " +
+                               state.message);
+  }
+}
+
+std::vector<Scenario> Trials::worse_scatter() {
+  std::vector<Scenario> found;
+  const std::vector<double> design = cases_.state(0).design;
+  for (std::size_t of = 0; of < scenarios_.size(); ++of) {
+    std::vector<std::vector<double>> known;
+    std::size_t any = 0;  // of this case
+    for (std::size_t c = 0; c < all_.size(); ++c)
+      if (all_[c].of == of) {
+        known.push_back(all_[c].scatter);
+        any = c;
+      }
+    const auto worst = scenarios_.worst(cases_.peaks(any).model_at(design), known, [this] {
+      tell();
+      return interruption().reason.empty();
+    });
+    const bool seen = std::any_of(known.begin(), known.end(),
+                                  [&](const auto& scatter) { return same(scatter, worst.scatter); });
+    if (!seen && cases_.weight(any) * worst.amplitude > (1 + worse) * cases_.value())
+      found.push_back({of, worst.scatter});
+  }
+  return found;
+}
+
+void Trials::call_best() {
+  best_.design = cases_.state(0).design;
+  best_.value = cases_.value();
+}
+
+observables::Stop Trials::interruption() const {
+  observables::Stop stop;
+  if (user_stopped_) {
+    stop.reason = name(Reason::user);
+    stop.message = "the progress callback stopped the run";
+  } else if (options_.seconds > 0 && seconds() >= options_.seconds) {
+    stop.reason = name(Reason::time_limit);
+    stop.message = text("the limit of ", options_.seconds, " s was reached at ", seconds(), " s");
+  }
+  return stop;
+}
+
+double Trials::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+}
+
+}  // namespace arcslip::optimize
