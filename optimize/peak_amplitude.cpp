@@ -187,6 +187,7 @@ bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
       : peak.kind == PeakKind::corner ? sensitivity_->at_corner(*peak.corner, peak.x, p, over_, peak.gradient)
                                       : sensitivity_->at_frequency(peak.x, p, over_, peak.gradient);
   peak.amplitude = sensitivity_->amplitude();
+  peak.piece = peak.kind == PeakKind::corner ? 0 : sensitivity_->piece();
   return done;
 }
 
@@ -266,6 +267,22 @@ const PeakState& PeakAmplitude::at(std::span<const double> design) {
   for (std::size_t i = 0; i < state_.peaks.size(); ++i)
     if (state_.peaks[i].amplitude > state_.peaks[state_.highest].amplitude) state_.highest = i;
   return state_;
+}
+
+bool PeakAmplitude::follow_to(std::span<const double> design, std::span<const std::size_t> needed) {
+  if (std::equal(design.begin(), design.end(), state_.design.begin(), state_.design.end())) return true;
+  std::vector<Peak> moved = state_.peaks;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if (moved[i].kind != PeakKind::kink && follow(i, design, moved[i])) continue;
+    if (std::find(needed.begin(), needed.end(), i) != needed.end()) return false;
+    moved[i].kind = PeakKind::kink;
+  }
+  state_.design.assign(design.begin(), design.end());
+  state_.peaks = std::move(moved);
+  ++work_.followed;
+  for (std::size_t i = 0; i < state_.peaks.size(); ++i)
+    if (state_.peaks[i].amplitude > state_.peaks[state_.highest].amplitude) state_.highest = i;
+  return true;
 }
 
 Follower& PeakAmplitude::follower(std::size_t peak) {

@@ -24,6 +24,7 @@
 #include <arcslip/observables/sensitivity.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -44,6 +45,7 @@ struct Peak {
   std::optional<hbm::SlipCorner> corner{};  // where it sits at one
   double amplitude = 0;                     // m
   continuation::Vector gradient{};          // dA/dp of the design parameters, m over their units
+  std::uint64_t piece = 0;                  // of the equations of motion there; 0 at a corner, between two
 
   double omega() const { return x[x.size() - 1]; }
 };
@@ -80,6 +82,10 @@ class PeakAmplitude {
 
   /// At a design, by following the peaks of the last one. The reference holds until the next call.
   const PeakState& at(std::span<const double> design);
+
+  /// At a design, by following alone. False where one of the peaks `needed` cannot be followed; the state is
+  /// then as it was. Others that cannot be become kinks, and stay where they are.
+  bool follow_to(std::span<const double> design, std::span<const std::size_t> needed);
 
   /// At a design, by a frequency response.
   const PeakState& trace(std::span<const double> design);

@@ -32,6 +32,7 @@
 #include <arcslip/hbm/slip_corner.hpp>
 #include <arcslip/observables/amplitude.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -60,6 +61,8 @@ class Sensitivity {
   /// At the last solution: A, m, and g, the multiplier of the condition.
   double amplitude() const { return amplitude_; }
   double multiplier() const { return z_[z_.size() - 1]; }
+  /// The smooth piece of F that it is in.
+  std::uint64_t piece() const { return evaluator_->piece(); }
 
  private:
   bool move_to(continuation::In x, continuation::In p);
