@@ -69,10 +69,13 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
   }
   out << "  " << active << (active == 1 ? " peak is" : " peaks are")
       << " the highest; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
-  for (const auto& other : certificate.others)
+  for (const auto& other : certificate.others) {
     out << "  another response, by " << other.found_by << ": " << number(other.amplitude, "%.8e") << " m at "
-        << number(output::in_scene_unit(scene, other.omega)) << ' ' << scene::unit_name(scene.frequency_unit)
-        << '\n';
+        << number(output::in_scene_unit(scene, other.omega)) << ' ' << scene::unit_name(scene.frequency_unit);
+    if (result.has_cases())
+      out << " with " << optimize::case_text(scene, result.problem, result.optimum.cases[other.in_case]);
+    out << '\n';
+  }
   if (!certificate.others_lower) out << "  it is higher than the highest peak of the branch\n";
 }
 

@@ -75,8 +75,8 @@ output::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind ki
     line.set.insert(line.set.end(), each.set.begin(), each.set.end());
     line.set.insert(line.set.end(), each.scatter.begin(), each.scatter.end());
     line.label = case_label(scene, problem, each);
-    if (weighted && each.weight != 1)
-      line.label += ", times " + output::shortest(to_four_digits(each.weight));
+    if (each.weight != 1)
+      line.label += (weighted ? ", times " : ", weight ") + output::shortest(to_four_digits(each.weight));
     std::vector<std::string>& own = data.parameters;
     own.clear();
     for (const auto* values : {&each.set, &each.scatter})
@@ -115,7 +115,8 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, outpu
   double sum = 0;
   for (const CaseCurves& each : result.curves) sum += result.optimum.cases[each.of].weight;
   output::FigureLine criterion;
-  criterion.label = mean ? "mean" : "worst";
+  const std::string best = value_label(scene, result.problem, result.optimum.design[0]);
+  criterion.label = (mean ? "mean, least at " : "worst, least at ") + best;
   auto& curve = criterion.parts.emplace_back();
   const auto record = [&](double at, double value) {
     output::Record values(data.columns.size(), std::numeric_limits<double>::quiet_NaN());
@@ -125,14 +126,14 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, outpu
   };
   for (const double at : places) {
     double value = 0;
-    for (const output::FigureLine& line : data.lines) {
-      const double own = height(line, amplitude, at);
-      value = mean ? value + own / sum : std::max(value, own);
+    for (std::size_t i = 0; i < data.lines.size(); ++i) {
+      const double own = height(data.lines[i], amplitude, at);
+      const double weight = result.optimum.cases[result.curves[i].of].weight;
+      value = mean ? value + weight * own / sum : std::max(value, own);
     }
     if (std::isfinite(value)) curve.push_back(record(at, value));
   }
-  criterion.marks.push_back({"minimum", record(result.optimum.design[0], result.optimum.amplitude),
-                             value_label(scene, result.problem, result.optimum.design[0])});
+  criterion.marks.push_back({"minimum", record(result.optimum.design[0], result.optimum.amplitude), best});
   criterion.bands = bands(result.optimum);
   for (output::FigureLine& line : data.lines) line.marks.clear();
   data.lines.push_back(std::move(criterion));
@@ -160,7 +161,8 @@ class Drawing {
 void draw_cases(const scene::Scene& scene, const OptimumResult& result, const std::string& name,
                 Drawing& drawing) {
   const auto& cases = result.optimum.cases;
-  const bool weighted = std::any_of(cases.begin(), cases.end(), [](auto& each) { return each.weight != 1; });
+  const bool weighted = result.problem.criterion == Criterion::worst &&
+                        std::any_of(cases.begin(), cases.end(), [](auto& each) { return each.weight != 1; });
   output::FigureData peaks =
       lines_of_cases(scene, scene::StudyKind::peaks, result, &CaseCurves::peaks, weighted);
   if (!peaks.lines.empty()) {

@@ -130,6 +130,22 @@ bool has_mark(const FigureLine& line, std::string_view kind) {
                      [&](const FigureMark& mark) { return mark.kind == kind; });
 }
 
+/// Whether a figure can show anything of a line, or its marks of a kind.
+bool is_in(const GnuplotFigure& figure, const Record& values) {
+  return std::isfinite(values[figure.x]) && std::isfinite(values[figure.y]);
+}
+
+bool is_in(const GnuplotFigure& figure, const FigureLine& line) {
+  return std::any_of(line.parts.begin(), line.parts.end(), [&](const std::vector<Record>& part) {
+    return std::any_of(part.begin(), part.end(), [&](const Record& values) { return is_in(figure, values); });
+  });
+}
+
+bool is_in(const GnuplotFigure& figure, const FigureLine& line, std::string_view kind) {
+  return std::any_of(line.marks.begin(), line.marks.end(),
+                     [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
+}
+
 /// An entry for each band, the narrowest first; lines have the same, so that one line tells them all.
 void add_bands_to_key(const FigureData& data, std::vector<std::string>& curves) {
   const auto has_bands = [](const FigureLine& line) { return !line.bands.empty(); };
@@ -155,14 +171,14 @@ void write_plot(std::ostream& out, const FigureData& data, const GnuplotFigure& 
   for (std::size_t i = 0; i < count; ++i) {
     const FigureLine& line = data.lines[i];
     const std::string paint = " linecolor rgb '" + line_colour(i, count) + "'";
-    const bool in_key = !line.label.empty() && i % key_step == 0;
+    const bool in_key = !line.label.empty() && i % key_step == 0 && is_in(figure, line);
     const std::string title = line.label + (line.unbounded ? " (unbounded)" : "");
     curves.push_back("data index " + std::to_string(index++) + columns + " with lines linewidth 2 dashtype " +
                      line_dash(i) + paint +
                      (in_key ? " title " + quoted(title) + " noenhanced" : " notitle"));
     for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
       if (has_mark(line, mark_kinds[k])) {
-        in_figure[k] = true;
+        in_figure[k] = in_figure[k] || is_in(figure, line, mark_kinds[k]);
         marks.push_back("data index " + std::to_string(index++) + columns + " with points " + mark_styles[k] +
                         paint + " notitle");
       }
