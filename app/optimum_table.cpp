@@ -25,11 +25,14 @@ std::string with_unit(const scene::Scene& scene, const std::string& parameter, d
   return number(value) + (unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
-std::string place(const scene::Scene& scene, const observables::ResponsePoint& point) {
+// Of several friction elements the sticks are told once, not of every case.
+std::string place(const scene::Scene& scene, const observables::ResponsePoint& point, std::size_t most) {
   std::string text = number(output::in_scene_unit(scene, point.omega), "%.8f") + " " +
                      std::string(scene::unit_name(scene.frequency_unit));
+  const auto sticks = std::count_if(point.elements.begin(), point.elements.end(),
+                                    [](const auto& element) { return element.has_stick; });
   for (const auto& element : point.elements)
-    if (element.has_stick)
+    if (element.has_stick && static_cast<std::size_t>(sticks) <= most)
       text += ", " + element.name + " sticks " + number(element.stick_percent, "%.4f") + " %";
   return text;
 }
@@ -39,11 +42,29 @@ void write_cases(std::ostream& out, const scene::Scene& scene, const optimize::O
   const auto& cases = result.optimum.cases;
   for (std::size_t c = 0; c < std::min(cases.size(), most_cases); ++c)
     out << "    " << optimize::case_text(scene, result.problem, cases[c]) << ": "
-        << number(cases[c].amplitude, "%.8e") << " m at " << place(scene, cases[c].point)
+        << number(cases[c].amplitude, "%.8e") << " m at " << place(scene, cases[c].point, 1)
         << (cases[c].weight == 1 ? "" : ", weight " + number(cases[c].weight, "%.4g"))
         << (cases[c].active && !mean ? ", active" : "") << '\n';
   if (cases.size() > most_cases)
     out << "    and " << cases.size() - most_cases << " cases more, which --json and --csv tell\n";
+}
+
+// "d1.normal_load + 2 d2.normal_load = 6, at most 6"
+void write_sums(std::ostream& out, const optimize::OptimumResult& result) {
+  for (const scene::LinearLimit& limit : result.problem.linear_limits) {
+    double sum = 0;
+    std::string text;
+    for (const auto& [name, weight] : limit.weights) {
+      text += text.empty() ? (weight < 0 ? "-" : "") : weight < 0 ? " - " : " + ";
+      text += (std::abs(weight) == 1 ? "" : number(std::abs(weight)) + " ") + name;
+      for (std::size_t k = 0; k < result.problem.over.size(); ++k)
+        if (result.problem.over[k].name == name) sum += weight * result.optimum.design[k];
+    }
+    out << "  " << text << " = " << number(sum);
+    if (std::isfinite(limit.at_least)) out << ", at least " << number(limit.at_least);
+    if (std::isfinite(limit.at_most)) out << ", at most " << number(limit.at_most);
+    out << '\n';
+  }
 }
 
 void write_certificate(std::ostream& out, const scene::Scene& scene, const optimize::OptimumResult& result) {
@@ -100,8 +121,10 @@ void write_table(std::ostream& out, const scene::Scene& scene,
           << " m\n";
       write_cases(out, scene, result);
     } else {
-      out << "  A_max = " << number(found.amplitude, "%.8e") << " m at " << place(scene, found.point) << '\n';
+      out << "  A_max = " << number(found.amplitude, "%.8e") << " m at "
+          << place(scene, found.point, found.point.elements.size()) << '\n';
     }
+    write_sums(out, result);
     if (!found.feasible) out << "  a constraint is not met there\n";
     out << "  " << found.algorithm << ", " << found.evaluations.size() << " evaluations, "
         << found.work.responses << " responses traced, " << number(found.seconds, "%.3f")

@@ -46,6 +46,8 @@ class Search {
           if ((!verify() && !release()) || round + 1 == most_rounds) break;
         }
       } while (add_worst_scatter());
+    } catch (const OptionsError&) {
+      throw;  // an algorithm that does not take what was given
     } catch (const std::exception& thrown) {
       result_.status = Status::failed;
       result_.stop.reason = name(Reason::objective_failed);

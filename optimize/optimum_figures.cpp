@@ -67,7 +67,7 @@ output::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind ki
       all.push_back(std::move(branch));
     }
   output::FigureData data = output::figure_data(scene, kind, all);
-  if (!result.set.empty()) data.title += ": " + output::assignment(scene, result.set);
+  if (!result.set.empty()) data.title = output::assignment(scene, result.set) + ": " + data.title;
   std::set<std::vector<std::string>> names;
   for (output::FigureLine& line : data.lines) {
     const CaseResult& each = result.optimum.cases[static_cast<std::size_t>(line.set[0].second)];

@@ -144,6 +144,8 @@ std::vector<BadInput> make() {
        "bad.json",
        peaks_scene},
       // motions in time
+      bare("optimize without a study", {"optimize", "bare.json", "--frequency", "18", "22"},
+           "the scene has no study of kind optimum, so not all is known: give --over, with bounds"),
       bare("time without a frequency", {"time", "bare.json"},
            "the scene has no study of kind time, so not all is known: give --frequency, or add such a study "
            "to "

@@ -1,0 +1,180 @@
+// arcslip optimize over several cases, against frequency responses of the command itself at each case.
+
+#include "catch.hpp"
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace app_test;
+using Json = nlohmann::json;
+
+namespace {
+
+// Two levels of the excitation and, of each, the same weight per newton.
+Json study_of_levels() {
+  return Json::parse(R"({"name": "levels", "kind": "optimum", "over": ["damper.normal_load"],
+    "bounds": [[0.5, 50]], "frequency": [18, 22],
+    "cases": [{"set": {"force.cosine": 1}}, {"set": {"force.cosine": 2}, "weight": 0.5}]})");
+}
+
+Json scene_with(const Workplace& place, const std::vector<Json>& studies) {
+  Json scene = Json::parse(place.read("scene.json"));
+  scene["harmonics"]["order"] = 5;
+  scene["studies"] = studies;
+  return scene;
+}
+
+// The highest point of the frequency response with these settings.
+double highest(const Workplace& place, double load, double force) {
+  const Ended ended = run(place, {"frf", "scene.json", "--from", "18", "--to", "22", "--set",
+                                  "damper.normal_load=" + std::to_string(load), "--set",
+                                  "force.cosine=" + std::to_string(force), "--json", "-", "--quiet"});
+  const Json response = Json::parse(ended.out);
+  double most = 0;
+  for (const Json& branch : response["branches"])
+    for (const Json& event : branch["events"])
+      if (event["kind"] == "peak") most = std::max(most, event["amplitude"].get<double>());
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("the worst of two levels is least where both are equally high, in responses of their own") {
+  const Workplace place;
+  place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
+  const Ended ended = run(place, {"optimize", "scene.json", "--json", "-", "--quiet"});
+  CAPTURE(ended.err);
+  REQUIRE(ended.exit_code == 0);
+  const Json json = Json::parse(ended.out);
+  const Json& found = json["optima"][0];
+  CHECK(found["criterion"] == "worst");
+  REQUIRE(found["cases"].size() == 2);
+  const double load = found["optimum"]["damper.normal_load"].get<double>();
+  const auto worst = [&](double at) { return std::max(highest(place, at, 1), highest(place, at, 2) / 2); };
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Json& each = found["cases"][c];
+    CHECK(each["set"]["force.cosine"] == (c == 0 ? 1.0 : 2.0));
+    CHECK(each["weight"] == (c == 0 ? 1.0 : 0.5));
+    CHECK(each["active"] == true);
+    CHECK(each["amplitude"].get<double>() == Approx(highest(place, load, c == 0 ? 1 : 2)).epsilon(1e-5));
+    CHECK_FALSE(each.contains("response"));
+    CHECK_FALSE(each.contains("scatter"));
+  }
+  const double least = found["optimum"]["amplitude"].get<double>();
+  CHECK(least == Approx(worst(load)).epsilon(1e-5));
+  CHECK(worst(0.95 * load) > 1.005 * least);
+  CHECK(worst(1.05 * load) > 1.005 * least);
+  CHECK(found["cases"][0]["multiplier"].get<double>() + found["cases"][1]["multiplier"].get<double>() ==
+        Approx(1));
+}
+
+TEST_CASE("optimize --criterion mean finds the least mean of the levels") {
+  const Workplace place;
+  place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
+  const Ended ended = run(place, {"optimize", "scene.json", "--criterion", "mean", "--json", "-", "--quiet"});
+  REQUIRE(ended.exit_code == 0);
+  const Json found = Json::parse(ended.out)["optima"][0];
+  CHECK(found["criterion"] == "mean");
+  const double load = found["optimum"]["damper.normal_load"].get<double>();
+  const auto mean = [&](double at) { return (highest(place, at, 1) + highest(place, at, 2) / 2) / 1.5; };
+  const double least = found["optimum"]["amplitude"].get<double>();
+  CHECK(least == Approx(mean(load)).epsilon(1e-6));
+  CHECK(mean(0.95 * load) > least);
+  CHECK(mean(1.05 * load) > least);
+}
+
+TEST_CASE("the table and the CSV tell every case") {
+  const Workplace place;
+  place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
+  const Ended ended = run(place, {"optimize", "scene.json", "--csv", "a.csv", "--quiet"});
+  REQUIRE(ended.exit_code == 0);
+  for (const char* part : {"  worst of 2 cases = ", "    force.cosine = 1 N: ", "    force.cosine = 2 N: ",
+                           ", weight 0.5, active\n", "damper sticks"}) {
+    CAPTURE(part, ended.out);
+    CHECK(ended.out.find(part) != std::string::npos);
+  }
+  CHECK(ended.out.find("A_max") == std::string::npos);
+  const std::string csv = place.read("a.csv");
+  for (const char* part : {"\r\n1,case 1,", "\r\n1,case 2,", "\r\n1,optimum,"})
+    CHECK(csv.find(part) != std::string::npos);
+}
+
+TEST_CASE("--set of a parameter of the cases takes the place of their values") {
+  const Workplace place;
+  place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
+  const Ended ended =
+      run(place, {"optimize", "scene.json", "--set", "force.cosine=2", "--json", "-", "--quiet"});
+  REQUIRE(ended.exit_code == 0);
+  const Json found = Json::parse(ended.out)["optima"][0];
+  REQUIRE(found["cases"].size() == 1);
+  CHECK(found["cases"][0]["set"].empty());
+  CHECK(found["cases"][0]["amplitude"].get<double>() ==
+        Approx(highest(place, found["optimum"]["damper.normal_load"].get<double>(), 2)).epsilon(1e-6));
+}
+
+TEST_CASE("--over a parameter that scatters takes it out of what scatters") {
+  const Workplace place;
+  Json study = study_of_levels();
+  study.erase("cases");
+  study["scatter"] = {{"damper.stiffness", {3000, 4000}}, {"damper.friction_coefficient", {0.4, 0.6}}};
+  place.write("scene.json", scene_with(place, {study}).dump());
+  const Ended ended = run(place, {"optimize", "scene.json", "--over", "damper.normal_load", "--over",
+                                  "damper.stiffness=3000:4000", "--json", "-", "--quiet"});
+  REQUIRE(ended.exit_code == 0);
+  const Json found = Json::parse(ended.out)["optima"][0];
+  CHECK(found["optimum"].contains("damper.stiffness"));
+  REQUIRE(found["cases"].size() >= 2);
+  for (const Json& each : found["cases"]) {
+    CHECK(each["of"] == 1);
+    CHECK(each["scatter"].size() == 1);
+    CHECK(each["scatter"].contains("damper.friction_coefficient"));
+  }
+}
+
+TEST_CASE("cases of each level have figures of their own, with a line for each case and the criterion") {
+  const Workplace place;
+  Json study = study_of_levels();
+  study["for_each"] = {{"k.value", {17890, 18000}}};
+  place.write("scene.json", scene_with(place, {study}).dump());
+  const Ended ended =
+      run(place, {"run", "scene.json", "--out", "out", "--quiet"}, {{"PATH", "/nonexistent"}});
+  REQUIRE(ended.exit_code == 0);
+  const auto files = place.files();
+  for (const char* file : {"out/levels_1.gp", "out/levels_2.gp", "out/levels_1_responses.gp"}) {
+    CAPTURE(file);
+    CHECK(std::find(files.begin(), files.end(), file) != files.end());
+  }
+  const std::string script = place.read("out/levels_1.gp");
+  for (const char* part : {"title '1 N' ", "title '2 N, times 0.5' ", "title 'worst, least at ",
+                           "'peak amplitude times weight (m)'", "set title 'k.value = 17890 N/m: Blade"}) {
+    CAPTURE(part);
+    CHECK(script.find(part) != std::string::npos);
+  }
+}
+
+TEST_CASE("a search that reaches its limit of evaluations ends early, with the best so far") {
+  const Workplace place;
+  const Ended ended =
+      run(place, {"optimize", "scene.json", "--harmonics", "5", "--evaluations", "2", "--json", "-"});
+  CHECK(ended.exit_code == 3);
+  CHECK(ended.err.find("the limit of 2 evaluations was reached") != std::string::npos);
+  const Json found = Json::parse(ended.out)["optima"][0];
+  CHECK(found["status"] == "stopped");
+  CHECK(found["evaluations"] == 2);
+}
+
+TEST_CASE("a limit on a sum of parameters is met, and told") {
+  const Workplace place;
+  Json study = study_of_levels();
+  study.erase("cases");
+  study["constraints"] = Json::parse(R"([{"sum": {"damper.normal_load": 2}, "at_most": 5}])");
+  place.write("scene.json", scene_with(place, {study}).dump());
+  const Ended ended = run(place, {"optimize", "scene.json", "--quiet"});
+  REQUIRE(ended.exit_code == 0);
+  // without the limit it is 3.09 N
+  CHECK(ended.out.find("damper.normal_load = 2.5 N\n") != std::string::npos);
+  CHECK(ended.out.find("2 damper.normal_load = 5, at most 5\n") != std::string::npos);
+}
