@@ -11,7 +11,6 @@
 namespace arcslip::optimize {
 namespace {
 
-using continuation::Accepted;
 using continuation::StopReason;
 
 constexpr double watched = 0.75;        // of the highest amplitude: lower peaks are not followed
@@ -122,45 +121,42 @@ PeakState PeakAmplitude::response(std::span<const double> design) {
     found.message = growth.message;
     return found;
   }
-  Vector first, last;
-  const auto place = [](const Accepted& now) {
-    Vector x(now.u.size() + 1);
-    x << now.u, now.parameter;
-    return x;
-  };
-  bool asked = false;
-  const auto record = [&](observables::Observer& observer, const Accepted& now,
-                          const continuation::Event* event) {
-    if (event) {
-      if (event->monitor == "peak")
-        found.peaks.push_back({event->nonsmooth ? PeakKind::kink : PeakKind::resonance, place(now)});
-      return true;
-    }
-    if (first.size() == 0) first = place(now);
-    last = place(now);
-    if (now.u.norm() <= beyond_display * observer.problem().displacement()) {
-      asked = false;
-    } else if (!std::exchange(asked, true)) {
-      const auto growth = observables::unboundedness(observer.problem(), now.p, now.u);
-      found.unbounded = growth.unbounded;
-      if (growth.unbounded) found.message = growth.message;
-    }
-    return !found.unbounded;
-  };
-  const auto traced = observables::frequency_branch(model, window_, window_.lower, record);
+  // Without an observer, which would have the equations evaluated at each point.
+  const auto traced =
+      observables::frequency_branch(model, window_, window_.lower, {}, 1, observables::Steps::events);
   work_.factorizations += traced.branch.counts.factorizations;
-  if (found.unbounded) {
-    found.peaks.clear();
-    return found;
+  const auto& points = traced.branch.points;
+  bool asked = false;
+  for (const continuation::Point& point : points) {
+    const bool beyond = point.u.norm() > beyond_display * traced.problem->displacement();
+    if (beyond && !asked) {
+      const Vector p = hbm::parameters_at(*traced.problem, point.parameter);
+      const auto growth = observables::unboundedness(*traced.problem, p, point.u);
+      if (growth.unbounded) {
+        found.unbounded = true;
+        found.message = growth.message;
+        return found;
+      }
+    }
+    asked = beyond;
   }
   problem_ = traced.problem;
   const auto& stop = traced.branch.stop;
   found.complete = stop.reason == StopReason::boundary && stop.value == window_.upper;
   if (!found.complete) found.message = stop.message;
-  if (first.size() > 0) found.peaks.insert(found.peaks.begin(), {PeakKind::lower_end, first});
+  if (points.empty()) return found;
+  const auto place = [](const continuation::Point& point) {
+    Vector x(point.u.size() + 1);
+    x << point.u, point.parameter;
+    return x;
+  };
+  found.peaks.push_back({PeakKind::lower_end, place(points.front())});
+  for (const continuation::Event& event : traced.branch.events)
+    if (event.monitor == "peak")
+      found.peaks.push_back({event.nonsmooth ? PeakKind::kink : PeakKind::resonance, place(event.point)});
   if (found.complete) {
-    found.upper_end = last.head(problem_->size());
-    found.peaks.push_back({PeakKind::upper_end, last});
+    found.upper_end = points.back().u;
+    found.peaks.push_back({PeakKind::upper_end, place(points.back())});
   }
   return found;
 }

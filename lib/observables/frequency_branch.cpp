@@ -11,7 +11,9 @@ namespace {
 
 using continuation::Vector;
 
-constexpr double points_in_window = 150;  // at least, from end to end
+constexpr double points_in_window = 150;           // at least, from end to end, of a curve
+constexpr double events_in_window = 20;            // the same, where only its events are asked for
+constexpr double step_between_events = 1.0 / 200;  // relative to the highest frequency
 constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
 constexpr double smallest_step = 1e-2;          // of the largest at the low end of the window
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
@@ -44,7 +46,7 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
 
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record,
-                                 int direction) {
+                                 int direction, Steps steps) {
   const double width = window.upper - window.lower;
   const FirstResponse first = first_response(model, from, width);
   if (!first.u) {
@@ -58,6 +60,9 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   options.lower = window.lower;
   options.upper = window.upper;
   options.step.largest_parameter = width / points_in_window;
+  if (steps == Steps::events)
+    options.step.largest_parameter = std::clamp(step_between_events * window.upper,
+                                                options.step.largest_parameter, width / events_in_window);
   options.step.relative_parameter = largest_relative_step;
   options.step.smallest =
       std::min(options.step.smallest, smallest_step * largest_relative_step * window.lower / width);

@@ -36,10 +36,13 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
 
-/// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). No step is longer than
-/// about 1/150 of the window.
+/// How long steps may be. curve: about 1/150 of the window, to be looked at. events: for its peaks and folds
+/// alone, also 1/200 of the highest frequency, but no longer than 1/20 of the window.
+enum class Steps { curve, events };
+
+/// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1).
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record = {},
-                                 int direction = 1);
+                                 int direction = 1, Steps steps = Steps::curve);
 
 }  // namespace arcslip::observables

@@ -176,6 +176,26 @@ TEST_CASE("random structures: peaks that are followed are those of a new respons
   CHECK(followed >= 50);
 }
 
+TEST_CASE(
+    "random structures in narrow windows: the longer steps of a search see the peaks of a whole curve") {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    scene::Scene s = random_scenes::make(seed, static_cast<random_scenes::Excitation>(seed % 3));
+    auto& study = s.studies[0];
+    study.from += (study.to - study.from) * static_cast<double>(seed % 7) / 10;
+    study.to = study.from * (1.05 + 0.05 * static_cast<double>(seed % 5));
+    double most = 0;
+    for (const auto& branch : observables::frequency_response(s, study)) {
+      for (const auto& point : branch.points) most = std::max(most, point.amplitude);
+      for (const auto& event : branch.events) most = std::max(most, event.point.amplitude);
+    }
+    const std::string& element = s.elements[0].name;
+    PeakAmplitude peaks = peaks_over(s, {element + ".normal_load"}, study.from, study.to);
+    CAPTURE(seed, study.from, study.to);
+    const double load = scene::value(s, element + ".normal_load");
+    CHECK(peaks.trace(Design{load}).amplitude() == Approx(most).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("peaks at corners, where an element begins to slip, are followed along them") {
   scene::Scene s = row(10, 6, 7);
   const std::vector<std::pair<Design, double>> corners = {{{0.69, 0.494, 0.343, 0.572, 2, 0.463}, 8.47},
