@@ -6,7 +6,44 @@
 namespace arcslip::hbm {
 namespace {
 
-constexpr double pole = 1e-14;  // pivot of the linear coordinates, relative to the largest entry
+constexpr double pole = 1e-14;    // pivot of the linear coordinates, relative to the largest entry
+constexpr Eigen::Index few = 16;  // unknowns, up to which blocks of a factorization cost more than they save
+
+using Complex = std::complex<double>;
+
+// a - b c, without the tests for infinity of operator*.
+Complex less_product(Complex a, Complex b, Complex c) {
+  return {a.real() - b.real() * c.real() + b.imag() * c.imag(),
+          a.imag() - b.real() * c.imag() - b.imag() * c.real()};
+}
+
+// B := A^-1 B for a small A, which is overwritten, by elimination with row pivots. False: A is singular.
+bool eliminate(Eigen::MatrixXcd& A, Eigen::MatrixXcd& B) {
+  const Eigen::Index n = A.rows(), m = B.cols();
+  const double least = pole * pole * A.cwiseAbs2().maxCoeff();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index pivot = 0;
+    const double square = A.col(k).tail(n - k).cwiseAbs2().maxCoeff(&pivot);
+    if (!(square > least)) return false;
+    if (pivot > 0) {
+      A.row(k).tail(n - k).swap(A.row(k + pivot).tail(n - k));
+      B.row(k).swap(B.row(k + pivot));
+    }
+    const Complex inverse = std::conj(A(k, k)) / square;
+    A(k, k) = inverse;
+    for (Eigen::Index i = k + 1; i < n; ++i) A(i, k) *= inverse;
+    for (Eigen::Index j = k + 1; j < n; ++j)
+      for (Eigen::Index i = k + 1; i < n; ++i) A(i, j) = less_product(A(i, j), A(i, k), A(k, j));
+    for (Eigen::Index j = 0; j < m; ++j)
+      for (Eigen::Index i = k + 1; i < n; ++i) B(i, j) = less_product(B(i, j), A(i, k), B(k, j));
+  }
+  for (Eigen::Index j = 0; j < m; ++j)
+    for (Eigen::Index k = n - 1; k >= 0; --k) {
+      B(k, j) *= A(k, k);
+      for (Eigen::Index i = 0; i < k; ++i) B(i, j) = less_product(B(i, j), A(i, k), B(k, j));
+    }
+  return true;
+}
 
 }  // namespace
 
@@ -81,18 +118,26 @@ bool DynamicStiffness::move_to(In p) {
       rhs_(j, r_) = full_f_[r_ + j];
       rhs_(j, r_ + 1) = response_[r_ + j];
     }
-    lu_.compute(Zll_);
-    const double largest = Zll_.cwiseAbs().maxCoeff();
-    if (!(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > pole * largest)) return false;
     Matrixc& W = W_[index];
-    W.noalias() = lu_.permutationP() * rhs_;
-    lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(W);
-    lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(W);
+    if (l_ <= few) {
+      W = rhs_;
+      if (!eliminate(Zll_, W)) return false;
+    } else {
+      lu_.compute(Zll_);
+      const double largest = Zll_.cwiseAbs().maxCoeff();
+      if (!(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > pole * largest)) return false;
+      W.noalias() = lu_.permutationP() * rhs_;
+      lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(W);
+      lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(W);
+    }
     for (Eigen::Index j = 0; j < r_; ++j)
-      for (Eigen::Index i = 0; i < r_; ++i)
-        for (Eigen::Index k = 0; k < l_; ++k) Z(i, j) -= rhs_(k, i) * W(k, j);  // Z is symmetric
+      for (Eigen::Index i = 0; i <= j; ++i) {  // Z is symmetric
+        Complex sum = Z(i, j);
+        for (Eigen::Index k = 0; k < l_; ++k) sum = less_product(sum, rhs_(k, i), W(k, j));
+        Z(i, j) = Z(j, i) = sum;
+      }
     for (Eigen::Index i = 0; i < r_; ++i)
-      for (Eigen::Index k = 0; k < l_; ++k) f_[index][i] -= rhs_(k, i) * W(k, r_);
+      for (Eigen::Index k = 0; k < l_; ++k) f_[index][i] = less_product(f_[index][i], rhs_(k, i), W(k, r_));
   }
   last_p_ = p.head(last_p_.size());
   return true;
