@@ -147,6 +147,12 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
             "the " + what_ + " leaves the window at " + frequency_text(end.x[end.x.size() - 1], unit_) +
                 ", at " + where};
   }
+  if (has_points && end.goes_on) {
+    status = Status::complete;
+    return {"corner", end.over, end.over,
+            "the " + what_ + " comes to a corner of the response at " + where +
+                ", from which another curve goes on"};
+  }
   status = status_of(end.stop.reason);
   Stop stop{name(end.stop.reason), end.stop.value, end.stop.limit, end.stop.message};
   if (end.stop.reason == StopReason::boundary) {

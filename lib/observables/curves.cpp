@@ -23,6 +23,7 @@ constexpr double between_ends[] = {0.5,   0.25,  0.75, 0.125,
                                    0.375, 0.625, 0.875};  // where a response is looked at in any case
 constexpr double least_apart = 1.0 / 64;                  // of responses that are looked at
 constexpr double just_beyond = 1e-3;                      // the end of a curve
+constexpr double meeting = 1e-5;                          // relative: ends of curves that are nearer meet
 constexpr std::size_t most_responses = 24;
 
 std::string text(double value) {
@@ -55,6 +56,7 @@ class Curves {
     for (const double share : between_ends) to_look_at_.push_back(share);
     for (std::size_t i = 0; i < to_look_at_.size() && looked_at_.size() < most_responses && !stopped_; ++i)
       if (!is_looked_at(to_look_at_[i])) look_at(to_look_at_[i]);
+    see_which_meet();
     std::vector<ResponseBranch> branches;
     for (const Found& found : found_)
       for (auto& part : reported(found)) branches.push_back(std::move(part));
@@ -171,6 +173,27 @@ class Curves {
       return !points.empty() && passes(points.front()) && passes(points[points.size() / 2]) &&
              passes(points.back());
     });
+  }
+
+  // Where several elements begin to slip at once, a curve may not be followed across, but from both sides.
+  void see_which_meet() {
+    std::vector<SpecialCurveEnd*> ends;
+    for (Found& found : found_) {
+      if (found.curve.points.empty()) continue;
+      if (found.curve.begin) ends.push_back(&*found.curve.begin);
+      ends.push_back(&found.curve.end);
+    }
+    std::erase_if(ends, [](const SpecialCurveEnd* end) {
+      const bool fails =
+          end->stop.reason == StopReason::step_too_small || end->stop.reason == StopReason::event;
+      return !fails || end->vanishes || end->left_window || end->closed || !end->unbounded.empty();
+    });
+    const auto near = [](double a, double b) { return std::abs(a - b) <= meeting * std::abs(b); };
+    for (SpecialCurveEnd* end : ends)
+      end->goes_on = std::any_of(ends.begin(), ends.end(), [&](const SpecialCurveEnd* other) {
+        return other != end && near(other->over, end->over) &&
+               near(other->x[other->x.size() - 1], end->x[end->x.size() - 1]);
+      });
   }
 
   std::vector<ResponseBranch> reported(const Found& found) const {

@@ -39,8 +39,9 @@ struct SpecialCurveEnd {
   int direction = 1;         // of the parameter, where it stopped
   bool left_window = false;  // of the frequency
   bool vanishes =
-      false;            // at a corner that the branch over the frequency touches from one side, or surpassed
-  bool closed = false;  // there the curve came back to its beginning
+      false;             // at a corner that the branch over the frequency touches from one side, or surpassed
+  bool closed = false;   // there the curve came back to its beginning
+  bool goes_on = false;  // another curve begins or ends there
   std::string unbounded{};  // why, where the response grows without bound
 };
 
