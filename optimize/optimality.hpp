@@ -22,7 +22,7 @@
 #include <arcslip/optimize/peak_amplitude.hpp>
 
 #include <memory>
-#include <span>
+#include <optional>
 #include <vector>
 
 namespace arcslip::optimize {
@@ -55,6 +55,7 @@ struct Inequality {
   enum class Kind { peak, bound } kind = Kind::peak;
   std::size_t index = 0;  // of PeakState::peaks, or of the parameter
   int side = 0;           // of a bound
+  friend bool operator==(const Inequality&, const Inequality&) = default;
 };
 
 /// What the equations are about. The peaks are over the design's parameters and s, which is the last.

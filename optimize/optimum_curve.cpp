@@ -1,12 +1,10 @@
 #include <arcslip/optimize/optimum_curve.hpp>
 
 #include <arcslip/continuation/tracer.hpp>
+#include <arcslip/optimize/active_set.hpp>
 #include <arcslip/optimize/design_space.hpp>
-#include <arcslip/optimize/multipliers.hpp>
-#include <arcslip/optimize/optimality.hpp>
+#include <arcslip/optimize/standing.hpp>
 #include <arcslip/optimize/text.hpp>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -27,42 +25,19 @@ using continuation::StopReason;
 using observables::Status;
 using Kind = Inequality::Kind;
 
-constexpr double nearly_as_high = 1e-3;  // relative: peaks that may be active at the first optimum
-constexpr double nearly_bound = 1e-6;    // of y
-constexpr double higher = 1e-7;          // of ln A: a peak above the active ones
-constexpr double violated = 1e-7;        // of multipliers and of y
-constexpr int most_exchanges = 20;       // of the active set at the first optimum
-constexpr int most_corrections = 20;     // of Newton's method there
-constexpr double corrected = 1e-11;
-constexpr double largest_correction = 0.5;  // of y and tau, at a start
-constexpr double between_responses = 0.5;   // of y and sigma
-constexpr double least_between = 0.02;      // the same, where the way is gone again
-constexpr double no_influence = 1e-12;      // of d ln A / dy: less is rounding
-constexpr double flat_slope = 1e-5;         // d ln A / dsigma of less: an extreme over s
-constexpr double probe = 1e-4;              // of z and sigma: how an inequality changes along a piece
+constexpr double nearly_as_high = 1e-3;    // relative: peaks that may be active at the first optimum
+constexpr double nearly_bound = 1e-6;      // of y
+constexpr double higher = 1e-7;            // of ln A: a peak above the active ones
+constexpr int most_exchanges = 20;         // of the active set at the first optimum
+constexpr double between_responses = 0.5;  // of y and sigma
+constexpr double least_between = 0.02;     // the same, where the way is gone again
+constexpr double flat_slope = 1e-5;        // d ln A / dsigma of less: an extreme over s
+constexpr double probe = 1e-4;             // of z and sigma: how an inequality changes along a piece
 constexpr double smallest_step = 1e-8;
 constexpr std::array<double, 5> beyond = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // of the end of a piece
-constexpr double same_frequency = 0.02;  // relative, of a peak in a new response
-constexpr double same_level = 1e-6;      // of ln A, at the same place
-constexpr double same_point = 1e-9;      // of y and sigma
-
-// What a peak is known by in another response.
-struct KnownPeak {
-  PeakKind kind;
-  double omega, amplitude;
-};
-
-// Where the curve stands: unknowns and direction for an active set, and its peaks.
-struct Standing {
-  ActiveSet active;
-  Vector z;
-  double sigma = 0;
-  Vector tangent{};     // d(z, sigma), empty: to larger sigma
-  int orientation = 0;  // sign of det [E_z E_sigma; tangent^T]: the same on both sides of a kink
-  std::vector<double> design{};
-  std::vector<KnownPeak> peaks{};  // the active ones
-  Vector lambda{};
-};
+constexpr double progress = 1e-5;                                         // of y and sigma
+constexpr int most_idle = 60;
+constexpr double same_point = 1e-9;  // of y and sigma
 
 struct Seen {
   OptimumPoint point;
@@ -88,7 +63,10 @@ class Follow {
 
   OptimumCurve run() {
     if (begin())
-      while (!ended_) piece();
+      while (!ended_) {
+        piece();
+        if (!ended_) guard();
+      }
     finish();
     return std::move(curve_);
   }
@@ -105,6 +83,22 @@ class Follow {
     return problem;
   }
 
+  // Pieces that lead nowhere: the active set may change to and fro, and peaks be lost and found, at one
+  // place.
+  void guard() {
+    if (!mark_ || distance(*mark_, curve_.points.back()) > progress) {
+      mark_ = curve_.points.back();
+      idle_ = 0;
+    } else if (++idle_ == most_idle) {
+      end(Status::stopped, "no_progress",
+          text("at ", place(here_.sigma), " ", most_idle,
+               " pieces of the curve came one after the other within ", progress, " of the logarithms"));
+    } else if (options_.seconds > 0 && seconds() >= options_.seconds) {
+      end(Status::stopped, "time_limit",
+          text("the limit of ", options_.seconds, " s was reached at ", place(here_.sigma)));
+    }
+  }
+
   std::size_t size() const { return problem_.over.size(); }
   const ScaledParameter& sigma() const { return scaled_.back(); }
   std::string place(double s) const { return text(along_.name, " = ", sigma().value(s)); }
@@ -115,10 +109,6 @@ class Follow {
     curve_.stop.message = std::move(message);
     ended_ = true;
     return false;
-  }
-
-  std::shared_ptr<const OptimalityData> data(const ActiveSet& active) {
-    return std::make_shared<const OptimalityData>(OptimalityData{peaks_, scaled_, active, reference_});
   }
 
   // The first optimum, by search, and its active set.
@@ -154,56 +144,33 @@ class Follow {
     return settle(design);
   }
 
-  // A parameter without influence, such as the load of a damper that sticks, is put to the bound up to which
-  // it has none. False: there is no such bound.
   bool hold_flat(std::vector<double>& design) {
-    for (std::size_t k = 0; k < size(); ++k) {
-      if (here_.active.held[k] != 0 || has_influence(k, design)) continue;
-      std::vector<Peak> at;
-      for (const std::size_t i : here_.active.peaks) at.push_back(peaks_.state().peaks[i]);
-      const auto active = known(at);
-      const double before = peaks_.state().amplitude(), own = design[k];
-      for (const int side : {1, -1}) {
-        design[k] = scaled_[k].bound(side);
-        const PeakState& state = peaks_.trace(design);
-        const auto found = state.unbounded ? std::vector<std::size_t>{} : find_again(active, same_level);
-        if (found.empty() || std::abs(state.amplitude() / before - 1) > same_level) continue;
-        here_.active.peaks = found;
-        here_.active.held[k] = side;
-        curve_.notes.push_back(text("at ", place(here_.sigma), " ", problem_.over[k].name, " = ", own,
-                                    " has no influence, and was moved to its ", side > 0 ? "upper" : "lower",
-                                    " bound ", design[k]));
-        break;
-      }
-      if (here_.active.held[k] != 0) continue;
-      flat_ = problem_.over[k].name;
-      return false;
-    }
-    return true;
+    const auto result = setting().hold_flat(here_.active, design);
+    for (const auto& [k, value] : result.moved)
+      curve_.notes.push_back(text("at ", place(here_.sigma), " ", problem_.over[k].name, " = ", value,
+                                  " has no influence, and was moved to its bound ", design[k]));
+    if (result.flat) flat_ = problem_.over[*result.flat].name;
+    return !result.flat;
   }
 
-  bool has_influence(std::size_t k, const std::vector<double>& design) const {
-    return std::any_of(here_.active.peaks.begin(), here_.active.peaks.end(), [&](std::size_t i) {
-      const Peak& peak = peaks_.state().peaks[i];
-      return std::abs(peak.gradient[static_cast<Eigen::Index>(k)] * scaled_[k].slope(design[k])) >
-             no_influence * peak.amplitude;
-    });
-  }
+  OptimalitySetting setting() { return {peaks_, scaled_, reference_}; }
+  std::shared_ptr<const OptimalityData> data() { return setting().of(here_.active); }
 
   // The active set and the solution of its equations at the first optimum: what is violated is exchanged.
   bool settle(const std::vector<double>& design) {
-    const std::vector<double> first = design;
     for (int k = 0; k < most_exchanges; ++k) {
-      if (!peaks_.follow_to(first, here_.active.peaks)) break;
-      estimate(first);
-      OptimalityEvaluator at(data(here_.active));
-      if (!newton(at)) {
-        if (here_.active.peaks.size() < 2) break;
-        drop_lightest();
+      if (!peaks_.follow_to(design, here_.active.peaks)) break;
+      Vector weights;
+      here_.z = setting().estimate(here_.active, weights);
+      OptimalityEvaluator at(data());
+      if (!here_.correct(at)) {
+        auto& peaks = here_.active.peaks;
+        if (peaks.size() < 2) break;
+        peaks.erase(peaks.begin() + (std::min_element(weights.begin(), weights.end()) - weights.begin()));
         continue;
       }
-      if (exchange(at)) continue;
-      stand(at);
+      if (exchange(here_.active, at)) continue;
+      here_.take(at);
       curve_.points.push_back(point(at));
       set_safe();
       return true;
@@ -213,80 +180,6 @@ class Follow {
         text("at ", along_.name, " = ", along_.lower,
              ": the optimum was found, but no set of equally high peaks satisfies its equations; it may "
              "sit at a kink, or a parameter may have no influence"));
-  }
-
-  // z at a design that nearly solves the equations.
-  void estimate(const std::vector<double>& design) {
-    const auto& active = here_.active;
-    const auto a = static_cast<Eigen::Index>(active.peaks.size());
-    Matrix G = Matrix::Zero(static_cast<Eigen::Index>(size()), a);
-    const PeakState& state = peaks_.state();
-    here_.z.resize(active.unknowns());
-    Eigen::Index next = 0;
-    for (std::size_t k = 0; k < size(); ++k) {
-      if (active.held[k] != 0) continue;
-      here_.z[next++] = scaled_[k].scaled(design[k]);
-      for (Eigen::Index i = 0; i < a; ++i) {
-        const Peak& peak = state.peaks[active.peaks[static_cast<std::size_t>(i)]];
-        const auto row = static_cast<Eigen::Index>(k);
-        G(row, i) = peak.gradient[row] * scaled_[k].slope(design[k]) / peak.amplitude;
-      }
-    }
-    here_.lambda = least_combination(G, std::vector<std::size_t>(active.peaks.size(), 0), {1.0});
-    here_.z.segment(next, a - 1) = here_.lambda.tail(a - 1);
-    here_.z[next + a - 1] = std::log(state.peaks[active.peaks[0]].amplitude / reference_);
-  }
-
-  void drop_lightest() {
-    Eigen::Index lightest = 0;
-    here_.lambda.minCoeff(&lightest);
-    here_.active.peaks.erase(here_.active.peaks.begin() + lightest);
-  }
-
-  // Newton's method at fixed sigma.
-  bool newton(OptimalityEvaluator& at) {
-    const Vector p = Vector::Constant(1, here_.sigma);
-    for (int k = 0; k < most_corrections; ++k) {
-      if (at.move_to(here_.z, p, Needs::jacobian) != continuation::Evaluated::ok) return false;
-      const Vector dz = std::get<Matrix>(at.jacobian()).fullPivLu().solve(at.residual());
-      if (!dz.allFinite() || dz.cwiseAbs().maxCoeff() > largest_correction) return false;
-      here_.z -= dz;
-      if (dz.norm() <= corrected * (1 + here_.z.norm()))
-        return at.move_to(here_.z, p, Needs::jacobian) == continuation::Evaluated::ok;
-    }
-    return false;
-  }
-
-  // One exchange where an inequality is violated. False: none is.
-  bool exchange(const OptimalityEvaluator& at) {
-    auto& active = here_.active;
-    if (at.highest_other() && at.distance_of_others() < -higher) {
-      active.peaks.push_back(*at.highest_other());
-      return true;
-    }
-    for (std::size_t i = 0; i < active.peaks.size(); ++i)
-      if (at.weights()[static_cast<Eigen::Index>(i)] < -violated) {
-        active.peaks.erase(active.peaks.begin() + static_cast<std::ptrdiff_t>(i));
-        return true;
-      }
-    for (std::size_t k = 0; k < size(); ++k)
-      for (const int side : {-1, 1})
-        if ((active.held[k] == 0 || active.held[k] == side) && at.slack({Kind::bound, k, side}) < -violated) {
-          active.held[k] = active.held[k] == 0 ? side : 0;
-          return true;
-        }
-    return false;
-  }
-
-  // What may change in the active set.
-  std::vector<Inequality> inequalities() const {
-    std::vector<Inequality> all;
-    for (std::size_t k = 0; k < size(); ++k)
-      for (const int side : {-1, 1})
-        if (here_.active.held[k] == 0 || here_.active.held[k] == side) all.push_back({Kind::bound, k, side});
-    if (here_.active.peaks.size() > 1)
-      for (const std::size_t i : here_.active.peaks) all.push_back({Kind::peak, i});
-    return all;
   }
 
   static const OptimalityEvaluator& evaluator(const Accepted& now) {
@@ -311,8 +204,8 @@ class Follow {
 
   // From where it stands to the end of the active set, of the range, or until a response is due.
   void piece() {
-    const auto of = data(here_.active);
-    std::vector<Inequality> may_change = inequalities();
+    const auto of = data();
+    std::vector<Inequality> may_change = inequalities(here_.active);
     const Eigen::Index tau = here_.active.unknowns() - 1;
     std::vector<Monitor> monitors;
     for (std::size_t i = 0; i < may_change.size(); ++i)
@@ -376,8 +269,8 @@ class Follow {
       return;
     }
     const OptimalityEvaluator& at = *end_of_piece;
-    stand(at);
-    here_.orientation = bordered(at, here_.tangent).determinant() > 0 ? 1 : -1;
+    here_.take(at);
+    here_.orient(at);
     for (Inequality& each : may_change)
       if (each.kind == Kind::peak)
         each.index = here_.active.peaks[static_cast<std::size_t>(
@@ -414,65 +307,21 @@ class Follow {
   // The equations at the end of a piece: with the peaks that were followed, or, where trials have led those
   // astray, with those of a new response.
   std::unique_ptr<OptimalityEvaluator> at_last_point() {
-    const Vector p = Vector::Constant(1, here_.sigma);
-    auto at = std::make_unique<OptimalityEvaluator>(data(here_.active));
+    auto at = std::make_unique<OptimalityEvaluator>(data());
     const OptimumPoint& last = curve_.points.back();
-    if (at->move_to(here_.z, p, Needs::jacobian) == continuation::Evaluated::ok &&
-        (at->residual().tail(static_cast<Eigen::Index>(here_.active.peaks.size())).cwiseAbs().maxCoeff()) <=
-            same_level)
-      return at;
+    if (here_.move(*at) && at->residual().cwiseAbs().maxCoeff() <= same_level) return at;
     std::vector<double> design = last.design;
     design.push_back(last.along);
     std::vector<KnownPeak> wanted;
     for (const OptimumPeak& peak : last.peaks) wanted.push_back({peak.kind, peak.omega, last.amplitude});
-    peaks_.trace(design);
-    here_.active.peaks = find_again(wanted, same_level);
+    here_.active.peaks = find_again(peaks_.trace(design), wanted, same_level);
     if (here_.active.peaks.empty()) return nullptr;
-    at = std::make_unique<OptimalityEvaluator>(data(here_.active));
-    return at->move_to(here_.z, p, Needs::jacobian) == continuation::Evaluated::ok ? std::move(at) : nullptr;
+    at = std::make_unique<OptimalityEvaluator>(data());
+    return here_.move(*at) ? std::move(at) : nullptr;
   }
 
   void stop_with(const continuation::Stop& stop) {
     end(Status::stopped, continuation::name(stop.reason), "at " + place(here_.sigma) + ": " + stop.message);
-  }
-
-  // [E_z E_sigma; row^T]
-  static Matrix bordered(const OptimalityEvaluator& at, const Vector& row) {
-    const Eigen::Index n = row.size() - 1;
-    Matrix A(n + 1, n + 1);
-    Vector dE(n);
-    at.parameter_derivative(0, dE);
-    A << std::get<Matrix>(at.jacobian()), dE, row.transpose();
-    return A;
-  }
-
-  // The unit tangent with row . t > 0, and its orientation. False: it is not unique.
-  bool take_tangent(const OptimalityEvaluator& at, const Vector& row) {
-    const Eigen::Index n = row.size() - 1;
-    const Matrix A = bordered(at, row);
-    const Eigen::FullPivLU<Matrix> lu(A.topRows(n));
-    if (lu.dimensionOfKernel() != 1) return false;
-    here_.tangent = lu.kernel().col(0).normalized();
-    if (row.dot(here_.tangent) < 0) here_.tangent = -here_.tangent;
-    here_.orientation = bordered(at, here_.tangent).determinant() > 0 ? 1 : -1;
-    return true;
-  }
-
-  void turn_back() {
-    here_.tangent = -here_.tangent;
-    here_.orientation = -here_.orientation;
-  }
-
-  static std::vector<KnownPeak> known(const std::vector<Peak>& peaks) {
-    std::vector<KnownPeak> all;
-    for (const Peak& peak : peaks) all.push_back({peak.kind, peak.omega(), peak.amplitude});
-    return all;
-  }
-
-  void stand(const OptimalityEvaluator& at) {
-    here_.design = at.design();
-    here_.peaks = known(at.active_peaks());
-    here_.lambda = at.weights();
   }
 
   // Points and events in the order of the curve. The first point of a piece is where the last one ended.
@@ -518,10 +367,8 @@ class Follow {
                                   : may_change[static_cast<std::size_t>(std::stoul(monitor.substr(7)))];
     OptimumEvent event{"", "", 0, false, point(at), curve_.points.size() - 1};
     const double before = here_.tangent[here_.z.size()];
-    auto& active = here_.active;
-    const bool was_active = what.kind == Kind::bound ? active.held[what.index] == what.side
-                                                     : std::find(active.peaks.begin(), active.peaks.end(),
-                                                                 what.index) != active.peaks.end();
+    const bool was_active = std::find(may_change.begin(), may_change.end(), what) != may_change.end() &&
+                            (what.kind == Kind::peak || here_.active.held[what.index] == what.side);
     if (what.kind == Kind::bound) {
       event.kind = was_active ? "bound_left" : "bound_reached";
       event.parameter = problem_.over[what.index].name;
@@ -530,38 +377,21 @@ class Follow {
       event.omega = peaks_.state().peaks[what.index].omega();
     }
     curve_.events.push_back(std::move(event));
-    std::vector<std::pair<Inequality, double>> multipliers;
-    for (const std::size_t i : active.peaks)
-      multipliers.push_back({{Kind::peak, i}, at.slack({Kind::peak, i})});
-    for (std::size_t k = 0; k < size(); ++k)
-      if (active.held[k] != 0)
-        multipliers.push_back({{Kind::bound, k, active.held[k]}, at.slack({Kind::bound, k, active.held[k]})});
-    Inequality watched = what;
-    if (was_active)
-      std::erase_if(multipliers, [&](const auto& each) { return same(each.first, what); });
-    else if (!enter(what, at, multipliers, watched))
-      return static_cast<void>(
-          end(Status::stopped, "no_exchange",
-              "at " + place(here_.sigma) + ": no set of active peaks and bounds goes on from here"));
-    active.peaks.clear();
-    active.held.assign(size(), 0);
-    std::vector<double> lambda;
-    for (const auto& [each, value] : multipliers) {
-      if (each.kind == Kind::bound) {
-        active.held[each.index] = each.side;
-      } else {
-        active.peaks.push_back(each.index);
-        lambda.push_back(value);
-      }
+    const auto next_set = exchanged(here_.active, what, at);
+    if (!next_set) {
+      end(Status::stopped, "no_exchange",
+          "at " + place(here_.sigma) + ": no set of active peaks and bounds goes on from here");
+      return;
     }
+    here_.active = next_set->active;
     const std::vector<double> design = at.design();
-    here_.z.resize(active.unknowns());
+    here_.z.resize(here_.active.unknowns());
     Eigen::Index next = 0;
     for (std::size_t k = 0; k < size(); ++k)
-      if (active.held[k] == 0) here_.z[next++] = scaled_[k].scaled(design[k]);
-    for (std::size_t i = 1; i < lambda.size(); ++i) here_.z[next++] = lambda[i];
+      if (here_.active.held[k] == 0) here_.z[next++] = scaled_[k].scaled(design[k]);
+    for (std::size_t i = 1; i < next_set->weights.size(); ++i) here_.z[next++] = next_set->weights[i];
     here_.z[next] = at.level();
-    orient(watched);
+    orient(next_set->watched);
     if (!ended_) note_turn(before, curve_.events.back().point);
   }
 
@@ -571,58 +401,18 @@ class Follow {
       curve_.events.push_back({"turning_point", "", 0, true, at, curve_.points.size() - 1});
   }
 
-  static bool same(const Inequality& a, const Inequality& b) {
-    return a.kind == b.kind && a.index == b.index && (a.kind == Kind::peak || a.side == b.side);
-  }
-
-  // An inequality becomes active. Where as many are as there are conditions, another one leaves: the first
-  // whose multiplier vanishes as that of the new one grows. `watched` becomes the one that leaves.
-  bool enter(const Inequality& what, const OptimalityEvaluator& at,
-             std::vector<std::pair<Inequality, double>>& multipliers, Inequality& watched) const {
-    const auto m = static_cast<Eigen::Index>(size()), count = static_cast<Eigen::Index>(multipliers.size());
-    const auto column = [&](const Inequality& of) {
-      Vector c = Vector::Zero(m + 1);
-      if (of.kind == Kind::peak)
-        c << at.gradient(of.index), 1;
-      else
-        c[static_cast<Eigen::Index>(of.index)] = of.side;
-      return c;
-    };
-    double entering = 0;
-    if (count == m + 1) {
-      Matrix B(m + 1, count);
-      for (Eigen::Index i = 0; i < count; ++i)
-        B.col(i) = column(multipliers[static_cast<std::size_t>(i)].first);
-      const Vector change = -B.fullPivLu().solve(column(what));
-      std::size_t leaves = multipliers.size();
-      entering = HUGE_VAL;
-      for (std::size_t i = 0; i < multipliers.size(); ++i) {
-        const double rate = change[static_cast<Eigen::Index>(i)];
-        if (!(rate < 0) || multipliers[i].second / -rate >= entering) continue;
-        entering = multipliers[i].second / -rate;
-        leaves = i;
-      }
-      if (leaves == multipliers.size()) return false;
-      for (std::size_t i = 0; i < multipliers.size(); ++i)
-        multipliers[i].second += entering * change[static_cast<Eigen::Index>(i)];
-      watched = multipliers[leaves].first;
-      multipliers.erase(multipliers.begin() + static_cast<std::ptrdiff_t>(leaves));
-    }
-    multipliers.push_back({what, entering});
-    return true;
-  }
-
   // The way in which the inequality that has changed holds more and more.
   void orient(const Inequality& watched) {
-    OptimalityEvaluator at(data(here_.active));
+    OptimalityEvaluator at(data());
     const Eigen::Index n = here_.z.size();
     const auto go = [&](double by) {
-      const Vector z = here_.z + by * here_.tangent.head(n);
-      return at.move_to(z, Vector::Constant(1, here_.sigma + by * here_.tangent[n]), Needs::jacobian) ==
-             continuation::Evaluated::ok;
+      Standing there = here_;
+      there.z += by * here_.tangent.head(n);
+      there.sigma += by * here_.tangent[n];
+      return there.move(at);
     };
     here_.tangent = Vector::Unit(n + 1, n);
-    bool known = go(0) && take_tangent(at, here_.tangent);
+    bool known = go(0) && here_.take_tangent(at, here_.tangent);
     double slack[2] = {0, 0};
     for (const int side : {0, 1}) {
       known = known && go(side == 0 ? -probe : probe);
@@ -634,30 +424,8 @@ class Follow {
               ": the active peaks and bounds change, and there is no single optimum beyond");
       return;
     }
-    if (slack[1] < slack[0]) turn_back();
-    stand(at);
-  }
-
-  // Finds the active peaks again in the response that was just traced. empty: one is missing.
-  std::vector<std::size_t> find_again(const std::vector<KnownPeak>& wanted, double tolerance) const {
-    std::vector<std::size_t> found;
-    const PeakState& state = peaks_.state();
-    for (const KnownPeak& peak : wanted) {
-      std::optional<std::size_t> nearest;
-      for (std::size_t i = 0; i < state.peaks.size(); ++i) {
-        const Peak& other = state.peaks[i];
-        if (other.kind == PeakKind::kink || std::find(found.begin(), found.end(), i) != found.end() ||
-            std::abs(std::log(other.amplitude / peak.amplitude)) > tolerance ||
-            std::abs(other.omega() / peak.omega - 1) > same_frequency)
-          continue;
-        if (!nearest ||
-            std::abs(other.omega() - peak.omega) < std::abs(state.peaks[*nearest].omega() - peak.omega))
-          nearest = i;
-      }
-      if (!nearest) return {};
-      found.push_back(*nearest);
-    }
-    return found;
+    if (slack[1] < slack[0]) here_.turn_back();
+    here_.take(at);
   }
 
   // The response where the curve stands.
@@ -671,12 +439,15 @@ class Follow {
         go_back();
         return;
       }
+      if (state.unbounded)
+        return static_cast<void>(
+            end(Status::stopped, "unbounded", "at " + place(here_.sigma) + ": " + state.message));
       end(Status::stopped, "other_peak",
           text("at ", place(here_.sigma), " the response has a peak of ", state.amplitude(),
                " m above that of ", level, " m which was followed, and it came up in between"));
       return;
     }
-    const auto found = find_again(here_.peaks, same_level);
+    const auto found = find_again(peaks_.state(), here_.peaks, same_level);
     if (found.empty())
       return static_cast<void>(
           end(Status::stopped, "lost_peak",
@@ -701,7 +472,7 @@ class Follow {
     rewound_ = true;
     step_ = 0;
     peaks_.trace(here_.design);
-    const auto found = find_again(here_.peaks, same_level);
+    const auto found = find_again(peaks_.state(), here_.peaks, same_level);
     if (found.empty())
       end(Status::stopped, "lost_peak",
           "at " + place(here_.sigma) + " a new response does not have the peaks that were followed");
@@ -727,42 +498,38 @@ class Follow {
         design.push_back(last.active.held[k] != 0 ? last.design[k] : scaled_[k].value(ahead[next++]));
       design.push_back(sigma().value(ahead[last.z.size()]));
       const PeakState& state = peaks_.trace(design);
-      const auto found = state.unbounded ? std::vector<std::size_t>{} : find_again(last.peaks, 100 * by);
+      const auto found =
+          state.unbounded ? std::vector<std::size_t>{} : find_again(state, last.peaks, 100 * by);
       if (found.empty()) continue;
       here_.active.peaks = found;
       here_.sigma = ahead[last.z.size()];
+      Vector weights;
       const bool unique = hold_flat(design);
       if (unique && here_.active.held == last.active.held)
         here_.z = ahead.head(last.z.size());
       else if (unique)
-        estimate(design);
-      OptimalityEvaluator at(data(here_.active));
-      if (!unique || !newton(at) || exchange_needed(at)) {
+        here_.z = setting().estimate(here_.active, weights);
+      OptimalityEvaluator at(data());
+      ActiveSet next_set = here_.active;
+      if (!unique || !here_.correct(at) || exchange(next_set, at)) {
         here_ = last;
         continue;
       }
       if (here_.active.held != last.active.held) {
         here_.tangent = {};
       } else {
-        if (!take_tangent(at, here_.tangent)) continue;
-        if (here_.orientation != last.orientation) turn_back();
+        if (!here_.take_tangent(at, here_.tangent)) continue;
+        if (here_.orientation != last.orientation) here_.turn_back();
       }
       changed(last.peaks, at);
       if (here_.tangent.size() == last.tangent.size()) note_turn(last.tangent[last.z.size()], point(at));
-      stand(at);
+      here_.take(at);
       step_ = 0;
       return;
     }
     here_ = last;
     end(Status::stopped, "lost_peak",
         where + "an active peak cannot be followed, and is not there beyond: " + stop.message);
-  }
-
-  bool exchange_needed(const OptimalityEvaluator& at) {
-    const ActiveSet before = here_.active;
-    const bool needed = exchange(at);
-    here_.active = before;
-    return needed;
   }
 
   void changed(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at) {
@@ -775,9 +542,11 @@ class Follow {
   void finish() {
     curve_.work.peaks = peaks_.work();
     curve_.work.seconds = seconds();
-    if (!curve_.points.empty())
-      curve_.stop.message += text("; the amplitude there is ", curve_.points.back().amplitude, " m at ",
-                                  std::string(space_.text(here_.design)));
+    if (curve_.points.empty()) return;
+    const OptimumPoint& last = curve_.points.back();
+    std::vector<double> design = last.design;
+    design.push_back(last.along);
+    curve_.stop.message += text("; the last amplitude is ", last.amplitude, " m at ", space_.text(design));
   }
 
   double seconds() const {
@@ -805,6 +574,9 @@ class Follow {
   std::size_t safe_points_ = 0, safe_events_ = 0;
   double interval_ = between_responses;
   bool rewound_ = false;
+
+  std::optional<OptimumPoint> mark_;
+  int idle_ = 0;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 

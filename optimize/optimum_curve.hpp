@@ -70,6 +70,8 @@ struct OptimumCurve {
   ///   lost_peak    an active peak vanished, or sits at a kink of another kind
   ///   turned_back  the curve left the range at its lower end, beyond a turning point
   ///   no_exchange  no active set goes on where the last one ends
+  ///   no_progress  active sets follow one another at one place
+  ///   unbounded    a resonance grows without bound
   observables::Stop stop;
   std::string along;
   Optimum start;  // the first optimum

@@ -320,4 +320,7 @@ TEST_CASE("what cannot be followed is refused before anything is computed") {
   OptimumProblem limited = paper_load;
   limited.limits.push_back({"energy_friction", -HUGE_VAL, 1e-3});
   CHECK(contains(error_of(paper(1, 0), limited, force), "with limits is not followed"));
+  OptimumProblem cases = paper_load;
+  cases.cases.push_back({{{"damper.stiffness", 3000}}});
+  CHECK(contains(error_of(paper(1, 0), cases, force), "over several cases is not followed"));
 }
