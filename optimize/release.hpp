@@ -2,10 +2,10 @@
 // Dampers that stick. Not installed.
 //
 // An element that sticks at the highest peak is a spring there: its slip limit p = mu F_n moves nothing, and
-// no gradient tells a search that it is too large. Yet it never is best so. At a motion of amplitude X it
-// dissipates D = 4 p (X - p/k_d) per period once p < k_d X, which grows from nothing as
-// dD/dp = -4 X, while its stiffness falls by the power 3/2 of k_d X - p only: a peak gets lower
-// as its element begins to slip. D is largest at p = k_d X/2.
+// no gradient tells a search that it is too large. Yet the peak gets lower as the element begins to slip: at
+// a motion of amplitude X it dissipates D = 4 p (X - p/k_d) per period once p < k_d X, which grows from
+// nothing as dD/dp = -4 X, while its stiffness falls by the power 3/2 of k_d X - p only. D is largest at
+// p = k_d X/2. So a search that ended there may go on, unless another peak rises instead.
 
 #include <arcslip/optimize/cases.hpp>
 
