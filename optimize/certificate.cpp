@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arcslip::optimize {
 namespace {
@@ -19,13 +20,15 @@ constexpr int deflation_iterations = 40;
 
 class Certifier {
  public:
-  Certifier(Cases& cases, std::span<const double> lower, std::span<const double> upper)
+  Certifier(Cases& cases, std::span<const double> lower, std::span<const double> upper,
+            std::vector<ActiveLimit> limits)
       : cases_(cases),
         lower_(lower),
         upper_(upper),
         design_(cases.state(0).design),
         value_(cases.value()),
         gradient_(cases.gradient()) {
+    result_.limits = std::move(limits);
     for (std::size_t c = 0; c < cases.size(); ++c) optimum_.push_back(cases.state(c));
     for (std::size_t g = 0; g < cases.groups(); ++g) levels_.push_back(cases.height(cases.highest_of(g)));
   }
@@ -41,10 +44,11 @@ class Certifier {
 
  private:
   void stationarity() {
-    const Balance found = balance(cases_, lower_, upper_);
+    Balance found = balance(cases_, lower_, upper_, std::move(result_.limits));
     result_.gradient.assign(gradient_.begin(), gradient_.end());
     result_.stationarity = found.stationarity;
     result_.at_bound = found.at_bound;
+    result_.limits = std::move(found.limits);
     smooth_ = found.smooth;
     auto active = found.active.begin();
     for (std::size_t c = 0; c < optimum_.size(); ++c)
@@ -71,7 +75,7 @@ class Certifier {
     result_.curvature = H;
     const bool inside =
         std::all_of(result_.at_bound.begin(), result_.at_bound.end(), [](int bound) { return bound == 0; });
-    if (!inside || result_.curvature.llt().info() != Eigen::Success) return;
+    if (!inside || !result_.limits.empty() || result_.curvature.llt().info() != Eigen::Success) return;
     const Vector step = -result_.curvature.llt().solve(gradient_);
     result_.to_minimum.assign(step.begin(), step.end());
   }
@@ -203,8 +207,8 @@ class Certifier {
 }  // namespace
 
 Certificate certify(Cases& cases, std::span<const double> lower, std::span<const double> upper,
-                    const std::function<bool()>& go_on) {
-  return Certifier(cases, lower, upper).run(go_on);
+                    std::vector<ActiveLimit> limits, const std::function<bool()>& go_on) {
+  return Certifier(cases, lower, upper, std::move(limits)).run(go_on);
 }
 
 }  // namespace arcslip::optimize

@@ -35,23 +35,33 @@ struct OtherResponse {
   std::size_t in_case = 0;          // of Optimum::cases
 };
 
+/// A limit c(p) <= 0 that is active, within 1e-6: c = (observable - bound)/|bound| or its negative, or the
+/// same of a linear limit; without |bound| where that is 0.
+struct ActiveLimit {
+  std::string limit;        // the observable, or "a linear limit"
+  std::size_t in_case = 0;  // of Optimum::cases; a linear limit holds in all
+  Vector gradient{};        // dc / d ln p
+  double multiplier = 0;    // where the limit is loosened by x of its bound, ln V falls by about x times this
+};
+
 struct Certificate {
   std::vector<double> gradient;  // dV/dp_k, of a highest peak where there are several, m over the unit of p_k
-  double stationarity = 0;       // |sum of weights * d ln A / d ln p|, without what a bound holds
+  double stationarity = 0;       // |sum of weights * d ln A / d ln p|, without what limits and bounds hold
   std::vector<double>
-      to_minimum;             // Newton step from the optimum to the zero of the gradient; empty if kinked
+      to_minimum;  // Newton step from the optimum to the zero of the gradient; empty if kinked or limited
   Eigen::MatrixXd curvature;  // d2V/dp_j dp_k; empty where several peaks of a case are active (worst: of all
                               // cases), or at a kink
   std::vector<std::vector<ToleranceRange>> ranges;  // of each parameter: shares 0.01 and 0.05
   std::vector<CertifiedPeak> peaks;                 // that are watched
+  std::vector<ActiveLimit> limits;                  // that are active
   std::vector<int> at_bound;                        // of each parameter: -1 lower, 1 upper, 0 inside
   std::vector<OtherResponse> others;                // found on other branches, at the optimum's design
   bool others_lower = true;  // none of them is higher than the highest of its case (worst: of all, weighted)
 };
 
 /// At the design where the cases stand, which is the optimum; they move elsewhere meanwhile. go_on: asked
-/// between parts; false ends the certificate where it is.
+/// between parts; false ends the certificate where it is. limits: those that are active there.
 Certificate certify(Cases& cases, std::span<const double> lower, std::span<const double> upper,
-                    const std::function<bool()>& go_on = {});
+                    std::vector<ActiveLimit> limits = {}, const std::function<bool()>& go_on = {});
 
 }  // namespace arcslip::optimize

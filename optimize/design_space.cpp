@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::array<double, 7> diagonal = {0.5, 0.25, 0.75, 0.125, 0.875, 0, 1};  // shares of the bounds
 constexpr double tolerance = 1e-8;  // of linear limits, relative
+constexpr double as_active = 1e-6;  // relative: a linear limit that is nearer is active
+constexpr const char* linear_name = "a linear limit";
 
 }  // namespace
 
@@ -145,7 +147,7 @@ double DesignSpace::value(const Linear& limit, std::span<const double> design) c
 void DesignSpace::add_linear(Problem& problem) const {
   const std::size_t n = names_.size();
   for (const Linear& limit : linear_)
-    problem.constraints.push_back({"a linear limit",
+    problem.constraints.push_back({linear_name,
                                    [this, n, limit](auto y, auto g) {
                                      const std::vector<double> p = design(y.first(n));
                                      std::fill(g.begin(), g.end(), 0.0);
@@ -161,6 +163,18 @@ double DesignSpace::excess(std::span<const double> design) const {
   for (const Linear& limit : linear_)
     if (const double over = value(limit, design); over > tolerance) excess = std::max(excess, over);
   return excess;
+}
+
+std::vector<ActiveLimit> DesignSpace::active(std::span<const double> design) const {
+  std::vector<ActiveLimit> active;
+  for (const Linear& limit : linear_) {
+    if (value(limit, design) < -as_active) continue;
+    Vector gradient(static_cast<Eigen::Index>(design.size()));
+    for (std::size_t k = 0; k < design.size(); ++k)
+      gradient[static_cast<Eigen::Index>(k)] = limit.weights[k] * design[k] / limit.scale;
+    active.push_back({linear_name, 0, gradient, 0});
+  }
+  return active;
 }
 
 std::string DesignSpace::text(std::span<const double> design) const {

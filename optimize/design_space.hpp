@@ -38,6 +38,7 @@ class DesignSpace {
   /// The linear limits as constraints, and by how much the worst is exceeded.
   void add_linear(Problem& problem) const;
   double excess(std::span<const double> design) const;
+  std::vector<ActiveLimit> active(std::span<const double> design) const;
 
   std::string text(std::span<const double> design) const;  // "d.normal_load = 3, c.value = 0.1"
   std::string names() const;

@@ -14,6 +14,7 @@ namespace {
 constexpr int spare_peaks = 3;       // that may come up during a round, in each case
 constexpr double least_level = -60;  // of ln V/V_0
 constexpr double beyond_all = 60;    // ln V/V_0 where it is infinite
+constexpr double as_active = 1e-6;   // of limits on observables, relative: one that is nearer is active
 constexpr double tolerance = 1e-8;   // of limits on observables, relative
 
 }  // namespace
@@ -116,6 +117,22 @@ double Formulation::excess() {
         if (const double value = limit(each, c, i, {}); value > tolerance) excess = std::max(excess, value);
     }
   return excess;
+}
+
+std::vector<ActiveLimit> Formulation::active() {
+  const std::vector<double>& design = cases_.state(0).design;
+  std::vector<ActiveLimit> active = space_.active(design);
+  for (const Limited& each : limits_)
+    for (std::size_t c = 0; c < cases_.size(); ++c)
+      for (std::size_t i = 0; i < cases_.state(c).peaks.size(); ++i) {
+        if (limit(each, c, i, {}) < -as_active) continue;
+        Vector gradient(static_cast<Eigen::Index>(design.size()));
+        limit(each, c, i, {gradient.data(), design.size()});
+        for (std::size_t k = 0; k < design.size(); ++k)
+          gradient[static_cast<Eigen::Index>(k)] *= design[k] / space_.slope(k, design[k]);
+        if (gradient.allFinite()) active.push_back({each.name, c, gradient, 0});
+      }
+  return active;
 }
 
 // ln w A/V_0 of a peak, by y.

@@ -32,6 +32,8 @@ class Formulation {
 
   /// By how much the worst of the limits is exceeded where the cases stand, relative; 0 where all hold.
   double excess();
+  /// Those that are active there, without those at a kink.
+  std::vector<ActiveLimit> active();
 
  private:
   struct Limited {

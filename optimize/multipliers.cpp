@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arcslip::optimize {
 namespace {
@@ -14,10 +15,10 @@ constexpr double no_descent = 1e-12;  // of |G|^2: a multiplier that would gain 
 constexpr int steps_per_column = 20;  // far more than there are: guards against cycling by rounding
 
 // Minimum of |G m| with the sums of the groups, over the columns that are free; the others stay 0. What is
-// alone in its group has its share.
+// alone in its group has its share; beyond the groups there are no sums.
 Eigen::VectorXd minimum_of(const Eigen::MatrixXd& G, const std::vector<std::size_t>& group,
                            const std::vector<double>& shares, const std::vector<bool>& is_free) {
-  std::vector<std::size_t> members(shares.size(), 0);
+  std::vector<std::size_t> members(shares.size() + 1, 0);
   for (std::size_t i = 0; i < group.size(); ++i)
     if (is_free[i]) ++members[group[i]];
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(G.cols());
@@ -27,12 +28,12 @@ Eigen::VectorXd minimum_of(const Eigen::MatrixXd& G, const std::vector<std::size
     const auto column = static_cast<Eigen::Index>(i);
     const std::size_t g = group[i];
     if (!is_free[i]) continue;
-    if (members[g] == 1) {
+    if (g < shares.size() && members[g] == 1) {
       weights[column] = shares[g];
       continue;
     }
     columns.push_back(column);
-    if (row[g] < 0) row[g] = rows++;
+    if (g < shares.size() && row[g] < 0) row[g] = rows++;
   }
   if (columns.empty()) return weights;
   const auto k = static_cast<Eigen::Index>(columns.size());
@@ -43,6 +44,7 @@ Eigen::VectorXd minimum_of(const Eigen::MatrixXd& G, const std::vector<std::size
   b.head(k) = -free.transpose() * (G * weights);
   for (Eigen::Index i = 0; i < k; ++i) {
     const std::size_t g = group[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
+    if (g == shares.size()) continue;
     A(i, k + row[g]) = A(k + row[g], i) = 1;
     b[k + row[g]] = shares[g];
   }
@@ -56,11 +58,15 @@ Eigen::VectorXd minimum_of(const Eigen::MatrixXd& G, const std::vector<std::size
 Eigen::VectorXd least_combination(const Eigen::MatrixXd& G, const std::vector<std::size_t>& group,
                                   const std::vector<double>& shares) {
   const auto n = static_cast<std::size_t>(G.cols());
-  std::vector<bool> is_free(n, true);
-  Eigen::VectorXd weights(G.cols());
-  for (std::size_t i = 0; i < n; ++i)
-    weights[static_cast<Eigen::Index>(i)] =
-        shares[group[i]] / static_cast<double>(std::count(group.begin(), group.end(), group[i]));
+  std::vector<std::size_t> members(shares.size() + 1, 0);
+  for (const std::size_t g : group) ++members[g];
+  std::vector<bool> is_free(n);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(G.cols());
+  for (std::size_t i = 0; i < n; ++i) {
+    is_free[i] = group[i] < shares.size();
+    if (is_free[i])
+      weights[static_cast<Eigen::Index>(i)] = shares[group[i]] / static_cast<double>(members[group[i]]);
+  }
   for (std::size_t step = 0; step < steps_per_column * n; ++step) {
     const Eigen::VectorXd next = minimum_of(G, group, shares, is_free);
     double way = 1;
@@ -78,9 +84,9 @@ Eigen::VectorXd least_combination(const Eigen::MatrixXd& G, const std::vector<st
     }
     // d|G m|^2/2 of a column against that of the free ones of its group, which are equal.
     const Eigen::VectorXd slope = G.transpose() * (G * weights);
-    std::vector<double> level(shares.size(), 0);
+    std::vector<double> level(shares.size() + 1, 0);
     for (std::size_t i = 0; i < n; ++i)
-      if (is_free[i]) level[group[i]] = slope[static_cast<Eigen::Index>(i)];
+      if (is_free[i] && group[i] < shares.size()) level[group[i]] = slope[static_cast<Eigen::Index>(i)];
     std::size_t best = n;
     double most = -no_descent * G.squaredNorm();
     for (std::size_t i = 0; i < n; ++i) {
@@ -95,44 +101,46 @@ Eigen::VectorXd least_combination(const Eigen::MatrixXd& G, const std::vector<st
   return weights;
 }
 
-Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper) {
+Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper,
+                std::vector<ActiveLimit> limits) {
   Balance result;
   const std::vector<double>& design = cases.state(0).design;
   const auto n = static_cast<Eigen::Index>(design.size());
-  for (std::size_t k = 0; k < design.size(); ++k) {
-    const double width = on_bound * (upper[k] - lower[k]);
-    result.at_bound.push_back(design[k] <= lower[k] + width ? -1 : design[k] >= upper[k] - width ? 1 : 0);
-  }
+  std::vector<Vector> columns;
   std::vector<std::size_t> group, count(cases.groups(), 0);
   std::vector<double> heights, shares;
   for (std::size_t g = 0; g < cases.groups(); ++g) {
     heights.push_back(cases.height(cases.highest_of(g)));
     shares.push_back(heights[g] / cases.value());
   }
+  const Vector p = Vector::Map(design.data(), n);
   for (std::size_t c = 0; c < cases.size(); ++c)
     for (std::size_t i = 0; i < cases.state(c).peaks.size(); ++i) {
       const Peak& peak = cases.state(c).peaks[i];
       const std::size_t g = cases.group(c);
       if (cases.weight(c) * peak.amplitude < (1 - as_high) * heights[g]) continue;
       result.active.push_back({c, i});
+      columns.push_back(peak.gradient.cwiseProduct(p) / peak.amplitude);
       group.push_back(g);
       if (++count[g] > 1 || peak.kind == PeakKind::kink) result.smooth = false;
     }
-  Eigen::MatrixXd G(n, static_cast<Eigen::Index>(result.active.size()));
-  for (std::size_t i = 0; i < result.active.size(); ++i) {
-    const Peak& peak = cases.state(result.active[i].in_case).peaks[result.active[i].peak];
-    for (Eigen::Index k = 0; k < n; ++k)
-      G(k, static_cast<Eigen::Index>(i)) =
-          peak.gradient[k] * design[static_cast<std::size_t>(k)] / peak.amplitude;
+  for (const ActiveLimit& limit : limits) columns.push_back(limit.gradient);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const double width = on_bound * (upper[at] - lower[at]);
+    const int side = p[k] <= lower[at] + width ? -1 : p[k] >= upper[at] - width ? 1 : 0;
+    result.at_bound.push_back(side);
+    if (side != 0 && p[k] != 0) columns.push_back((p[k] > 0 ? side : -side) * Vector::Unit(n, k));
   }
-  Eigen::VectorXd weights = least_combination(G, group, shares), sum = G * weights;
-  for (Eigen::Index k = 0; k < n; ++k)
-    if (result.at_bound[static_cast<std::size_t>(k)] * sum[k] < 0) G.row(k).setZero();
-  weights = least_combination(G, group, shares);
-  sum = G * weights;
-  result.stationarity = sum.norm();
-  for (std::size_t i = 0; i < result.active.size(); ++i)
-    result.active[i].multiplier = weights[static_cast<Eigen::Index>(i)];
+  group.resize(columns.size(), shares.size());
+  Eigen::MatrixXd G(n, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) G.col(static_cast<Eigen::Index>(i)) = columns[i];
+  const Eigen::VectorXd m = least_combination(G, group, shares);
+  result.stationarity = (G * m).norm();
+  Eigen::Index next = 0;
+  for (ActivePeak& peak : result.active) peak.multiplier = m[next++];
+  for (ActiveLimit& limit : limits) limit.multiplier = m[next++];
+  result.limits = std::move(limits);
   return result;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 // The balance of gradients at a minimum of V (cases.hpp): multipliers m_ck >= 0 of the active peaks, those
-// whose w_c A_ck is the highest of their group g,
+// whose w_c A_ck is the highest of their group g, and n_i >= 0 of the active limits c_i(p) <= 0, those of
+// bounds among them,
 //
-//   minimise |sum of m_ck d ln A_ck / d ln p|  such that the m_ck of group g add up to its share of V
+//   minimise |sum of m_ck d ln A_ck / d ln p + sum of n_i dc_i / d ln p|
+//   such that the m_ck of group g add up to its share of V
 //
-// without the components that a bound holds against the descent. The minimum is 0 where p is stationary, and
-// all multipliers add up to 1. Not installed.
+// The minimum is 0 where p is stationary, and all m_ck add up to 1. Not installed.
 
-#include <arcslip/optimize/cases.hpp>
+#include <arcslip/optimize/certificate.hpp>
 
 #include <Eigen/Core>
 
@@ -24,13 +25,15 @@ struct ActivePeak {
 
 struct Balance {
   std::vector<ActivePeak> active;
-  double stationarity = 0;    // the norm that is left
-  std::vector<int> at_bound;  // of each parameter: -1 lower, 1 upper, 0 inside
-  bool smooth = true;         // one active peak in each group, and none at a kink
+  std::vector<ActiveLimit> limits;  // with their multipliers
+  double stationarity = 0;          // the norm that is left
+  std::vector<int> at_bound;        // of each parameter: -1 lower, 1 upper, 0 inside
+  bool smooth = true;               // one active peak in each group, and none at a kink
 };
 
 /// Where the cases stand, V finite.
-Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper);
+Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper,
+                std::vector<ActiveLimit> limits);
 
 /// m >= 0 of least |G m| such that the entries of each group add up to its share (> 0, groups counted from
 /// 0, none empty). An active-set method: G need not have full rank.

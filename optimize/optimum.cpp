@@ -230,9 +230,10 @@ class Search {
           text("; the least amplitude is ", best().value, " m at ", space().text(best().design));
       if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
       if (std::isfinite(cases().value())) {
-        describe_cases();
+        const std::vector<ActiveLimit> limits = trials_.formulation().active();
+        describe_cases(limits);
         if (options_.certificate && result_.status == Status::complete && result_.stop.reason != "flat")
-          result_.certificate = certify(cases(), space().lower(), space().upper(), [this] {
+          result_.certificate = certify(cases(), space().lower(), space().upper(), limits, [this] {
             return options_.seconds == 0 || trials_.seconds() < options_.seconds;
           });
       }
@@ -242,7 +243,7 @@ class Search {
     result_.seconds = trials_.seconds();
   }
 
-  void describe_cases() {
+  void describe_cases(const std::vector<ActiveLimit>& limits) {
     for (std::size_t c = 0; c < cases().size(); ++c) {
       const PeakState& state = cases().state(c);
       CaseResult each = trials_.scenarios().result(trials_.scenario(c));
@@ -250,7 +251,7 @@ class Search {
       each.point = cases().peaks(c).observe(state.peaks[state.highest]);
       result_.cases.push_back(std::move(each));
     }
-    for (const ActivePeak& peak : balance(cases(), space().lower(), space().upper()).active) {
+    for (const ActivePeak& peak : balance(cases(), space().lower(), space().upper(), limits).active) {
       result_.cases[peak.in_case].active = true;
       result_.cases[peak.in_case].multiplier += peak.multiplier;
     }

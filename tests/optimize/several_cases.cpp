@@ -97,11 +97,22 @@ TEST_CASE("a linear limit holds over several cases") {
   const Optimum without = optimize::optimum(s, problem, {.certificate = false});
   REQUIRE(without.design[0] + without.design[1] > 2.5);
   problem.linear_limits = {{.weights = {{"d0.normal_load", 1}, {"d1.normal_load", 1}}, .at_most = 2.5}};
-  const Optimum found = optimize::optimum(s, problem, {.certificate = false});
+  const Optimum found = optimize::optimum(s, problem);
   CHECK(found.status == observables::Status::complete);
   CHECK(found.feasible);
   CHECK(found.design[0] + found.design[1] == Approx(2.5).epsilon(1e-6));
   CHECK(found.amplitude > without.amplitude);
+  // Its multiplier is what looser and tighter limits gain and lose.
+  REQUIRE(found.certificate);
+  CHECK(found.certificate->stationarity < 1e-6);
+  REQUIRE(found.certificate->limits.size() == 1);
+  double amplitude[2];
+  for (const int side : {0, 1}) {
+    problem.linear_limits[0].at_most = 2.5 * (side == 0 ? 0.995 : 1.005);
+    amplitude[side] = optimize::optimum(s, problem, {.certificate = false}).amplitude;
+  }
+  CHECK(found.certificate->limits[0].multiplier ==
+        Approx(-std::log(amplitude[1] / amplitude[0]) / 0.01).epsilon(1e-3));
 }
 
 TEST_CASE("the gradient of both criteria is the difference of new responses") {
