@@ -10,6 +10,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <utility>
 
@@ -59,14 +60,23 @@ class Follow {
     for (std::size_t k = 0; k <= problem.over.size(); ++k)
       scaled_.emplace_back(space_.lower()[k], space_.upper()[k]);
     curve_.along = along.name;
+    if (!(options.points >= 1)) throw OptionsError(text("points = ", options.points, ": at least 1"));
+    if (!(options.seconds >= 0)) throw OptionsError(text("seconds = ", options.seconds, ": at least 0"));
+    if (!(options.step > 0 && options.step <= 1))
+      throw OptionsError(text("step = ", options.step, ": above 0, and at most 1"));
   }
 
   OptimumCurve run() {
-    if (begin())
-      while (!ended_) {
-        piece();
-        if (!ended_) guard();
-      }
+    try {
+      if (begin())
+        while (!ended_) {
+          piece();
+          if (!ended_) guard();
+        }
+    } catch (const std::exception& thrown) {
+      end(Status::failed, name(Reason::objective_failed),
+          text("it threw \"", thrown.what(), "\" at ", place(here_.sigma)));
+    }
     finish();
     return std::move(curve_);
   }
@@ -238,10 +248,16 @@ class Follow {
 
     std::map<double, Seen> seen;  // by arclength
     bool due = false, user = false;
+    std::exception_ptr thrown;
     const auto observe = [&](const Accepted& now, const Event*) {
       seen[now.arclength] = {point(evaluator(now)), evaluator(now).slope_along()};
       const OptimumPoint& at = seen[now.arclength].point;
-      user = options_.progress && !options_.progress(at);
+      try {
+        user = options_.progress && !options_.progress(at);
+      } catch (...) {
+        thrown = std::current_exception();
+        user = true;
+      }
       due = way_since_response(at) >= interval_;
       return !due && !user;
     };
@@ -252,6 +268,7 @@ class Follow {
     curve_.work.evaluations += branch.counts.residuals;
     curve_.work.hessians += branch.counts.jacobians;
     keep(branch, seen);
+    if (thrown) std::rethrow_exception(thrown);
     if (branch.points.empty()) {
       lost(branch.stop);
       return;

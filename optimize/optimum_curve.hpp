@@ -65,7 +65,8 @@ struct OptimumCurveWork {
 struct OptimumCurve {
   /// complete: up to the upper end of the range. stopped: right as far as it goes.
   observables::Status status = observables::Status::failed;
-  /// reason: that of the first optimum where it is none, the name of a continuation::StopReason, or
+  /// reason: that of the first optimum where it is none, the name of a continuation::StopReason,
+  /// "objective_failed" where something threw (the progress callback, too), or
   ///   other_peak   a response has a higher peak than those that are followed
   ///   lost_peak    an active peak vanished, or sits at a kink of another kind
   ///   turned_back  the curve left the range at its lower end, beyond a turning point
@@ -90,8 +91,8 @@ struct OptimumCurveOptions {
 };
 
 /// From the scene's own values of the design's parameters, with s at along.lower, to along.upper. Throws as
-/// optimum() does, and OptionsError where the design is over s as well, or where there are limits, cases
-/// or scatter: such optima are not followed.
+/// optimum() does, and OptionsError for options out of bounds, where the design is over s as well, or where
+/// there are limits, cases or scatter: such optima are not followed.
 OptimumCurve optimum_curve(const scene::Scene& scene, const OptimumProblem& problem,
                            const scene::DesignVariable& along, const OptimumCurveOptions& options = {});
 

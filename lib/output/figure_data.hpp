@@ -54,6 +54,12 @@ struct FigureLine {
   std::vector<FigureBand> bands{};  // the widest first
 };
 
+/// A column beyond those of every study, drawn over column 0 in a figure of its own, NAME_`name`.
+struct FurtherColumn {
+  std::string name;
+  std::size_t column;
+};
+
 struct FigureData {
   scene::StudyKind kind = scene::StudyKind::frf;
   std::string title;
@@ -61,6 +67,7 @@ struct FigureData {
   std::vector<std::string> friction;    // names of the friction elements
   std::vector<FigureColumn> columns;    // see write_figure_data()
   std::vector<FigureLine> lines;
+  std::vector<FurtherColumn> further{};
 
   /// Columns from 0; stick_column() is that of the first friction element.
   std::size_t frequency_column() const { return kind == scene::StudyKind::frf ? 0 : 1; }

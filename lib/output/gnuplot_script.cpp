@@ -273,6 +273,9 @@ std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::st
     case scene::StudyKind::time:
       break;
   }
+  for (const auto& [own, column] : data.further) {
+    figures.push_back({name + "_" + file_name(own), 0, column, over, data.columns[column].label});
+  }
   return figures;
 }
 

@@ -6,10 +6,13 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
-#include <arcslip/optimize/optimum_curve.hpp>
+#include <arcslip/optimize/optimum_curve_output.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 
 using namespace arcslip;
 using namespace arcslip::optimize;
@@ -312,6 +315,20 @@ TEST_CASE("a progress callback, a number of points and a time limit stop the cur
   CHECK(by_time.status == observables::Status::stopped);
 }
 
+TEST_CASE("what the progress callback throws ends the curve with what there is") {
+  OptimumCurveOptions options;
+  int told = 0;
+  options.progress = [&](const OptimumPoint&) {
+    if (++told == 4) throw std::runtime_error("enough");
+    return true;
+  };
+  const OptimumCurve curve = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
+  CHECK(curve.status == observables::Status::failed);
+  CHECK(curve.stop.reason == "objective_failed");
+  CHECK(contains(curve.stop.message, "it threw \"enough\""));
+  CHECK(curve.points.size() == 4);
+}
+
 TEST_CASE("what cannot be followed is refused before anything is computed") {
   const scene::DesignVariable force{"force.cosine", 1, 2};
   CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosin", 1, 2}), "force.cosine"));
@@ -320,7 +337,67 @@ TEST_CASE("what cannot be followed is refused before anything is computed") {
   OptimumProblem limited = paper_load;
   limited.limits.push_back({"energy_friction", -HUGE_VAL, 1e-3});
   CHECK(contains(error_of(paper(1, 0), limited, force), "with limits is not followed"));
+  OptimumCurveOptions options;
+  options.step = 0;
+  CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
+  options = {};
+  options.points = 0;
+  CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
+  options = {};
+  options.seconds = -1;
+  CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
   OptimumProblem cases = paper_load;
   cases.cases.push_back({{{"damper.stiffness", 3000}}});
   CHECK(contains(error_of(paper(1, 0), cases, force), "over several cases is not followed"));
+}
+
+TEST_CASE("result files tell every point of the curve and every event") {
+  const scene::Scene s = levels();
+  OptimumCurveResult result;
+  result.study = "levels";
+  result.problem = {{{"damper.normal_load", 5, 10}}, 15, 60};
+  result.curve = optimum_curve(s, result.problem, {"force.cosine", 1, 8});
+  const std::vector<OptimumCurveResult> results = {result};
+  std::ostringstream text;
+  const auto section = json_section(s, results);
+  output::write_document(text, s, {&section, 1});
+  const auto document = nlohmann::json::parse(text.str());
+  CHECK(document["format"] == "arcslip-optimum-curves-1");
+  const auto& curve = document["optimum_curves"][0];
+  CHECK(curve["along"] == "force.cosine");
+  CHECK(curve["status"] == "complete");
+  REQUIRE(curve["points"].size() == result.curve.points.size());
+  const OptimumPoint& last = result.curve.points.back();
+  CHECK(curve["points"].back()["force.cosine"] == last.along);
+  CHECK(curve["points"].back()["damper.normal_load"] == last.design[0]);
+  CHECK(curve["points"].back()["amplitude"] == last.amplitude);
+  CHECK(curve["points"].back()["at_bound"]["damper.normal_load"] == "upper");
+  CHECK(curve["points"].back()["peaks"][0]["weight"] == 1);
+  REQUIRE(curve["events"].size() == 2);
+  CHECK(curve["events"][0]["kind"] == "bound_left");
+  CHECK(curve["events"][0]["parameter"] == "damper.normal_load");
+  CHECK(curve["events"][0]["point"]["at_bound"]["damper.normal_load"] == "lower");
+
+  std::ostringstream csv;
+  write_csv(csv, s, results);
+  std::istringstream lines(csv.str());
+  std::string line;
+  std::vector<std::string> all;
+  while (std::getline(lines, line)) all.push_back(line);
+  CHECK(all.size() == 1 + result.curve.points.size() + result.curve.events.size());
+  CHECK(all[0] ==
+        "curve,what,force.cosine (N),damper.normal_load (N),amplitude (m),frequency (Hz),stick (%),"
+        "active peaks,minimum\r");
+  CHECK(all[1].starts_with("1,point,1,5,"));
+  CHECK(contains(csv.str(), "1,bound_left,2.1"));
+
+  const auto folder = std::filesystem::temp_directory_path() / "arcslip_optimum_curve";
+  std::filesystem::create_directories(folder);
+  const auto figures = write_figures(s, results, folder.string(), "best");
+  std::ifstream script(folder / "best.gp");
+  const std::string commands{std::istreambuf_iterator<char>(script), {}};
+  for (const char* figure : {"best_damper.normal_load.svg", "best_amplitude.svg", "best_stick.svg"})
+    CHECK(contains(commands, figure));
+  CHECK((figures.images.size() == 6 || !figures.problem.empty()));
+  std::filesystem::remove_all(folder);
 }

@@ -1,0 +1,194 @@
+#include <arcslip/optimize/optimum_curve_output.hpp>
+
+#include <arcslip/output/draw_figures.hpp>
+#include <arcslip/output/json_text.hpp>
+#include <arcslip/output/units.hpp>
+
+#include <algorithm>
+#include <ostream>
+
+namespace arcslip::optimize {
+namespace {
+
+using output::detail::Json;
+
+constexpr double decade = 10;
+
+// Of the only friction element; null where there is not exactly one.
+const observables::ElementResponse* friction_of(const observables::ResponsePoint& point) {
+  const observables::ElementResponse* only = nullptr;
+  for (const auto& element : point.elements) {
+    if (element.has_stick && only) return nullptr;
+    if (element.has_stick) only = &element;
+  }
+  return only;
+}
+
+Json point_of(const scene::Scene& scene, const OptimumCurveResult& result, const OptimumPoint& at) {
+  Json json = {{result.curve.along, at.along}};
+  for (std::size_t k = 0; k < at.design.size(); ++k) json[result.problem.over[k].name] = at.design[k];
+  json["amplitude"] = at.amplitude;
+  json["frequency"] = output::in_scene_unit(scene, at.response.omega);
+  json["omega"] = at.response.omega;
+  if (const auto* element = friction_of(at.response)) json["stick_percent"] = element->stick_percent;
+  json["energy_friction"] = at.response.energy_friction;
+  Json& peaks = json["peaks"] = Json::array();
+  for (const OptimumPeak& peak : at.peaks)
+    peaks.push_back({{"kind", name(peak.kind)},
+                     {"frequency", output::in_scene_unit(scene, peak.omega)},
+                     {"omega", peak.omega},
+                     {"weight", peak.weight}});
+  Json& bounds = json["at_bound"] = Json::object();
+  for (std::size_t k = 0; k < at.at_bound.size(); ++k)
+    bounds[result.problem.over[k].name] = at.at_bound[k] < 0   ? "lower"
+                                          : at.at_bound[k] > 0 ? "upper"
+                                                               : "inside";
+  json["minimum"] = at.minimum;
+  return json;
+}
+
+Json event_of(const scene::Scene& scene, const OptimumCurveResult& result, const OptimumEvent& event) {
+  Json json = {{"kind", event.kind}};
+  if (!event.parameter.empty()) json["parameter"] = event.parameter;
+  if (event.omega > 0) {
+    json["frequency"] = output::in_scene_unit(scene, event.omega);
+    json["omega"] = event.omega;
+  }
+  json["nonsmooth"] = event.nonsmooth;
+  json["after"] = event.after;
+  json["point"] = point_of(scene, result, event.point);
+  return json;
+}
+
+Json json_of(const scene::Scene& scene, const OptimumCurveResult& result) {
+  const OptimumCurve& curve = result.curve;
+  Json json = Json::object();
+  if (!result.study.empty()) json["study"] = result.study;
+  if (!result.kind.empty()) json["kind"] = result.kind;
+  json["status"] = observables::name(curve.status);
+  json["stop"] = output::detail::stop(curve.stop);
+  json["set"] = output::detail::named_values(result.set);
+  json["along"] = curve.along;
+  Json& points = json["points"] = Json::array();
+  for (const OptimumPoint& at : curve.points) points.push_back(point_of(scene, result, at));
+  Json& events = json["events"] = Json::array();
+  for (const OptimumEvent& event : curve.events) events.push_back(event_of(scene, result, event));
+  json["notes"] = curve.notes;
+  json["pieces"] = curve.work.pieces;
+  json["evaluations"] = curve.work.evaluations;
+  json["hessians"] = curve.work.hessians;
+  json["responses"] = curve.work.peaks.responses;
+  json["followed"] = curve.work.peaks.followed;
+  json["factorizations"] = curve.work.peaks.factorizations;
+  json["seconds"] = curve.work.seconds;
+  return json;
+}
+
+// As a branch over s, for the figures.
+observables::ResponseBranch branch_of(const OptimumCurveResult& result) {
+  observables::ResponseBranch branch;
+  branch.over = result.curve.along;
+  branch.set = result.set;
+  for (const OptimumPoint& at : result.curve.points) {
+    branch.points.push_back(at.response);
+    branch.points.back().over = at.along;
+  }
+  return branch;
+}
+
+// What figure a kind of events is marked with; empty: none.
+std::string mark_of(const std::string& kind) {
+  return kind == "turning_point" ? "turn" : kind == "minimum" || kind == "maximum" ? kind : "";
+}
+
+output::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResult& result) {
+  const observables::ResponseBranch branch = branch_of(result);
+  output::FigureData data = output::figure_data(scene, scene::StudyKind::optimum, {&branch, 1});
+  if (data.lines.empty()) return data;
+  output::FigureLine& line = data.lines.front();
+  const auto add = [](output::Record& record, const OptimumPoint& at) {
+    record.insert(record.end(), at.design.begin(), at.design.end());
+  };
+  for (const OptimumEvent& event : result.curve.events) {
+    if (mark_of(event.kind).empty()) continue;
+    output::Record record = line.parts[0][std::min(event.after, line.parts[0].size() - 1)];
+    record[0] = event.point.along;
+    record[data.frequency_column()] = output::in_scene_unit(scene, event.point.response.omega);
+    record[data.amplitude_column()] = event.point.amplitude;
+    add(record, event.point);
+    line.marks.push_back({mark_of(event.kind), record});
+  }
+  for (std::size_t i = 0; i < line.parts[0].size(); ++i) add(line.parts[0][i], result.curve.points[i]);
+  for (const DesignVariable& v : result.problem.over) {
+    data.further.push_back({v.name, data.columns.size()});
+    data.columns.push_back({output::with_unit(v.name, output::parameter_unit(scene, v.name))});
+  }
+  return data;
+}
+
+}  // namespace
+
+output::JsonSection json_section(const scene::Scene& scene, std::span<const OptimumCurveResult> results) {
+  return {"arcslip-optimum-curves-1", "optimum_curves", [&scene, results](std::ostream& out) {
+            output::detail::write_list(
+                out, results, [&](const OptimumCurveResult& result) { return json_of(scene, result); });
+          }};
+}
+
+void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumCurveResult> results) {
+  if (results.empty()) return;
+  const char* end = "\r\n";
+  const auto heading = [&](const std::string& name) {
+    out << ',' << output::with_unit(name, output::parameter_unit(scene, name));
+  };
+  out << "curve,what";
+  for (const auto& [name, value] : results.front().set) heading(name);
+  heading(results.front().curve.along);
+  for (const DesignVariable& v : results.front().problem.over) heading(v.name);
+  out << ",amplitude (m)," << output::with_unit("frequency", scene::unit_name(scene.frequency_unit))
+      << ",stick (%),active peaks,minimum" << end;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const OptimumCurve& curve = results[i].curve;
+    const auto row = [&](const std::string& what, const OptimumPoint& at) {
+      out << i + 1 << ',' << what;
+      for (const auto& [name, value] : results[i].set) out << ',' << output::shortest(value);
+      out << ',' << output::shortest(at.along);
+      for (const double value : at.design) out << ',' << output::shortest(value);
+      const auto* element = friction_of(at.response);
+      out << ',' << output::shortest(at.amplitude) << ','
+          << output::shortest(output::in_scene_unit(scene, at.response.omega)) << ','
+          << (element ? output::shortest(element->stick_percent) : "") << ',' << at.peaks.size() << ','
+          << (at.minimum ? "yes" : "no") << end;
+    };
+    auto event = curve.events.begin();
+    for (std::size_t k = 0; k < curve.points.size(); ++k) {
+      row("point", curve.points[k]);
+      for (; event != curve.events.end() && event->after <= k; ++event) row(event->kind, event->point);
+    }
+  }
+}
+
+output::Figures write_figures(const scene::Scene& scene, std::span<const OptimumCurveResult> results,
+                              const std::string& folder, const std::string& name) {
+  output::FigureData all;
+  all.kind = scene::StudyKind::optimum;
+  for (const OptimumCurveResult& result : results) {
+    output::FigureData one = figure_of(scene, result);
+    if (one.lines.empty()) continue;
+    if (all.columns.empty())
+      all = std::move(one);
+    else
+      all.lines.push_back(std::move(one.lines.front()));
+  }
+  for (std::size_t i = 0; i < all.columns.size(); ++i) {
+    output::FigureColumn& column = all.columns[i];
+    column.range = output::full_range(all, i);
+    if (column.scale != output::Scale::percent && i != all.frequency_column())
+      column.scale = column.range.lower > 0 && column.range.upper > decade * column.range.lower
+                         ? output::Scale::logarithmic
+                         : output::Scale::linear;
+  }
+  return output::draw_figures(scene, all, folder, name);
+}
+
+}  // namespace arcslip::optimize
