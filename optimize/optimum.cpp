@@ -28,8 +28,8 @@ class Search {
  public:
   Search(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options)
       : options_(options),
-        trials_(scene, problem, options),
-        algorithm_(algorithm(options.algorithm.empty() ? "LD_SLSQP" : options.algorithm)) {
+        algorithm_(algorithm(options.algorithm.empty() ? "LD_SLSQP" : options.algorithm)),
+        trials_(scene, problem, options, algorithm_.global) {
     result_.algorithm = algorithm_.name;
   }
 
@@ -100,6 +100,8 @@ class Search {
     Options options;
     options.algorithm = algorithm_.name;
     options.tolerances = options_.tolerances;
+    if (algorithm_.global)  // equal values are not the end: dampers that stick leave them
+      options.tolerances.f_relative = options.tolerances.f_absolute = 0;
     options.local = options_.local;
     options.population = options_.population;
     options.seed = options_.seed;
@@ -259,8 +261,8 @@ class Search {
   }
 
   const OptimumOptions& options_;
-  Trials trials_;
   Algorithm algorithm_;
+  Trials trials_;
   Optimum result_;
   std::vector<double> start_;
   double reference_ = 1;           // V at the start

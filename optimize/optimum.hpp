@@ -61,8 +61,10 @@ struct OptimumProgress {
 
 struct OptimumOptions {
   std::string algorithm{};  // by NLopt's own name; empty: LD_SLSQP
-  Tolerances tolerances{
-      .x_relative = 0, .x_absolute = 1e-7, .f_relative = 0, .f_absolute = 1e-13};  // of ln p, ln A
+  Tolerances tolerances{.x_relative = 0,
+                        .x_absolute = 1e-7,
+                        .f_relative = 0,
+                        .f_absolute = 1e-13};  // of ln p, ln A; global algorithms do not look at f
   int evaluations = 1000;
   int scatter_rounds = 30;  // searches for the worst of what scatters, >= 1
   double seconds = 0;       // 0: no limit

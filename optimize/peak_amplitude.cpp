@@ -15,6 +15,7 @@ using continuation::StopReason;
 
 constexpr double watched = 0.75;        // of the highest amplitude: lower peaks are not followed
 constexpr double watched_kink = 0.9;    // the same, where a peak cannot be followed at all
+constexpr double risen = 0.9;           // of the highest amplitude: so high a lower peak is expected
 constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
 constexpr double at_limit = 1e-6;       // of mu F_n: a peak nearer to a stick limit sits at its corner
 constexpr double longest_step = 0.5;    // relative change of a parameter in one step
@@ -218,12 +219,28 @@ void PeakAmplitude::watch() {
   auto& peaks = state_.peaks;
   double most = 0;
   for (const Peak& peak : peaks) most = std::max(most, peak.amplitude);
-  std::erase_if(peaks, [&](const Peak& peak) {
+  const auto below = [&](const Peak& peak) {
     return peak.amplitude < (peak.kind == PeakKind::kink ? watched_kink : watched) * most;
-  });
+  };
+  lower_.clear();
+  for (const Peak& peak : peaks)
+    if (below(peak)) lower_.push_back({peak.amplitude, peak.gradient});
+  std::erase_if(peaks, below);
   const auto highest = std::max_element(
       peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.amplitude < b.amplitude; });
   state_.highest = static_cast<std::size_t>(highest - peaks.begin());
+}
+
+// Whether a peak that is not watched is expected to have come up at the design of the state: by its slopes at
+// the last response, over the logarithms.
+bool PeakAmplitude::came_up() const {
+  return std::any_of(lower_.begin(), lower_.end(), [&](const LowerPeak& peak) {
+    double level = 0;
+    for (std::size_t k = 0; k < traced_.size(); ++k)
+      level += peak.gradient[static_cast<Eigen::Index>(k)] / peak.amplitude * traced_[k] *
+               way(traced_[k], state_.design[k]);
+    return peak.amplitude * std::exp(level) > risen * state_.amplitude();
+  });
 }
 
 const PeakState& PeakAmplitude::trace(std::span<const double> design) {
@@ -262,7 +279,7 @@ const PeakState& PeakAmplitude::at(std::span<const double> design) {
   ++work_.followed;
   for (std::size_t i = 0; i < state_.peaks.size(); ++i)
     if (state_.peaks[i].amplitude > state_.peaks[state_.highest].amplitude) state_.highest = i;
-  return state_;
+  return came_up() ? trace(design) : state_;
 }
 
 bool PeakAmplitude::follow_to(std::span<const double> design, std::span<const std::size_t> needed) {

@@ -13,10 +13,10 @@
 //   kink        at another kink, such as where two extremes of the motion are equally high
 //
 // The response is traced anew where a peak cannot be followed, because it vanishes, splits, leaves the window
-// or comes to a corner; at every design where there is a kink; and where a parameter has changed by a factor
-// of e since the last response. Peaks below three quarters of the highest, and kinks below nine tenths of it,
-// are not watched: what grows above the others meanwhile is seen at the next response, as at the end of a
-// search.
+// or comes to a corner; at every design where there is a kink; where a parameter has changed by a factor of e
+// since the last response; and where a peak is expected to have come up, by its slopes there. Peaks below
+// three quarters of the highest, and kinks below nine tenths of it, are not watched: what grows above the
+// others otherwise than expected is seen at the next response, as at the end of a search.
 
 #include <arcslip/observables/curve_section.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
@@ -129,12 +129,19 @@ class PeakAmplitude {
   Follower& follower(std::size_t peak);
   bool follow(std::size_t peak, std::span<const double> to, Peak& followed);
   bool holds(std::size_t peak, const continuation::Vector& x);
+  bool came_up() const;
+
+  struct LowerPeak {
+    double amplitude;
+    continuation::Vector gradient;
+  };
 
   std::shared_ptr<const model::Model> model_;
   std::vector<int> over_;
   observables::FrequencyWindow window_;
   PeakState state_;
-  std::vector<double> traced_;  // the design of the last response
+  std::vector<double> traced_;    // the design of the last response
+  std::vector<LowerPeak> lower_;  // the peaks there that are not watched
   PeakWork work_;
   std::shared_ptr<const hbm::HbmProblem> problem_;
   std::unique_ptr<observables::Sensitivity> sensitivity_;

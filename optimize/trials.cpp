@@ -20,12 +20,14 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-Trials::Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options)
+Trials::Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
+               bool far_apart)
     : options_(options),
       space_(scene, problem),
       scenarios_(scene, problem, space_),
       cases_(problem.criterion),
-      formulation_(problem, space_, cases_) {
+      formulation_(problem, space_, cases_),
+      far_apart_(far_apart) {
   for (const Scenario& each : scenarios_.first()) add(each);
 }
 
@@ -37,10 +39,10 @@ void Trials::add(const Scenario& scenario) {
 
 void Trials::evaluate(std::span<const double> design, bool trace) {
   if (!trace && cases_.stand_at(design)) return;
-  if (trace)
+  const int responses = cases_.work().responses;
+  if (!trace) cases_.at(design);
+  if (trace || (far_apart_ && cases_.value() < best_.value && responses == cases_.work().responses))
     cases_.trace(design);
-  else
-    cases_.at(design);
   const double value = cases_.value();
   evaluations_.push_back({{design.begin(), design.end()}, value});
   if (std::isnan(value)) return;

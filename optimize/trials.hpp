@@ -23,8 +23,11 @@ struct Best {
 
 class Trials {
  public:
-  /// With the scenarios to begin with. Throws as optimum() does. Refers to its arguments.
-  Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options);
+  /// With the scenarios to begin with. far_apart: so lie the designs of a global search, that no best one may
+  /// owe that to a peak that was not seen: its responses are traced. Throws as optimum() does. Refers to its
+  /// arguments.
+  Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
+         bool far_apart);
 
   /// Adds a case; what was best without it is no longer.
   void add(const Scenario& scenario);
@@ -69,7 +72,7 @@ class Trials {
   Formulation formulation_;
   std::vector<Evaluation> evaluations_;
   Best best_;
-  bool user_stopped_ = false;
+  bool far_apart_, user_stopped_ = false;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 

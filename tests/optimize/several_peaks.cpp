@@ -74,6 +74,19 @@ TEST_CASE("a damper that sticks where the search begins slips where it ends") {
   }
 }
 
+TEST_CASE("three dampers on five masses: a global search without gradients finds nothing below") {
+  const scene::Scene s = row(5, 3, 3);
+  const auto problem = over_loads(3, 2, 20);
+  const Optimum found = optimize::optimum(s, problem, {.certificate = false});
+  const Optimum global =
+      optimize::optimum(s, problem, {.algorithm = "GN_DIRECT_L", .evaluations = 800, .certificate = false});
+  CHECK(global.evaluations.size() == 800);
+  CHECK(std::none_of(global.notes.begin(), global.notes.end(),
+                     [](const std::string& note) { return note.find("came up") != std::string::npos; }));
+  CHECK(global.amplitude == Approx(found.amplitude).epsilon(1e-10));
+  CHECK(highest_peak(s, global.design, 2, 20) == Approx(global.amplitude).epsilon(1e-9));
+}
+
 TEST_CASE("a damper that sticks whatever its load within the bounds stays as it is") {
   scene::Scene s = row(2, 2, 5);
   scene::set(s, "d1.normal_load", 40);

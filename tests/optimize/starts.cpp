@@ -8,7 +8,9 @@
 
 #include <arcslip/optimize/optimum.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 using namespace arcslip;
@@ -70,4 +72,32 @@ TEST_CASE(
     CHECK(found.amplitude == Approx(best.amplitude).epsilon(1e-10));
     for (std::size_t i = 0; i < 6; ++i) CHECK(found.design[i] == Approx(best.design[i]).epsilon(1e-5));
   }
+}
+
+// Three dampers on five masses: several_peaks.cpp.
+TEST_CASE("six dampers on ten masses: a global search without gradients comes to the same optimum") {
+  const scene::Scene s = row(10, 6, 7);
+  const auto problem = over_loads(6, 2, 20);
+  const auto best = optimize::optimum(s, problem, {.certificate = false});
+  const bool full = std::getenv("ARCSLIP_FULL") != nullptr;  // about a minute
+  const auto coarse = optimize::optimum(
+      s, problem,
+      {.algorithm = "G_MLSL_LDS",
+       .evaluations = full ? 3000 : 100,
+       .local =
+           optimize::LocalOptions{"LN_BOBYQA", {.x_relative = 0, .x_absolute = 1e-3, .f_relative = 0}, 150},
+       .population = 4,
+       .certificate = false});
+  CAPTURE(coarse.stop.message);
+  CHECK(coarse.amplitude >= best.amplitude * (1 - 1e-10));
+  if (!full) return;
+  CHECK(coarse.amplitude <= best.amplitude * 1.02);
+  scene::Scene there = s;
+  for (std::size_t i = 0; i < 6; ++i)
+    scene::set(there, "d" + std::to_string(i) + ".normal_load", coarse.design[i]);
+  const auto fine = optimize::optimum(there, problem, {.algorithm = "LN_BOBYQA", .certificate = false});
+  CAPTURE(fine.stop.message);
+  CHECK(std::none_of(fine.notes.begin(), fine.notes.end(),
+                     [](const std::string& note) { return note.find("sticks") != std::string::npos; }));
+  CHECK(fine.amplitude == Approx(best.amplitude).epsilon(1e-10));
 }
