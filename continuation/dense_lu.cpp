@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arcslip::continuation {
 namespace {
@@ -29,7 +30,7 @@ class DenseLU final : public LinearSolver {
     matrix_.bottomRightCorner(m, m) = rows_.asDiagonal() * borders.corner * columns_.asDiagonal();
     lu_.compute(matrix_);
 
-    double sign = lu_.permutationP().determinant() > 0 ? 1 : -1;
+    double sign = sign_of_permutation();
     const auto pivots = lu_.matrixLU().diagonal();
     for (Eigen::Index i = 0; i < n + m; ++i) {
       if (pivots[i] == 0 || !std::isfinite(pivots[i])) return false;
@@ -86,6 +87,18 @@ class DenseLU final : public LinearSolver {
     }
   }
 
+  // By transpositions back to the identity; Eigen's determinant() of a permutation allocates.
+  double sign_of_permutation() {
+    order_ = lu_.permutationP().indices();
+    double sign = 1;
+    for (Eigen::Index i = 0; i < order_.size(); ++i)
+      while (order_[i] != i) {
+        std::swap(order_[i], order_[order_[i]]);
+        sign = -sign;
+      }
+    return sign;
+  }
+
   static double factor(double to, double from) {
     const double factor = to / from;
     return factor > 0 && std::isfinite(factor) ? factor : 1;
@@ -95,6 +108,7 @@ class DenseLU final : public LinearSolver {
   Eigen::PartialPivLU<Matrix> lu_{0};
   mutable Vector work_;
   Vector rows_, columns_;  // factors of the last equations and of the last unknowns
+  Eigen::VectorXi order_;
   int sign_ = 1;
 };
 

@@ -28,6 +28,16 @@ Algorithm describe(nlopt_algorithm code) {
   return a;
 }
 
+std::vector<nlopt_algorithm> compiled() {
+  std::vector<nlopt_algorithm> all;
+  for (int i = 0; i < NLOPT_NUM_ALGORITHMS; ++i) {
+    const auto code = static_cast<nlopt_algorithm>(i);
+    const std::string_view title = nlopt_algorithm_name(code);
+    if (title.find("NOT COMPILED") == std::string_view::npos) all.push_back(code);
+  }
+  return all;
+}
+
 // The known name that was meant: "slsqp" is LD_SLSQP, "LD_SLSPQ" too. "" where nothing is near.
 std::string suggestion(std::string word, const std::vector<std::string>& known) {
   for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -40,24 +50,17 @@ std::string suggestion(std::string word, const std::vector<std::string>& known) 
 
 std::vector<Algorithm> algorithms() {
   std::vector<Algorithm> all;
-  for (int i = 0; i < NLOPT_NUM_ALGORITHMS; ++i) {
-    const auto code = static_cast<nlopt_algorithm>(i);
-    const std::string_view title = nlopt_algorithm_name(code);
-    if (title.find("NOT COMPILED") == std::string_view::npos) all.push_back(describe(code));
-  }
+  for (const nlopt_algorithm code : compiled()) all.push_back(describe(code));
   return all;
 }
 
 Algorithm algorithm(const std::string& name) {
-  const std::vector<Algorithm> all = algorithms();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Algorithm& a) { return a.name == name; });
-  if (found != all.end()) return *found;
-
   std::vector<std::string> names;
   std::string list;
-  for (const Algorithm& a : all) {
-    names.push_back(a.name);
-    list += (list.empty() ? "" : ", ") + a.name;
+  for (const nlopt_algorithm code : compiled()) {
+    names.emplace_back(nlopt_algorithm_to_string(code));
+    if (names.back() == name) return describe(code);
+    list += (list.empty() ? "" : ", ") + names.back();
   }
   const std::string meant = suggestion(name, names);
   throw OptionsError("no algorithm \"" + name + "\" in this NLopt" +
