@@ -14,7 +14,7 @@ constexpr double kink_turn = 0.7;
 constexpr double parameter_rounding = 1e-9;    // relative changes of p below tell no direction
 constexpr double largest_extrapolation = 2.5;  // in last steps, for the cubic predictor
 constexpr double unresolved_rejection = 0.5;   // of the step where a quantity is not told by its slopes
-constexpr double unresolved_change = 0.5;      // of a quantity, against its slopes
+constexpr double pair_safety = 8, extreme_safety = 2;  // times the bend of a slope that is told
 constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
 constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
 constexpr double curve_safety = 0.9;           // of the step that the curve's error allows
@@ -23,6 +23,15 @@ constexpr double middle_share = 0.7;           // of the largest error of the cu
 // Of the step, where the curve's error is `error` times that allowed: it falls with the fourth power.
 double curve_factor(double error) {
   return std::clamp(curve_safety / std::sqrt(std::sqrt(error)), shrinkage, growth);
+}
+
+// Whether a slope that is a and b at the ends of a step, and between them a parabola `bend` s (1 - s) off the
+// straight line, has no more zeros than these tell, though it bends some times as much, to either side: none
+// between slopes of one sign, where bend <= (sqrt|a| + sqrt|b|)^2, and one where it is monotonic,
+// bend <= |a| + |b|.
+bool is_told(double a, double b, double bend) {
+  const double sum = std::abs(a) + std::abs(b);
+  return a * b > 0 ? pair_safety * bend <= sum + 2 * std::sqrt(a * b) : extreme_safety * bend <= sum;
 }
 
 }  // namespace
@@ -60,23 +69,31 @@ bool Tracer::went_back(const Place& next) const {
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(s_.here.v[n_]);
 }
 
-// Whether the change of each monitored quantity is that of its slopes at both ends, by the trapezoid. Beside
-// a kink it is not, however short the step: in one stretch the step is shortened no further than to a part of
-// the first one.
+// Whether each monitored quantity has no more extremes in the step than its slopes at both ends tell. How
+// much the slope bends between them is told by the change of the quantity, and by the slope before. Beside a
+// kink it bends however short the step: in one stretch the step is shortened no further than to a part of the
+// first one.
 bool Tracer::resolved(const Place& from, const Place& to, double length) {
-  if (s_.here.arclength <= s_.unresolved_end && s_.step <= unresolved_share * s_.unresolved_step) return true;
+  const bool in_stretch = s_.here.arclength <= s_.unresolved_end;
+  if (in_stretch && s_.step <= unresolved_share * s_.unresolved_step) return true;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!monitors_[m].quantity) continue;
-    const double a = from.monitors[m] * length, b = to.monitors[m] * length;
-    const double change = to.quantities[m] - from.quantities[m];
-    const double size = std::max(std::abs(a), std::abs(b));
-    if (std::isnan(change - size)) continue;  // see Branch::warnings
-    if (std::abs(change - 0.5 * (a + b)) <= unresolved_change * size ||
-        size <= quantity_rounding * std::abs(to.quantities[m]))
-      continue;
-    if (s_.here.arclength > s_.unresolved_end) {
+    const double a = from.monitors[m], b = to.monitors[m];
+    const double change = (to.quantities[m] - from.quantities[m]) / length;
+    if (std::isnan(a + b + change)) continue;  // see Branch::warnings
+    double bend = 6 * std::abs(change - 0.5 * (a + b));
+    if (s_.has_before && &from == &s_.here) {
+      const double before = (a - s_.before.monitors[m]) / s_.last_step;
+      if (std::isfinite(before))
+        bend =
+            std::max(bend, length * length / (length + s_.last_step) * std::abs((b - a) / length - before));
+    }
+    const double size = std::max(std::abs(a), std::abs(b)) * length;
+    if (is_told(a, b, bend) || size <= quantity_rounding * std::abs(to.quantities[m])) continue;
+    if (!in_stretch) {
+      if (s_.here.arclength > s_.unresolved_end + length) s_.unresolved_step = 0;
       s_.unresolved_end = s_.here.arclength + length;
-      s_.unresolved_step = s_.step;
+      s_.unresolved_step = std::max(s_.unresolved_step, s_.step);
     }
     return false;
   }

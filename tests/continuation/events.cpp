@@ -116,3 +116,32 @@ TEST_CASE("a slope that only errs makes no events") {
   CHECK(branch.stop.reason == StopReason::boundary);
   CHECK(branch.events.empty());
 }
+
+TEST_CASE(
+    "a maximum and a minimum of q = 1.5 w tanh((p - c)/w) - p are not missed where w is a twelfth of a "
+    "step") {
+  const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  constexpr double step = 0.01;
+  for (double w : {step / 4, step / 6, step / 8})
+    for (int k = 0; k < 13; ++k) {
+      const double c = 0.5 + step * k / 13;
+      const auto slope = [=](const Accepted& now) {
+        const double sech = 1 / std::cosh((now.parameter - c) / w);
+        return (1.5 * sech * sech - 1) * now.tangent[1];
+      };
+      const auto q = [=](const Accepted& now) {
+        return 1.5 * w * std::tanh((now.parameter - c) / w) - now.parameter;
+      };
+      Options options = window(0, 1);
+      options.step.largest_parameter = step;
+      const Branch branch =
+          trace(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, options,
+                {{"maximum", slope, Crossing::falling, q}, {"minimum", slope, Crossing::rising, q}});
+      CAPTURE(w, k, branch.points.size());
+      REQUIRE(branch.events.size() == 2);
+      const double off = w * std::acosh(std::sqrt(1.5));
+      CHECK(branch.events[0].monitor == "minimum");
+      CHECK(std::abs(branch.events[0].point.parameter - (c - off)) < 1e-10);
+      CHECK(std::abs(branch.events[1].point.parameter - (c + off)) < 1e-10);
+    }
+}
