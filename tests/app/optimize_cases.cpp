@@ -102,7 +102,7 @@ TEST_CASE("the table and the CSV tell every case") {
     CHECK(csv.find(part) != std::string::npos);
 }
 
-TEST_CASE("--set of a parameter of the cases takes the place of their values") {
+TEST_CASE("a --set of a parameter of the cases takes the place of their values") {
   const Workplace place;
   place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
   const Ended ended =
@@ -115,7 +115,7 @@ TEST_CASE("--set of a parameter of the cases takes the place of their values") {
         Approx(highest(place, found["optimum"]["damper.normal_load"].get<double>(), 2)).epsilon(1e-6));
 }
 
-TEST_CASE("--over a parameter that scatters takes it out of what scatters") {
+TEST_CASE("an --over of a parameter that scatters takes it out of what scatters") {
   const Workplace place;
   Json study = study_of_levels();
   study.erase("cases");

@@ -33,7 +33,7 @@ TEST_CASE("the scene of the paper is read with the paper's numbers") {
   CHECK(scene.elements[0].values == std::vector<double>{3500.0, 0.5, 3.0});
   CHECK(value(scene, "force.cosine") == 1.0);
   CHECK(scene.response == Direction{{0, 1.0}});
-  REQUIRE(scene.studies.size() == 2);
+  REQUIRE(scene.studies.size() == 3);
   CHECK(scene.studies[0].from == 18.0);
   CHECK(scene.studies[0].to == 22.0);
   REQUIRE(scene.studies[0].for_each.size() == 1);
