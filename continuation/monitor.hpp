@@ -54,6 +54,11 @@ struct Monitor {
   /// Whether a zero of value() is an event at all, asked where one was found (not of slopes of a quantity).
   /// None: every zero is.
   std::function<bool(const Accepted&)> is_event = {};
+
+  /// Where value() is the slope of quantity(): steps are kept so short that the curve of q over the free
+  /// parameter p departs from the chords between its points by no more than this share, of q or of p. 0: not
+  /// asked for.
+  double chord_tolerance = 0;
 };
 
 /// dp/ds = 0: a fold in the free parameter, described by its null vectors and its curvature; at a nonsmooth

@@ -80,6 +80,7 @@ class Tracer {
   bool went_back(const Place& next) const;
   bool measure(Place& place);
   bool resolved(const Place& from, const Place& to, double length);
+  double chord_departure(const Place& from, const Place& to, std::size_t m, double length) const;
   bool is_kink(double turn, const Place& next);
   bool accept(Place&& place, const Correction& correction, const Corner* corner = nullptr);
   std::optional<LocatedEvent> unlocated_branch_point(const Place& from, const Place& to) const;
@@ -110,6 +111,7 @@ class Tracer {
   bool factors_fit_ = false;
   bool evaluated_ = true;   // the last rejection came from the corrector, not from the problem
   double curve_error_ = 0;  // of the curve along the last step, over that allowed
+  double chord_error_ = 0;  // of the monitored quantities in the last step, over that allowed
   std::optional<Place> terminal_;
   std::optional<LocatedEvent> crossing_;  // the branch point in the step that is tried
   std::string failure_;                   // of the last rejection

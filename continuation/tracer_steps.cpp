@@ -69,11 +69,23 @@ bool Tracer::went_back(const Place& next) const {
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(s_.here.v[n_]);
 }
 
+// Of the curve of a quantity q over p from its chord in a step, relative: to q along q or to p along p,
+// whichever is less, as on logarithmic axes. Of three points at ds/2 the middle one is off the chord by a
+// parallelogram of the slopes at the ends.
+double Tracer::chord_departure(const Place& from, const Place& to, std::size_t m, double length) const {
+  const double area =
+      std::abs(from.tangent[n_] * to.monitors[m] - to.tangent[n_] * from.monitors[m]) * length * length / 8;
+  const double p = std::abs(to.v[n_]), q = std::abs(to.quantities[m]);
+  return area /
+         std::max(q * std::abs(to.v[n_] - from.v[n_]), p * std::abs(to.quantities[m] - from.quantities[m]));
+}
+
 // Whether each monitored quantity has no more extremes in the step than its slopes at both ends tell. How
 // much the slope bends between them is told by the change of the quantity, and by the slope before. Beside a
 // kink it bends however short the step: in one stretch the step is shortened no further than to a part of the
 // first one.
 bool Tracer::resolved(const Place& from, const Place& to, double length) {
+  chord_error_ = 0;
   const bool in_stretch = s_.here.arclength <= s_.unresolved_end;
   if (in_stretch && s_.step <= unresolved_share * s_.unresolved_step) return true;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
@@ -89,7 +101,12 @@ bool Tracer::resolved(const Place& from, const Place& to, double length) {
             std::max(bend, length * length / (length + s_.last_step) * std::abs((b - a) / length - before));
     }
     const double size = std::max(std::abs(a), std::abs(b)) * length;
-    if (is_told(a, b, bend) || size <= quantity_rounding * std::abs(to.quantities[m])) continue;
+    const double chord_error = monitors_[m].chord_tolerance > 0
+                                   ? chord_departure(from, to, m, length) / monitors_[m].chord_tolerance
+                                   : 0;
+    if (chord_error > chord_error_) chord_error_ = chord_error;
+    if ((is_told(a, b, bend) && !(chord_error > 1)) || size <= quantity_rounding * std::abs(to.quantities[m]))
+      continue;
     if (!in_stretch) {
       if (s_.here.arclength > s_.unresolved_end + length) s_.unresolved_step = 0;
       s_.unresolved_end = s_.here.arclength + length;
@@ -128,6 +145,7 @@ double Tracer::choose_step(double angle, const Correction& correction) const {
   const bool contraction_counts = correction.first > std::sqrt(options_.newton.tolerance);
   if (contraction_counts && correction.contraction > 0)
     factor = std::min(factor, std::sqrt(options_.step.contraction / correction.contraction));
+  if (chord_error_ > 0) factor = std::min(factor, curve_safety / std::sqrt(chord_error_));
   if (curve_error_ > 0) factor = std::min(factor, curve_factor(curve_error_));
   return s_.step * std::clamp(factor, shrinkage, growth);
 }

@@ -24,6 +24,7 @@ constexpr double between_ends[] = {0.5,   0.25,  0.75, 0.125,
 constexpr double least_apart = 1.0 / 64;                  // of responses that are looked at
 constexpr double just_beyond = 1e-3;                      // the end of a curve
 constexpr double meeting = 1e-5;                          // relative: ends of curves that are nearer meet
+constexpr double chord = 1e-3;  // relative: between the points of a curve, so that it is smooth to the eye
 constexpr std::size_t most_responses = 24;
 
 std::string text(double value) {
@@ -224,8 +225,10 @@ class Curves {
   static std::vector<Monitor> peak_monitors(const std::shared_ptr<CurveSection>& section) {
     const auto slope = [section](const Accepted& now) { return section->amplitude_slope(now); };
     const auto amplitude = [section](const Accepted&) { return section->last_amplitude(); };
-    return {{"minimum", slope, Crossing::rising, amplitude},
-            {"maximum", slope, Crossing::falling, amplitude}};
+    std::vector<Monitor> monitors{{"minimum", slope, Crossing::rising, amplitude},
+                                  {"maximum", slope, Crossing::falling, amplitude}};
+    monitors.front().chord_tolerance = chord;
+    return monitors;
   }
 
   // n: where the frequency stands among the unknowns.
