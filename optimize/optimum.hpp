@@ -18,7 +18,8 @@
 //
 // What scatters (worst): q_lower <= q <= q_upper of parameters that are not the design's, and the largest
 // amplitude over all of them counts. Some q make cases; the worst q at the design found makes another, until
-// local searches find none that is higher (Mutapcic & Boyd 2009). Limits hold at the q that are cases.
+// local searches and corners have none that is higher (Mutapcic & Boyd 2009). Limits hold at the q that are
+// cases.
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/optimize/certificate.hpp>

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 namespace arcslip::optimize {
 namespace {
 
-constexpr std::size_t most_with_corners = 3;  // parameters: beyond, their corners are too many
+constexpr std::size_t most_with_corners = 3;  // parameters whose corners are all cases to begin with
+constexpr std::size_t most_corners = 64;      // that are looked at
 
 bool contains(const std::vector<DesignVariable>& variables, const std::string& name) {
   return std::any_of(variables.begin(), variables.end(),
@@ -67,16 +69,29 @@ std::vector<double> Scenarios::centre() const {
   return box_->design(y);
 }
 
+// All, or where they are too many some that are drawn at random, the same each time.
+std::vector<std::vector<double>> Scenarios::corners() const {
+  const std::size_t n = problem_.scatter.size();
+  const bool all = n < 64 && std::size_t{1} << n <= most_corners;
+  std::mt19937_64 random(1);
+  std::vector<std::vector<double>> corners;
+  for (std::size_t corner = 0; corner < (all ? std::size_t{1} << n : most_corners); ++corner) {
+    corners.emplace_back();
+    for (std::size_t k = 0; k < n; ++k) {
+      const bool upper = all ? (corner >> k & 1) != 0 : (random() & 1) != 0;
+      corners.back().push_back(upper ? box_->upper()[k] : box_->lower()[k]);
+    }
+  }
+  return corners;
+}
+
 std::vector<Scenario> Scenarios::first() const {
   std::vector<std::vector<double>> values;
+  const std::size_t n = problem_.scatter.size();
   if (!box_) {
     values.emplace_back();
-  } else if (const std::size_t n = problem_.scatter.size(); n <= most_with_corners) {
-    for (std::size_t corner = 0; corner < std::size_t{1} << n; ++corner) {
-      values.emplace_back();
-      for (std::size_t k = 0; k < n; ++k)
-        values.back().push_back((corner >> k & 1) != 0 ? box_->upper()[k] : box_->lower()[k]);
-    }
+  } else if (n <= most_with_corners) {
+    values = corners();
   } else {
     values.push_back(centre());
     for (std::size_t k = 0; k < n; ++k)
@@ -120,22 +135,25 @@ std::string Scenarios::text(const Scenario& scenario) const {
 }
 
 Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
-                                  std::vector<std::vector<double>> starts,
+                                  const std::vector<std::vector<double>>& known, double level,
                                   const std::function<bool()>& go_on) const {
   Worst worst;
   PeakAmplitude peaks(std::move(model), box_->parameters(), window_);
+  const auto look = [&](const PeakState& state) {
+    const double amplitude = state.amplitude();
+    if (std::isnan(amplitude))
+      throw std::runtime_error("no response was found at " + box_->text(state.design) + ": " + state.message);
+    if (amplitude > worst.amplitude) worst = {state.design, amplitude};
+    return amplitude;
+  };
+  bool more = true;
+  const auto goes_on = [&] { return (more = more && go_on()) && std::isfinite(worst.amplitude); };
   Problem problem;
   problem.lower = box_->scaled(box_->lower());
   problem.upper = box_->scaled(box_->upper());
   problem.objective = [&](auto y, auto g) {
     const PeakState& state = peaks.at(box_->design(y));
-    const double amplitude = state.amplitude();
-    if (std::isnan(amplitude))
-      throw std::runtime_error("no response was found at " + box_->text(state.design) + ": " + state.message);
-    if (amplitude > worst.amplitude) {
-      worst.scatter = state.design;
-      worst.amplitude = amplitude;
-    }
+    const double amplitude = look(state);
     std::fill(g.begin(), g.end(), 0.0);
     if (state.unbounded) return 0.0;  // nothing is worse: the callback ends it
     for (std::size_t k = 0; k < g.size(); ++k)
@@ -145,18 +163,26 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
   };
   Options options;
   options.tolerances = {.x_relative = 0, .x_absolute = 1e-7, .f_relative = 0, .f_absolute = 1e-13};
-  bool more = true;
-  options.progress = [&](const Progress&) {
-    more = go_on();
-    return more && std::isfinite(worst.amplitude);
-  };
-  starts.push_back(centre());
-  for (const std::vector<double>& start : starts) {
-    if (!more || !std::isfinite(worst.amplitude)) break;
+  options.progress = [&](const Progress&) { return goes_on(); };
+  const auto search = [&](const std::vector<double>& start) {
+    if (!more || !std::isfinite(worst.amplitude)) return;
     const Result found = minimize(problem, box_->scaled(start), options);
     if (found.reason != Reason::user && found.reason != Reason::rounding && !is_converged(found.reason))
       throw std::runtime_error("the worst of what scatters was not found: " + found.message);
+  };
+  for (const std::vector<double>& start : known) search(start);
+  search(centre());
+  if (worst.amplitude > level || problem_.scatter.size() <= most_with_corners) return worst;
+  std::vector<double> highest;
+  double most = 0;
+  for (const std::vector<double>& corner : corners()) {
+    if (!goes_on()) return worst;
+    if (const double amplitude = look(peaks.trace(corner)); amplitude > most) {
+      most = amplitude;
+      highest = corner;
+    }
   }
+  search(highest);
   return worst;
 }
 

@@ -44,14 +44,16 @@ class Scenarios {
     double amplitude = 0;  // m; infinity where it is unbounded
   };
 
-  /// The highest amplitude in the box of a case, with the parameters of a model: local searches, from each
-  /// start and from the centre. go_on: asked after each evaluation; false ends them. Throws
-  /// std::runtime_error where one fails.
-  Worst worst(std::shared_ptr<const model::Model> model, std::vector<std::vector<double>> starts,
-              const std::function<bool()>& go_on) const;
+  /// The highest amplitude in the box of a case, with the parameters of a model: local searches, from each of
+  /// `known` and from the centre. Where none is above `level`, one more from the highest of the corners, at
+  /// most 64 of them. go_on: asked after each evaluation; false ends them. Throws std::runtime_error where
+  /// one fails.
+  Worst worst(std::shared_ptr<const model::Model> model, const std::vector<std::vector<double>>& known,
+              double level, const std::function<bool()>& go_on) const;
 
  private:
   std::vector<double> centre() const;
+  std::vector<std::vector<double>> corners() const;
 
   const scene::Scene& scene_;
   const OptimumProblem& problem_;

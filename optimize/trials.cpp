@@ -88,14 +88,14 @@ std::vector<Scenario> Trials::worse_scatter() {
         known.push_back(all_[c].scatter);
         any = c;
       }
-    const auto worst = scenarios_.worst(cases_.peaks(any).model_at(design), known, [this] {
+    const double level = (1 + worse) * cases_.value() / cases_.weight(any);
+    const auto worst = scenarios_.worst(cases_.peaks(any).model_at(design), known, level, [this] {
       tell();
       return interruption().reason.empty();
     });
     const bool seen = std::any_of(known.begin(), known.end(),
                                   [&](const auto& scatter) { return same(scatter, worst.scatter); });
-    if (!seen && cases_.weight(any) * worst.amplitude > (1 + worse) * cases_.value())
-      found.push_back({of, worst.scatter});
+    if (!seen && worst.amplitude > level) found.push_back({of, worst.scatter});
   }
   return found;
 }
