@@ -75,13 +75,15 @@ Evaluated OptimalityEvaluator::move_to(In z, In p, Needs needs) {
   const auto& active = data_->active.peaks;
   for (std::size_t i = 0; i < all_.size(); ++i) {
     levels_.push_back(std::log(all_[i].amplitude / data_->reference));
-    if (std::find(active.begin(), active.end(), i) != active.end() || all_[i].kind == PeakKind::kink)
+    if (std::find(active.begin(), active.end(), i) != active.end() || all_[i].kind == PeakKind::kink ||
+        all_[i].rises_inwards())
       continue;
     if (!other_ || levels_[i] > levels_[*other_]) other_ = i;
   }
   for (Eigen::Index i = 0; i < active_; ++i) {
     const std::size_t at = active[static_cast<std::size_t>(i)];
     const Peak& peak = all_[at];
+    if (peak.rises_inwards()) return Evaluated::outside_domain;
     peaks_.push_back(peak);
     piece_ = 31 * piece_ + peak.piece;
     for (std::size_t k = 0; k < design_.size(); ++k) {

@@ -33,6 +33,7 @@ constexpr int most_exchanges = 20;         // of the active set at the first opt
 constexpr double between_responses = 0.5;  // of y and sigma
 constexpr double least_between = 0.02;     // the same, where the way is gone again
 constexpr double flat_slope = 1e-5;        // d ln A / dsigma of less: an extreme over s
+constexpr double u_turn = -0.9;            // cosine of the tangents before and after
 constexpr double probe = 1e-4;             // of z and sigma: how an inequality changes along a piece
 constexpr double smallest_step = 1e-8;
 constexpr std::array<double, 5> beyond = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // of the end of a piece
@@ -142,7 +143,8 @@ class Follow {
     here_.sigma = sigma().scaled(along_.lower);
     here_.active.held.assign(size(), 0);
     for (std::size_t i = 0; i < state.peaks.size(); ++i)
-      if (state.peaks[i].amplitude >= (1 - nearly_as_high) * reference_) here_.active.peaks.push_back(i);
+      if (state.peaks[i].amplitude >= (1 - nearly_as_high) * reference_ && !state.peaks[i].rises_inwards())
+        here_.active.peaks.push_back(i);
     for (std::size_t k = 0; k < size(); ++k)
       for (const int side : {-1, 1})
         if (side * (scaled_[k].scaled(scaled_[k].bound(side)) - scaled_[k].scaled(design[k])) < nearly_bound)
@@ -262,7 +264,8 @@ class Follow {
       return !due && !user;
     };
     continuation::Start start{here_.z, Vector::Constant(1, here_.sigma), 0, 1, here_.tangent};
-    const auto branch = continuation::trace(optimality(of), start, options, monitors, observe);
+    auto branch = continuation::trace(optimality(of), start, options, monitors, observe);
+    end_at_u_turn(branch);
     ++curve_.work.pieces;
     curve_.work.points += branch.counts.points;
     curve_.work.evaluations += branch.counts.residuals;
@@ -339,6 +342,22 @@ class Follow {
 
   void stop_with(const continuation::Stop& stop) {
     end(Status::stopped, continuation::name(stop.reason), "at " + place(here_.sigma) + ": " + stop.message);
+  }
+
+  // Where the active peaks cease to depend on a parameter the curve ends, and at its end a trace may turn
+  // round and come back on itself.
+  static void end_at_u_turn(continuation::Branch& branch) {
+    for (std::size_t i = 0; i < branch.events.size(); ++i) {
+      const Event& event = branch.events[i];
+      const std::size_t after = event.after;
+      if (event.monitor != "turning_point" || !event.nonsmooth || after + 1 >= branch.points.size() ||
+          branch.points[after].tangent.dot(branch.points[after + 1].tangent) > u_turn)
+        continue;
+      branch.stop = {StopReason::step_too_small, 0, 0, "the curve turns round and comes back on itself"};
+      branch.points.resize(after + 1);
+      branch.events.erase(branch.events.begin() + static_cast<std::ptrdiff_t>(i), branch.events.end());
+      return;
+    }
   }
 
   // Points and events in the order of the curve. The first point of a piece is where the last one ended.

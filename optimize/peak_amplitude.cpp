@@ -184,6 +184,7 @@ bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
       : peak.kind == PeakKind::corner ? sensitivity_->at_corner(*peak.corner, peak.x, p, over_, peak.gradient)
                                       : sensitivity_->at_frequency(peak.x, p, over_, peak.gradient);
   peak.amplitude = sensitivity_->amplitude();
+  peak.slope = is_end(peak.kind) ? sensitivity_->multiplier() : 0;
   peak.piece = peak.kind == PeakKind::corner ? 0 : sensitivity_->piece();
   return done;
 }

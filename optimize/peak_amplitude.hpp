@@ -45,9 +45,14 @@ struct Peak {
   std::optional<hbm::SlipCorner> corner{};  // where it sits at one
   double amplitude = 0;                     // m
   continuation::Vector gradient{};          // dA/dp of the design parameters, m over their units
+  double slope = 0;                         // of an end of the window: dA/domega, m s/rad
   std::uint64_t piece = 0;                  // of the equations of motion there; 0 at a corner, between two
 
   double omega() const { return x[x.size() - 1]; }
+  /// Of an end of the window: the response rises inwards, so that there is a higher peak within.
+  bool rises_inwards() const {
+    return (kind == PeakKind::lower_end && slope > 0) || (kind == PeakKind::upper_end && slope < 0);
+  }
 };
 
 /// The peaks at one design.

@@ -83,7 +83,7 @@ std::vector<std::size_t> find_again(const PeakState& state, const std::vector<Kn
     for (std::size_t i = 0; i < state.peaks.size(); ++i) {
       const Peak& other = state.peaks[i];
       const bool taken = std::find(found.begin(), found.end(), i) != found.end();
-      if (other.kind == PeakKind::kink || taken || distance(i) > same_frequency ||
+      if (other.kind == PeakKind::kink || other.rises_inwards() || taken || distance(i) > same_frequency ||
           std::abs(std::log(other.amplitude / peak.amplitude)) > tolerance)
         continue;
       if (!nearest || distance(i) < distance(*nearest)) nearest = i;
