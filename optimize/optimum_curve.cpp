@@ -524,48 +524,72 @@ class Follow {
     verify();
     if (ended_ || rewound_) return;
     const Standing last = here_;
-    const Vector v = (Vector(last.z.size() + 1) << last.z, last.sigma).finished();
-    for (const double by : beyond) {
-      if (last.sigma + by * last.tangent[last.z.size()] > sigma().scaled(along_.upper)) break;
-      const Vector ahead = v + by * last.tangent;
-      std::vector<double> design;
-      Eigen::Index next = 0;
-      for (std::size_t k = 0; k < size(); ++k)
-        design.push_back(last.active.held[k] != 0 ? last.design[k] : scaled_[k].value(ahead[next++]));
-      design.push_back(sigma().value(ahead[last.z.size()]));
-      const PeakState& state = peaks_.trace(design);
-      const auto found =
-          state.unbounded ? std::vector<std::size_t>{} : find_again(state, last.peaks, 100 * by);
-      if (found.empty()) continue;
-      here_.active.peaks = found;
-      here_.sigma = ahead[last.z.size()];
-      Vector weights;
-      const bool unique = hold_flat(design);
-      if (unique && here_.active.held == last.active.held)
-        here_.z = ahead.head(last.z.size());
-      else if (unique)
-        here_.z = setting().estimate(here_.active, weights);
-      OptimalityEvaluator at(data());
-      ActiveSet next_set = here_.active;
-      if (!unique || !here_.correct(at) || exchange(next_set, at)) {
-        here_ = last;
-        continue;
-      }
-      if (here_.active.held != last.active.held) {
-        here_.tangent = {};
-      } else {
-        if (!here_.take_tangent(at, here_.tangent)) continue;
-        if (here_.orientation != last.orientation) here_.turn_back();
-      }
-      changed(last.peaks, at);
-      if (here_.tangent.size() == last.tangent.size()) note_turn(last.tangent[last.z.size()], point(at));
-      here_.take(at);
-      step_ = 0;
-      return;
-    }
+    for (const double by : beyond)
+      for (const int way : {1, -1})
+        if (goes_on(last, by, way)) {
+          step_ = 0;
+          return;
+        }
     here_ = last;
     end(Status::stopped, "lost_peak",
-        where + "an active peak cannot be followed, and is not there beyond: " + stop.message);
+        where +
+            "the active peaks cannot be followed, and no optimum near by goes on beyond: " + stop.message);
+  }
+
+  // From a little beyond the end of a piece, with the peaks as they are there. way: -1 where s turns, to a
+  // piece with peaks of other kinds. False: there is no such optimum; here_ is then as it was.
+  bool goes_on(const Standing& last, double by, int way) {
+    const Eigen::Index n = last.z.size();
+    here_.z = last.z + by * last.tangent.head(n);
+    here_.sigma = last.sigma + way * by * last.tangent[n];
+    if (here_.sigma <= sigma().scaled(along_.upper) && find_beyond(last, by)) {
+      OptimalityEvaluator at(data());
+      ActiveSet next_set = here_.active;
+      if (here_.correct(at) && !exchange(next_set, at) && (way > 0 || !same_kinds(last.peaks, at)) &&
+          direct(last, at)) {
+        changed(last.peaks, at);
+        if (here_.tangent.size() == last.tangent.size()) note_turn(last.tangent[n], point(at));
+        here_.take(at);
+        return true;
+      }
+    }
+    here_ = last;
+    return false;
+  }
+
+  // The active peaks in the response at here_.z, and what has no influence there.
+  bool find_beyond(const Standing& last, double by) {
+    std::vector<double> design;
+    Eigen::Index next = 0;
+    for (std::size_t k = 0; k < size(); ++k)
+      design.push_back(last.active.held[k] != 0 ? last.design[k] : scaled_[k].value(here_.z[next++]));
+    design.push_back(sigma().value(here_.sigma));
+    const PeakState& state = peaks_.trace(design);
+    if (state.unbounded) return false;
+    const auto found = find_again(state, last.peaks, 100 * by);
+    if (found.empty()) return false;
+    here_.active.peaks = found;
+    if (!hold_flat(design)) return false;
+    Vector weights;
+    if (here_.active.held != last.active.held) here_.z = setting().estimate(here_.active, weights);
+    return true;
+  }
+
+  // The tangent that goes on, by its orientation. False: there is none, or it leads back on the same piece.
+  bool direct(const Standing& last, const OptimalityEvaluator& at) {
+    if (here_.active.held != last.active.held) {
+      here_.tangent = {};
+      return true;
+    }
+    if (!here_.take_tangent(at, last.tangent)) return false;
+    if (here_.orientation != last.orientation) here_.turn_back();
+    return here_.tangent.dot(last.tangent) >= u_turn || !same_kinds(last.peaks, at);
+  }
+
+  static bool same_kinds(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at) {
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (before[i].kind != at.active_peaks()[i].kind) return false;
+    return true;
   }
 
   void changed(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at) {

@@ -68,7 +68,7 @@ struct OptimumCurve {
   /// reason: that of the first optimum where it is none, the name of a continuation::StopReason,
   /// "objective_failed" where something threw (the progress callback, too), or
   ///   other_peak   a response has a higher peak than those that are followed
-  ///   lost_peak    an active peak vanished, or sits at a kink of another kind
+  ///   lost_peak    an active peak vanished, or sits at a kink of another kind, or the optimum jumps there
   ///   turned_back  the curve left the range at its lower end, beyond a turning point
   ///   no_exchange  no active set goes on where the last one ends
   ///   no_progress  active sets follow one another at one place

@@ -269,6 +269,31 @@ TEST_CASE("the curve passes turning points, and is no minimum between them") {
   CHECK(minima == 2);
 }
 
+TEST_CASE("an optimum at the end of the window becomes a resonance where that comes into the window") {
+  // Stuck, the resonance is above 20.03 Hz for small masses: the load of least amplitude is its bound. With
+  // the mass that becomes worse than letting go; between the two is a saddle, at the end of the window.
+  const OptimumProblem problem{{{"damper.normal_load", 0.3, 10}}, 18, 20.03};
+  const OptimumCurve curve = optimum_curve(paper(7, 0.134), problem, {"m.value", 1.2, 1.5});
+  check_complete(curve);
+  const auto turns = events(curve, "turning_point"), changes = events(curve, "peak_changes");
+  REQUIRE(turns.size() == 2);
+  CHECK(turns[0]->nonsmooth);
+  CHECK(turns[1]->nonsmooth);
+  CHECK(events(curve, "bound_left").size() == 1);
+  REQUIRE(changes.size() == 1);
+  CHECK(changes[0]->point.peaks[0].kind == PeakKind::resonance);
+  CHECK(changes[0]->omega / scenes::hertz == Approx(20.03).epsilon(1e-4));
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const bool between = i > turns[0]->after && i <= turns[1]->after;
+    CHECK(curve.points[i].minimum == !between);
+    CHECK(curve.points[i].peaks[0].kind ==
+          (i <= turns[1]->after ? PeakKind::upper_end : PeakKind::resonance));
+  }
+  for (const OptimumPoint* at : {&curve.points.front(), &curve.points.back()})
+    CHECK(reference::error(search(paper(7, 0.134), problem, "m.value", *at).amplitude, at->amplitude) <
+          1e-10);
+}
+
 TEST_CASE("a start that is flat, unbounded or without response says so") {
   const OptimumCurve flat =
       optimum_curve(paper(7, 0.134), {{{"damper.normal_load", 200, 300}}, 18, 22}, {"force.cosine", 0.1, 1});
