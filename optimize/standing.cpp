@@ -17,6 +17,8 @@ constexpr int most_corrections = 20;
 constexpr double corrected = 1e-11;
 constexpr double largest_correction = 0.5;  // of y and tau
 constexpr double same_frequency = 0.02;     // relative
+constexpr double beside = 1e-2;             // of y: where an amplitude is compared with that at a minimum
+constexpr double no_change = 1e-10;         // of A, relative
 
 // [E_z E_sigma; row^T]
 Matrix bordered(const OptimalityEvaluator& at, const Vector& row) {
@@ -143,8 +145,16 @@ OptimalitySetting::Moved OptimalitySetting::hold_flat(ActiveSet& active, std::ve
       break;
     }
     if (active.held[k] != 0) continue;
-    result.flat = k;
-    return result;
+    const auto higher_beside = [&](double step) {  // at a minimum the slope may be zero, too
+      design[k] = scaled[k].value(scaled[k].scaled(own) + step);
+      return peaks.trace(design).amplitude() > (1 + no_change) * before;
+    };
+    if (!higher_beside(-beside) || !higher_beside(beside)) {
+      result.flat = k;
+      return result;
+    }
+    design[k] = own;
+    active.peaks = find_again(peaks.trace(design), known(now), same_level);
   }
   return result;
 }
