@@ -49,6 +49,33 @@ void write_cases(std::ostream& out, const scene::Scene& scene, const optimize::O
     out << "    and " << cases.size() - most_cases << " cases more, which --json and --csv tell\n";
 }
 
+// The ends of a curve and its events.
+void write_curve(std::ostream& out, const scene::Scene& scene, const optimize::OptimumCurveResult& result) {
+  const optimize::OptimumCurve& curve = result.curve;
+  for (const std::string& note : curve.notes) out << "  " << note << '\n';
+  const auto line = [&](const std::string& what, const optimize::OptimumPoint& point) {
+    out << "  " << curve.along << " = " << with_unit(scene, curve.along, point.along) << ": ";
+    for (std::size_t k = 0; k < point.design.size(); ++k)
+      out << result.problem.over[k].name << " = "
+          << with_unit(scene, result.problem.over[k].name, point.design[k]) << ", ";
+    out << "A_max = " << number(point.amplitude, "%.8e") << " m at "
+        << number(output::in_scene_unit(scene, point.response.omega), "%.8f") << ' '
+        << scene::unit_name(scene.frequency_unit) << what << (point.minimum ? "" : ", no minimum") << '\n';
+  };
+  std::size_t event = 0;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    if (i == 0 || i + 1 == curve.points.size()) line("", curve.points[i]);
+    for (; event < curve.events.size() && curve.events[event].after == i; ++event) {
+      std::string what = curve.events[event].kind;
+      std::replace(what.begin(), what.end(), '_', ' ');
+      if (!curve.events[event].parameter.empty()) what += " by " + curve.events[event].parameter;
+      line(", " + what, curve.events[event].point);
+    }
+  }
+  out << "  " << curve.points.size() << " points, " << curve.work.peaks.responses << " responses traced, "
+      << number(curve.work.seconds, "%.3f") << " s: " << curve.stop.message << '\n';
+}
+
 // "d1.normal_load + 2 d2.normal_load = 6, at most 6"
 void write_sums(std::ostream& out, const optimize::OptimumResult& result) {
   for (const scene::LinearLimit& limit : result.problem.linear_limits) {
@@ -137,6 +164,14 @@ void write_table(std::ostream& out, const scene::Scene& scene,
           << number(result.difference_of_amplitude(), "%.1e") << " in amplitude\n";
     else if (!result.direct.message.empty())
       out << "  " << result.direct.message << '\n';
+  }
+}
+
+void write_table(std::ostream& out, const scene::Scene& scene,
+                 std::span<const optimize::OptimumCurveResult> results) {
+  for (const optimize::OptimumCurveResult& result : results) {
+    if (!result.set.empty()) out << output::assignment(scene, result.set) << '\n';
+    write_curve(out, scene, result);
   }
 }
 

@@ -21,6 +21,7 @@ namespace {
 
 using observables::Motion;
 using observables::ResponseBranch;
+using optimize::OptimumCurveResult;
 using optimize::OptimumResult;
 
 const char* noun(const ResponseBranch& /*of*/) {
@@ -50,6 +51,38 @@ output::JsonSection section(const scene::Scene& scene, std::span<const OptimumRe
   return optimize::json_section(scene, results);
 }
 
+const char* noun(const OptimumCurveResult& /*of*/) {
+  return "curve";
+}
+
+output::JsonSection section(const scene::Scene& scene, std::span<const OptimumCurveResult> results,
+                            bool /*coefficients*/) {
+  return optimize::json_section(scene, results);
+}
+
+template <class Item>
+output::Figures draw(const scene::Scene& scene, scene::StudyKind kind, const std::vector<Item>& items,
+                     const std::string& folder, const std::string& name) {
+  using output::write_figures;
+  return write_figures(scene, kind, items, folder, name);
+}
+
+output::Figures draw(const scene::Scene& scene, scene::StudyKind /*kind*/,
+                     const std::vector<OptimumCurveResult>& items, const std::string& folder,
+                     const std::string& name) {
+  return optimize::write_figures(scene, items, folder, name);
+}
+
+/// What has the status and the stop.
+template <class Item>
+const Item& end(const Item& item) {
+  return item;
+}
+
+const optimize::OptimumCurve& end(const OptimumCurveResult& item) {
+  return item.curve;
+}
+
 StudyResult computed(const scene::Scene& scene, const scene::Study& study,
                      const observables::ProgressCallback& progress) {
   switch (study.kind) {
@@ -62,6 +95,9 @@ StudyResult computed(const scene::Scene& scene, const scene::Study& study,
     case scene::StudyKind::time:
       return observables::motions_in_time(scene, study, progress);
     case scene::StudyKind::optimum:
+      if (study.along) {
+        return optimize::optimum_curve_study(scene, study, progress);
+      }
       return optimize::optimum_study(scene, study, progress);
     case scene::StudyKind::frf:
       break;
@@ -71,8 +107,8 @@ StudyResult computed(const scene::Scene& scene, const scene::Study& study,
 
 }  // namespace
 
-StudyResult no_result(scene::StudyKind kind) {
-  switch (kind) {
+StudyResult no_result(const scene::Study& study) {
+  switch (study.kind) {
     case scene::StudyKind::frf:
     case scene::StudyKind::trace:
     case scene::StudyKind::peaks:
@@ -81,6 +117,9 @@ StudyResult no_result(scene::StudyKind kind) {
     case scene::StudyKind::time:
       return std::vector<Motion>();
     case scene::StudyKind::optimum:
+      if (study.along) {
+        return std::vector<OptimumCurveResult>();
+      }
       return std::vector<OptimumResult>();
   }
   return std::vector<ResponseBranch>();
@@ -120,13 +159,13 @@ std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult
   const auto add = [&](const auto& items) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       const auto& item = items[i];
-      if (item.status == observables::Status::complete) {
+      if (end(item).status == observables::Status::complete) {
         continue;
       }
       const std::string set = output::assignment(scene, item.set);
       sentences.push_back(std::string(noun(item)) + " " + std::to_string(i + 1) +
-                          (set.empty() ? "" : " (" + set + ")") + " " + observables::name(item.status) +
-                          ": " + item.stop.message);
+                          (set.empty() ? "" : " (" + set + ")") + " " + observables::name(end(item).status) +
+                          ": " + end(item).stop.message);
     }
   };
   std::visit(add, result);
@@ -157,12 +196,7 @@ void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& 
 
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
                               const std::string& folder, const std::string& name) {
-  return std::visit(
-      [&](const auto& items) {
-        using output::write_figures;
-        return write_figures(scene, kind, items, folder, name);
-      },
-      result);
+  return std::visit([&](const auto& items) { return draw(scene, kind, items, folder, name); }, result);
 }
 
 }  // namespace arcslip::app

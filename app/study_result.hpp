@@ -1,7 +1,7 @@
 #pragma once
 // What a study gives, and all that the command does with it. A kind of results is one alternative of the
 // variant, with a function of its own for each of these (section, write_csv, write_figures, write_table,
-// noun) and the members study, kind, status, stop and set; the rest knows no kinds.
+// noun, end) and the members study, kind and set; the rest knows no kinds.
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/motion.hpp>
@@ -18,11 +18,12 @@
 
 namespace arcslip::app {
 
-using StudyResult = std::variant<std::vector<observables::ResponseBranch>, std::vector<observables::Motion>,
-                                 std::vector<optimize::OptimumResult>>;
+using StudyResult =
+    std::variant<std::vector<observables::ResponseBranch>, std::vector<observables::Motion>,
+                 std::vector<optimize::OptimumResult>, std::vector<optimize::OptimumCurveResult>>;
 
-/// Nothing yet of what studies of this kind give.
-StudyResult no_result(scene::StudyKind kind);
+/// Nothing yet of what such a study gives.
+StudyResult no_result(const scene::Study& study);
 
 /// Every result says which study it is of.
 StudyResult compute(const scene::Scene& scene, const scene::Study& study,

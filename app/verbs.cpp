@@ -46,7 +46,7 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
 /// Throws where one table would have to hold results of different kinds.
 void check_one_table(const Options& options, const std::vector<scene::Study>& studies) {
   for (const scene::Study& study : studies) {
-    if (!options.csv.empty() && no_result(study.kind).index() != no_result(studies.front().kind).index()) {
+    if (!options.csv.empty() && no_result(study).index() != no_result(studies.front()).index()) {
       throw UsageError("--csv holds one table, but the results of the studies \"" + studies.front().name +
                        "\" and \"" + study.name +
                        "\" have different columns: use --out, where each study has its own");
@@ -121,7 +121,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
     append(std::move(result), all);
   }
   if (all.empty()) {  // nothing was begun
-    all.push_back(no_result(studies.front().kind));
+    all.push_back(no_result(studies.front()));
   }
   write_to(options.json, screen,
            [&](std::ostream& out) { write_json(out, scene, all, options.coefficients); });

@@ -68,6 +68,36 @@ std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const Optimum
   return all;
 }
 
+OptimumProblem problem_of(const scene::Study& study) {
+  return {study.design, study.frequency_from, study.frequency_to, study.constraints, study.linear_constraints,
+          study.cases,  study.criterion,      study.scatter};
+}
+
+// Tells what is new: the number of evaluations and points, and the frequency of the highest peak (rad/s).
+// False stops, once and for all.
+class Teller {
+ public:
+  Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, std::size_t of)
+      : progress_(progress), unit_(scene::to_rad_per_s(scene.frequency_unit)) {
+    told_.branches = static_cast<int>(of);
+  }
+
+  void begin(std::size_t k) { told_.branch = static_cast<int>(k); }
+  bool tell(int points, double omega) {
+    told_.points = points;
+    told_.frequency = omega / unit_;
+    go_on = !progress_ || progress_(told_);
+    return go_on;
+  }
+
+  bool go_on = true;
+
+ private:
+  const observables::ProgressCallback& progress_;
+  double unit_;
+  observables::Progress told_;
+};
+
 OptimumOptions options_of(const scene::SearchSettings& search) {
   OptimumOptions options;
   options.algorithm = search.algorithm;
@@ -101,9 +131,11 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const C
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
                                          const observables::ProgressCallback& progress) {
   const auto all = observables::combinations(study);
-  const double unit = scene::to_rad_per_s(scene.frequency_unit);
+  Teller teller(progress, scene, all.size());
+  OptimumOptions options = options_of(study.search);
+  options.progress = [&](const OptimumProgress& now) { return teller.tell(now.evaluations, now.omega); };
   std::vector<OptimumResult> results;
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  for (std::size_t k = 0; k < all.size() && teller.go_on; ++k) {
     scene::Scene with = scene;
     for (const auto& [name, value] : all[k]) scene::set(with, name, value);
     if (!results.empty() && results.back().status == observables::Status::complete)
@@ -111,24 +143,12 @@ std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene:
         scene::set(with, study.design[i].name, results.back().optimum.design[i]);
     OptimumResult result;
     result.set = all[k];
-    result.problem = {
-        study.design, study.frequency_from, study.frequency_to, study.constraints, study.linear_constraints,
-        study.cases,  study.criterion,      study.scatter};
-    OptimumOptions options = options_of(study.search);
-    bool go_on = true;
-    options.progress = [&](const OptimumProgress& now) {
-      observables::Progress told;
-      told.branch = static_cast<int>(k);
-      told.branches = static_cast<int>(all.size());
-      told.points = now.evaluations;
-      told.frequency = now.omega / unit;
-      go_on = !progress || progress(told);
-      return go_on;
-    };
+    result.problem = problem_of(study);
+    teller.begin(k);
     result.optimum = optimum(with, result.problem, options);
     result.status = result.optimum.status;
     result.stop = result.optimum.stop;
-    if (go_on && !result.optimum.design.empty()) {
+    if (teller.go_on && !result.optimum.design.empty()) {
       const bool limited = !study.constraints.empty() || !study.linear_constraints.empty();
       const bool bounded = std::isfinite(result.optimum.amplitude);
       if (result.has_cases() && bounded)
@@ -142,7 +162,27 @@ std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene:
         }
     }
     results.push_back(std::move(result));
-    if (!go_on) break;
+  }
+  return results;
+}
+
+std::vector<OptimumCurveResult> optimum_curve_study(const scene::Scene& scene, const scene::Study& study,
+                                                    const observables::ProgressCallback& progress) {
+  const auto all = observables::combinations(study);
+  Teller teller(progress, scene, all.size());
+  int count = 0;
+  OptimumCurveOptions options{.search = options_of(study.search), .seconds = study.search.seconds};
+  options.search.progress = [&](const OptimumProgress& now) {
+    return teller.tell(count = now.evaluations, now.omega);
+  };
+  options.progress = [&](const OptimumPoint& now) { return teller.tell(++count, now.response.omega); };
+  std::vector<OptimumCurveResult> results;
+  for (std::size_t k = 0; k < all.size() && teller.go_on; ++k) {
+    scene::Scene with = scene;
+    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
+    teller.begin(k);
+    results.push_back({{}, {}, all[k], problem_of(study), {}});
+    results.back().curve = optimum_curve(with, results.back().problem, *study.along, options);
   }
   return results;
 }

@@ -3,6 +3,7 @@
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/optimum_curve_output.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <cstddef>
@@ -47,5 +48,9 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const C
 /// after each evaluation, `points` is their number; false stops. Throws as optimum() does.
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
                                          const observables::ProgressCallback& progress = {});
+
+/// The same of a study with "along": the optimum as a curve. Throws as optimum_curve() does.
+std::vector<OptimumCurveResult> optimum_curve_study(const scene::Scene& scene, const scene::Study& study,
+                                                    const observables::ProgressCallback& progress = {});
 
 }  // namespace arcslip::optimize

@@ -63,7 +63,7 @@ Axis axis_of(const FigureColumn& column, bool has_room, bool has_minima = false)
     return {{lower / std::max(std::pow(spread, parts_below), 1.05), upper * std::max(spread * spread, 1.15)},
             true};
   }
-  if (lower == upper) {
+  if (upper - lower <= 1e-8 * std::max(std::abs(lower), std::abs(upper))) {  // but for rounding one value
     const double width = lower == 0 ? 1 : std::max(std::abs(lower), 1e-300) / 10;
     return {{lower - width, upper + width}};
   }

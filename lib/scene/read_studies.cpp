@@ -110,7 +110,20 @@ void read_along(const Keys& keys, const Parameters& all, Study& study, Faults& f
   }
   DesignVariable along;
   const Field field = read_parameter(place, all, along.name, faults);
-  const bool taken = is_taken(along.name, place.pointer, study, faults);
+  std::vector<std::string> beside;
+  for (const char* key : {"constraints", "cases", "scatter"}) {
+    const Place other = keys.find(key);
+    const auto* list = other.node != nullptr ? other.node->get<Node::List>() : nullptr;
+    const auto* object = other.node != nullptr ? other.node->get<Node::Object>() : nullptr;
+    if ((list != nullptr && !list->empty()) || (object != nullptr && !object->empty())) {
+      beside.emplace_back(key);
+    }
+  }
+  if (!beside.empty()) {
+    faults.add(place.pointer, "found \"along\" beside " + listed(beside) +
+                                  ", with which no optimum is followed; must stand without");
+  }
+  const bool taken = !beside.empty() || is_taken(along.name, place.pointer, study, faults);
   std::tie(along.lower, along.upper) = read_range(keys, field, faults);
   if (!taken) {
     study.along = std::move(along);

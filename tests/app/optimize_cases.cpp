@@ -155,6 +155,88 @@ TEST_CASE("cases of each level have figures of their own, with a line for each c
   }
 }
 
+TEST_CASE("the optimum along the force is that of a search at every end, and grows in proportion") {
+  const Workplace place;
+  const std::vector<std::string> common{"optimize", "scene.json", "--harmonics", "5",
+                                        "--json",   "-",          "--quiet"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), common.begin(), common.end());
+    const Ended ended = run(place, more);
+    REQUIRE(ended.exit_code == 0);
+    return Json(Json::parse(ended.out));
+  };
+  const Json document = with({"--along", "force.cosine=1:4"});
+  CHECK(document["format"] == "arcslip-optimum-curves-1");
+  const Json& curve = document["optimum_curves"][0];
+  CHECK(curve["along"] == "force.cosine");
+  CHECK(curve["study"] == "best load");
+  const Json &first = curve["points"].front(), &last = curve["points"].back();
+  CHECK(first["force.cosine"] == 1.0);
+  CHECK(last["force.cosine"] == 4.0);
+  const Json there = with({"--set", "force.cosine=4"})["optima"][0];
+  CHECK(last["damper.normal_load"].get<double>() ==
+        Approx(there["optimum"]["damper.normal_load"].get<double>()).epsilon(1e-6));
+  CHECK(last["amplitude"].get<double>() ==
+        Approx(there["optimum"]["amplitude"].get<double>()).epsilon(1e-10));
+  for (const Json& point : curve["points"]) {  // by scaling
+    const double force = point["force.cosine"].get<double>();
+    CHECK(point["damper.normal_load"].get<double>() ==
+          Approx(force * first["damper.normal_load"].get<double>()).epsilon(1e-6));
+    CHECK(point["amplitude"].get<double>() == Approx(force * first["amplitude"].get<double>()).epsilon(1e-9));
+    CHECK(point["minimum"] == true);
+  }
+}
+
+TEST_CASE("an optimum and a curve of optima have tables of their own, and stand in one JSON file") {
+  const Workplace place;
+  Json plain = study_of_levels(), followed = study_of_levels();
+  for (Json* study : {&plain, &followed}) study->erase("cases");
+  followed["name"] = "followed";
+  followed.update({{"along", "force.cosine"}, {"from", 1}, {"to", 2}});
+  place.write("scene.json", scene_with(place, {plain, followed}).dump());
+  const Ended refused = run(place, {"run", "scene.json", "--csv", "a.csv"});
+  CHECK(refused.exit_code == 1);
+  CHECK(
+      refused.err.find("--csv holds one table, but the results of the studies \"levels\" and \"followed\"") !=
+      std::string::npos);
+  const Ended ended =
+      run(place, {"run", "scene.json", "--json", "a.json", "--quiet"}, {{"PATH", "/nonexistent"}});
+  CHECK(ended.exit_code == 0);
+  const Json json = Json::parse(place.read("a.json"));
+  CHECK(json["format"] == "arcslip-results-1");
+  CHECK(json["optimum_curves"].size() == 1);
+  CHECK(json["optima"].size() == 1);
+}
+
+TEST_CASE("where the optimum along the force comes to a bound, the table, the CSV and the JSON say so") {
+  const Workplace place;
+  const Ended ended = run(place,
+                          {"optimize", "scene.json", "--harmonics", "5", "--over", "damper.normal_load=0.5:6",
+                           "--along", "force.cosine=1:4", "--out", "out", "--quiet"},
+                          {{"PATH", "/nonexistent"}});
+  CAPTURE(ended.err);
+  REQUIRE(ended.exit_code == 0);
+  CHECK(ended.out.find(", bound reached by damper.normal_load\n") != std::string::npos);
+  const Json document = Json::parse(place.read("out/best_load.json"));
+  const Json& curve = document["optimum_curves"][0];
+  REQUIRE(curve["events"].size() == 1);
+  const Json& event = curve["events"][0];
+  CHECK(event["kind"] == "bound_reached");
+  CHECK(event["parameter"] == "damper.normal_load");
+  CHECK(event["point"]["damper.normal_load"].get<double>() == Approx(6));
+  // in proportion to the force: the load is 6 N where the force is 6 N over the load of 1 N
+  CHECK(event["point"]["force.cosine"].get<double>() ==
+        Approx(6 / curve["points"][0]["damper.normal_load"].get<double>()).epsilon(1e-6));
+  CHECK(curve["points"].back()["at_bound"]["damper.normal_load"] == "upper");
+  const std::string csv = place.read("out/best_load.csv");
+  CHECK(csv.find("curve,what,force.cosine (N),damper.normal_load (N),amplitude (m),") == 0);
+  CHECK(csv.find("\r\n1,bound_reached,") != std::string::npos);
+  const std::string script = place.read("out/best_load.gp");
+  for (const char* figure :
+       {"best_load_damper.normal_load.svg", "best_load_amplitude.svg", "best_load_stick.svg"})
+    CHECK(script.find(figure) != std::string::npos);
+}
+
 TEST_CASE("a search that reaches its limit of evaluations ends early, with the best so far") {
   const Workplace place;
   const Ended ended =

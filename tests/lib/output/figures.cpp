@@ -138,6 +138,12 @@ TEST_CASE("a study over a parameter that is hard to draw is drawn") {
   at_zero.points[0].over = 0;
   at_zero.points[0].amplitude = 0;
   auto negative = support::peaks();
+  auto nearly_constant = support::peaks();
+  for (std::size_t i = 0; i < nearly_constant.points.size(); ++i) {
+    nearly_constant.points[i].omega = 100 + 1e-13 * static_cast<double>(i % 2);
+    nearly_constant.points[i].amplitude = -1 - 1e-15 * static_cast<double>(i % 2);
+  }
+  nearly_constant.events.clear();
   auto unbounded = support::peaks();
   for (auto& point : negative.points) {
     point.over = -point.over;
@@ -146,7 +152,7 @@ TEST_CASE("a study over a parameter that is hard to draw is drawn") {
     point.unbounded = true;
   }
   for (const StudyKind kind : {StudyKind::trace, StudyKind::peaks, StudyKind::folds}) {
-    for (const auto& branch : {one_point, at_zero, negative, unbounded}) {
+    for (const auto& branch : {one_point, at_zero, negative, nearly_constant, unbounded}) {
       CAPTURE(static_cast<int>(kind), branch.points[0].over, branch.points[0].unbounded);
       const TemporaryFolder folder;
       const auto figures =

@@ -110,10 +110,14 @@ void add_bad_designs(std::vector<BadScene>& rows) {
       "found \"frequency\", must be another parameter");
   add("along a parameter of the design", R"("along": "k.value")" + range, "along",
       "found \"k.value\", which the study is \"over\"; must be another parameter");
-  add("along what cases set", R"("cases": [{"set": {"f.sine": 1}}], "along": "f.sine")" + range, "along",
-      "found \"f.sine\", to which \"cases\" give values; must be another parameter");
+  add("along a parameter with cases and a limit",
+      R"("cases": [{}], "constraints": [{"observable": "frequency", "at_most": 2}], "along": "f.sine")" +
+          range,
+      "along",
+      "found \"along\" beside \"constraints\", \"cases\", with which no optimum is followed; must stand "
+      "without");
   add("along what scatters", R"("scatter": {"c.value": [1, 2]}, "along": "c.value")" + range, "along",
-      "found \"c.value\", which is in \"scatter\"; must be another parameter");
+      "found \"along\" beside \"scatter\"");
   add("along a parameter without its end", R"("along": "f.sine", "from": 1)", "to",
       "found no key \"to\", which is required: must be a finite number (N)");
   add("along a parameter backwards", R"("along": "f.sine", "from": 1, "to": 0)", "to",

@@ -162,8 +162,8 @@ TEST_CASE("all faults of cases, of what scatters and of settings of a search are
                                              "/studies/0/scatter/c.value",
                                              "/studies/0/scatter/k2.value/1",
                                              "/studies/0/criterion",
+                                             "/studies/0/along",
                                              "/studies/0/from",
-                                             "/studies/0/for_each/d.stiffness",
                                              "/studies/0/for_each/c.value"};
   CHECK(pointers == expected);
 }
