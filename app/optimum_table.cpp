@@ -107,6 +107,11 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
     if (certificate.at_bound[k] != 0)
       out << "  " << over[k].name << " is at its " << (certificate.at_bound[k] < 0 ? "lower" : "upper")
           << " bound\n";
+  for (const optimize::ActiveLimit& limit : certificate.limits)
+    out << "  "
+        << (limit.limit.starts_with("a linear") ? "the limit on a sum" : "the limit on " + limit.limit)
+        << " is active: loosened by 1 %, it lowers the amplitude by about "
+        << number(limit.multiplier, "%.2g") << " %\n";
   int active = 0;
   for (const auto& peak : certificate.peaks) {
     active += peak.active;

@@ -99,6 +99,11 @@ Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, co
                      {"active", peak.active},
                      {"weight", peak.weight}});
   for (std::size_t i = 0; has_cases && i < peaks.size(); ++i) peaks[i]["case"] = c.peaks[i].in_case + 1;
+  Json& limits = json["limits"] = Json::array();
+  for (const ActiveLimit& limit : c.limits) {
+    limits.push_back({{"limit", limit.limit}, {"multiplier", limit.multiplier}});
+    if (has_cases) limits.back()["case"] = limit.in_case + 1;
+  }
   json["at_bound"] = Json::object();
   for (std::size_t k = 0; k < c.at_bound.size(); ++k)
     json["at_bound"][problem.over[k].name] = c.at_bound[k] < 0   ? "lower"

@@ -248,15 +248,29 @@ TEST_CASE("a search that reaches its limit of evaluations ends early, with the b
   CHECK(found["evaluations"] == 2);
 }
 
-TEST_CASE("a limit on a sum of parameters is met, and told") {
+TEST_CASE("a limit on a sum of parameters is met, and told, with what it costs") {
   const Workplace place;
-  Json study = study_of_levels();
-  study.erase("cases");
-  study["constraints"] = Json::parse(R"([{"sum": {"damper.normal_load": 2}, "at_most": 5}])");
-  place.write("scene.json", scene_with(place, {study}).dump());
-  const Ended ended = run(place, {"optimize", "scene.json", "--quiet"});
-  REQUIRE(ended.exit_code == 0);
+  const auto least = [&](double limit, std::string& out) {
+    Json study = study_of_levels();
+    study.erase("cases");
+    study["constraints"] = {{{"sum", {{"damper.normal_load", 2}}}, {"at_most", limit}}};
+    place.write("scene.json", scene_with(place, {study}).dump());
+    const Ended ended = run(place, {"optimize", "scene.json", "--json", "a.json", "--quiet"});
+    REQUIRE(ended.exit_code == 0);
+    out = ended.out;
+    return Json(Json::parse(place.read("a.json"))["optima"][0]);
+  };
+  std::string out, other;
+  const Json found = least(5, out);
   // without the limit it is 3.09 N
-  CHECK(ended.out.find("damper.normal_load = 2.5 N\n") != std::string::npos);
-  CHECK(ended.out.find("2 damper.normal_load = 5, at most 5\n") != std::string::npos);
+  CHECK(out.find("damper.normal_load = 2.5 N\n") != std::string::npos);
+  CHECK(out.find("2 damper.normal_load = 5, at most 5\n") != std::string::npos);
+  CHECK(out.find("the limit on a sum is active: loosened by 1 %, it lowers the amplitude by about ") !=
+        std::string::npos);
+  REQUIRE(found["certificate"]["limits"].size() == 1);
+  const auto amplitude = [&](double limit) {
+    return least(limit, other)["optimum"]["amplitude"].get<double>();
+  };
+  const double slope = (std::log(amplitude(4.995)) - std::log(amplitude(5.005))) / 0.002;
+  CHECK(found["certificate"]["limits"][0]["multiplier"].get<double>() == Approx(slope).epsilon(1e-3));
 }
