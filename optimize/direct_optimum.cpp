@@ -1,9 +1,18 @@
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/optimize/design_space.hpp>
 #include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/peak_amplitude.hpp>
 #include <arcslip/optimize/text.hpp>
 
+#include <span>
+#include <string>
+
 namespace arcslip::optimize {
+namespace {
+
+constexpr double as_high = 1e-6;  // relative: no other peak is higher
+
+}  // namespace
 
 DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem) {
   if (problem.over.size() != 1)
@@ -20,15 +29,28 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
   study.frequency_to = problem.frequency_to;
   DirectOptimum result;
   result.curves = observables::resonance_peaks(scene, study);
+  const double unit = scene::to_rad_per_s(scene.frequency_unit);
+  PeakAmplitude peaks(space.model(), space.parameters(),
+                      {problem.frequency_from * unit, problem.frequency_to * unit});
+  std::string higher;
   for (const auto& curve : result.curves)
-    for (const auto& event : curve.events)
-      if (event.kind == "minimum" && (!result.found || event.point.amplitude < result.point.amplitude)) {
+    for (const auto& event : curve.events) {
+      if (event.kind != "minimum" || (result.found && event.point.amplitude >= result.point.amplitude))
+        continue;
+      const double highest = peaks.trace(std::span(&event.point.over, 1)).amplitude();
+      if (highest <= (1 + as_high) * event.point.amplitude) {
         result.found = true;
         result.point = event.point;
+      } else if (higher.empty()) {
+        higher = text("a curve of peaks has a minimum of ", event.point.amplitude, " m at ", study.over,
+                      " = ", event.point.over, ", where the largest amplitude is ", highest,
+                      " m: it is least where two are equally high, or at a bound");
       }
+    }
   if (!result.found)
-    result.message =
-        "no curve of peaks has a minimum within the bounds; " + result.curves.front().stop.message;
+    result.message = !higher.empty() ? higher
+                                     : "no curve of peaks has a minimum within the bounds; " +
+                                           result.curves.front().stop.message;
   return result;
 }
 

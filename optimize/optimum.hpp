@@ -121,9 +121,9 @@ struct Optimum {
 /// none, scatter beside the mean; scene::ParameterError for an unknown parameter.
 Optimum optimum(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options = {});
 
-/// The direct way, over one parameter and without cases: the least minimum of A_max on the curves of
-/// resonance peaks. Throws as optimum(), and OptionsError where there are several parameters, cases, or
-/// scatter.
+/// The direct way, over one parameter and without cases: the least minimum of the amplitude on the curves of
+/// resonance peaks at which no other peak is higher. None: A_max is least where two peaks are equally high, or
+/// at a bound. Throws as optimum(), and OptionsError where there are several parameters, cases, or scatter.
 struct DirectOptimum {
   bool found = false;
   observables::ResponsePoint point;                 // `over` is the parameter
