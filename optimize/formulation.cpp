@@ -144,13 +144,23 @@ double Formulation::level(std::size_t c, std::size_t peak, std::span<double> gra
   return std::log(cases_.weight(c) * of.amplitude / reference_);
 }
 
+// A limit holds at peaks above a share of the highest. So that it does not jump where a peak gets lower than
+// that, it is met where the peak is: the less of both counts.
 double Formulation::limit(const Limited& each, std::size_t c, std::size_t peak, std::span<double> gradient) {
   PeakAmplitude& peaks = cases_.peaks(c);
   const PeakState& state = peaks.state();
+  const Peak &of = state.peaks[peak], &highest = state.peaks[state.highest];
   const double scale = each.sign / (each.bound != 0 ? std::abs(each.bound) : 1);
-  for (std::size_t k = 0; k < gradient.size(); ++k)
-    gradient[k] = scale * peaks.change(peak, k, each.observable) * space_.slope(k, state.design[k]);
-  return scale * (each.observable(peaks.observe(state.peaks[peak])) - each.bound);
+  const double value = scale * (each.observable(peaks.observe(of)) - each.bound);
+  const double above = std::log(of.amplitude / (watched_share * highest.amplitude));
+  const bool by_height = above < value && peak != state.highest && of.kind != PeakKind::kink;
+  for (std::size_t k = 0; k < gradient.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    gradient[k] = (by_height ? of.gradient[i] / of.amplitude - highest.gradient[i] / highest.amplitude
+                             : scale * peaks.change(peak, k, each.observable)) *
+                  space_.slope(k, state.design[k]);
+  }
+  return by_height ? above : value;
 }
 
 std::optional<std::size_t> Formulation::peak(std::size_t c, std::size_t constraint) {

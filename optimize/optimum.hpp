@@ -122,8 +122,9 @@ struct Optimum {
 Optimum optimum(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options = {});
 
 /// The direct way, over one parameter and without cases: the least minimum of the amplitude on the curves of
-/// resonance peaks at which no other peak is higher. None: A_max is least where two peaks are equally high, or
-/// at a bound. Throws as optimum(), and OptionsError where there are several parameters, cases, or scatter.
+/// resonance peaks at which no other peak is higher. None: A_max is least where two peaks are equally high,
+/// or at a bound. Throws as optimum(), and OptionsError where there are several parameters, cases, or
+/// scatter.
 struct DirectOptimum {
   bool found = false;
   observables::ResponsePoint point;                 // `over` is the parameter

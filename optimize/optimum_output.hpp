@@ -19,7 +19,8 @@ namespace arcslip::optimize {
 ///    "optimum": {each parameter by its name, "amplitude" (m), "frequency" (scene's unit), "omega" (rad/s),
 ///                "stick_percent" where there is one friction element, "energy_friction" (J), "feasible"},
 ///    "algorithm", "epigraph", "evaluations", "responses", "followed", "factorizations", "seconds", "notes",
-///    "certificate": {"gradient", "stationarity", "to_minimum", "curvature", "ranges", "peaks", "limits", "at_bound",
+///    "certificate": {"gradient", "stationarity", "to_minimum", "curvature", "ranges", "peaks", "limits",
+///    "at_bound",
 ///                    "others", "others_lower"},
 ///    "direct": {the parameter, "amplitude", "frequency", "omega", "difference": {"design", "amplitude"}},
 ///    "course": [{each parameter, "amplitude"}, ...]}

@@ -13,8 +13,7 @@ namespace {
 
 using continuation::StopReason;
 
-constexpr double watched = 0.75;        // of the highest amplitude: lower peaks are not followed
-constexpr double watched_kink = 0.9;    // the same, where a peak cannot be followed at all
+constexpr double watched_kink = 0.9;    // as watched_share, where a peak cannot be followed at all
 constexpr double risen = 0.9;           // of the highest amplitude: so high a lower peak is expected
 constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
 constexpr double at_limit = 1e-6;       // of mu F_n: a peak nearer to a stick limit sits at its corner
@@ -221,7 +220,7 @@ void PeakAmplitude::watch() {
   double most = 0;
   for (const Peak& peak : peaks) most = std::max(most, peak.amplitude);
   const auto below = [&](const Peak& peak) {
-    return peak.amplitude < (peak.kind == PeakKind::kink ? watched_kink : watched) * most;
+    return peak.amplitude < (peak.kind == PeakKind::kink ? watched_kink : watched_share) * most;
   };
   lower_.clear();
   for (const Peak& peak : peaks)

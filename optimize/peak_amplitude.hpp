@@ -55,6 +55,9 @@ struct Peak {
   }
 };
 
+/// Of the highest amplitude: lower peaks are not watched.
+inline constexpr double watched_share = 0.75;
+
 /// The peaks at one design.
 struct PeakState {
   std::vector<double> design;      // values of the parameters

@@ -67,12 +67,12 @@ void Trials::tell() {
 }
 
 void Trials::move_to(std::span<const double> y) {
-  const std::vector<double> design = space_.design(y);
-  evaluate(design);
+  const std::vector<double> here = space_.scaled(cases_.state(0).design);
+  if (!std::equal(here.begin(), here.end(), y.begin())) evaluate(space_.design(y));
   for (std::size_t c = 0; c < cases_.size(); ++c) {
     const PeakState& state = cases_.state(c);
     if (!state.unbounded && state.peaks.empty())
-      throw std::runtime_error(where(c) + "no response was found at " + space_.text(design) + ": " +
+      throw std::runtime_error(where(c) + "no response was found at " + space_.text(state.design) + ": " +
                                state.message);
   }
 }
