@@ -105,7 +105,8 @@ class Search {
     options.local = options_.local;
     options.population = options_.population;
     options.seed = options_.seed;
-    options.evaluations = std::max(1, options_.evaluations - static_cast<int>(count()));
+    const int known = algorithm_.global ? 0 : 1;  // a local search begins where the cases stand
+    options.evaluations = std::max(1, options_.evaluations - static_cast<int>(count()) + known);
     if (options_.seconds > 0) options.seconds = std::max(options_.seconds - trials_.seconds(), 1e-9);
     const bool smooth = algorithm_.name[1] == 'D' && !formulation.epigraph() && problem.constraints.empty();
     bool stationary = false;

@@ -144,6 +144,7 @@ class Curves {
     if (turns.empty()) return curve;
     const double begin = turns.front(),
                  length = curve.points.back().arclength - curve.points.front().arclength;
+    curve.points.pop_back();  // the first one again
     const auto rotate = [&](auto& all) {
       for (auto& each : all)
         if (each.arclength <= begin) each.arclength += length;

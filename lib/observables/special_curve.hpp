@@ -104,6 +104,7 @@ class SpecialCurveTracer {
   std::size_t passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through) const;
   bool comes_back(std::size_t begin);
   void end_at(std::size_t count, bool closed);
+  bool is_repeated(const SpecialCurve::EventAt& event) const;
   std::optional<Place> to_corner(const Place& at);
   std::optional<Place> from_corner(const Place& at, bool slip) const;
   bool is_surpassed(const Place& at) const;
