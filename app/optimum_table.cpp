@@ -108,10 +108,14 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
       out << "  " << over[k].name << " is at its " << (certificate.at_bound[k] < 0 ? "lower" : "upper")
           << " bound\n";
   for (const optimize::ActiveLimit& limit : certificate.limits)
-    out << "  "
-        << (limit.limit.starts_with("a linear") ? "the limit on a sum" : "the limit on " + limit.limit)
-        << " is active: loosened by 1 %, it lowers the amplitude by about "
-        << number(limit.multiplier, "%.2g") << " %\n";
+    if (limit.by_height)
+      out << "  the limit on " << limit.limit << " is exceeded at a peak that is "
+          << number(100 * optimize::watched_share) << " % of the highest: above that it would hold there\n";
+    else
+      out << "  "
+          << (limit.limit.starts_with("a linear") ? "the limit on a sum" : "the limit on " + limit.limit)
+          << " is active: loosened by 1 %, it lowers the amplitude by about "
+          << number(limit.multiplier, "%.2g") << " %\n";
   int active = 0;
   for (const auto& peak : certificate.peaks) {
     active += peak.active;
@@ -120,8 +124,10 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
       out << "  the amplitude is largest at the " << (lower ? "lower" : "upper")
           << " end of the window: a wider one may hold a higher peak\n";
   }
+  const bool mean = result.problem.criterion == scene::Criterion::mean && result.optimum.cases.size() > 1;
   out << "  " << active << (active == 1 ? " peak is" : " peaks are")
-      << " the highest; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
+      << (mean ? " the highest of the cases" : " the highest")
+      << "; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
   for (const auto& other : certificate.others) {
     out << "  another response, by " << other.found_by << ": " << number(other.amplitude, "%.8e") << " m at "
         << number(output::in_scene_unit(scene, other.omega)) << ' ' << scene::unit_name(scene.frequency_unit);

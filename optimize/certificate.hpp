@@ -42,6 +42,8 @@ struct ActiveLimit {
   std::size_t in_case = 0;  // of Optimum::cases; a linear limit holds in all
   Vector gradient{};        // dc / d ln p
   double multiplier = 0;    // where the limit is loosened by x of its bound, ln V falls by about x times this
+  bool by_height = false;   // it is exceeded at a peak that is just low enough not to be watched; where that
+                            // peak might be higher by x, relative, ln V would fall by x times the multiplier
 };
 
 struct Certificate {

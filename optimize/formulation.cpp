@@ -125,12 +125,13 @@ std::vector<ActiveLimit> Formulation::active() {
   for (const Limited& each : limits_)
     for (std::size_t c = 0; c < cases_.size(); ++c)
       for (std::size_t i = 0; i < cases_.state(c).peaks.size(); ++i) {
-        if (limit(each, c, i, {}) < -as_active) continue;
+        const double value = limit(each, c, i, {});
+        if (value < -as_active) continue;
         Vector gradient(static_cast<Eigen::Index>(design.size()));
         limit(each, c, i, {gradient.data(), design.size()});
         for (std::size_t k = 0; k < design.size(); ++k)
           gradient[static_cast<Eigen::Index>(k)] *= design[k] / space_.slope(k, design[k]);
-        if (gradient.allFinite()) active.push_back({each.name, c, gradient, 0});
+        if (gradient.allFinite()) active.push_back({each.name, c, gradient, 0, value == height(c, i)});
       }
   return active;
 }
@@ -144,6 +145,14 @@ double Formulation::level(std::size_t c, std::size_t peak, std::span<double> gra
   return std::log(cases_.weight(c) * of.amplitude / reference_);
 }
 
+// ln of the amplitude over that from which a peak is watched; infinity at peaks that are, whatever it is.
+double Formulation::height(std::size_t c, std::size_t peak) const {
+  const PeakState& state = cases_.state(c);
+  const Peak& of = state.peaks[peak];
+  if (peak == state.highest || of.kind == PeakKind::kink) return std::numeric_limits<double>::infinity();
+  return std::log(of.amplitude / (watched_share * state.amplitude()));
+}
+
 // A limit holds at peaks above a share of the highest. So that it does not jump where a peak gets lower than
 // that, it is met where the peak is: the less of both counts.
 double Formulation::limit(const Limited& each, std::size_t c, std::size_t peak, std::span<double> gradient) {
@@ -152,8 +161,8 @@ double Formulation::limit(const Limited& each, std::size_t c, std::size_t peak, 
   const Peak &of = state.peaks[peak], &highest = state.peaks[state.highest];
   const double scale = each.sign / (each.bound != 0 ? std::abs(each.bound) : 1);
   const double value = scale * (each.observable(peaks.observe(of)) - each.bound);
-  const double above = std::log(of.amplitude / (watched_share * highest.amplitude));
-  const bool by_height = above < value && peak != state.highest && of.kind != PeakKind::kink;
+  const double above = height(c, peak);
+  const bool by_height = above < value;
   for (std::size_t k = 0; k < gradient.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     gradient[k] = (by_height ? of.gradient[i] / of.amplitude - highest.gradient[i] / highest.amplitude

@@ -43,6 +43,7 @@ class Formulation {
   };
 
   double level(std::size_t c, std::size_t peak, std::span<double> gradient) const;
+  double height(std::size_t c, std::size_t peak) const;
   double limit(const Limited& each, std::size_t c, std::size_t peak, std::span<double> gradient);
   std::optional<std::size_t> peak(std::size_t c, std::size_t constraint);
   void add_epigraph(Problem& problem, std::vector<double>& y);

@@ -101,7 +101,8 @@ Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, co
   for (std::size_t i = 0; has_cases && i < peaks.size(); ++i) peaks[i]["case"] = c.peaks[i].in_case + 1;
   Json& limits = json["limits"] = Json::array();
   for (const ActiveLimit& limit : c.limits) {
-    limits.push_back({{"limit", limit.limit}, {"multiplier", limit.multiplier}});
+    limits.push_back(
+        {{"limit", limit.limit}, {"multiplier", limit.multiplier}, {"by_height", limit.by_height}});
     if (has_cases) limits.back()["case"] = limit.in_case + 1;
   }
   json["at_bound"] = Json::object();

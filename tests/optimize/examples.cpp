@@ -111,6 +111,13 @@ TEST_CASE("less wear costs amplitude: the limit on the energy is met and active"
   REQUIRE(energy(free.design) > 1e-3);
   CHECK(energy(limited.design) <= 1e-3 * (1 + 1e-6));
   CHECK(limited.amplitude > free.amplitude);
+  // The other peak exceeds it, and is as high as a peak may be at which it does not hold.
+  REQUIRE(limited.certificate);
+  CHECK(limited.certificate->stationarity < 1e-4);
+  REQUIRE(limited.certificate->limits.size() == 1);
+  CHECK(limited.certificate->limits[0].by_height);
+  for (const auto& peak : limited.certificate->peaks)
+    CHECK((peak.active || peak.amplitude == Approx(0.75 * limited.amplitude).epsilon(1e-6)));
 }
 
 TEST_CASE("the sum of the loads is as large as its limit allows, and no other pair on the limit is better") {
