@@ -195,3 +195,38 @@ TEST_CASE("the parameter moves no further in a step than asked for, where the br
   for (std::size_t k = 1; k < branch.points.size(); ++k)
     CHECK(branch.points[k].parameter - branch.points[k - 1].parameter < 0.031);
 }
+
+TEST_CASE("a quantity's curve departs from the chords between its points by no more than asked for") {
+  // u = 1 + 1/(1 + 9 p^2)
+  const auto q = [](double p) { return 1 + 1 / (1 + 9 * p * p); };
+  const auto slope = [](double p) { return -18 * p / std::pow(1 + 9 * p * p, 2); };
+  const auto problem = from_functions({.size = 1,
+                                       .parameters = {parameter("p", 0)},
+                                       .residual = [=](In u, In p, Out F) { F[0] = u[0] - q(p[0]); },
+                                       .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+                                       .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); }});
+  // The largest share over all chords, of q or of p, whichever is less.
+  const auto departure = [&](double tolerance) {
+    Monitor monitor{.name = "extreme", .value = [](const Accepted& now) { return now.tangent[0]; }};
+    monitor.quantity = [](const Accepted& now) { return now.u[0]; };
+    monitor.chord_tolerance = tolerance;
+    Options options = window(-3, 3);
+    options.step.largest_parameter = 1;
+    const Branch branch = trace(problem, {Vector{{q(-3)}}, Vector{{-3.0}}, 0, 1}, options, {monitor});
+    CHECK(branch.stop.reason == StopReason::boundary);
+    REQUIRE(branch.events.size() == 1);
+    CHECK(std::abs(branch.events[0].point.parameter) < 1e-9);
+    double largest = 0;
+    for (std::size_t k = 1; k < branch.points.size(); ++k) {
+      const double a = branch.points[k - 1].parameter, b = branch.points[k].parameter;
+      for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {
+        const double p = a + share * (b - a), off = std::abs(q(p) - q(a) - share * (q(b) - q(a)));
+        largest = std::max(largest, std::min(off / q(p), off / std::abs(slope(p) * p)));
+      }
+    }
+    return largest;
+  };
+  CHECK(departure(0) > 5e-3);
+  CHECK(departure(1e-3) < 1.2e-3);
+  CHECK(departure(1e-4) < 1.2e-4);
+}
