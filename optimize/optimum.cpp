@@ -92,6 +92,7 @@ class Search {
     Formulation& formulation = trials_.formulation();
     round_responses_ = cases().work().responses;
     round_value_ = std::min(cases().value(), best().value);
+    round_excess_ = best().excess;
     std::vector<double> y = space().scaled(start_);
     const Problem problem =
         formulation.problem(y, algorithm_, reference_, [this](auto at) { trials_.move_to(at); });
@@ -165,7 +166,8 @@ class Search {
   bool verify() {
     if (best().design.empty() || !std::isfinite(best().value)) return false;
     const int responses = cases().work().responses;
-    const bool gained = best().value < (1 - gain) * round_value_;
+    const bool gained = best().value < (1 - gain) * round_value_ ||
+                        (std::isfinite(round_excess_) && best().excess < round_excess_);
     const double seen = best().value;
     start_ = best().design;
     cases().trace(start_);
@@ -229,6 +231,11 @@ class Search {
     if (!best().design.empty() && std::isfinite(best().value)) {
       if (!cases().stand_at(best().design)) cases().trace(best().design);
       result_.feasible = best().excess == 0;
+      if (!result_.feasible && result_.status == Status::complete) {
+        result_.status = Status::stopped;
+        result_.stop.reason = "infeasible";
+        result_.stop.message = "no design that keeps within the limits was found: " + result_.stop.message;
+      }
       result_.stop.message +=
           text("; the least amplitude is ", best().value, " m at ", space().text(best().design));
       if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
@@ -269,6 +276,7 @@ class Search {
   double reference_ = 1;           // V at the start
   int round_responses_ = 0;        // traced before the round
   double round_value_ = infinity;  // least before it
+  double round_excess_ = infinity;
   double stuck_value_ = infinity;  // least one from which stuck dampers were released
   bool ended_ = false;
 };

@@ -204,6 +204,18 @@ TEST_CASE("a limit on the energy of friction is kept, and is active where it mus
   CHECK((!none.feasible || none.point.energy_friction <= 1e-3 * (1 + 1e-6)));
 }
 
+TEST_CASE("limits that no design keeps are no complete answer, and the one nearest to them is told") {
+  OptimumProblem limited = over_load;
+  limited.linear_limits = {{.weights = {{"damper.normal_load", 1}}, .at_most = 0.05}};
+  const Optimum found = optimize::optimum(paper(3, 3), limited);
+  CHECK(found.status == observables::Status::stopped);
+  CHECK(found.stop.reason == "infeasible");
+  CHECK(contains(found.stop.message, "no design that keeps within the limits was found"));
+  CHECK_FALSE(found.feasible);
+  CHECK_FALSE(found.certificate);
+  CHECK(found.design[0] == Approx(0.1).epsilon(1e-6));
+}
+
 TEST_CASE("every algorithm that was asked for comes to the same optimum") {
   const scene::Scene s = paper(3, 5);
   const double best = optimize::direct_optimum(s, over_load).point.amplitude;
