@@ -74,7 +74,7 @@ void Formulation::add_epigraph(Problem& problem, std::vector<double>& y) {
   const std::size_t n = y.size();
   std::vector<double> levels;
   for (std::size_t g = 0; g < cases_.groups(); ++g)
-    levels.push_back(std::log(cases_.height(cases_.highest_of(g)) / reference_));
+    levels.push_back(std::max(least_level, std::log(cases_.height(cases_.highest_of(g)) / reference_)));
   add_levels(problem, y, levels, least_level, beyond_all, move_);
   for (std::size_t c = 0; c < cases_.size(); ++c)
     for (std::size_t k = 0; k < constraints_[c].size(); ++k)
@@ -86,7 +86,7 @@ void Formulation::add_epigraph(Problem& problem, std::vector<double>& y) {
              const std::size_t t = n + cases_.group(c);
              if (cases_.state(c).unbounded) return beyond_all - x[t];
              const auto at = peak(c, k);
-             if (!at) return -1.0;
+             if (!at || cases_.state(c).peaks[*at].amplitude == 0) return -1.0;  // e.g. without excitation
              const double value = level(c, *at, g.first(std::min(n, g.size())));
              if (!g.empty()) g[t] = -1;
              return value - x[t];

@@ -118,7 +118,7 @@ Balance balance(const Cases& cases, std::span<const double> lower, std::span<con
     for (std::size_t i = 0; i < cases.state(c).peaks.size(); ++i) {
       const Peak& peak = cases.state(c).peaks[i];
       const std::size_t g = cases.group(c);
-      if (cases.weight(c) * peak.amplitude < (1 - as_high) * heights[g]) continue;
+      if (peak.amplitude == 0 || cases.weight(c) * peak.amplitude < (1 - as_high) * heights[g]) continue;
       result.active.push_back({c, i});
       columns.push_back(peak.gradient.cwiseProduct(p) / peak.amplitude);
       group.push_back(g);

@@ -166,6 +166,7 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
   options.progress = [&](const Progress&) { return goes_on(); };
   const auto search = [&](const std::vector<double>& start) {
     if (!more || !std::isfinite(worst.amplitude)) return;
+    if (look(peaks.at(start)) == 0) return;  // without excitation there is no way up from here
     const Result found = minimize(problem, box_->scaled(start), options);
     if (found.reason != Reason::user && found.reason != Reason::rounding && !is_converged(found.reason))
       throw std::runtime_error("the worst of what scatters was not found: " + found.message);

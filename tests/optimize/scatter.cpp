@@ -225,3 +225,11 @@ TEST_CASE("what scatters and makes no sense is told") {
   CHECK(error_of(both) == "a case sets \"k.value\", which scatters");
   CHECK_THROWS_AS(optimize::direct_optimum(closed_form(), with({{"k.value", 1, 2}})), optimize::OptionsError);
 }
+
+TEST_CASE("an excitation that may be missing altogether counts with its largest value") {
+  const Optimum found = optimize::optimum(closed_form(), with({{"force.cosine", 0, 1}}));
+  CAPTURE(found.stop.message);
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.design[0] == Approx(pi).epsilon(1e-6));  // p = 2 q
+  CHECK(found.amplitude == Approx(peak(pi / 2, pi / 4)).epsilon(1e-9));
+}

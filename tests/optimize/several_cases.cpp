@@ -115,6 +115,38 @@ TEST_CASE("a linear limit holds over several cases") {
         Approx(-std::log(amplitude[1] / amplitude[0]) / 0.01).epsilon(1e-3));
 }
 
+TEST_CASE("a search that begins outside a linear limit ends within it, lower than other loads on it") {
+  const scene::Scene s = row(2, 2, 15);
+  auto problem = over_loads(2, 8, 45);
+  problem.cases = {{{{"f.cosine", 1}}, 1}, {{{"f.cosine", 2}}, 1}};
+  problem.linear_limits = {{.weights = {{"d0.normal_load", 1}, {"d1.normal_load", 1}}, .at_most = 2}};
+  const Optimum found = optimize::optimum(s, problem, {.certificate = false});
+  CAPTURE(found.stop.message, found.design[0], found.design[1]);
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.feasible);
+  CHECK(found.design[0] + found.design[1] <= 2 * (1 + 1e-8));
+  for (const double first : {0.1, 0.2, 0.4, 0.8, 1.2})
+    CHECK(highest_peak(forced(s, 2), {first, 2 - first}, 8, 45) > found.amplitude);
+}
+
+TEST_CASE("a case without excitation leaves the optimum of the others as it is") {
+  const scene::Scene s = row(2, 2, 5);
+  for (const Criterion criterion : {Criterion::worst, Criterion::mean}) {
+    auto problem = over_loads(2, 8, 45);
+    problem.criterion = criterion;
+    problem.cases = {{{{"f.cosine", 0}}, 1}, {{{"f.cosine", 1}}, 1}};
+    const Optimum found = optimize::optimum(s, problem);
+    CAPTURE(found.stop.message);
+    CHECK(found.status == observables::Status::complete);
+    REQUIRE(found.certificate);
+    CHECK(found.certificate->stationarity < 1e-6);
+    CHECK(found.cases[0].amplitude == 0);
+    check_least(found, [&](const std::vector<double>& loads) {
+      return highest_peak(s, loads, 8, 45) / (criterion == Criterion::mean ? 2 : 1);
+    });
+  }
+}
+
 TEST_CASE("the gradient of both criteria is the difference of new responses") {
   const scene::Scene s = row(2, 2, 5);
   const std::vector<double> loads = {1.3, 2.1};
