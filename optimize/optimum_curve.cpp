@@ -23,6 +23,15 @@ constexpr double u_turn = -0.9;          // cosine of the tangents before and af
 constexpr double smallest_step = 1e-8;
 constexpr double same_point = 1e-9;  // of y and sigma
 
+bool is_change(const Event& event) {
+  return event.monitor.starts_with("change") || event.monitor == "peak_joins";
+}
+
+// What has ended a piece. An extremum or a turn may stand at the same place, after it.
+const std::string& last_change(const continuation::Branch& branch) {
+  return std::find_if(branch.events.rbegin(), branch.events.rend(), is_change)->monitor;
+}
+
 }  // namespace
 
 CurveOfOptima::CurveOfOptima(const scene::Scene& scene, const OptimumProblem& problem,
@@ -255,7 +264,7 @@ void CurveOfOptima::piece() {
             "the curve of optima turned back, and left the range at " + place(last.parameter));
       return;
     case StopReason::event:
-      change(branch.events.back().monitor, may_change, at);
+      change(last_change(branch), may_change, at);
       return;
     case StopReason::user:
       if (due && !user)
@@ -318,11 +327,10 @@ void CurveOfOptima::keep(const continuation::Branch& branch, const std::map<doub
     index.push_back(curve_.points.empty() ? 0 : curve_.points.size() - 1);
   }
   for (const Event& event : branch.events) {
-    const bool changes = event.monitor.starts_with("change") || event.monitor == "peak_joins";
     const Seen* at = find(event.point.arclength);
     // Along the curve the amplitude is stationary at turning points, too, where over s it is not.
     const bool only_turns = event.monitor != "turning_point" && at && std::abs(at->slope) > flat_slope;
-    if (!changes && !only_turns && at)
+    if (!is_change(event) && !only_turns && at)
       curve_.events.push_back({event.monitor, "", 0, event.nonsmooth, at->point, index[event.after]});
   }
 }

@@ -320,6 +320,21 @@ TEST_CASE("the curve ends where the response becomes unbounded, and says where")
   CHECK(curve.points.back().along > 0.9 * limit);
 }
 
+TEST_CASE("a bound that is left where everything comes to stick is no end without a reason") {
+  const OptimumProblem wide{{{"damper.normal_load", 0.5, 60}}, 15, 60};
+  const OptimumCurve curve = optimum_curve(levels(), wide, {"damper.friction_coefficient", 0.01, 50});
+  INFO(curve.stop.message);
+  CHECK(curve.stop.reason != "objective_failed");
+  // Only mu Fn counts: its optimum within the bounds, and what is nearest to it elsewhere.
+  const Optimum best = optimum(levels(), wide, {.certificate = false});
+  const double slip = 0.5 * best.design[0];
+  for (const OptimumPoint& at : curve.points)
+    if (at.along > slip / 60 && at.along < slip / 0.5)
+      CHECK(at.along * at.design[0] == Approx(slip).epsilon(1e-5));
+  REQUIRE_FALSE(events(curve, "bound_reached").empty());
+  CHECK(events(curve, "bound_reached")[0]->point.along == Approx(slip / 0.5).epsilon(1e-5));
+}
+
 TEST_CASE("a progress callback, a number of points and a time limit stop the curve") {
   int told = 0;
   OptimumCurveOptions options;
