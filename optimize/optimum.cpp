@@ -43,7 +43,11 @@ class Search {
           minimize_once();
           if (result_.status == Status::failed && best().value == stuck_value_)
             std::tie(result_.status, result_.stop) = before;  // the optimum is still that of the round before
-          if ((!verify() && !release()) || round + 1 == most_rounds) break;
+          came_up_ = false;
+          if (!verify() && !release()) break;
+          if (round + 1 < most_rounds) continue;
+          if (came_up_) stop_at_higher_peak();
+          break;
         }
       } while (add_worst_scatter());
     } catch (const OptionsError&) {
@@ -161,6 +165,12 @@ class Search {
     }
   }
 
+  // Once, however many rounds find it.
+  void note(std::string sentence) {
+    std::vector<std::string>& notes = result_.notes;
+    if (std::find(notes.begin(), notes.end(), sentence) == notes.end()) notes.push_back(std::move(sentence));
+  }
+
   // The responses at the best design. True where the search is to go on: with a higher peak than was seen, or
   // because others came up and went during a round that was not in vain.
   bool verify() {
@@ -173,18 +183,27 @@ class Search {
     cases().trace(start_);
     for (std::size_t c = 0; c < cases().size(); ++c)
       if (const PeakState& state = cases().state(c); !state.complete)
-        result_.notes.push_back(trials_.where(c) + "the response at " + space().text(start_) +
-                                " ends within the window: " + state.message);
+        note(trials_.where(c) + "the response at " + space().text(start_) +
+             " ends within the window: " + state.message);
     const double now = cases().value();
     const Formulation& formulation = trials_.formulation();
     const bool changed =
         formulation.epigraph() ? responses > round_responses_ : formulation.wants_epigraph(algorithm_);
     if (!(std::abs(now / seen - 1) > seen_before)) return changed && gained && !ended_;
-    result_.notes.push_back(text("at ", space().text(start_), " a peak of ", now,
-                                 " m came up beside those that were followed, the highest of which has ",
-                                 seen, " m"));
+    came_up_ = true;
+    note(text("at ", space().text(start_), " a peak of ", now,
+              " m came up beside those that were followed, the highest of which has ", seen, " m"));
     trials_.correct_best(now);
     return !ended_;
+  }
+
+  // Round after round a response at the best design has a peak that is lost on the way to it.
+  void stop_at_higher_peak() {
+    result_.status = Status::stopped;
+    result_.stop.reason = "other_peak";
+    result_.stop.message = text("the response at the best design had a higher peak than was followed, in ",
+                                most_rounds, " rounds and ", count(), " evaluations");
+    ended_ = true;
   }
 
   // Goes on with the dampers slipping that stick at the optimum; after that, once for each gain. A global
@@ -278,6 +297,7 @@ class Search {
   double round_value_ = infinity;  // least before it
   double round_excess_ = infinity;
   double stuck_value_ = infinity;  // least one from which stuck dampers were released
+  bool came_up_ = false;           // a higher peak, in the last response
   bool ended_ = false;
 };
 

@@ -5,8 +5,10 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
+#include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/optimum.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace arcslip;
@@ -214,6 +216,27 @@ TEST_CASE("limits that no design keeps are no complete answer, and the one neare
   CHECK_FALSE(found.feasible);
   CHECK_FALSE(found.certificate);
   CHECK(found.design[0] == Approx(0.1).epsilon(1e-6));
+}
+
+TEST_CASE("no design is a complete answer if the response of another is far below its own") {
+  // Near the lower end of the window the response folds out of it, and comes back to the resonance.
+  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/levels/scene.json");
+  scene::set(s, "k.value", 8600);
+  const OptimumProblem problem{{{"damper.normal_load", 0.5, 60}}, 15, 60};
+  const Optimum found = optimize::optimum(s, problem, {.certificate = false});
+  CAPTURE(found.stop.message, found.design[0]);
+  scene::set(s, "damper.normal_load", 1);
+  scene::Study study;
+  study.from = 15;
+  study.to = 60;
+  double most = 0;
+  for (const auto& branch : observables::frequency_response(s, study))
+    for (const auto& point : branch.points) most = std::max(most, point.amplitude);
+  CHECK(most > 0);
+  CHECK((found.status != observables::Status::complete || found.amplitude <= most));
+  auto notes = found.notes;
+  std::sort(notes.begin(), notes.end());
+  CHECK(std::adjacent_find(notes.begin(), notes.end()) == notes.end());
 }
 
 TEST_CASE("every algorithm that was asked for comes to the same optimum") {
