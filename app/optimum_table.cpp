@@ -60,7 +60,7 @@ void write_curve(std::ostream& out, const scene::Scene& scene, const optimize::O
           << with_unit(scene, result.problem.over[k].name, point.design[k]) << ", ";
     out << "A_max = " << number(point.amplitude, "%.8e") << " m at "
         << number(output::in_scene_unit(scene, point.response.omega), "%.8f") << ' '
-        << scene::unit_name(scene.frequency_unit) << what << (point.minimum ? "" : ", no minimum") << '\n';
+        << scene::unit_name(scene.frequency_unit) << what << (point.minimum ? "" : ", a saddle") << '\n';
   };
   std::size_t event = 0;
   for (std::size_t i = 0; i < curve.points.size(); ++i) {

@@ -64,7 +64,7 @@ Algorithm algorithm(const std::string& name) {
   }
   const std::string meant = suggestion(name, names);
   throw OptionsError("no algorithm \"" + name + "\" in this NLopt" +
-                     (meant.empty() ? "" : "; did you mean \"" + meant + "\"?") + " Known: " + list);
+                     (meant.empty() ? "." : "; did you mean \"" + meant + "\"?") + " Known: " + list);
 }
 
 }  // namespace arcslip::optimize

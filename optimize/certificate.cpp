@@ -93,6 +93,10 @@ class Certifier {
       design[k] = value;
       cases_.at(design);
       const double now = cases_.value(), level = std::log(now / value_);
+      if (now < lowest_) {
+        lowest_ = now;
+        result_.lower_design = design;
+      }
       if (std::abs(level - target) <= range_accuracy * share) return value;
       if (level < target) {
         if (value == bound) {
@@ -197,6 +201,7 @@ class Certifier {
   std::span<const double> lower_, upper_;
   const std::vector<double> design_;
   const double value_;
+  double lowest_ = (1 - same_amplitude) * value_;
   const Vector gradient_;
   std::vector<PeakState> optimum_;  // of each case
   std::vector<double> levels_;      // of each group

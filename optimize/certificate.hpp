@@ -54,10 +54,12 @@ struct Certificate {
   Eigen::MatrixXd curvature;  // d2V/dp_j dp_k; empty where several peaks of a case are active (worst: of all
                               // cases), or at a kink
   std::vector<std::vector<ToleranceRange>> ranges;  // of each parameter: shares 0.01 and 0.05
-  std::vector<CertifiedPeak> peaks;                 // that are watched
-  std::vector<ActiveLimit> limits;                  // that are active
-  std::vector<int> at_bound;                        // of each parameter: -1 lower, 1 upper, 0 inside
-  std::vector<OtherResponse> others;                // found on other branches, at the optimum's design
+  std::vector<double> lower_design;   // where V is lowest among the designs seen on the way to their ends, if
+                                      // that is lower than V_opt; limits were not looked at
+  std::vector<CertifiedPeak> peaks;   // that are watched
+  std::vector<ActiveLimit> limits;    // that are active
+  std::vector<int> at_bound;          // of each parameter: -1 lower, 1 upper, 0 inside
+  std::vector<OtherResponse> others;  // found on other branches, at the optimum's design
   bool others_lower = true;  // none of them is higher than the highest of its case (worst: of all, weighted)
 };
 

@@ -20,6 +20,7 @@ using observables::Status;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double seen_before = 1e-8;  // relative: a response that is higher by more has a peak not watched
 constexpr int most_rounds = 12;
+constexpr int most_restarts = 5;
 constexpr double gain = 1e-7;            // relative, of a round that is worth another one
 constexpr double small_gradient = 1e-8;  // of d ln V / d ln p: what is left is rounding
 constexpr double as_good = 1e-13;        // relative: values that differ by rounding
@@ -34,30 +35,21 @@ class Search {
   }
 
   Optimum run() {
-    try {
-      start_ = space().start(result_.notes);
-      do {
-        begin();
-        for (int round = 0; !ended_; ++round) {
-          const auto before = std::pair(result_.status, result_.stop);
-          minimize_once();
-          if (result_.status == Status::failed && best().value == stuck_value_)
-            std::tie(result_.status, result_.stop) = before;  // the optimum is still that of the round before
-          came_up_ = false;
-          if (!verify() && !release()) break;
-          if (round + 1 < most_rounds) continue;
-          if (came_up_) stop_at_higher_peak();
-          break;
-        }
-      } while (add_worst_scatter());
-    } catch (const OptionsError&) {
-      throw;  // an algorithm that does not take what was given
-    } catch (const std::exception& thrown) {
-      result_.status = Status::failed;
-      result_.stop.reason = name(Reason::objective_failed);
-      result_.stop.message = text("it threw \"", thrown.what(), "\" after ", count(), " evaluations");
-    }
-    finish();
+    start_ = space().start(result_.notes);
+    do {
+      try {
+        search();
+      } catch (const OptionsError&) {
+        throw;  // an algorithm that does not take what was given
+      } catch (const std::exception& thrown) {
+        result_.status = Status::failed;
+        result_.stop.reason = name(Reason::objective_failed);
+        result_.stop.message = text("it threw \"", thrown.what(), "\" after ", count(), " evaluations");
+      }
+    } while (!finish());
+    result_.evaluations = std::move(trials_.evaluations());
+    result_.work = cases().work();
+    result_.seconds = trials_.seconds();
     return std::move(result_);
   }
 
@@ -66,6 +58,23 @@ class Search {
   const DesignSpace& space() const { return trials_.space(); }
   const Best& best() const { return trials_.best(); }
   std::size_t count() { return trials_.evaluations().size(); }
+
+  void search() {
+    do {
+      begin();
+      for (int round = 0; !ended_; ++round) {
+        const auto before = std::pair(result_.status, result_.stop);
+        minimize_once();
+        if (result_.status == Status::failed && best().value == stuck_value_)
+          std::tie(result_.status, result_.stop) = before;  // the optimum is still that of the round before
+        came_up_ = false;
+        if (!verify() && !release()) break;
+        if (round + 1 < most_rounds) continue;
+        if (came_up_) stop_at_higher_peak();
+        break;
+      }
+    } while (add_worst_scatter());
+  }
 
   void begin() {
     const Start start = find_start(trials_, start_, result_.notes);
@@ -244,32 +253,72 @@ class Search {
     return false;
   }
 
-  void finish() {
+  // False where the search is to go on, from the start.
+  bool finish() {
     result_.design = best().design;
     result_.amplitude = best().value;
-    if (!best().design.empty() && std::isfinite(best().value)) {
-      if (!cases().stand_at(best().design)) cases().trace(best().design);
-      result_.feasible = best().excess == 0;
-      if (!result_.feasible && result_.status == Status::complete) {
-        result_.status = Status::stopped;
-        result_.stop.reason = "infeasible";
-        result_.stop.message = "no design that keeps within the limits was found: " + result_.stop.message;
-      }
-      result_.stop.message +=
-          text("; the least amplitude is ", best().value, " m at ", space().text(best().design));
-      if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
-      if (std::isfinite(cases().value())) {
-        const std::vector<ActiveLimit> limits = trials_.formulation().active();
-        describe_cases(limits);
-        if (options_.certificate && result_.status == Status::complete && result_.stop.reason != "flat")
-          result_.certificate = certify(cases(), space().lower(), space().upper(), limits, [this] {
-            return options_.seconds == 0 || trials_.seconds() < options_.seconds;
-          });
+    if (best().design.empty() || !std::isfinite(best().value)) return true;
+    if (best().excess > 0 && result_.status == Status::complete) {
+      if (find_feasible()) return false;
+      result_.status = Status::stopped;
+      result_.stop.reason = "infeasible";
+      result_.stop.message = "no design that keeps within the limits was found: " + result_.stop.message;
+    }
+    if (!cases().stand_at(best().design)) cases().trace(best().design);
+    result_.feasible = best().excess == 0;
+    if (std::isfinite(cases().value())) {
+      const std::vector<ActiveLimit> limits = trials_.formulation().active();
+      describe_cases(limits);
+      if (options_.certificate && result_.status == Status::complete && result_.stop.reason != "flat") {
+        result_.certificate = certify(cases(), space().lower(), space().upper(), limits, [this] {
+          return options_.seconds == 0 || trials_.seconds() < options_.seconds;
+        });
+        if (passed_lower()) return false;
       }
     }
-    result_.evaluations = std::move(trials_.evaluations());
-    result_.work = cases().work();
-    result_.seconds = trials_.seconds();
+    result_.stop.message +=
+        text("; the least amplitude is ", best().value, " m at ", space().text(best().design));
+    if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
+    return true;
+  }
+
+  // Other starts, once, where the search came to no design that keeps the limits.
+  bool find_feasible() {
+    if (std::exchange(looked_elsewhere_, true)) return false;
+    const std::string exceeds = space().text(best().design);
+    for (int k = 0; k < space().attempts() && best().excess > 0 && !trials_.user_stopped(); ++k)
+      trials_.evaluate(space().attempt(k), true);
+    if (best().excess > 0) return false;
+    start_ = best().design;
+    note("the search came to " + exceeds + ", where a limit is exceeded, and went on from " +
+         space().text(start_) + ", where none is");
+    return true;
+  }
+
+  // A lower design on the way to the end of a tolerance range.
+  bool passed_lower() {
+    const std::vector<double> lower = std::exchange(result_.certificate->lower_design, {});
+    if (lower.empty()) return false;
+    const double value = best().value;
+    const std::string left = space().text(best().design);
+    trials_.evaluate(lower, true);
+    if (best().excess > 0 || !(best().value < (1 - gain) * value)) return false;
+    if (restarts_++ == most_restarts) {
+      result_.status = Status::stopped;
+      result_.stop.reason = "lower_beside";
+      result_.stop.message = text("there was a lower design beside each of ", most_restarts, " minima");
+      result_.design = best().design;
+      result_.amplitude = best().value;
+      result_.certificate.reset();
+      result_.cases.clear();
+      describe_cases(trials_.formulation().active());
+      return false;
+    }
+    start_ = lower;
+    result_.certificate.reset();
+    result_.cases.clear();
+    note("the search came to a minimum at " + left + ", and went on from the lower " + space().text(lower));
+    return true;
   }
 
   void describe_cases(const std::vector<ActiveLimit>& limits) {
@@ -298,6 +347,8 @@ class Search {
   double round_excess_ = infinity;
   double stuck_value_ = infinity;  // least one from which stuck dampers were released
   bool came_up_ = false;           // a higher peak, in the last response
+  bool looked_elsewhere_ = false;  // for a design that keeps the limits
+  int restarts_ = 0;               // from lower designs beside a minimum
   bool ended_ = false;
 };
 

@@ -336,3 +336,37 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("beside a minimum, a lower design on the way to the end of its tolerance range is taken up") {
+  scene::Scene s = example("levels/scene.json");
+  scene::set(s, "k.value", 9000);  // the resonance reaches the lower end of the window
+  const optimize::OptimumProblem over_load{{{"damper.normal_load", 0.5, 60}}, 15, 60};
+  const auto found = optimize::optimum(s, over_load);
+  REQUIRE(found.status == observables::Status::complete);
+  CHECK(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
+    return note.find("went on from the lower damper.normal_load") != std::string::npos;
+  }));
+  const auto global =
+      optimize::optimum(s, over_load, {.algorithm = "GN_DIRECT_L", .evaluations = 100, .certificate = false});
+  CHECK(found.amplitude <= (1 + 1e-9) * global.amplitude);
+  CHECK(found.certificate->at_bound == std::vector<int>{-1});
+}
+
+TEST_CASE("where a search cannot keep a limit from its start, designs elsewhere are looked at") {
+  scene::Scene s = scenes::paper(15, 3);
+  scene::set(s, "c.value", 3);
+  optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
+  problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});  // stuck, or nearly free
+  const auto found = optimize::optimum(s, problem);
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.feasible);
+  CHECK(found.point.energy_friction <= 1e-4 * (1 + 1e-6));
+  scene::set(s, "damper.normal_load", found.design.at(0));
+  scene::Study frf;
+  frf.from = 15;
+  frf.to = 24;
+  double highest = 0;
+  for (const auto& branch : observables::frequency_response(s, frf))
+    for (const auto& event : branch.events) highest = std::max(highest, event.point.amplitude);
+  CHECK(found.amplitude == Approx(highest).epsilon(1e-8));
+}
