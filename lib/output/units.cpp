@@ -2,6 +2,8 @@
 
 #include <array>
 #include <charconv>
+#include <cstdio>
+#include <cstdlib>
 
 namespace arcslip::output {
 std::string parameter_unit(const scene::Scene& scene, std::string_view parameter) {
@@ -23,7 +25,9 @@ std::string shortest(double value) {
 }
 
 std::string quantity(double value, std::string_view unit) {
-  std::string text = shortest(value);
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.10g", value);  // without the last digits' rounding
+  std::string text = shortest(std::strtod(digits, nullptr));
   if (!unit.empty() && unit != "-") {
     text.append(" ").append(unit);
   }

@@ -19,7 +19,7 @@ std::string with_unit(std::string_view quantity, std::string_view unit);
 /// The shortest text that reads back as this number: "3", "0.01", "1e-12"; "nan", "inf", "-inf".
 std::string shortest(double value);
 
-/// "3 N"; a pure number stands alone.
+/// "3 N", to ten digits; a pure number stands alone.
 std::string quantity(double value, std::string_view unit);
 
 /// "damper.normal_load = 3 N, c.value = 0.1 N s/m"; "" for no parameter.
