@@ -38,13 +38,13 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
       if (event.kind != "minimum" || (result.found && event.point.amplitude >= result.point.amplitude))
         continue;
       const double highest = peaks.trace(std::span(&event.point.over, 1)).amplitude();
-      if (highest <= (1 + as_high) * event.point.amplitude) {
+      if (!(highest > (1 + as_high) * event.point.amplitude)) {
         result.found = true;
         result.point = event.point;
       } else if (higher.empty()) {
         higher = text("a curve of peaks has a minimum of ", event.point.amplitude, " m at ", study.over,
                       " = ", event.point.over, ", where the largest amplitude is ", highest,
-                      " m: it is least where two are equally high, or at a bound");
+                      " m: another peak is higher there");
       }
     }
   if (!result.found)

@@ -36,17 +36,25 @@ class Search {
 
   Optimum run() {
     start_ = space().start(result_.notes);
-    do {
+    for (bool goes_on = true; goes_on;) {
       try {
         search();
+        goes_on = has_better_start();
       } catch (const OptionsError&) {
         throw;  // an algorithm that does not take what was given
       } catch (const std::exception& thrown) {
+        goes_on = false;
         result_.status = Status::failed;
         result_.stop.reason = name(Reason::objective_failed);
         result_.stop.message = text("it threw \"", thrown.what(), "\" after ", count(), " evaluations");
       }
-    } while (!finish());
+    }
+    describe();
+    if (!result_.design.empty() && std::isfinite(result_.amplitude)) {
+      result_.stop.message +=
+          text("; the least amplitude is ", result_.amplitude, " m at ", space().text(result_.design));
+      if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
+    }
     result_.evaluations = std::move(trials_.evaluations());
     result_.work = cases().work();
     result_.seconds = trials_.seconds();
@@ -65,7 +73,8 @@ class Search {
       for (int round = 0; !ended_; ++round) {
         const auto before = std::pair(result_.status, result_.stop);
         minimize_once();
-        if (result_.status == Status::failed && best().value == stuck_value_)
+        if (result_.status == Status::failed && best().value == stuck_value_ &&
+            result_.stop.reason != name(Reason::objective_failed))
           std::tie(result_.status, result_.stop) = before;  // the optimum is still that of the round before
         came_up_ = false;
         if (!verify() && !release()) break;
@@ -253,43 +262,38 @@ class Search {
     return false;
   }
 
-  // False where the search is to go on, from the start.
-  bool finish() {
-    result_.design = best().design;
-    result_.amplitude = best().value;
-    if (best().design.empty() || !std::isfinite(best().value)) return true;
-    if (best().excess > 0 && result_.status == Status::complete) {
-      if (find_feasible()) return false;
+  // True where the search is to go on, from another start. Certifies the optimum where it is not.
+  bool has_better_start() {
+    if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
+      return false;
+    if (best().excess > 0) {
+      if (find_feasible()) return true;
+      if (interrupted()) return false;
       result_.status = Status::stopped;
       result_.stop.reason = "infeasible";
       result_.stop.message = "no design that keeps within the limits was found: " + result_.stop.message;
+      return false;
     }
-    if (!cases().stand_at(best().design)) cases().trace(best().design);
-    result_.feasible = best().excess == 0;
-    if (std::isfinite(cases().value())) {
-      const std::vector<ActiveLimit> limits = trials_.formulation().active();
-      describe_cases(limits);
-      if (options_.certificate && result_.status == Status::complete && result_.stop.reason != "flat") {
-        result_.certificate = certify(cases(), space().lower(), space().upper(), limits, [this] {
-          return options_.seconds == 0 || trials_.seconds() < options_.seconds;
-        });
-        if (passed_lower()) return false;
-      }
-    }
-    result_.stop.message +=
-        text("; the least amplitude is ", best().value, " m at ", space().text(best().design));
-    if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
-    return true;
+    if (!options_.certificate || result_.stop.reason == "flat") return false;
+    describe();
+    if (result_.cases.empty()) return false;
+    result_.certificate =
+        certify(cases(), space().lower(), space().upper(), trials_.formulation().active(),
+                [this] { return options_.seconds == 0 || trials_.seconds() < options_.seconds; });
+    return passed_lower();
   }
 
   // Other starts, once, where the search came to no design that keeps the limits.
   bool find_feasible() {
     if (std::exchange(looked_elsewhere_, true)) return false;
     const std::string exceeds = space().text(best().design);
-    for (int k = 0; k < space().attempts() && best().excess > 0 && !trials_.user_stopped(); ++k)
+    for (int k = 0; k < space().attempts() && best().excess > 0; ++k) {
+      if (!trials_.interruption().reason.empty()) return false;
       trials_.evaluate(space().attempt(k), true);
+    }
     if (best().excess > 0) return false;
     start_ = best().design;
+    stuck_value_ = infinity;
     note("the search came to " + exceeds + ", where a limit is exceeded, and went on from " +
          space().text(start_) + ", where none is");
     return true;
@@ -307,21 +311,25 @@ class Search {
       result_.status = Status::stopped;
       result_.stop.reason = "lower_beside";
       result_.stop.message = text("there was a lower design beside each of ", most_restarts, " minima");
-      result_.design = best().design;
-      result_.amplitude = best().value;
-      result_.certificate.reset();
-      result_.cases.clear();
-      describe_cases(trials_.formulation().active());
       return false;
     }
     start_ = lower;
-    result_.certificate.reset();
-    result_.cases.clear();
     note("the search came to a minimum at " + left + ", and went on from the lower " + space().text(lower));
     return true;
   }
 
-  void describe_cases(const std::vector<ActiveLimit>& limits) {
+  // What is known of the best design. A certificate of another one is dropped.
+  void describe() {
+    if (result_.design == best().design && !result_.cases.empty()) return;
+    result_.design = best().design;
+    result_.amplitude = best().value;
+    result_.feasible = best().excess == 0;
+    result_.cases.clear();
+    result_.certificate.reset();
+    if (best().design.empty() || !std::isfinite(best().value)) return;
+    if (!cases().stand_at(best().design)) cases().trace(best().design);
+    if (!std::isfinite(cases().value())) return;
+    const std::vector<ActiveLimit> limits = trials_.formulation().active();
     for (std::size_t c = 0; c < cases().size(); ++c) {
       const PeakState& state = cases().state(c);
       CaseResult each = trials_.scenarios().result(trials_.scenario(c));

@@ -64,12 +64,12 @@ TEST_CASE("a damper that sticks where the search begins slips where it ends") {
     s = row(2, 2, 5);
     scene::set(s, parameter, 40);
     for (const char* const algorithm : {"LD_SLSQP", "LD_MMA"}) {
-      const Optimum found = optimize::optimum(s, problem, {.algorithm = algorithm, .certificate = false});
+      // LD_MMA comes nearer by a constant factor in each step: its last one says less of the error.
+      const Optimum found = optimize::optimum(
+          s, problem, {.algorithm = algorithm, .tolerances = {.x_absolute = 1e-9}, .certificate = false});
       CAPTURE(parameter, algorithm, found.stop.message);
       CHECK(found.status == observables::Status::complete);
-      // LD_MMA comes nearer by a constant factor in each step, to the last of 1e-7 in ln p, at a kink of A.
-      const double nearest = algorithm == std::string("LD_MMA") ? 1e-6 : 1e-7;
-      CHECK(found.amplitude == Approx(slipping.amplitude).epsilon(nearest));
+      CHECK(found.amplitude == Approx(slipping.amplitude).epsilon(1e-7));
       CHECK(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
         return note.find("a friction element sticks") != std::string::npos;
       }));
