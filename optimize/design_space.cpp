@@ -40,7 +40,7 @@ DesignSpace::DesignSpace(const scene::Scene& scene, const OptimumProblem& proble
     parameters_.push_back(model::parameter_index(*model, v.name));
     lower_.push_back(v.lower);
     upper_.push_back(v.upper);
-    logarithmic_.push_back(v.lower > 0 || v.upper < 0);
+    scales_.emplace_back(v.lower, v.upper);
   }
   model_ = std::move(model);
   for (const LinearLimit& limit : problem.linear_limits) {
@@ -94,26 +94,19 @@ std::vector<double> DesignSpace::attempt(int k) const {
 
 std::vector<double> DesignSpace::scaled(std::span<const double> design) const {
   std::vector<double> y;
-  for (std::size_t k = 0; k < design.size(); ++k)
-    y.push_back(!logarithmic_[k] ? design[k] / std::max(std::abs(lower_[k]), std::abs(upper_[k]))
-                : lower_[k] > 0  ? std::log(design[k])
-                                 : -std::log(-design[k]));
+  for (std::size_t k = 0; k < design.size(); ++k) y.push_back(scales_[k].scaled(design[k]));
   return y;
 }
 
 std::vector<double> DesignSpace::design(std::span<const double> y) const {
   std::vector<double> design;
-  for (std::size_t k = 0; k < names_.size(); ++k) {
-    const double value = !logarithmic_[k] ? y[k] * std::max(std::abs(lower_[k]), std::abs(upper_[k]))
-                         : lower_[k] > 0  ? std::exp(y[k])
-                                          : -std::exp(-y[k]);
-    design.push_back(std::clamp(value, lower_[k], upper_[k]));
-  }
+  for (std::size_t k = 0; k < names_.size(); ++k)
+    design.push_back(std::clamp(scales_[k].value(y[k]), lower_[k], upper_[k]));
   return design;
 }
 
 double DesignSpace::slope(std::size_t k, double value) const {
-  return logarithmic_[k] ? std::abs(value) : std::max(std::abs(lower_[k]), std::abs(upper_[k]));
+  return scales_[k].slope(value);
 }
 
 PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const {

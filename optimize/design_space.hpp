@@ -1,8 +1,9 @@
 #pragma once
-// The parameters that a search is over, and the variables y that NLopt sees in their place: ln p where both
-// bounds have one sign and are not zero, else p over the larger bound. Not installed.
+// The parameters that a search is over, and the variables y that NLopt sees in their place
+// (scaled_parameter.hpp). Not installed.
 
 #include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/scaled_parameter.hpp>
 
 #include <memory>
 #include <span>
@@ -20,6 +21,8 @@ class DesignSpace {
   const std::vector<int>& parameters() const { return parameters_; }
   std::span<const double> lower() const { return lower_; }
   std::span<const double> upper() const { return upper_; }
+
+  const std::vector<ScaledParameter>& scales() const { return scales_; }
 
   /// The model's own values, moved onto the bounds where they are outside, which is noted.
   std::vector<double> start(std::vector<std::string>& notes) const;
@@ -54,7 +57,7 @@ class DesignSpace {
   std::vector<std::string> names_;
   std::vector<int> parameters_;
   std::vector<double> lower_, upper_;
-  std::vector<bool> logarithmic_;
+  std::vector<ScaledParameter> scales_;
   std::vector<Linear> linear_;
   double to_unit_;  // from rad/s to the scene's unit of frequency
 };

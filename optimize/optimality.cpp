@@ -18,20 +18,6 @@ constexpr double same_direction = 1e-9;  // of a gradient: what is less adds no 
 
 }  // namespace
 
-ScaledParameter::ScaledParameter(double lower_bound, double upper_bound)
-    : lower(lower_bound),
-      upper(upper_bound),
-      logarithmic(lower > 0 || upper < 0),
-      unit(std::max(std::abs(lower), std::abs(upper))) {}
-
-double ScaledParameter::scaled(double value) const {
-  return !logarithmic ? value / unit : lower > 0 ? std::log(value) : -std::log(-value);
-}
-
-double ScaledParameter::value(double y) const {
-  return !logarithmic ? y * unit : lower > 0 ? std::exp(y) : -std::exp(-y);
-}
-
 Eigen::Index ActiveSet::free() const {
   return std::count(held.begin(), held.end(), 0);
 }

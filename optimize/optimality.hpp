@@ -20,27 +20,13 @@
 
 #include <arcslip/continuation/problem.hpp>
 #include <arcslip/optimize/peak_amplitude.hpp>
+#include <arcslip/optimize/scaled_parameter.hpp>
 
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace arcslip::optimize {
-
-/// y of a parameter, and back.
-struct ScaledParameter {
-  ScaledParameter(double lower_bound, double upper_bound);
-
-  double scaled(double value) const;
-  double value(double y) const;
-  double slope(double value) const { return logarithmic ? std::abs(value) : unit; }  // dp/dy
-  double second(double value) const { return logarithmic ? value : 0; }              // d2p/dy2
-  double bound(int side) const { return side < 0 ? lower : upper; }
-
-  double lower, upper;
-  bool logarithmic;
-  double unit;
-};
 
 struct ActiveSet {
   std::vector<std::size_t> peaks;  // indices of PeakState::peaks

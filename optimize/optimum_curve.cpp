@@ -44,8 +44,7 @@ CurveOfOptima::CurveOfOptima(const scene::Scene& scene, const OptimumProblem& pr
       unit_(scene::to_rad_per_s(scene.frequency_unit)),
       peaks_(space_.model(), space_.parameters(),
              {problem.frequency_from * unit_, problem.frequency_to * unit_}) {
-  for (std::size_t k = 0; k <= problem.over.size(); ++k)
-    scaled_.emplace_back(space_.lower()[k], space_.upper()[k]);
+  scaled_ = space_.scales();
   curve_.along = along.name;
   if (!(options.points >= 1)) throw OptionsError(text("points = ", options.points, ": at least 1"));
   if (!(options.seconds >= 0)) throw OptionsError(text("seconds = ", options.seconds, ": at least 0"));
