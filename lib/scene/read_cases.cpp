@@ -102,7 +102,7 @@ void read_scatter(const Place& place, const Parameters& all, Study& study, Fault
     const std::size_t before = faults.count();
     const Field field = bounds_of(member->key, item.pointer, all, faults);
     if (faults.count() == before && !is_taken(member->key, item.pointer, study, faults)) {
-      DesignVariable& variable = scatter.emplace_back(member->key);
+      DesignVariable& variable = scatter.emplace_back(DesignVariable{member->key});
       std::tie(variable.lower, variable.upper) =
           read_pair(item, "a pair [lower, upper], each " + allowed_text(field), field, "bound", faults);
     }
