@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace arcslip::elements {
+namespace {
+
+constexpr double same_height = 1e-12;  // of the range of the motion
+
+}  // namespace
 
 FrictionPhases::FrictionPhases(const Harmonics& harmonics) : harmonics_(harmonics), reversals_(harmonics) {
   path_.reserve(static_cast<std::size_t>(8 * harmonics.order + 32));
@@ -45,8 +50,10 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
     for (std::size_t k = 0; k < path_.size(); ++k)
       if (path_[k].x < path_[bottom].x) bottom = k;
   lowest_ = path_[bottom];
-  extremes_ = top * turns.size() + (top + bottom) % turns.size();
-  if (highest_.x - lowest_.x <= 2 * slip_displacement) return phases_;
+  if (highest_.x - lowest_.x <= 2 * slip_displacement) {
+    if (!harmonics_.odd) choose_extremes(turns);
+    return phases_;
+  }
 
   Reversal anchor = path_.front();
   double anchored = 1;
@@ -66,6 +73,18 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
   if (anchor.theta < path_.back().theta)
     phases_.push_back({anchor.theta, anchor.x, anchored, path_.back().theta, 1, path_.back().theta});
   return phases_;
+}
+
+// Of several highest reversals, as a motion of a shorter period than the force's has them, the first one, and
+// of several lowest: which of them rounding makes the highest tells nothing.
+void FrictionPhases::choose_extremes(const std::vector<Reversal>& turns) {
+  const double same = same_height * (highest_.x - lowest_.x);
+  std::size_t top = 0, bottom = 0;
+  while (turns[top].x < highest_.x - same) ++top;
+  while (turns[bottom].x > lowest_.x + same) ++bottom;
+  highest_.theta = turns[top].theta;
+  lowest_.theta = turns[bottom].theta;
+  extremes_ = top * turns.size() + bottom;
 }
 
 }  // namespace arcslip::elements

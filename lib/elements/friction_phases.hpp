@@ -27,11 +27,13 @@ class FrictionPhases {
   /// Largest and smallest x of the last search; the angles where they are.
   Reversal highest() const { return highest_; }
   Reversal lowest() const { return lowest_; }
-  /// Which of the reversals those are: another number where another reversal becomes the highest or the
-  /// lowest.
+  /// Where there is no slip and the motion has a mean, which of the reversals those are: another number where
+  /// another reversal becomes the highest or the lowest. Of equal ones, the first.
   std::uint64_t extremes() const { return extremes_; }
 
  private:
+  void choose_extremes(const std::vector<Reversal>& turns);
+
   Harmonics harmonics_;
   Reversals reversals_;
   std::vector<Reversal> path_;

@@ -41,6 +41,7 @@ class Jenkins final : public Element {
     fields_ = {fields[0], fields[1], fields[2]};
     const double kd = fields[stiffness], p = fields[friction_coefficient] * fields[normal_load];
     const double reach = series_bound(h_, u, 0);
+    limit_ = p;
     sliding_ = nullptr;
     frictionless_ = p == 0 && reach == 0;
     if (frictionless_) {
@@ -80,7 +81,7 @@ class Jenkins final : public Element {
   }
 
   std::uint64_t piece() const override {
-    if (frictionless_) return 0;
+    if (frictionless_ || limit_ == 0) return 0;                 // no force, whatever the phases
     if (!sliding_) return h_.odd ? 1 : 2 + phases_.extremes();  // the centre follows both extremes
     std::uint64_t hash = 1469598103934665603ull;
     for (const FrictionPhase& phase : *sliding_) {
@@ -203,6 +204,7 @@ class Jenkins final : public Element {
   std::vector<double> inverse_;
   std::array<double, 3> fields_{};
   const std::vector<FrictionPhase>* sliding_ = nullptr;
+  double limit_ = 0;
   bool frictionless_ = false;
 };
 

@@ -224,3 +224,38 @@ TEST_CASE("full stick is a centred linear spring, mean included") {
   element->move_to(shifted, Fields{2.0, 0.5, 1e3}, true);
   CHECK((element->force() - F).norm() < 1e-13);  // the slider has no memory of where it stands
 }
+
+TEST_CASE(
+    "an element that sticks stays in its piece, whichever of equal extremes rounding makes the highest") {
+  // A motion of half the period of the force has each of its extremes twice.
+  const Harmonics h{7, false};
+  const auto element = make_jenkins(h);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int trial = 0; trial < 20; ++trial) {
+    Eigen::VectorXd u = motion(h, 1, static_cast<unsigned>(trial));
+    for (int n = 1; n <= h.order; n += 2) u[h.cosine_index(n)] = u[h.sine_index(n)] = 0;
+    const Fields fields{1, 0.5, 100};
+    element->move_to(u, fields, false);
+    const auto piece = element->piece();
+    for (int k = 0; k < 50; ++k) {
+      Eigen::VectorXd rounded = u;
+      for (double& x : rounded) x += 1e-15 * number(random);
+      element->move_to(rounded, fields, true);
+      REQUIRE(element->piece() == piece);
+    }
+  }
+}
+
+TEST_CASE("an element without load has one piece, whatever its motion") {
+  const Harmonics h{5, false};
+  const auto element = make_jenkins(h);
+  const Fields fields{2, 0.5, 0};
+  element->move_to(motion(h, 1, 1), fields, false);
+  const auto piece = element->piece();
+  for (unsigned seed = 2; seed < 30; ++seed) {
+    element->move_to(motion(h, 1, seed), fields, false);
+    CHECK(element->piece() == piece);
+    CHECK(element->force().norm() < 1e-14);
+  }
+}

@@ -1,5 +1,6 @@
 #include "lib/hbm/random_scenes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -73,6 +74,62 @@ scene::Scene make(std::uint64_t seed, Excitation excitation) {
   study.name = "frf";
   study.from = random.between(4, 20);
   study.to = study.from + random.between(5, 20);
+  s.studies.push_back(study);
+  scene::check(s);
+  return s;
+}
+
+scene::Scene hard(std::uint64_t seed) {
+  Random random(seed + 0x9e3779b97f4a7c15u);
+  scene::Scene s;
+  s.frequency_unit = scene::FrequencyUnit::radian_per_second;
+  const int masses = random.count(1, 6), dampers = random.count(1, 5), forces = random.count(1, 2);
+  const double mass = random.logarithmic(0.05, 10), stiffness = random.logarithmic(1, 1e4),
+               force = random.logarithmic(0.01, 100);
+  const auto add_spring = [&](const std::string& number, const scene::Direction& direction) {
+    const double k = stiffness * random.logarithmic(0.3, 3);
+    s.springs.push_back({"k" + number, &scene::spring_type, direction, {k}});
+    s.dampers.push_back({"c" + number,
+                         &scene::damper_type,
+                         direction,
+                         {2 * random.logarithmic(1e-4, 3e-2) * std::sqrt(k * mass)}});
+  };
+  for (int i = 0; i < masses; ++i) {
+    const std::string number = std::to_string(i + 1);
+    s.dofs.push_back("x" + number);
+    s.masses.push_back({"m" + number, &scene::mass_type, {{i, 1.0}}, {mass * random.logarithmic(0.3, 3)}});
+    add_spring(number, tie(i, false));
+  }
+  if (random.count(0, 1) == 1) add_spring("end", {{masses - 1, 1.0}});
+  const auto between = [&] {
+    const int a = random.count(0, masses - 1), b = random.count(-1, masses - 1);
+    return b < 0 || a == b ? scene::Direction{{a, 1.0}} : scene::Direction{{a, 1.0}, {b, -1.0}};
+  };
+  for (int e = 0; e < dampers; ++e) {
+    const auto direction = between();
+    const double kd = stiffness * random.logarithmic(0.05, 5), mu = random.between(0.1, 0.9);
+    const double load = random.count(1, 12) == 1 ? 0 : force * random.logarithmic(0.01, 100);
+    s.elements.push_back({"d" + std::to_string(e + 1), &scene::jenkins_type, direction, {kd, mu, load}});
+  }
+  int highest = 1;
+  for (int f = 0; f < forces; ++f) {
+    const auto direction = between();
+    const int harmonic = random.count(1, 3);
+    highest = std::max(highest, harmonic);
+    const double size = force * random.logarithmic(0.1, 1), angle = random.between(0, 6.28);
+    s.excitation.push_back({"f" + std::to_string(f + 1),
+                            &scene::force_type,
+                            direction,
+                            {size * std::cos(angle), size * std::sin(angle)},
+                            harmonic});
+  }
+  s.harmonics.order = std::array{3, 5, 7}[static_cast<std::size_t>(random.count(0, 2))];
+  s.response = {{random.count(0, masses - 1), 1.0}};
+  scene::Study study;
+  study.name = "frf";
+  const double frequency = std::sqrt(stiffness / mass);
+  study.from = frequency * random.between(0.1, 0.8) / highest;
+  study.to = study.from + frequency * random.between(0.5, 2);
   s.studies.push_back(study);
   scene::check(s);
   return s;

@@ -16,4 +16,10 @@ enum class Excitation { first, first_and_third, first_and_second };
 /// a window within 4 Hz to 40 Hz.
 arcslip::scene::Scene make(std::uint64_t seed, Excitation excitation);
 
+/// Harder ones: a chain of 1 to 6 masses, tied to the ground at one end or at both, with masses and springs
+/// over a decade and viscous damping of 0.01 % to 3 %; 1 to 5 friction dampers between any two masses or to
+/// the ground, over two decades of stiffness and four of load, one in twelve without load; one or two forces
+/// in the first three harmonics; N of 3, 5 or 7, and a window around the resonances.
+arcslip::scene::Scene hard(std::uint64_t seed);
+
 }  // namespace random_scenes
