@@ -81,6 +81,13 @@ class SampledJenkins final : public Element {
       angles.push_back(std::fmod(at + shift, 2 * std::numbers::pi));
   }
 
+  // A sample that slips in the direction `sign`, after one that slipped or stuck with the force `before`.
+  void note_slip(int sample, double sign, bool slipped, double before) {
+    if (slipped && sign == before) return;
+    if (slipped) note(ends_, samples_.angle(sample - 1));  // it turned, and sticks at no sample
+    note(onsets_, samples_.angle(sample));
+  }
+
   void stick(In u, double kd, int highest, int lowest, bool jacobian) {
     stick_share_ = 1;
     piece_ = 1;
@@ -123,17 +130,18 @@ class SampledJenkins final : public Element {
     for (int k = 0; k < samples_.count(); ++k) {
       const Seen s = seen(top, k, turned);
       const double x = s.sign * x_[s.sample];
-      const double elastic = anchored * x_s + x - anchor_x;  // f/k_d if it sticks
+      const double elastic = anchored * x_s + (x - anchor_x);  // f/k_d if it sticks; the top slips
       const bool slips = std::abs(elastic) >= x_s;
       piece_ = (piece_ ^ (slips ? 1u : 2u)) * 1099511628211ull;
       if (slips) {
-        if (!slipping) note(onsets_, samples_.angle(top + k));
+        const double sign = elastic > 0 ? 1 : -1;
+        note_slip(top + k, sign, slipping, anchored);
         close_anchor();
         anchor = k;
         anchor_x = x;
-        anchored = elastic > 0 ? 1 : -1;
+        anchored = sign;
       } else {
-        if (slipping && k > 0) note(ends_, samples_.angle(top + k - 1));
+        if (slipping) note(ends_, samples_.angle(top + k - 1));
         ++stuck;
         stick_[s.sample] = kappa;
         weights_A_[s.sample] = -s.sign * kappa * anchor_x;
@@ -142,7 +150,7 @@ class SampledJenkins final : public Element {
       weights_B_[s.sample] = s.sign * kappa * anchored;
       slipping = slips;
     }
-    if (slipping) note(ends_, samples_.angle(top));  // it turns at the top
+    note_slip(top + samples_.count(), h_.odd ? -1 : 1, slipping, anchored);  // the top again
     close_anchor();
     stick_share_ = static_cast<double>(stuck) / samples_.count();
     samples_.moments(stick_, moments_);

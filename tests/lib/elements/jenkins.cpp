@@ -1,6 +1,7 @@
 #include "catch.hpp"
 
 #include <arcslip/elements/jenkins.hpp>
+#include <arcslip/elements/reversals.hpp>
 
 #include <array>
 #include <cmath>
@@ -129,6 +130,48 @@ TEST_CASE("sampling converges to the exact force as samples^-2") {
       CHECK(last < 40.0 / samples / samples);
     }
     CHECK(last > 0);
+  }
+}
+
+TEST_CASE("sampled friction tells a slip phase up to each extreme, of any length") {
+  // From all slip to slip at one sample: of 1.7 cos(theta - 0.3) + 0.4 cos 2 theta (one extreme of either
+  // kind) and of its odd part.
+  const double apart = 2 * pi / 128;
+  for (const bool odd : {true, false}) {
+    const Harmonics h{3, odd};
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(h.size());
+    u[h.cosine_index(1)] = 1.7 * std::cos(0.3);
+    u[h.sine_index(1)] = 1.7 * std::sin(0.3);
+    if (!odd) u[h.cosine_index(2)] = 0.4;
+    Reversals reversals(h);
+    const auto extremes = reversals.find(u);
+    const auto element = make_sampled_jenkins(h, 128);
+    for (const double load : {1e-9, 1e-3, 0.1, 0.9}) {
+      CAPTURE(odd, load);
+      element->move_to(u, Fields{1.0, 1.0, load}, false);
+      FrictionState state;
+      REQUIRE(element->friction(state));
+      REQUIRE(state.slip_onsets.size() == 2);
+      REQUIRE(state.slip_ends.size() == 2);
+      for (const double end : state.slip_ends) {
+        double nearest = 1e300;
+        for (const auto& r : extremes)
+          for (const double turn : {-2 * pi, -pi, 0.0, pi, 2 * pi})
+            if (odd || std::abs(turn) != pi) nearest = std::min(nearest, std::abs(end - r.theta - turn));
+        CHECK(nearest < apart);
+      }
+      if (load < 1e-3) {
+        CHECK(state.stick_share == 0);
+        // The next sample slips the other way.
+        for (const double onset : state.slip_onsets) {
+          double after = 1e300;
+          for (const double end : state.slip_ends)
+            for (const double turn : {0.0, 2 * pi})
+              after = std::min(after, std::abs(onset + turn - end - apart));
+          CHECK(after < 1e-12);
+        }
+      }
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 using namespace arcslip;
 using observables::ResponsePoint;
@@ -86,6 +87,22 @@ TEST_CASE("what the excitation puts in, friction and dampers take out, at every 
   scene::Scene sampled = scenes::paper(7, 3);
   sampled.harmonics.friction = scene::Friction::sampled;
   all.emplace_back("sampled friction", sampled);
+  // Slip at every sample (5, 128 and 15, 512), at none but the extremes (10 N and more), and of a mean.
+  for (const auto& [order, samples, load] :
+       {std::tuple{2, 128, 0.1}, {5, 128, 0.01}, {15, 512, 0.01}, {15, 512, 10.0}, {15, 512, 300.0}}) {
+    scene::Scene s = scenes::paper(order, load);
+    s.harmonics.friction = scene::Friction::sampled;
+    s.harmonics.samples = samples;
+    all.emplace_back(std::to_string(samples) + " samples, " + std::to_string(load) + " N", s);
+  }
+  for (double load : {1e-3, 0.3}) {
+    scene::Scene s = scenes::chain(6, true);
+    s.harmonics.friction = scene::Friction::sampled;
+    s.harmonics.samples = 64;
+    scene::set(s, "d1.normal_load", load);
+    scene::set(s, "d2.normal_load", load);
+    all.emplace_back("sampled, with a mean, " + std::to_string(load) + " N", s);
+  }
   for (const auto& [name, s] : all) {
     CAPTURE(name);
     for (const auto& branch : observables::frequency_response(s, s.studies.front())) {
