@@ -57,7 +57,7 @@ class Corrector {
   bool linearize(const Vector& v, const Vector& row);
 
   /// Moves the evaluator (not the factors) to v.
-  bool move_to(const Vector& v) { return evaluate(v, Needs::residual); }
+  bool move_to(const Vector& v, Needs needs = Needs::residual) { return evaluate(v, needs); }
 
   /// The smooth piece that the evaluator is in. False where the problem throws: see failure().
   bool piece(std::uint64_t& piece);

@@ -13,11 +13,11 @@ namespace {
 constexpr double newton_share = 1e-2;  // the corrector's tolerance, of that on the branch
 constexpr double same_place = 1e-6;    // of a step: monitors of one name with zeros so near share an event
 
+}  // namespace
+
 void append(std::vector<LocatedEvent>& found, std::vector<LocatedEvent>&& next) {
   std::move(next.begin(), next.end(), std::back_inserter(found));
 }
-
-}  // namespace
 
 EventLocator::EventLocator(std::shared_ptr<const Problem> problem, Vector p, int free, const Options& options,
                            const std::vector<Monitor>& monitors, std::vector<Course>& courses, Counts& counts)

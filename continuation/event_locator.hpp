@@ -25,6 +25,8 @@
 
 namespace arcslip::continuation {
 
+void append(std::vector<LocatedEvent>& found, std::vector<LocatedEvent>&& next);
+
 class EventLocator {
  public:
   /// p: all parameters; free: index of the free one. courses: as many as monitors, or none yet. counts: where
@@ -38,6 +40,11 @@ class EventLocator {
   /// The events that have become certain with this step, in the order of arclength. `after` is left to the
   /// caller.
   std::vector<LocatedEvent> between(const Place& from, const Place& to);
+
+  /// The same where the branch passes a branch point on the way: matrices are singular there, and a zero
+  /// beside it would be sought on either branch. So its two sides are searched by themselves, and a monitor
+  /// that vanishes at the branch point has its zero there.
+  std::vector<LocatedEvent> past(const Place& from, const Place& crossing, const Place& to);
 
   /// The same for a kink, by the places on its two sides.
   std::vector<LocatedEvent> across(const Place& kink, const Place& beyond);
@@ -54,6 +61,7 @@ class EventLocator {
   bool changes(std::size_t monitor, const Place& from, const Place& to, Crossing wanted) const;
   bool turns(const Place& from, const Place& to);
   std::optional<LocatedEvent> find(std::size_t monitor, const Place& from, const Place& to);
+  std::optional<LocatedEvent> beyond_crossing(std::size_t monitor, const Place& crossing, const Place& to);
   std::optional<LocatedEvent> at_kink(std::size_t monitor, const Place& kink, const Place& beyond);
   std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
   std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
@@ -79,7 +87,9 @@ class EventLocator {
   const std::vector<Monitor>& monitors_;
   std::vector<Course>& courses_;
   Counts& counts_;
-  std::unique_ptr<Corrector> probe_;  // made when the first event is met
+  std::unique_ptr<Corrector> probe_;    // made when the first event is met
+  bool from_crossing_ = false;          // the section that is searched begins at a branch point
+  std::vector<bool> zero_at_crossing_;  // which monitors vanish there
 };
 
 }  // namespace arcslip::continuation

@@ -4,8 +4,10 @@
 #include <arcslip/continuation/event_locator.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -15,6 +17,9 @@ constexpr int most_kinks = 16;          // looked for in one step
 constexpr double just_beyond = 1e-6;    // of a step: where the other side of a kink is looked at
 constexpr double smallest_kink = 1e-4;  // rad
 constexpr double beside_step = 0.1;     // of a step: a branch point so near lies on it
+// Of a monitor's change over a step, and of the largest dp/ds as for the type of a branch point: less is
+// zero.
+constexpr double zero_share = 1e-6;
 
 }  // namespace
 
@@ -52,6 +57,39 @@ std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const 
   return std::nullopt;
 }
 
+std::vector<LocatedEvent> EventLocator::past(const Place& from, const Place& crossing, const Place& to) {
+  Place at = crossing;
+  at.piece = from.piece;
+  at.orientation = from.orientation;
+  const bool smooth = to.piece == from.piece;
+  if (!smooth || !probe().linearize(to.v, probe().border_row(crossing.tangent)) ||
+      !probe().move_to(at.v, Needs::jacobian))
+    return between(from, to);
+  evaluate(monitors_, probe(), at);
+  zero_at_crossing_.assign(monitors_.size(), false);
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    double& here = at.monitors[m];
+    const double a = from.monitors[m], b = to.monitors[m];
+    const double size =
+        monitors_[m].at_branch_points ? std::max(std::abs(a), std::abs(b)) : probe().parameter_scale();
+    zero_at_crossing_[m] = std::abs(here) <= zero_share * size;
+    if (zero_at_crossing_[m]) here = std::copysign(std::numeric_limits<double>::min(), a);
+  }
+  std::vector<LocatedEvent> found = gather(&EventLocator::find, from, at);
+  at.orientation = to.orientation;
+  from_crossing_ = true;
+  append(found, gather(&EventLocator::beyond_crossing, at, to));
+  from_crossing_ = false;
+  return found;
+}
+
+std::optional<LocatedEvent> EventLocator::beyond_crossing(std::size_t monitor, const Place& crossing,
+                                                          const Place& to) {
+  if (!zero_at_crossing_[monitor]) return find(monitor, crossing, to);
+  if (!monitors_[monitor].at_branch_points) return std::nullopt;
+  return LocatedEvent{event(monitor, crossing, 0, {}), crossing, crossing.quantities[monitor]};
+}
+
 LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const {
   LocatedEvent found;
   found.event.monitor = monitor.name;
@@ -84,9 +122,7 @@ bool EventLocator::look_beyond(const Place& kink, const Place& to, double way, P
 // as two nonsmooth folds are, do not cancel. Returns the beginning of the last section.
 Place EventLocator::pass_kinks(const Place& from, const Place& to, std::vector<LocatedEvent>& found) {
   Place side = from, kink, beyond;
-  const auto add = [&](std::vector<LocatedEvent>&& events) {
-    std::move(events.begin(), events.end(), std::back_inserter(found));
-  };
+  const auto add = [&](std::vector<LocatedEvent>&& events) { append(found, std::move(events)); };
   for (int k = 0; k < most_kinks && side.piece != to.piece; ++k) {
     const double length = to.arclength - side.arclength;
     Correction correction;

@@ -15,6 +15,7 @@ namespace {
 constexpr double nonsmooth_share = 1e-4;  // of a monitor's change over a step, left at its zero
 constexpr double beyond_kink = 1e-3;      // of the way from the kink to the next point, to look at that side
 constexpr double linearized_there = 1e-13;  // corrections below leave factors that are those of the solution
+constexpr double steepest = 1.5;            // rad: between the chord of a step and the branch on it
 constexpr double state_tolerance = 1e-10;   // relative, of u at an event
 constexpr int samples_beside = 4;           // of q on each side of an extreme, for its rounding
 constexpr double sample_share = 1e-2;       // of the step, between them
@@ -69,6 +70,8 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
   Place place = to;
   Correction correction;
   bool factors = false, failed = false;
+  const bool smooth = to.piece == from.piece;
+  const double least_along = length * std::cos(std::min(2 * options_.step.largest_angle, steepest));
   std::uint64_t positive_piece = 0, negative_piece = 0;  // of the last value of each sign: the bracket's ends
   const auto value = [&](double s) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
@@ -81,6 +84,10 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
       return 0.0;
     }
     factors = true;
+    if (smooth && place.piece == from.piece && probe.dot(place.tangent, chord) < least_along) {
+      failed = true;  // on another branch
+      return 0.0;
+    }
     place.arclength = from.arclength + distance(probe, from.v, place.v);
     const double f = value_of(monitors_[monitor], accepted(probe, place));
     failed = std::isnan(f);
@@ -94,7 +101,7 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
   const double in_u = state_tolerance * u_size / std::max(probe.norm_u(chord), 1e-300);
   const double tolerance = std::clamp(std::min(in_p, in_u), finest_share, coarsest_share);
   const double a = from.monitors[monitor], b = to.monitors[monitor];
-  double begin = 0, at_begin = value(0);
+  double begin = 0, at_begin = from_crossing_ ? a : value(0);      // matrices are singular at a crossing
   while (!failed && (at_begin > 0) == (b > 0) && at_begin != 0) {  // the sign of `from` was one of rounding
     if (begin <= -1) return std::nullopt;
     begin = begin == 0 ? -0.25 : 2 * begin;

@@ -78,6 +78,7 @@ Monitor fold_monitor() {
   monitor.value = [](const Accepted& now) { return now.tangent[now.tangent.size() - 1]; };
   monitor.quantity = [](const Accepted& now) { return now.parameter; };
   monitor.describe = describe;
+  monitor.at_branch_points = false;
   return monitor;
 }
 

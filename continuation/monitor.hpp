@@ -59,10 +59,14 @@ struct Monitor {
   /// parameter p departs from the chords between its points by no more than this share, of q or of p. 0: not
   /// asked for.
   double chord_tolerance = 0;
+
+  /// Whether a zero of value() at a branch point is an event of this monitor as well. False: of dp/ds.
+  bool at_branch_points = true;
 };
 
 /// dp/ds = 0: a fold in the free parameter, described by its null vectors and its curvature; at a nonsmooth
-/// fold dp/ds jumps.
+/// fold dp/ds jumps. A branch that turns where another one crosses it, as the arms of a pitchfork do, has no
+/// fold there: F_p lies in the range of J, and it is a branch point (branch_point_monitor()).
 Monitor fold_monitor();
 
 /// The unknown u[index] has the value: terminal, a bound of an unknown, as of the second parameter on a curve

@@ -202,10 +202,12 @@ void Tracer::keep(const Place& place, const Correction& correction) {
 }
 
 bool Tracer::accept(Place&& place, const Correction& correction, const Corner* corner) {
+  const bool crossed = crossing_ && crossing_->event.located && !crossing_->event.nonsmooth;
   const bool go_on = corner ? report(events_->between(s_.here, corner->before)) &&
                                   report(events_->across(corner->before, corner->beyond)) &&
                                   report(events_->between(corner->beyond, place))
-                            : report(with_crossing(events_->between(s_.here, place)));
+                            : report(with_crossing(crossed ? events_->past(s_.here, crossing_->place, place)
+                                                           : events_->between(s_.here, place)));
   if (terminal_) return end_at(*terminal_);
   warn_of_undefined(place);
   keep(place, correction);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 using namespace suite;
+using arcslip::continuation::branch_point_monitor;
 using arcslip::continuation::fold_monitor;
 using arcslip::continuation::from_functions;
 using arcslip::continuation::Point;
@@ -32,17 +33,17 @@ TEST_CASE("a simple branch point is passed straight ahead on the trivial branch,
   }
 }
 
-TEST_CASE("the parabola of the pitchfork is followed through its vertex, the branch point, where it folds") {
+TEST_CASE("the parabola of the pitchfork is followed through its vertex, a branch point and no fold") {
   for (double lambda : {1.0, 0.9, 0.7}) {
     const Branch branch = arcslip::continuation::trace(
         pitchfork(), {Vector::Constant(1, std::sqrt(lambda)), Vector{{lambda, 0.0}}, 0, -1}, window(-1, 1),
-        {fold_monitor()});
+        {fold_monitor(), branch_point_monitor()});
     CHECK(branch.points.back().parameter == 1);
     CHECK(std::abs(branch.points.back().u[0] + 1) < 1e-12);
-    const auto found = folds(branch);
-    REQUIRE(found.size() == 1);
-    CHECK(std::abs(found[0].point.parameter) < 1e-15);
-    CHECK(std::abs(found[0].point.u[0]) < 1e-8);
+    REQUIRE(branch.events.size() == 1);
+    CHECK(branch.events[0].monitor == "branch_point");
+    CHECK(std::abs(branch.events[0].point.parameter) < 1e-15);
+    CHECK(std::abs(branch.events[0].point.u[0]) < 1e-15);
   }
 }
 
