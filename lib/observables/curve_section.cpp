@@ -52,14 +52,14 @@ bool CurveSection::linearize() {
   return true;
 }
 
-ResponsePoint CurveSection::observe(In x, In p) {
+ResponsePoint CurveSection::observe(In x, In p, HeldBy held) {
   move_to(x, p, Needs::jacobian);
   linearize();
-  return observer_.observe({u_, p_, tangent_, 0, *evaluator_, *solver_, p_[model::frequency]}, true);
+  return observer_.observe({u_, p_, tangent_, 0, *evaluator_, *solver_, p_[model::frequency]}, held);
 }
 
-ResponsePoint CurveSection::observe(const Accepted& now) {
-  ResponsePoint point = observe(now.u, now.p);
+ResponsePoint CurveSection::observe(const Accepted& now, HeldBy held) {
+  ResponsePoint point = observe(now.u, now.p, held);
   point.over = now.parameter;
   return point;
 }

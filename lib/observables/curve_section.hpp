@@ -17,10 +17,10 @@ class CurveSection {
 
   /// Everything at a point of the curve; `over` is told. truncation_estimate is 0 and flagged where the
   /// branch has no tangent.
-  ResponsePoint observe(const continuation::Accepted& now);
+  ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::extremum);
 
   /// The same at a solution x = (u, omega) with all parameters p.
-  ResponsePoint observe(continuation::In x, continuation::In p);
+  ResponsePoint observe(continuation::In x, continuation::In p, HeldBy held = HeldBy::extremum);
 
   /// dA/ds along the curve.
   double amplitude_slope(const continuation::Accepted& now);

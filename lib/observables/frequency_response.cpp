@@ -55,7 +55,7 @@ class Sweep {
                             const continuation::Event* event) {
       if (event) {
         result.events.push_back(
-            {event->monitor, event->nonsmooth, event->located, observer.observe(now, true)});
+            {event->monitor, event->nonsmooth, event->located, observer.observe(now, held_by(*event))});
         return true;
       }
       const double omega = now.p[model::frequency];

@@ -61,7 +61,7 @@ double Observer::phase(const continuation::Accepted& now) const {
   return 0;
 }
 
-ResponsePoint Observer::observe(const continuation::Accepted& now, bool with_maxima) {
+ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held) {
   const auto& at = evaluator_of(now);
   const auto& h = problem_->harmonics();
   ResponsePoint point;
@@ -69,8 +69,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, bool with_max
   point.omega = now.p[model::frequency];
   point.amplitude = at_most.amplitude;
   point.phase = phase(now);
-  if (!truncation_) truncation_ = std::make_unique<Truncation>(*problem_, now.p);
-  const TruncationEstimate truncation = truncation_->estimate(now, at_most);
+  if (!truncation_) truncation_ = std::make_unique<Truncation>(*problem_, free_, now.p);
+  const TruncationEstimate truncation = truncation_->estimate(now, at_most, held);
   point.truncation_estimate = truncation.amplitude;
   point.truncation_flagged = truncation.flagged;
   point.energy_viscous = at.stiffness().viscous_energy(now.u, at.force_factor());
@@ -101,7 +101,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, bool with_max
     point.coefficients.push_back(n == 0 ? 0.0 : x_[h.sine_index(n)]);
   }
   point.unknowns.assign(now.u.data(), now.u.data() + now.u.size());
-  if (with_maxima) {
+  if (held != HeldBy::parameter) {
     if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
     maxima_->add_to(point, at, x_);
   }

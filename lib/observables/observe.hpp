@@ -22,8 +22,9 @@ class Observer {
 
   const hbm::HbmProblem& problem() const { return *problem_; }
 
-  /// Everything at one point; its maxima, which take longer than all else, only `with_maxima`.
-  ResponsePoint observe(const continuation::Accepted& now, bool with_maxima = false);
+  /// Everything at one point; its maxima, which take longer than all else, only where it is an event or
+  /// another special point: what holds it tells the truncation estimate whose change is asked for.
+  ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::parameter);
 
   /// Largest |x| of the observed coordinate, for unknowns u at the parameters of an evaluator.
   Extreme extreme(const hbm::HbmEvaluator& at, continuation::In u);

@@ -118,7 +118,7 @@ class Traces {
     std::vector<std::pair<double, double>> course;  // arclength, amplitude
     std::vector<double> at;                         // arclength of the events
     const auto record = [&](const Accepted& now, const continuation::Event* event) {
-      ResponsePoint point = observer->observe(now, event != nullptr);
+      ResponsePoint point = observer->observe(now, event ? held_by(*event) : HeldBy::parameter);
       point.over = now.parameter;
       if (event) {
         at.push_back(now.arclength);

@@ -72,16 +72,15 @@ struct MotionMaxima {
 
 /// One periodic response.
 struct ResponsePoint {
-  double omega = 0;                // excitation frequency, rad/s
-  double over = 0;                 // the parameter ResponseBranch::over, if there is one
-  double amplitude = 0;            // max over the period of |x|, m, at the scene's response
-  double phase = 0;                // rad, lag of the response's fundamental behind the force's
-  double truncation_estimate = 0;  // m, what the neglected harmonics would add to the amplitude
-  bool truncation_flagged =
-      false;                   // N omega does not pass the structure's resonances: the estimate may be low
-  double energy_friction = 0;  // J per period
-  double energy_viscous = 0;   // J per period
-  bool unbounded = false;      // the amplitude grows without bound here; `amplitude` has no meaning
+  double omega = 0;                 // excitation frequency, rad/s
+  double over = 0;                  // the parameter ResponseBranch::over, if there is one
+  double amplitude = 0;             // max over the period of |x|, m, at the scene's response
+  double phase = 0;                 // rad, lag of the response's fundamental behind the force's
+  double truncation_estimate = 0;   // m, what the neglected harmonics would add to the amplitude
+  bool truncation_flagged = false;  // the estimate may be too low (truncation.hpp)
+  double energy_friction = 0;       // J per period
+  double energy_viscous = 0;        // J per period
+  bool unbounded = false;           // the amplitude grows without bound here; `amplitude` has no meaning
   std::vector<ElementResponse> elements;
   std::vector<double>
       coefficients;              // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics

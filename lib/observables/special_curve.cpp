@@ -146,6 +146,7 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
   }
   const auto second = continuation::cusp_monitor().value;
   const double begin = arclength_;
+  const HeldBy held = corner ? HeldBy::corner : kind_.maximum ? HeldBy::extremum : HeldBy::fold;
   bool first = begin > 0;  // of a further part: its first point is where the part before ended
   const auto record = [&](const Accepted& now, const continuation::Event* event) {
     const double arclength = begin + now.arclength;
@@ -153,11 +154,12 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
                                     event->monitor == slip_event || (corner && event->monitor == fold_event));
     if (event && (!terminal || event->monitor == fold_event)) {
       result_.events.push_back(
-          {arclength, {event->monitor, event->nonsmooth, event->located, section_->observe(now)}});
+          {arclength, {event->monitor, event->nonsmooth, event->located, section_->observe(now, held)}});
       return true;
     }
     if (std::exchange(first, false)) return true;
-    result_.points.push_back({arclength, corner ? 0 : second(now), section_->observe(now), from.corner});
+    result_.points.push_back(
+        {arclength, corner ? 0 : second(now), section_->observe(now, held), from.corner});
     if (corner) result_.points.back().corner = at_angles(*from.corner, now.u);
     if (terminal) return true;
     const double omega = now.u[n];

@@ -1,8 +1,12 @@
 #include <arcslip/observables/truncation.hpp>
 
+#include <arcslip/continuation/neighbours.hpp>
+#include <arcslip/hbm/slip_corner.hpp>
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace arcslip::observables {
@@ -12,12 +16,13 @@ using continuation::Vector;
 
 constexpr int least_tail = 9;            // orders above N looked at: N + 9 at least, 2 N + 9 in all
 constexpr double linear_motion = 1e-13;  // forces left out, relative: below, nothing is neglected
-constexpr double at_a_fold = 1e-9;       // of domega/ds: below, the frequency cannot be held fixed
-
-std::shared_ptr<const model::Model> with_exact_friction(model::Model model) {
-  model.settings.friction = scene::Friction::exact;
-  return std::make_shared<const model::Model>(std::move(model));
-}
+constexpr double near_a_fold =
+    1e-4;                           // a step along the branch, relative to |u|: beyond, its bend is asked for
+constexpr double at_corner = 1e-6;  // |h| over mu F_n
+constexpr double converging = 0.3;  // second sweep over the first
+constexpr double small_change = 0.1;  // of the response, over its amplitude
+constexpr double cancelled = 0.02;    // |dA| over the change of the response
+constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 2e-8 of it
 
 elements::Harmonics widened(const elements::Harmonics& h) {
   return {2 * h.order + least_tail, h.odd};
@@ -25,12 +30,22 @@ elements::Harmonics widened(const elements::Harmonics& h) {
 
 }  // namespace
 
-double highest_natural_frequency(const model::Model& model, const Vector& p) {
+HeldBy held_by(const continuation::Event& event) {
+  if (event.nonsmooth) return HeldBy::corner;
+  return event.monitor == "fold" ? HeldBy::fold : HeldBy::extremum;
+}
+
+double highest_natural_frequency(const model::Model& model, const Vector& p,
+                                 const std::vector<double>& motions) {
   const Eigen::MatrixXd M = model::assemble(model.masses, p, model.dofs);
   Eigen::MatrixXd K = model::assemble(model.springs, p, model.dofs);
-  for (const auto& element : model.elements)
-    if (element.law == model::Law::jenkins)
-      K += p[element.parameters[0]] * element.direction * element.direction.transpose();
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const auto& element = model.elements[e];
+    double stiffness = p[element.parameters[0]];
+    if (element.law == model::Law::cubic_spring)
+      stiffness *= e < motions.size() ? 3 * motions[e] * motions[e] : 0;
+    K += stiffness * element.direction * element.direction.transpose();
+  }
   // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift >
   // 0.
   const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
@@ -44,71 +59,135 @@ double highest_natural_frequency(const model::Model& model, const Vector& p) {
   return std::sqrt(highest);
 }
 
-Truncation::Truncation(const hbm::HbmProblem& problem, const Vector& p)
+Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p)
     : problem_(problem),
-      kept_(problem.harmonics()),
-      wide_(widened(kept_)),
-      wide_problem_(with_exact_friction(problem.model()), wide_, 1, 1),
-      evaluator_(wide_problem_.hbm_evaluator()),
+      free_(free),
+      wide_(problem, widened(problem.harmonics())),
       highest_(highest_natural_frequency(problem.model(), p)),
-      u_(wide_problem_.size()),
-      tail_(u_.size()),
-      effect_(u_.size()),
-      change_(problem.size() + 1),
-      residual_(problem.size()),
-      response_(wide_.size()) {}
+      stiffens_(std::any_of(problem.model().elements.begin(), problem.model().elements.end(),
+                            [](const auto& e) { return e.law == model::Law::cubic_spring; })),
+      base_(wide_.problem().size()),
+      residual_(base_.size()),
+      response_(wide_.problem().harmonics().size()),
+      by_parameter_(response_.size()) {}
 
-void Truncation::embed(continuation::In u, Vector& wide) const {
-  wide.setZero();
-  const int unknowns = problem_.coordinates().unknowns;
-  for (int i = 0; i < unknowns; ++i) {
-    const auto from = u.segment(i * kept_.size(), kept_.size());
-    auto to = wide.segment(i * wide_.size(), wide_.size());
-    to.head(kept_.cosines()) = from.head(kept_.cosines());
-    to.segment(wide_.cosines(), kept_.sines()) = from.tail(kept_.sines());
-  }
-}
-
-void Truncation::restrict_to_kept(Vector& wide, continuation::Out kept) const {
-  const int unknowns = problem_.coordinates().unknowns;
-  for (int i = 0; i < unknowns; ++i) {
-    auto from = wide.segment(i * wide_.size(), wide_.size());
-    auto to = kept.segment(i * kept_.size(), kept_.size());
-    to.head(kept_.cosines()) = from.head(kept_.cosines());
-    to.tail(kept_.sines()) = from.segment(wide_.cosines(), kept_.sines());
-    from.head(kept_.cosines()).setZero();
-    from.segment(wide_.cosines(), kept_.sines()).setZero();
-  }
-}
-
-TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const Extreme& extreme) {
-  const int n = problem_.size();
-  embed(now.u, u_);
-  if (evaluator_->move_to(u_, now.p, continuation::Needs::jacobian) != continuation::Evaluated::ok)
-    return {0, true};
+TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const Extreme& extreme,
+                                        HeldBy held) {
+  const Eigen::Index n = problem_.size();
+  if (!wide_.move_to(now.u, now.p)) return {0, true};
+  residual_ = wide_.at().residual();
   double force = 0;
-  for (std::size_t e = 0; e < evaluator_->element_count(); ++e)
-    force = std::max(force, evaluator_->element(e).force().cwiseAbs().maxCoeff());
-  tail_ = evaluator_->residual();
-  restrict_to_kept(tail_, residual_);  // what remains in tail_ are the f_n with n > N
-  if (tail_.cwiseAbs().maxCoeff() <= linear_motion * force &&
-      residual_.cwiseAbs().maxCoeff() <= linear_motion * force)
-    return {};
+  for (std::size_t e = 0; e < wide_.at().element_count(); ++e)
+    force = std::max(force, wide_.at().element(e).force().cwiseAbs().maxCoeff());
+  if (residual_.cwiseAbs().maxCoeff() <= linear_motion * force) return {};
 
-  evaluator_->stiffness().solve(tail_);
-  tail_ = -tail_;
-  continuation::apply(evaluator_->jacobian(), tail_, effect_);
-  restrict_to_kept(effect_, change_.head(n));
-  change_.head(n) = -change_.head(n) - residual_;
-  change_[n] = 0;
-  now.bordered.solve(change_);
-  const double along = now.tangent[n];
-  if (std::abs(along) > at_a_fold * std::abs(change_[n])) change_ -= change_[n] / along * now.tangent;
-  embed(change_.head(n), u_);
-  u_ += tail_;
-  evaluator_->stiffness().response(u_, 0, response_);
-  return {std::abs(amplitude_change(wide_, extreme, response_)),
-          kept_.order * now.p[model::frequency] < highest_};
+  bool flagged = resonance_left_out(now);
+  wide_.factorize(free_);
+  if (held != HeldBy::corner || !to_corner(now)) {
+    const bool converges = wide_.solve(now.bordered, residual_, {}, change_) <= converging;
+    wide_.embed(now.tangent.head(n), tangent_.u);
+    tangent_.parameter = now.tangent[n];
+    const Step step = step_along(now, held);
+    change_.u += step.length * tangent_.u;
+    change_.parameter += step.length * tangent_.parameter;
+    flagged = flagged || !converges || !step.known;
+  }
+  wide_.at().stiffness().response(change_.u, 0, response_);
+  if (held != HeldBy::parameter) {
+    wide_.embed(now.u, base_);
+    wide_.at().stiffness().response_derivative(free_, base_, wide_.at().force_factor(), by_parameter_);
+    response_ += change_.parameter * by_parameter_;
+  }
+  const double change = std::abs(amplitude_change(wide_.problem().harmonics(), extreme, response_));
+  const double size = response_.norm();
+  if (!std::isfinite(change)) return {0, true};
+  const bool signs = change < cancelled * size && size > tolerance * extreme.amplitude;
+  return {change, flagged || signs || size > small_change * extreme.amplitude};
+}
+
+bool Truncation::resonance_left_out(const continuation::Accepted& now) {
+  const double reach = problem_.harmonics().order * now.p[model::frequency];
+  if (reach < highest_) return true;
+  if (!stiffens_) return false;
+  std::vector<double> motions;
+  for (std::size_t e = 0; e < wide_.at().element_count(); ++e) {
+    const auto& h = wide_.problem().harmonics();
+    const Vector& motion = wide_.at().element_motion(e);
+    motions.push_back(elements::series_bound(h, motion, 0) + (h.odd ? 0 : std::abs(motion[0])));
+  }
+  return reach < highest_natural_frequency(problem_.model(), now.p, motions);
+}
+
+// The step along the tangent that what holds the point leaves.
+Truncation::Step Truncation::step_along(const continuation::Accepted& now, HeldBy held) {
+  const double t = tangent_.parameter, d = change_.parameter;
+  const double size = std::max(1.0, now.u.norm() / problem_.displacement());
+  if (held == HeldBy::extremum) return {0, true};
+  if (held == HeldBy::corner) return {0, false};
+  if (held == HeldBy::parameter && std::abs(d) <= near_a_fold * size * std::abs(t)) return {-d / t, true};
+  const auto by = slopes(now);
+  if (!by) return {0, false};
+  if (held == HeldBy::fold) return {-by->change / by->tangent, true};
+  const double root = t * t - 2 * by->tangent * d;  // on the parabola of the branch
+  if (root < 0) return {-t / by->tangent, false};   // which ends before: its fold is next
+  return {-2 * d / (t + std::copysign(std::sqrt(root), t)), true};
+}
+
+// d_q' and q'' along the branch, from J d + r and J t beside the point. The equations are at the point again.
+std::optional<Truncation::Slopes> Truncation::slopes(const continuation::Accepted& now) {
+  wide_.embed(now.u, base_);
+  const std::uint64_t piece = wide_.piece();
+  const double size = std::max(1.0, now.u.norm() / problem_.displacement());
+  Vector place, p = now.p;
+  std::array<std::array<Vector, 2>, 2> beside;
+  const auto look = [&](std::array<Vector, 2>& at) {
+    wide_.apply(change_, free_, at[0]);
+    at[0] += wide_.at().residual();
+    wide_.apply(tangent_, free_, at[1]);
+  };
+  std::array<Vector, 2> middle;
+  look(middle);
+  const auto quotient =
+      continuation::difference_within_piece(continuation::difference * size, [&](std::size_t i, double h) {
+        place = base_ + h * tangent_.u;
+        p = now.p;
+        p[free_] += h * tangent_.parameter;
+        if (!wide_.move_to_wide(place, p) || wide_.piece() != piece) return false;
+        look(beside[i]);
+        return true;
+      });
+  if (!wide_.move_to_wide(base_, now.p) || !quotient) return {};
+  WideEquations::Change slope;
+  Slopes found{};
+  for (const int k : {0, 1}) {
+    const auto which = static_cast<std::size_t>(k);
+    const Vector r = quotient->here * middle[which] + quotient->weight[0] * beside[0][which] +
+                     quotient->weight[1] * beside[1][which];
+    wide_.solve(now.bordered, r, {}, slope);
+    (k == 0 ? found.change : found.tangent) = slope.parameter;
+  }
+  return found;
+}
+
+// The change at which the slip corner next to the point remains one.
+bool Truncation::to_corner(const continuation::Accepted& now) {
+  std::optional<hbm::SlipCorner> corner;
+  double least = 0;
+  for (hbm::SlipCorner& each : hbm::slip_corners_near(problem_, now.u, now.p, at_corner)) {
+    const auto excess = hbm::slip_excess(problem_, each, now.u, now.p);
+    if (!excess || (corner && !(std::abs(*excess) < least))) continue;
+    corner = each;
+    least = std::abs(*excess);
+  }
+  if (!corner) return false;
+  wide_.embed(now.u, base_);
+  WideEquations::Border border;
+  border.row.resize(base_.size());
+  hbm::slip_excess_gradient(wide_.problem(), *corner, now.p, border.row);
+  border.parameter = hbm::slip_excess_derivative(wide_.problem(), *corner, base_, now.p, free_);
+  if (!solver_) solver_ = continuation::suitable_solver(wide_.at().jacobian());
+  if (!wide_.factorize_kept(border, free_, *solver_)) return false;
+  return wide_.solve(*solver_, residual_, border, change_) <= converging;
 }
 
 }  // namespace arcslip::observables

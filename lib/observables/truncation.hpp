@@ -1,19 +1,29 @@
 #pragma once
 // What the harmonics above N would add to the amplitude, to first order.
 //
-// At the solution u of order N the element forces have coefficients f_n for n > N as well. They drive
-//   X_n = -Z_n^-1 f_n,  N < n <= 2 N + 9,
-// and X_n acts back on the harmonics kept through the elements, at fixed frequency:
-//   J du = -(dF/dX_n) X_n - R,
-// where R is the residual at u with exact friction: zero but for rounding, or, where the scene samples its
-// friction, the error of sampling. The estimate is |dA/dx . (du, X_n)|, the change of the amplitude, not a
-// bound: it has been within a factor of two of the error wherever that is known (docs/performance.md), but
-// both change sign along a branch. It is flagged where N omega lies below the highest natural frequency of
-// the structure with its sliders stuck: a resonance is left out there, and the first order may be far off.
+// At a solution (u, q) of order N, on a branch over q (the frequency, or another parameter), the equations of
+// 2 N + 9 harmonics have the residual r, in the harmonics neglected and, where the scene samples its
+// friction, in those kept. Their linearization (wide_equations.hpp) with the branch's border row gives the
+// change d to the branch of more harmonics, which is regular at folds; a step c along the tangent t is still
+// free. What holds the point tells c:
+//
+//   a value of q       d_q + c t_q + c^2 q''/2 = 0, the root that is next to 0
+//   an extremum        none: dA/ds = 0
+//   a fold             it moves along the branch to where dq/ds is zero again, c = -d_q' / q''
+//   a corner           h = 0 (hbm/slip_corner.hpp) holds for d + c t
+//
+// Derivatives by s are differences along t. The estimate is |dA|, not a bound. It is flagged where it may be
+// far too low: N omega is below the highest natural frequency with all elements at their stiffest, so that a
+// resonance is left out; the sweeps do not converge; the response changes by no small part of its amplitude;
+// dA changes its sign, so that what the first order leaves out is larger; the branch of more harmonics has no
+// point at this q; or what holds the point cannot be differentiated.
 
+#include <arcslip/continuation/branch.hpp>
 #include <arcslip/continuation/monitor.hpp>
-#include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/amplitude.hpp>
+#include <arcslip/observables/wide_equations.hpp>
+
+#include <optional>
 
 namespace arcslip::observables {
 
@@ -22,29 +32,46 @@ struct TruncationEstimate {
   bool flagged = false;
 };
 
+/// What holds a point of a branch in its place.
+enum class HeldBy { parameter, extremum, fold, corner };
+HeldBy held_by(const continuation::Event& event);
+
 class Truncation {
  public:
-  /// p: where the natural frequencies are taken.
-  Truncation(const hbm::HbmProblem& problem, const continuation::Vector& p);
+  /// p: where the natural frequencies are taken. free: the branch's parameter.
+  Truncation(const hbm::HbmProblem& problem, int free, const continuation::Vector& p);
 
-  /// At an accepted point of a branch in frequency (of a problem with the same harmonics); extreme: of its
-  /// response.
-  TruncationEstimate estimate(const continuation::Accepted& now, const Extreme& extreme);
+  /// At an accepted point of a branch (of a problem with the same harmonics); extreme: of its response.
+  TruncationEstimate estimate(const continuation::Accepted& now, const Extreme& extreme, HeldBy held);
 
  private:
-  void embed(continuation::In u, continuation::Vector& wide) const;
-  void restrict_to_kept(continuation::Vector& wide, continuation::Out kept) const;
+  struct Slopes {
+    double change, tangent;  // d_q', q''
+  };
+  struct Step {
+    double length;
+    bool known;  // otherwise what holds the point may need another one
+  };
+
+  std::optional<Slopes> slopes(const continuation::Accepted& now);
+  Step step_along(const continuation::Accepted& now, HeldBy held);
+  bool to_corner(const continuation::Accepted& now);
+  bool resonance_left_out(const continuation::Accepted& now);
 
   const hbm::HbmProblem& problem_;
-  elements::Harmonics kept_, wide_;
-  hbm::HbmProblem wide_problem_;
-  std::unique_ptr<hbm::HbmEvaluator> evaluator_;
+  int free_;
+  WideEquations wide_;
   double highest_;
-  continuation::Vector u_, tail_, effect_, change_, residual_, response_;
+  bool stiffens_;
+  std::unique_ptr<continuation::LinearSolver> solver_;
+  WideEquations::Change change_, tangent_;
+  continuation::Vector base_, residual_, response_, by_parameter_;
 };
 
 /// Highest natural frequency (rad/s) of M x'' + (K + sum of element stiffnesses) x = 0 at p; massless motions
-/// have none. 0 where there is none at all.
-double highest_natural_frequency(const model::Model& model, const continuation::Vector& p);
+/// have none. 0 where there is none at all. motions: largest |d_e . x| of each element (m), at which cubic
+/// springs have their stiffness 3 k3 |d_e . x|^2; without them they have none.
+double highest_natural_frequency(const model::Model& model, const continuation::Vector& p,
+                                 const std::vector<double>& motions = {});
 
 }  // namespace arcslip::observables

@@ -135,4 +135,48 @@ scene::Scene hard(std::uint64_t seed) {
   return s;
 }
 
+scene::Scene make_hardening(std::uint64_t seed) {
+  Random random(seed);
+  scene::Scene s;
+  const int masses = random.count(1, 4);
+  for (int i = 0; i < masses; ++i) {
+    const std::string number = std::to_string(i + 1);
+    s.dofs.push_back("x" + number);
+    s.masses.push_back({"m" + number, &scene::mass_type, {{i, 1.0}}, {random.between(0.8, 1.2)}});
+    s.springs.push_back({"k" + number, &scene::spring_type, tie(i, false), {random.between(0.5, 2)}});
+    s.dampers.push_back({"c" + number, &scene::damper_type, tie(i, false), {random.logarithmic(5e-3, 0.08)}});
+  }
+  const int cubic = random.count(1, 2), dampers = random.count(0, 2);
+  for (int e = 0; e < cubic + dampers; ++e) {
+    const int at = random.count(0, masses - 1);
+    const scene::Direction direction = tie(at, random.count(0, 1) == 1);
+    const std::string number = std::to_string(e + 1);
+    if (e < cubic) {
+      s.elements.push_back(
+          {"s" + number, &scene::cubic_spring_type, direction, {random.logarithmic(0.05, 2)}});
+      continue;
+    }
+    const double stiffness = random.logarithmic(0.1, 2), mu = random.between(0.3, 0.6);
+    s.elements.push_back(
+        {"d" + number, &scene::jenkins_type, direction, {stiffness, mu, random.logarithmic(0.01, 1)}});
+  }
+  const int at = random.count(0, masses - 1);
+  s.excitation.push_back({"f1", &scene::force_type, {{at, 1.0}}, {random.logarithmic(0.02, 0.5), 0}, 1});
+  if (random.count(0, 2) == 0) {
+    const int other = random.count(0, masses - 1), harmonic = random.count(2, 3);
+    const double cosine = random.between(0, 0.1), sine = random.between(-0.1, 0.1);
+    s.excitation.push_back({"f2", &scene::force_type, {{other, 1.0}}, {cosine, sine}, harmonic});
+  }
+  s.harmonics.order = std::array{3, 5, 7, 9}[static_cast<std::size_t>(random.count(0, 3))];
+  s.response = {{random.count(0, masses - 1), 1.0}};
+  s.frequency_unit = scene::FrequencyUnit::radian_per_second;
+  scene::Study study;
+  study.name = "frf";
+  study.from = random.between(0.15, 0.6);
+  study.to = study.from + random.between(1, 2.5);
+  s.studies.push_back(study);
+  scene::check(s);
+  return s;
+}
+
 }  // namespace random_scenes

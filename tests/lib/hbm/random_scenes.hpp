@@ -22,4 +22,8 @@ arcslip::scene::Scene make(std::uint64_t seed, Excitation excitation);
 /// in the first three harmonics; N of 3, 5 or 7, and a window around the resonances.
 arcslip::scene::Scene hard(std::uint64_t seed);
 
+/// Chains of one to four masses with one or two hardening cubic springs and up to two friction dampers, so
+/// that most responses have folds; odd or all harmonics, order 3 to 9.
+arcslip::scene::Scene make_hardening(std::uint64_t seed);
+
 }  // namespace random_scenes

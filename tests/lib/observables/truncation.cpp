@@ -2,6 +2,9 @@
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
+#include "lib/observables/same_event.hpp"
+
+#include <cmath>
 
 using namespace arcslip;
 
@@ -43,4 +46,39 @@ TEST_CASE("the flag tells whether N omega passes the resonances of the stuck str
   // f2 = 20.903 Hz: with N = 3 from 6.97 Hz on.
   CHECK(scenes::response_at(scenes::paper(3, 0.2), 6.9).truncation_flagged);
   CHECK_FALSE(scenes::response_at(scenes::paper(3, 0.2), 7.0).truncation_flagged);
+}
+
+TEST_CASE("at folds the estimate is the error of their amplitude within a factor of two") {
+  int folds = 0;
+  const auto check = [&](scene::Scene s) {
+    const auto low = same_event::response(s);
+    s.harmonics.order = 45;
+    const auto high = same_event::response(s);
+    for (const auto& event : low.events) {
+      if (event.kind != "fold") continue;
+      const auto* exact = same_event::find(event, high);
+      REQUIRE(exact);
+      const double error = std::abs(event.point.amplitude - exact->amplitude);
+      if (error < 1e-10 * exact->amplitude) continue;  // to which folds are located
+      CAPTURE(s.title, event.point.omega, event.nonsmooth, error / exact->amplitude);
+      CHECK(event.point.truncation_estimate > 0.5 * error);
+      CHECK(event.point.truncation_estimate < 2 * error);
+      ++folds;
+    }
+  };
+  for (int order : {3, 5, 7}) {
+    scene::Scene duffing = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json");
+    duffing.harmonics.order = order;
+    check(duffing);
+  }
+  for (int order : {5, 9, 15})
+    for (double load : {0.3, 0.5, 0.8, 1.2, 2.0, 2.5}) {
+      scene::Scene both = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing_jenkins/scene.json");
+      both.harmonics.order = order;
+      scene::set(both, "damper.normal_load", load);
+      both.studies.front().from = 1;
+      both.studies.front().to = 3.5;
+      check(both);
+    }
+  CHECK(folds > 30);
 }

@@ -1,0 +1,154 @@
+#include <arcslip/observables/wide_equations.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::In;
+using continuation::Out;
+using continuation::Vector;
+
+std::shared_ptr<const model::Model> with_exact_friction(model::Model model) {
+  model.settings.friction = scene::Friction::exact;
+  return std::make_shared<const model::Model>(std::move(model));
+}
+
+}  // namespace
+
+WideEquations::WideEquations(const hbm::HbmProblem& problem, const elements::Harmonics& wide)
+    : narrow_(problem),
+      kept_(problem.harmonics()),
+      wide_(wide),
+      problem_(with_exact_friction(problem.model()), wide_, 1, 1),
+      evaluator_(problem_.hbm_evaluator()),
+      u_(problem_.size()),
+      F_q_(u_.size()),
+      rest_(u_.size()),
+      sweep_(u_.size()),
+      part_(u_.size()),
+      kept_part_(problem.size() + 1) {
+  for (int j = kept_.sines(); j < wide_.sines(); ++j) orders_.push_back(wide_.sine_order(j));
+  const int side = 2 * problem.coordinates().unknowns;
+  block_.resize(side, side);
+  lus_.assign(orders_.size(), Eigen::PartialPivLU<Eigen::MatrixXd>(side));
+}
+
+bool WideEquations::move_to(In u, In p) {
+  embed(u, u_);
+  return move_to_wide(u_, p);
+}
+
+bool WideEquations::move_to_wide(In wide, In p) {
+  return evaluator_->move_to(wide, p, continuation::Needs::jacobian) == continuation::Evaluated::ok;
+}
+
+void WideEquations::factorize(int q) {
+  const auto& J = std::get<Eigen::MatrixXd>(evaluator_->jacobian());
+  const int r = narrow_.coordinates().unknowns, c = wide_.size();
+  for (std::size_t k = 0; k < orders_.size(); ++k) {
+    const int place[2] = {wide_.cosine_index(orders_[k]), wide_.sine_index(orders_[k])};
+    for (int j = 0; j < 2 * r; ++j)
+      for (int i = 0; i < 2 * r; ++i) block_(i, j) = J(i / 2 * c + place[i % 2], j / 2 * c + place[j % 2]);
+    lus_[k].compute(block_);
+  }
+  evaluator_->parameter_derivative(q, F_q_);
+}
+
+bool WideEquations::factorize_kept(const Border& border, int q, continuation::LinearSolver& solver) const {
+  const auto& J = std::get<Eigen::MatrixXd>(evaluator_->jacobian());
+  const int n = narrow_.size(), r = narrow_.coordinates().unknowns, c = wide_.size();
+  std::vector<int> place;
+  for (int i = 0; i < r; ++i) {
+    for (int k = 0; k < kept_.cosines(); ++k) place.push_back(i * c + k);
+    for (int k = 0; k < kept_.sines(); ++k) place.push_back(i * c + wide_.cosines() + k);
+  }
+  Eigen::MatrixXd kept(n, n);
+  continuation::Borders borders(n, 1);
+  Vector F_q(c * r);
+  evaluator_->parameter_derivative(q, F_q);
+  for (int j = 0; j < n; ++j) {
+    const int from = place[static_cast<std::size_t>(j)];
+    for (int i = 0; i < n; ++i) kept(i, j) = J(place[static_cast<std::size_t>(i)], from);
+    borders.rows(j, 0) = border.row[from];
+    borders.columns(j, 0) = F_q[from];
+  }
+  borders.corner(0, 0) = border.parameter;
+  return solver.factorize(kept, borders);
+}
+
+double WideEquations::solve(const continuation::LinearSolver& kept, const Vector& r, const Border& border,
+                            Change& change) {
+  const int unknowns = narrow_.coordinates().unknowns, c = wide_.size(), n = narrow_.size();
+  change.u.setZero(u_.size());
+  change.parameter = 0;
+  rest_ = r;  // the equations' residual at the change so far
+  double first = 0;
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    sweep_.setZero();
+    for (std::size_t k = 0; k < orders_.size(); ++k) {
+      const int place[2] = {wide_.cosine_index(orders_[k]), wide_.sine_index(orders_[k])};
+      Vector b(2 * unknowns);
+      for (int i = 0; i < 2 * unknowns; ++i) b[i] = -rest_[i / 2 * c + place[i % 2]];
+      b = lus_[k].solve(b);
+      for (int i = 0; i < 2 * unknowns; ++i) sweep_[i / 2 * c + place[i % 2]] = b[i];
+    }
+    const double neglected = sweep_.norm();
+    continuation::apply(evaluator_->jacobian(), sweep_, part_);
+    rest_ += part_;
+    change.u += sweep_;
+    part_ = rest_;
+    take_kept(part_, kept_part_.head(n));
+    kept_part_ = -kept_part_;
+    kept_part_[n] = 0;
+    if (border.row.size() > 0)
+      kept_part_[n] = -border.value - border.row.dot(change.u) - border.parameter * change.parameter;
+    kept.solve(kept_part_);
+    embed(kept_part_.head(n), sweep_);
+    const double size = std::hypot(neglected, sweep_.norm());
+    change.u += sweep_;
+    change.parameter += kept_part_[n];
+    if (sweep == 0) {
+      first = size;
+      continuation::apply(evaluator_->jacobian(), sweep_, part_);
+      rest_ += part_ + kept_part_[n] * F_q_;
+    } else if (first > 0) {
+      return size / first;
+    }
+  }
+  return 0;
+}
+
+void WideEquations::apply(const Change& change, int q, Vector& y) const {
+  y.resize(u_.size());
+  continuation::apply(evaluator_->jacobian(), change.u, y);
+  Vector F_q(u_.size());
+  evaluator_->parameter_derivative(q, F_q);
+  y += change.parameter * F_q;
+}
+
+void WideEquations::embed(In u, Vector& wide) const {
+  wide.setZero(problem_.size());
+  const int unknowns = narrow_.coordinates().unknowns;
+  for (int i = 0; i < unknowns; ++i) {
+    const auto from = u.segment(i * kept_.size(), kept_.size());
+    auto to = wide.segment(i * wide_.size(), wide_.size());
+    to.head(kept_.cosines()) = from.head(kept_.cosines());
+    to.segment(wide_.cosines(), kept_.sines()) = from.tail(kept_.sines());
+  }
+}
+
+void WideEquations::take_kept(Vector& wide, Out kept) const {
+  const int unknowns = narrow_.coordinates().unknowns;
+  for (int i = 0; i < unknowns; ++i) {
+    auto from = wide.segment(i * wide_.size(), wide_.size());
+    auto to = kept.segment(i * kept_.size(), kept_.size());
+    to.head(kept_.cosines()) = from.head(kept_.cosines());
+    to.tail(kept_.sines()) = from.segment(wide_.cosines(), kept_.sines());
+    from.head(kept_.cosines()).setZero();
+    from.segment(wide_.cosines(), kept_.sines()).setZero();
+  }
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,75 @@
+#pragma once
+// A solution of order N seen in the equations of more harmonics, and their linearization there.
+//
+// With u the harmonics kept, X the neglected ones (zero at the solution) and q the branch's free parameter,
+//
+//   [ J_uu J_uX F_u,q ] [ du ]     [ r_u ]
+//   [ J_Xu J_XX F_X,q ] [ dX ]  = -[ r_X ]
+//   [ b_u  b_X  b_q   ] [ dq ]     [ r_b ]
+//
+// is solved by sweeps over its blocks: dX with the diagonal blocks of J_XX, one for each harmonic, and (du,
+// dq) with factors of the bordered matrix of order N, which the branch has. Two sweeps; how much less the
+// second one changes tells whether they converge.
+
+#include <arcslip/continuation/linear_solver.hpp>
+#include <arcslip/hbm/problem.hpp>
+
+#include <Eigen/LU>
+
+#include <vector>
+
+namespace arcslip::observables {
+
+class WideEquations {
+ public:
+  /// Friction is exact in them, even where the problem samples it.
+  WideEquations(const hbm::HbmProblem& problem, const elements::Harmonics& wide);
+
+  /// Of the sweeps: b is zero in the kept unknowns of `row`, where there is none, and given by the solver.
+  struct Border {
+    continuation::Vector row;  // b_u, b_X in the layout of the wide unknowns; empty: that of the solver
+    double parameter = 0;      // b_q
+    double value = 0;          // r_b
+  };
+  struct Change {
+    continuation::Vector u;  // du, dX in the layout of the wide unknowns
+    double parameter = 0;    // dq
+  };
+
+  /// u: kept unknowns. False: the equations cannot be evaluated there.
+  bool move_to(continuation::In u, continuation::In p);
+  /// The same at wide unknowns.
+  bool move_to_wide(continuation::In wide, continuation::In p);
+  const hbm::HbmEvaluator& at() const { return *evaluator_; }
+  const hbm::HbmProblem& problem() const { return problem_; }
+  std::uint64_t piece() const { return evaluator_->piece(); }
+
+  /// Makes ready for solve(): the diagonal blocks at the last place. q: index of the free parameter.
+  void factorize(int q);
+  /// The bordered matrix of order N at the last place, with a border row in wide unknowns.
+  bool factorize_kept(const Border& border, int q, continuation::LinearSolver& solver) const;
+
+  /// At the last place, whose blocks were made here or next to it. Returns the size of the second sweep
+  /// relative to the first.
+  double solve(const continuation::LinearSolver& kept, const continuation::Vector& r, const Border& border,
+               Change& change);
+
+  /// y = J du + F_q dq in all rows.
+  void apply(const Change& change, int q, continuation::Vector& y) const;
+
+  void embed(continuation::In u, continuation::Vector& wide) const;
+  /// The kept part; its place in `wide` becomes zero.
+  void take_kept(continuation::Vector& wide, continuation::Out kept) const;
+
+ private:
+  const hbm::HbmProblem& narrow_;
+  elements::Harmonics kept_, wide_;
+  hbm::HbmProblem problem_;
+  std::unique_ptr<hbm::HbmEvaluator> evaluator_;
+  std::vector<int> orders_;                                // neglected, n > N
+  std::vector<Eigen::PartialPivLU<Eigen::MatrixXd>> lus_;  // of their blocks, 2 r x 2 r
+  Eigen::MatrixXd block_;
+  continuation::Vector u_, F_q_, rest_, sweep_, part_, kept_part_;
+};
+
+}  // namespace arcslip::observables
