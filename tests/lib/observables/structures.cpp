@@ -1,0 +1,180 @@
+// Random structures at volume: chains of 1 to 6 masses with friction, some with cubic springs, some with
+// sampled friction, excited in one or several harmonics. ARCSLIP_STRUCTURES is how many; by default 12, or
+// 2000 with ARCSLIP_FULL=1.
+
+#include "catch.hpp"
+
+#include "lib/hbm/random_scenes.hpp"
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/invariances.hpp"
+#include "lib/observables/structures.hpp"
+#include "random.hpp"
+
+#include <arcslip/observables/time_study.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace arcslip;
+using random_scenes::Excitation;
+using test_random::Random;
+
+namespace {
+
+constexpr double tolerance = 1e-9;  // relative, of the frequency and the amplitude of an event
+
+void add_cubic_spring(scene::Scene& s, Random& random) {
+  const int at = random.count(0, static_cast<int>(s.dofs.size()) - 1);
+  double stiffness = 0, force = 0, damping = 0;
+  for (const auto& spring : s.springs) stiffness = std::max(stiffness, spring.values[0]);
+  for (const auto& part : s.excitation) force = std::max(force, std::hypot(part.values[0], part.values[1]));
+  for (const auto& damper : s.dampers) damping = std::max(damping, damper.values[0]);
+  // Hardening by a part of the spring at ten static deflections: some bend over and have folds, most do not.
+  const double deflection = 10 * force / stiffness;
+  s.elements.push_back({"h",
+                        &scene::cubic_spring_type,
+                        {{at, 1.0}},
+                        {stiffness / (deflection * deflection) * random.logarithmic(1e-4, 0.1)}});
+}
+
+scene::Scene structure(std::uint64_t seed) {
+  Random random(seed);
+  constexpr Excitation kinds[] = {Excitation::first, Excitation::first_and_third,
+                                  Excitation::first_and_second};
+  scene::Scene s = random.one_in(2) ? random_scenes::hard(seed) : random_scenes::make(seed, random.of(kinds));
+  s.harmonics.order = std::min(s.harmonics.order, 9);
+  if (random.one_in(3)) add_cubic_spring(s, random);
+  if (random.one_in(5)) {
+    s.harmonics.friction = scene::Friction::sampled;
+    s.harmonics.samples = 256;
+  }
+  scene::check(s);
+  return s;
+}
+
+bool is_sampled(const scene::Scene& s) {
+  return s.harmonics.friction == scene::Friction::sampled;
+}
+
+std::vector<invariances::Variant> variants(const scene::Scene& s, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<invariances::Variant> all;
+  all.push_back(invariances::larger(s, random.logarithmic(1e-6, 1e6)));
+  all.push_back(invariances::heavier(s, random.logarithmic(1e-6, 1e6)));
+  all.push_back(invariances::faster(s, random.logarithmic(1e-3, 1e3)));
+  all.push_back(invariances::backwards(s));
+  all.push_back(invariances::reordered(s, seed));
+  std::vector<std::size_t> friction;
+  for (std::size_t e = 0; e < s.elements.size(); ++e)
+    if (s.elements[e].type == &scene::jenkins_type) friction.push_back(e);
+  all.push_back(invariances::split(s, random.of(friction)));
+  return all;
+}
+
+/// What the forces put in is what friction and dampers take out, at every point.
+void check_energies(const observables::ResponseBranch& branch) {
+  double worst = 0, at = 0;
+  for (const auto& point : branch.points) {
+    const double defect = std::abs(point.energy_input - point.energy_total()) / point.energy_total();
+    if (!point.unbounded && !(defect <= worst)) worst = defect, at = point.omega;
+  }
+  CAPTURE(at);
+  CHECK(worst < 1e-6);
+}
+
+/// Beside cubic springs there may be several responses at an end of the window; a trace from there is then
+/// that of another one.
+bool same_ends(const invariances::Response& one, const invariances::Response& other) {
+  const auto same = [](const auto& a, const auto& b) {
+    return std::abs(a.amplitude / b.amplitude - 1) < 1e-6;
+  };
+  return one.points.size() > 1 && other.points.size() > 1 && same(one.points.front(), other.points.front()) &&
+         same(one.points.back(), other.points.back());
+}
+
+}  // namespace
+
+TEST_CASE("random structures have the same events in all units, names, orders and directions") {
+  for (std::uint64_t seed = 0; seed < structures::number.count(); ++seed) {
+    const scene::Scene s = structure(seed);
+    if (is_sampled(s)) continue;
+    CAPTURE(seed, s.elements.size());
+    const auto as_it_is = invariances::response(s);
+    for (const auto& variant : variants(s, seed)) {
+      CAPTURE(variant.name);
+      const auto response = invariances::response(variant);
+      if (variant.backwards && !same_ends(as_it_is, response)) continue;
+      CHECK(invariances::difference(as_it_is, response, tolerance) == "");
+    }
+  }
+}
+
+// Sampled friction has a kink at every change of a sample, and peaks between them that a step passes or not.
+// At a frequency it is as good as any.
+TEST_CASE("random structures with sampled friction have the same responses in all units, names and orders") {
+  for (std::uint64_t seed = 0; seed < structures::number.count(); ++seed) {
+    const scene::Scene s = structure(seed);
+    if (!is_sampled(s)) continue;
+    const auto& study = s.studies.front();
+    for (const double part : {0.2, 0.5, 0.8}) {
+      const double frequency = study.from + part * (study.to - study.from);
+      const double amplitude = scenes::response_at(s, frequency).amplitude;
+      for (const auto& variant : variants(s, seed)) {
+        CAPTURE(seed, frequency, amplitude, variant.name);
+        const double other = scenes::response_at(variant.scene, frequency * variant.frequency).amplitude;
+        CHECK(std::abs(other / (amplitude * variant.amplitude) - 1) < tolerance);
+      }
+    }
+  }
+}
+
+TEST_CASE("responses of random structures reach the end of their windows, with balanced energies") {
+  int failed = 0;
+  for (std::uint64_t seed = 0; seed < structures::number.count(); ++seed) {
+    const scene::Scene s = structure(seed);
+    CAPTURE(seed, s.elements.size(), is_sampled(s));
+    for (const auto& branch : observables::frequency_response(s, s.studies.front())) {
+      CAPTURE(branch.stop.message);
+      const bool is_complete = branch.status == observables::Status::complete;
+      failed += !is_complete;
+      if (!is_sampled(s)) CHECK(is_complete);
+      check_energies(branch);
+    }
+  }
+  // Of sampled friction some: where more samples change than a step can tell from each other.
+  CAPTURE(failed);
+  CHECK(failed <= 0.02 * static_cast<double>(structures::number.count()));
+}
+
+TEST_CASE("harmonic balance of random structures is their motion in time") {
+  double worst = 0;
+  for (std::uint64_t seed = 0; seed < structures::number.count(); seed += structures::beside_time) {
+    scene::Scene s = structure(seed);
+    Random random(seed);
+    const auto branches = observables::frequency_response(s, s.studies.front());
+    const auto is_fold = [](const auto& event) { return event.kind == "fold"; };
+    if (branches.size() != 1 || std::any_of(branches[0].events.begin(), branches[0].events.end(), is_fold))
+      continue;
+    const auto& study = s.studies.front();
+    const double frequency = study.from + random.between(0.1, 0.9) * (study.to - study.from);
+    CAPTURE(seed, frequency, is_sampled(s));
+    s.harmonics.order = 41;
+    s.harmonics.samples = 2048;
+    const auto balance = scenes::response_at(s, frequency);
+    if (balance.truncation_flagged) continue;
+    scene::Study time;
+    time.kind = scene::StudyKind::time;
+    time.frequency_from = time.frequency_to = frequency;
+    time.time.steps = 4000;
+    const auto motion = observables::motions_in_time(s, time).front();
+    CAPTURE(motion.stop.message, motion.integrator);
+    CHECK(motion.status == observables::Status::complete);
+    if (motion.stable && !*motion.stable) continue;
+    const double difference = std::abs(motion.amplitude / balance.amplitude - 1);
+    worst = std::max(worst, difference);
+    CAPTURE(balance.amplitude, motion.amplitude, balance.truncation_estimate);
+    CHECK(difference < 1e-3);
+  }
+  CAPTURE(worst);
+  CHECK(worst > 0);
+}
