@@ -10,8 +10,17 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double newton_share = 1e-2;  // the corrector's tolerance, of that on the branch
-constexpr double same_place = 1e-6;    // of a step: monitors of one name with zeros so near share an event
+constexpr double newton_share = 1e-2;   // the corrector's tolerance, of that on the branch
+constexpr double same_place = 1e-6;     // of a step: monitors of one name with zeros so near share an event
+constexpr double smallest_kink = 1e-4;  // rad
+
+// An extreme between two places that is not looked for lies no farther off than where the tangents to the
+// quantity there meet.
+double farthest_extreme(std::size_t monitor, const Place& from, const Place& to) {
+  const double a = from.monitors[monitor], b = to.monitors[monitor], length = to.arclength - from.arclength;
+  const double q = from.quantities[monitor], next = to.quantities[monitor];
+  return q + a * std::clamp((next - q - b * length) / (a - b), 0.0, length);
+}
 
 }  // namespace
 
@@ -41,20 +50,14 @@ Corrector& EventLocator::probe() {
 }
 
 std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
-  const bool kinks = to.piece != from.piece &&
-                     std::any_of(monitors_.begin(), monitors_.end(),
-                                 [](const Monitor& each) { return each.kind == MonitorKind::kink; });
-  if (!kinks) return gather(&EventLocator::find, from, to);
-  std::vector<LocatedEvent> found;
-  const Place side = pass_kinks(from, to, found);
-  append(found, gather(&EventLocator::find, side, to));
-  return found;
+  return gather(&EventLocator::find, from, to);
 }
 
-std::vector<LocatedEvent> EventLocator::across(const Place& kink, const Place& beyond) {
-  std::vector<LocatedEvent> found = gather(&EventLocator::at_kink, kink, beyond);
-  for (const Monitor& monitor : monitors_)
-    if (monitor.kind == MonitorKind::kink) found.push_back(kink_event(monitor, kink, beyond.tangent));
+std::vector<LocatedEvent> EventLocator::across(const Corner& corner) {
+  std::vector<LocatedEvent> found = gather(&EventLocator::at_kink, corner.before, corner.beyond);
+  if (angle_between(probe().dot(corner.before.tangent, corner.beyond.tangent)) > smallest_kink)
+    for (const Monitor& monitor : monitors_)
+      if (monitor.kind == MonitorKind::kink) found.push_back(kink_event(monitor, corner));
   return found;
 }
 
@@ -104,7 +107,7 @@ void EventLocator::follow(std::size_t monitor, Find by, const Place& from, const
     const int side = from.monitors[monitor] > 0 ? 1 : -1;
     const bool wanted = changes(monitor, from, to, monitors_[monitor].crossing);
     auto event = wanted ? (this->*by)(monitor, from, to) : std::nullopt;
-    const double extreme = event ? event->quantity : side * std::max(side * q, side * next);
+    const double extreme = event ? event->quantity : farthest_extreme(monitor, from, to);
     judge(course, extreme, certain);
     if (course.waiting && course.side != side) {
       course.waiting.reset();

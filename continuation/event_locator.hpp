@@ -1,9 +1,9 @@
 #pragma once
 // Events between two neighbouring points of a branch: where a monitor changes its sign.
 //
-// The zero is bracketed on the cubic between the points, each trial corrected onto the branch. A step that
-// turns at a kink is two smooth sections, which end and begin there: an event lies before the kink, at it, or
-// beyond it.
+// The zero is bracketed on the cubic between the points, each trial corrected onto the branch. A step across
+// kinks is several smooth sections, which end and begin there: an event lies within a section, or at a kink,
+// where the values of the monitor on its two sides differ in sign.
 //
 // A monitor that is the slope of a quantity q has zeros from rounding where q is flat. Zeros alternate
 // between maxima and minima of q, and two neighbours q_1, q_2 with |q_1 - q_2| <= r are no events: they
@@ -37,7 +37,15 @@ class EventLocator {
   /// Whether any monitor changes its sign, in whichever direction.
   bool changes_sign(const Place& from, const Place& to) const;
 
-  /// The events that have become certain with this step, in the order of arclength. `after` is left to the
+  /// The kink at which the piece of `from` ends, within `length` along its tangent. towards: which side is
+  /// beyond, where the signs of determinants are not known. Nothing where none is found.
+  std::optional<Corner> corner(const Place& from, double length, const Vector& towards);
+
+  /// The kinks of a step, in order, where a monitor is one of kinks or the slope of a quantity; others take a
+  /// step as it is. From `from` on, as many as are found.
+  std::vector<Corner> corners(const Place& from, const Place& to);
+
+  /// The events that have become certain with this section, in the order of arclength. `after` is left to the
   /// caller.
   std::vector<LocatedEvent> between(const Place& from, const Place& to);
 
@@ -46,8 +54,8 @@ class EventLocator {
   /// that vanishes at the branch point has its zero there.
   std::vector<LocatedEvent> past(const Place& from, const Place& crossing, const Place& to);
 
-  /// The same for a kink, by the places on its two sides.
-  std::vector<LocatedEvent> across(const Place& kink, const Place& beyond);
+  /// The same for a kink.
+  std::vector<LocatedEvent> across(const Corner& corner);
 
   /// The branch point between two places whose orientations differ: where two branches cross. Nothing where
   /// none do: then `to` is on another branch. The event is the first branch_point monitor's, or has no name.
@@ -66,9 +74,8 @@ class EventLocator {
   std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
   std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
   LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
-  Place pass_kinks(const Place& from, const Place& to, std::vector<LocatedEvent>& found);
-  LocatedEvent kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const;
-  bool look_beyond(const Place& kink, const Place& to, double way, Place& beyond);
+  LocatedEvent kink_event(const Monitor& monitor, const Corner& corner) const;
+  bool look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards, Place& beyond);
   bool is_event(std::size_t monitor, const LocatedEvent& found);
   void describe(LocatedEvent& found);
   Event event(std::size_t monitor, const Place& place, double value, const Correction& correction) const;

@@ -6,17 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <iterator>
 #include <limits>
 #include <utility>
 
 namespace arcslip::continuation {
 namespace {
 
-constexpr int most_kinks = 16;          // looked for in one step
-constexpr double just_beyond = 1e-6;    // of a step: where the other side of a kink is looked at
-constexpr double smallest_kink = 1e-4;  // rad
-constexpr double beside_step = 0.1;     // of a step: a branch point so near lies on it
+constexpr int most_kinks = 16;  // looked for in one step
+constexpr double just_beyond[] = {1e-9, 1e-6,
+                                  1e-3};  // of a step: where the other side of a kink is looked at
+constexpr double beside_step = 0.1;       // of a step: a branch point so near lies on it
 // Of a monitor's change over a step, and of the largest dp/ds as for the type of a branch point: less is
 // zero.
 constexpr double zero_share = 1e-6;
@@ -90,56 +89,73 @@ std::optional<LocatedEvent> EventLocator::beyond_crossing(std::size_t monitor, c
   return LocatedEvent{event(monitor, crossing, 0, {}), crossing, crossing.quantities[monitor]};
 }
 
-LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Place& kink, const Vector& beyond) const {
+LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Corner& corner) const {
   LocatedEvent found;
   found.event.monitor = monitor.name;
-  found.event.point = point(kink, {});
+  found.event.point = point(corner.before, {});
   found.event.nonsmooth = true;
-  found.event.data = Kink{kink.tangent, beyond};
-  found.place = kink;
+  found.event.data = Kink{corner.before.tangent, corner.beyond.tangent};
+  found.place = corner.before;
   return found;
 }
 
-// The branch shortly beyond a kink, with its tangent there: linearized ahead, where the other piece is, and
-// corrected along that tangent, on the side of `to`.
-bool EventLocator::look_beyond(const Place& kink, const Place& to, double way, Place& beyond) {
+// The branch shortly beyond a kink, with its tangent there: linearized ahead, where the other piece is, and,
+// farther off than the kink itself is known, corrected along that tangent.
+bool EventLocator::look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards,
+                               Place& beyond) {
   Corrector& probe = this->probe();
   beyond = kink;
   beyond.v = kink.v + way * kink.tangent;
-  if (!probe.linearize(beyond.v, probe.border_row(kink.tangent)) || !settle(probe, beyond)) return false;
-  const bool against = kink.orientation != 0 ? beyond.orientation != kink.orientation
-                                             : probe.dot(beyond.tangent, to.v - kink.v) < 0;
+  if (!probe.linearize(beyond.v, probe.border_row(kink.tangent)) || !settle(probe, beyond)) {
+    const Vector row = Vector::Unit(beyond.v.size(), beyond.v.size() - 1);  // at a right angle to it
+    if (!probe.linearize(beyond.v, row) || !settle(probe, beyond)) return false;
+  }
+  const bool against =
+      kink.orientation != 0 ? beyond.orientation != kink.orientation : probe.dot(beyond.tangent, towards) < 0;
   if (against) beyond.reverse();
   const Vector tangent = beyond.tangent;
   beyond.v = kink.v + way * tangent;
-  if (!probe.correct(beyond.v, probe.border_row(tangent), false).converged || !settle(probe, beyond))
-    return false;
+  const bool on_it = is_next_to_it ? probe.move_to(beyond.v) && probe.piece(beyond.piece)
+                                   : probe.correct(beyond.v, probe.border_row(tangent), false).converged &&
+                                         settle(probe, beyond);
+  if (!on_it) return false;
   beyond.arclength = kink.arclength + way;
-  return beyond.piece != kink.piece;
+  return beyond.piece != kink.piece && (kink.orientation == 0 || beyond.orientation == kink.orientation);
 }
 
-// From piece to piece: each section is searched by itself, so that two events of one monitor within the step,
-// as two nonsmooth folds are, do not cancel. Returns the beginning of the last section.
-Place EventLocator::pass_kinks(const Place& from, const Place& to, std::vector<LocatedEvent>& found) {
-  Place side = from, kink, beyond;
-  const auto add = [&](std::vector<LocatedEvent>&& events) { append(found, std::move(events)); };
-  for (int k = 0; k < most_kinks && side.piece != to.piece; ++k) {
-    const double length = to.arclength - side.arclength;
-    Correction correction;
-    if (!(length > 0) || !locate_kink(probe(), side, length, kink, correction)) break;
-    if (!probe().linearize(kink.v, probe().border_row(side.tangent))) break;
-    evaluate(monitors_, probe(), kink);
-    if (!look_beyond(kink, to, just_beyond * length, beyond)) break;
-    evaluate(monitors_, probe(), beyond);
-    add(gather(&EventLocator::find, side, kink));
-    const double turn = probe().dot(kink.tangent, beyond.tangent);
-    if (turn < 1 - 0.5 * smallest_kink * smallest_kink)
-      add(across(kink, beyond));
-    else
-      add(gather(&EventLocator::find, kink, beyond));
-    side = beyond;
+std::optional<Corner> EventLocator::corner(const Place& from, double length, const Vector& towards) {
+  Corner corner;
+  Correction correction;
+  if (!locate_kink(probe(), from, length, corner.before, correction)) return std::nullopt;
+  if (correction.converged)
+    probe().move_to(corner.before.v);
+  else if (!probe().linearize(corner.before.v, probe().border_row(from.tangent)))  // it is `from` itself
+    return std::nullopt;
+  evaluate(monitors_, probe(), corner.before);
+  for (const double share : just_beyond) {
+    if (!look_beyond(corner.before, share * length, share == just_beyond[0], towards, corner.beyond))
+      continue;
+    evaluate(monitors_, probe(), corner.beyond);
+    return corner;
   }
-  return side;
+  return std::nullopt;
+}
+
+std::vector<Corner> EventLocator::corners(const Place& from, const Place& to) {
+  std::vector<Corner> found;
+  const auto looks = [](const Monitor& each) { return each.kind == MonitorKind::kink || each.quantity; };
+  if (to.piece == from.piece || std::none_of(monitors_.begin(), monitors_.end(), looks)) return found;
+  const Place* side = &from;
+  for (int k = 0; k < most_kinks && side->piece != to.piece; ++k) {
+    const Vector way = to.v - side->v;
+    const double length = std::sqrt(probe().dot(way, way));
+    if (!(length > 0)) break;
+    auto next = corner(*side, length, way);
+    if (!next) break;
+    found.push_back(std::move(*next));
+    side = &found.back().beyond;
+  }
+  return found;
 }
 
 }  // namespace arcslip::continuation

@@ -20,6 +20,7 @@ constexpr double state_tolerance = 1e-10;   // relative, of u at an event
 constexpr int samples_beside = 4;           // of q on each side of an extreme, for its rounding
 constexpr double sample_share = 1e-2;       // of the step, between them
 constexpr double spreads = 2;               // of the samples: more is no rounding
+constexpr double spreads_at_kink = 8;       // of two samples
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 }  // namespace
@@ -32,10 +33,17 @@ LocatedEvent EventLocator::nearer_end(std::size_t monitor, const Place& from, co
   return {std::move(found), end, end.quantities[monitor]};
 }
 
-std::optional<LocatedEvent> EventLocator::at_kink(std::size_t monitor, const Place& kink, const Place&) {
+// A quantity is the same on both sides of a kink, but for its rounding.
+std::optional<LocatedEvent> EventLocator::at_kink(std::size_t monitor, const Place& kink,
+                                                  const Place& beyond) {
   Event found = event(monitor, kink, kink.monitors[monitor], {});
   found.nonsmooth = true;
-  return LocatedEvent{std::move(found), kink, kink.quantities[monitor]};
+  LocatedEvent result{std::move(found), kink, kink.quantities[monitor]};
+  if (!monitors_[monitor].quantity) return result;
+  const double representable = std::numeric_limits<double>::epsilon() * std::abs(result.quantity);
+  const double jump = std::abs(beyond.quantities[monitor] - kink.quantities[monitor]);
+  result.rounding = spreads_at_kink * std::max(jump, representable);
+  return result;
 }
 
 std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor, const Place& from,

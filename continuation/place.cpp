@@ -10,7 +10,7 @@ namespace {
 constexpr double finest_kink = 1e-12;  // of the way to look for a kink: where it is to be found
 constexpr double least_slope = 0.1;    // of a tangent against the first one, to predict along it
 constexpr double farther = 8;          // where a prediction has not come to the end of the piece
-constexpr double first_margin = 1e-2, largest_margin = 0.5;
+constexpr double first_margin = 1e-2, least_margin = 1e-12, largest_margin = 0.5;
 constexpr double wider = 10;  // a margin, where the end was passed
 constexpr int most_kink_corrections = 60;
 
@@ -28,8 +28,8 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
   // Along from.tangent: of `kink`, which is in the piece of `from`, and of what is not.
   double lower = 0, upper = length, ahead = length;
   // Of the way to where the piece is predicted to end: left, so that it is not passed. The error of a
-  // prediction shrinks with the way.
-  double margin = first_margin;
+  // prediction shrinks with the square of the way, and the next prediction tells it.
+  double margin = first_margin, predicted = 0, way = 0;
   bool factors_fit = false;
   kink = from;
   Vector v = from.v;
@@ -52,11 +52,14 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
       if (outside == upper) break;
       outside = std::min(upper, lower + farther * (outside - lower));
     }
-    while (outside - inside > std::max(finest / 4, 0.5 * margin * (outside - lower))) {
+    const double fine = 0.5 * std::min(margin, largest_margin);
+    while (outside - inside > std::max(finest / 4, fine * (outside - lower))) {
       const double middle = 0.5 * (inside + outside);
       (predicted_inside(middle) ? inside : outside) = middle;
     }
-    if (inside == lower) return true;  // the piece ends here
+    if (inside == lower || outside - lower <= finest) return true;  // the piece ends here
+    if (way > 0)
+      margin = std::min(first_margin, 2 * std::abs(outside - predicted) / (way * way) * (outside - lower));
     const bool bisected = inside == upper || margin > largest_margin;
     const double aim = bisected ? 0.5 * (lower + upper) : inside - margin * (inside - lower);
     predict(aim);
@@ -66,25 +69,21 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
     if (!factors_fit) {
       upper = aim;
       ahead = upper - lower;
-      margin *= wider;
+      margin = wider * std::max(margin, least_margin);
+      way = 0;
       continue;
     }
-    const bool found = !bisected && outside - aim <= finest / 2;
-    const double way = aim - lower, left = outside - aim;
-    if (bisected)
-      ahead = upper - aim;
-    else {
-      ahead = 2 * left;
-      margin = std::min(first_margin, 2 * margin * left / way);
-    }
+    way = bisected ? 0 : aim - lower;
+    if (bisected) margin = largest_margin;
+    predicted = outside;
+    ahead = bisected ? upper - aim : 2 * (outside - aim);
     lower = aim;
     kink.v = v;
     kink.arclength = from.arclength + lower;
     last = at;
     if (!settle(with, kink)) return false;
-    if (found) return true;
   }
-  return true;
+  return upper - lower <= finest;
 }
 
 Accepted accepted(Corrector& at, const Place& place) {

@@ -26,6 +26,11 @@ struct Place {
   }
 };
 
+/// A kink, as it is seen from both sides of it: where the piece before it ends, and where that beyond begins.
+struct Corner {
+  Place before, beyond;
+};
+
 /// Tangent, orientation and piece at the solution place.v of the last correction, on the side of its border
 /// row: row . t > 0. False where the tangent is not finite, or the piece not told.
 bool settle(Corrector& at, Place& place);

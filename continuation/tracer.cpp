@@ -5,7 +5,6 @@
 #include <arcslip/continuation/limits.hpp>
 #include <arcslip/continuation/monitor_calls.hpp>
 #include <arcslip/continuation/text.hpp>
-#include <arcslip/continuation/window.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,7 @@ constexpr double rejection = 0.25;             // of the step after a rejection
 constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
 constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: no shorter step tells two branches apart
 constexpr double parameter_overrun = 1.5;   // of the largest |dp| of a step
+constexpr double visible_corner = 0.05;     // rad: a kink of less is not seen in a curve
 constexpr double singular_bound = 1e-6;  // relative to p: so near to a singular bound a branch has reached it
 
 }  // namespace
@@ -83,7 +83,7 @@ bool Tracer::step() try {
 // of sign is believed from the linearization at the solution itself.
 bool Tracer::measure(Place& place) {
   evaluate(monitors_, *main_, place);
-  if (!events_->changes_sign(s_.here, place)) return true;
+  if (!events_->changes_sign(last_section(), place)) return true;
   main_->border_row(place.tangent, v_);
   if (!main_->linearize(place.v, v_) || !settle(*main_, place)) return false;
   evaluate(monitors_, *main_, place);
@@ -92,6 +92,7 @@ bool Tracer::measure(Place& place) {
 
 Tracer::Attempt Tracer::attempt() {
   crossing_.reset();
+  corners_.clear();
   curve_error_ = 0;
   predict(next_.v);
   main_->border_row(s_.here.tangent, row_);
@@ -101,7 +102,7 @@ Tracer::Attempt Tracer::attempt() {
   if (!correction.converged) return Attempt::rejected;
 
   v_ = next_.v - s_.here.v;
-  const double length = std::sqrt(main_->dot(v_, v_));
+  double length = std::sqrt(main_->dot(v_, v_));
   if (!(length > 0) || !settle(*main_, next_) || went_back(next_)) return Attempt::rejected;
 
   const double turn = angle_between(
@@ -120,23 +121,48 @@ Tracer::Attempt Tracer::attempt() {
   // The tangent may turn towards the parameter within the step.
   const double moved = std::abs(next_.v[n_] - s_.here.v[n_]);
   if (!kink && moved > parameter_overrun * largest_parameter_step()) return Attempt::unresolved;
+  next_.arclength = s_.here.arclength + length;
+  corners_ = events_->corners(s_.here, next_);
+  if (!corners_.empty()) {
+    const Place& last = corners_.back().beyond;
+    length = last.arclength - s_.here.arclength + distance(*main_, last.v, next_.v);
+    next_.arclength = s_.here.arclength + length;
+  }
   if (!measure(next_)) return Attempt::rejected;
   if (next_.piece == s_.here.piece) curve_error_ = curve_error(length);
-  if (curve_error_ > 1 || !resolved(s_.here, next_, length)) return Attempt::unresolved;
+  if (curve_error_ > 1 || !resolved(length)) return Attempt::unresolved;
   const double next_ds = kink ? s_.turn.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);
 }
 
+// Where the step leaves the window, within a section of its own: next_ is then the end of that section, and
+// no kinks beyond it are left.
+std::optional<Exit> Tracer::exit(bool kink) {
+  const Window window{options_.lower, options_.upper};
+  const Place* from = &s_.here;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    const Place& to = corners_[k].before;
+    if (const auto found = leaves(window, *from, to, to.arclength - from->arclength, false)) {
+      next_ = to;
+      corners_.resize(k);
+      return found;
+    }
+    from = &corners_[k].beyond;
+  }
+  return leaves(window, *from, next_, next_.arclength - from->arclength, kink && corners_.empty());
+}
+
 // Accepts next_, or, beyond the window, ends the branch at its bound.
-Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Correction& correction,
-                             const Corner* corner) {
+Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Correction& correction) {
   next_.arclength = s_.here.arclength + length;
-  if (const auto exit = leaves({options_.lower, options_.upper}, s_.here, next_, length, kink)) {
+  if (const auto exit = this->exit(kink)) {
     const double bound = exit->bound;
+    const Place& from = last_section();
     // A branch point on the way changes the sign.
-    const bool crossed = crossing_ && exit->share * length > crossing_->place.arclength - s_.here.arclength;
+    const bool crossed = crossing_ && from.arclength + exit->share * (next_.arclength - from.arclength) >
+                                          crossing_->place.arclength;
     const int orientation = crossed ? next_.orientation : s_.here.orientation;
-    if (!draw_back(*main_, s_.here, *exit, orientation, next_, row_) || !measure(next_)) {
+    if (!draw_back(*main_, from, *exit, orientation, next_, row_) || !measure(next_)) {
       const double left = std::abs(bound - s_.here.v[n_]);
       if (left > singular_bound * std::max(std::abs(bound), main_->parameter_scale()))
         return Attempt::rejected;
@@ -167,21 +193,21 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
     main_->border_row(next_.tangent, row_);
     if (!main_->linearize(next_.v, row_)) return Attempt::rejected;
   }
-  if (corner && s_.here.arclength > 0 &&
-      distance(*main_, corner->before.v, s_.start.v) <=
-          rounding_of_home(*main_, s_.start, options_.newton.rounding_level)) {
+  const double rounding = rounding_of_home(*main_, s_.start, options_.newton.rounding_level);
+  for (std::size_t k = 0; k < corners_.size() && s_.here.arclength > 0; ++k) {
+    const Place& at = corners_[k].before;
+    const double miss = distance(*main_, at.v, s_.start.v);
+    if (miss > rounding) continue;
     next_ = s_.start;
-    next_.arclength = corner->before.arclength;
+    next_.arclength = at.arclength;
+    corners_.resize(k);
     if (accept(std::move(next_), correction))
-      end(StopReason::closed, distance(*main_, corner->before.v, s_.start.v),
-          rounding_of_home(*main_, s_.start, options_.newton.rounding_level),
-          "came back to the start, a kink: the branch is closed");
+      end(StopReason::closed, miss, rounding, "came back to the start, a kink: the branch is closed");
     return Attempt::ended;
   }
-  s_.last_step = length;
-  s_.has_before = !kink;
+  s_.has_before = !kink || !corners_.empty();
   factors_fit_ = !kink;
-  if (!accept(std::move(next_), correction, corner)) return Attempt::ended;
+  if (!accept(std::move(next_), correction)) return Attempt::ended;
   s_.step = limited(next_ds);
   return within_limits() ? Attempt::accepted : Attempt::ended;
 }
@@ -201,17 +227,42 @@ void Tracer::keep(const Place& place, const Correction& correction) {
   ++s_.branch.counts.points;
 }
 
-bool Tracer::accept(Place&& place, const Correction& correction, const Corner* corner) {
-  const bool crossed = crossing_ && crossing_->event.located && !crossing_->event.nonsmooth;
-  const bool go_on = corner ? report(events_->between(s_.here, corner->before)) &&
-                                  report(events_->across(corner->before, corner->beyond)) &&
-                                  report(events_->between(corner->beyond, place))
-                            : report(with_crossing(crossed ? events_->past(s_.here, crossing_->place, place)
-                                                           : events_->between(s_.here, place)));
+// To a kink, from the beginning of a section, and across. A corner that is to be seen is a point of the
+// branch.
+bool Tracer::pass(const Place& from, const Corner& corner) {
+  const Place& kink = corner.before;
+  bool go_on = report(events_->between(from, kink));
+  if (!go_on || terminal_) return go_on;
+  go_on = report(events_->across(corner));
+  if (terminal_ || angle_between(main_->dot(kink.tangent, corner.beyond.tangent)) < visible_corner)
+    return go_on;
+  keep(kink, {});
+  if (!go_on || !observer_) return go_on;
+  const auto now = events_->look_at(kink);
+  return !now || observer_(*now, nullptr);
+}
+
+bool Tracer::accept(Place&& place, const Correction& correction) {
+  bool go_on = true;
+  const Place* from = &s_.here;
+  for (const Corner& corner : corners_) {
+    if (!go_on || terminal_) break;
+    go_on = pass(*from, corner);
+    from = &corner.beyond;
+  }
+  const bool crossed = crossing_ && crossing_->event.located && !crossing_->event.nonsmooth &&
+                       crossing_->place.arclength > from->arclength;
+  if (go_on && !terminal_)
+    go_on = report(with_crossing(crossed ? events_->past(*from, crossing_->place, place)
+                                         : events_->between(*from, place)));
   if (terminal_) return end_at(*terminal_);
   warn_of_undefined(place);
   keep(place, correction);
-  std::swap(s_.before, s_.here);
+  s_.last_step = place.arclength - from->arclength;
+  if (corners_.empty())
+    std::swap(s_.before, s_.here);
+  else
+    s_.before = corners_.back().beyond;
   std::swap(s_.here, place);
   if (!go_on || !notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;

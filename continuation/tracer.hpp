@@ -13,6 +13,7 @@
 #include <arcslip/continuation/monitor.hpp>
 #include <arcslip/continuation/options.hpp>
 #include <arcslip/continuation/state.hpp>
+#include <arcslip/continuation/window.hpp>
 
 #include <chrono>
 #include <functional>
@@ -69,20 +70,18 @@ class Tracer {
 
   Attempt attempt();
   bool corner();
-  struct Corner {  // both sides of a kink within the step
-    Place before, beyond;
-  };
-  double beyond_share(const Place& kink, const Vector& way);
-  bool look_beside(const Place& kink, const Vector& tangent, double way, Place& side);
-  Attempt take(double length, double next_ds, bool kink, const Correction& correction,
-               const Corner* corner = nullptr);
+  const Place& last_section() const { return corners_.empty() ? s_.here : corners_.back().beyond; }
+  Attempt take(double length, double next_ds, bool kink, const Correction& correction);
+  std::optional<Exit> exit(bool kink);
   void predict(Vector& v) const;
   bool went_back(const Place& next) const;
   bool measure(Place& place);
-  bool resolved(const Place& from, const Place& to, double length);
+  bool resolved(double length);
+  bool tells(const Place& from, const Place& to, double length);
   double chord_departure(const Place& from, const Place& to, std::size_t m, double length) const;
   bool is_kink(double turn, const Place& next);
-  bool accept(Place&& place, const Correction& correction, const Corner* corner = nullptr);
+  bool accept(Place&& place, const Correction& correction);
+  bool pass(const Place& from, const Corner& corner);
   std::optional<LocatedEvent> unlocated_branch_point(const Place& from, const Place& to) const;
   std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found);
   bool report(std::vector<LocatedEvent>&& found);
@@ -109,9 +108,10 @@ class Tracer {
   std::unique_ptr<EventLocator> events_;
   Place next_;
   bool factors_fit_ = false;
-  bool evaluated_ = true;   // the last rejection came from the corrector, not from the problem
-  double curve_error_ = 0;  // of the curve along the last step, over that allowed
-  double chord_error_ = 0;  // of the monitored quantities in the last step, over that allowed
+  bool evaluated_ = true;        // the last rejection came from the corrector, not from the problem
+  double curve_error_ = 0;       // of the curve along the last step, over that allowed
+  double chord_error_ = 0;       // of the monitored quantities in the last step, over that allowed
+  std::vector<Corner> corners_;  // in the step that is tried, in order
   std::optional<Place> terminal_;
   std::optional<LocatedEvent> crossing_;  // the branch point in the step that is tried
   std::string failure_;                   // of the last rejection

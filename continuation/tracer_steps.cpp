@@ -80,14 +80,31 @@ double Tracer::chord_departure(const Place& from, const Place& to, std::size_t m
          std::max(q * std::abs(to.v[n_] - from.v[n_]), p * std::abs(to.quantities[m] - from.quantities[m]));
 }
 
-// Whether each monitored quantity has no more extremes in the step than its slopes at both ends tell. How
-// much the slope bends between them is told by the change of the quantity, and by the slope before. Beside a
-// kink it bends however short the step: in one stretch the step is shortened no further than to a part of the
-// first one.
-bool Tracer::resolved(const Place& from, const Place& to, double length) {
+// Whether each monitored quantity has no more extremes in the step than its slopes at the ends of its
+// sections tell. Beside a kink a slope may bend however short the step: in one stretch the step is shortened
+// no further than to a part of the first one.
+bool Tracer::resolved(double length) {
   chord_error_ = 0;
   const bool in_stretch = s_.here.arclength <= s_.unresolved_end;
   if (in_stretch && s_.step <= unresolved_share * s_.unresolved_step) return true;
+  const Place* from = &s_.here;
+  bool all = true;
+  for (std::size_t k = 0; k <= corners_.size() && all; ++k) {
+    const Place& to = k < corners_.size() ? corners_[k].before : next_;
+    all = tells(*from, to, to.arclength - from->arclength);
+    if (k < corners_.size()) from = &corners_[k].beyond;
+  }
+  if (!all && !in_stretch) {
+    if (s_.here.arclength > s_.unresolved_end + length) s_.unresolved_step = 0;
+    s_.unresolved_end = s_.here.arclength + length;
+    s_.unresolved_step = std::max(s_.unresolved_step, s_.step);
+  }
+  return all;
+}
+
+// The same of one section. How much the slope bends between its ends is told by the change of the quantity,
+// and by the slope before.
+bool Tracer::tells(const Place& from, const Place& to, double length) {
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!monitors_[m].quantity) continue;
     const double a = from.monitors[m], b = to.monitors[m];
@@ -105,14 +122,8 @@ bool Tracer::resolved(const Place& from, const Place& to, double length) {
                                    ? chord_departure(from, to, m, length) / monitors_[m].chord_tolerance
                                    : 0;
     if (chord_error > chord_error_) chord_error_ = chord_error;
-    if ((is_told(a, b, bend) && !(chord_error > 1)) || size <= quantity_rounding * std::abs(to.quantities[m]))
-      continue;
-    if (!in_stretch) {
-      if (s_.here.arclength > s_.unresolved_end + length) s_.unresolved_step = 0;
-      s_.unresolved_end = s_.here.arclength + length;
-      s_.unresolved_step = std::max(s_.unresolved_step, s_.step);
-    }
-    return false;
+    if ((!is_told(a, b, bend) || chord_error > 1) && size > quantity_rounding * std::abs(to.quantities[m]))
+      return false;
   }
   return true;
 }

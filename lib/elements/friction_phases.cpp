@@ -75,16 +75,21 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
   return phases_;
 }
 
-// Of several highest reversals, as a motion of a shorter period than the force's has them, the first one, and
-// of several lowest: which of them rounding makes the highest tells nothing.
+// Of several highest and lowest reversals, as a motion of a shorter period than the force's has them, the
+// nearest two: which of them rounding makes the highest tells nothing.
 void FrictionPhases::choose_extremes(const std::vector<Reversal>& turns) {
   const double same = same_height * (highest_.x - lowest_.x);
-  std::size_t top = 0, bottom = 0;
-  while (turns[top].x < highest_.x - same) ++top;
-  while (turns[bottom].x > lowest_.x + same) ++bottom;
-  highest_.theta = turns[top].theta;
-  lowest_.theta = turns[bottom].theta;
-  extremes_ = top * turns.size() + bottom;
+  extremes_ = turns.size();
+  for (std::size_t bottom = 0; bottom < turns.size(); ++bottom) {
+    if (turns[bottom].x > lowest_.x + same) continue;
+    for (std::size_t way = 1; way < extremes_; ++way) {
+      const Reversal& top = turns[(bottom + way) % turns.size()];
+      if (top.x < highest_.x - same) continue;
+      extremes_ = way;
+      highest_.theta = top.theta;
+      lowest_.theta = turns[bottom].theta;
+    }
+  }
 }
 
 }  // namespace arcslip::elements

@@ -27,8 +27,8 @@ class FrictionPhases {
   /// Largest and smallest x of the last search; the angles where they are.
   Reversal highest() const { return highest_; }
   Reversal lowest() const { return lowest_; }
-  /// Where there is no slip and the motion has a mean, which of the reversals those are: another number where
-  /// another reversal becomes the highest or the lowest. Of equal ones, the first.
+  /// Where there is no slip and the motion has a mean, how many reversals the highest comes after the lowest:
+  /// another number where another reversal becomes the highest or the lowest.
   std::uint64_t extremes() const { return extremes_; }
 
  private:

@@ -77,6 +77,36 @@ TEST_CASE("a maximum before a sharp corner and a minimum beyond it are found, ho
       }
 }
 
+TEST_CASE("a maximum at a kink is found with the minimum just beyond it, however near, from both sides") {
+  // u = p before the kink and p/0.8 beyond, q = p + p^2 + 4 (1 + d)(p - u): of slopes 1 and -d at the kink,
+  // with a minimum at p = d/2, lower by d^2/4, and another one at p = -1/2.
+  for (double d : {1e-2, 1e-3, 1e-4, 1e-5})
+    for (double from : {-0.9137, -0.8513, 0.7331}) {
+      const double g = 4 * (1 + d);
+      const auto slope = [=](const Accepted& now) {
+        const double p = now.parameter, du = now.tangent[0], dp = now.tangent[1];
+        return (1 + 2 * p + g) * dp - g * du;
+      };
+      const auto q = [=](const Accepted& now) {
+        return now.parameter + now.parameter * now.parameter + g * (now.parameter - now.u[0]);
+      };
+      const double u = from < 0 ? from : from / 0.8;
+      const Branch branch =
+          trace(broken(1, 0.8), {Vector::Constant(1, u), Vector::Constant(1, from), 0, from < 0 ? 1 : -1},
+                window(-0.95, 1),
+                {{"maximum", slope, Crossing::falling, q}, {"minimum", slope, Crossing::rising, q}});
+      CAPTURE(d, from, branch.points.size(), branch.counts.rejected_steps);
+      const auto maxima = events_named(branch, "maximum"), minima = events_named(branch, "minimum");
+      REQUIRE(maxima.size() == 1);
+      CHECK(maxima[0].nonsmooth);
+      CHECK(std::abs(maxima[0].point.parameter) < 1e-14);
+      REQUIRE(minima.size() == 2);
+      const Event& beyond = minima[from < 0 ? 1 : 0];
+      CHECK_FALSE(beyond.nonsmooth);
+      CHECK(std::abs(beyond.point.parameter - d / 2) < 1e-12);
+    }
+}
+
 TEST_CASE("a kink is an event at its place, with the tangents of both sides, whatever its angle") {
   for (double above : {0.9, 2.0, 20.0, -0.5, -3.0})
     for (double from : {-0.9, -0.531}) {

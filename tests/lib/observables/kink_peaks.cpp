@@ -125,3 +125,11 @@ TEST_CASE(
 TEST_CASE("in a motion of half the period peaks are the same in all units, names and directions") {
   check_all_invariances(half_period());
 }
+
+TEST_CASE("a peak of 0.26 % at a kink is found in all units, names and directions") {
+  const auto seen = invariances::response(small_peak());
+  CHECK(std::count_if(seen.events.begin(), seen.events.end(), [](const auto& event) {
+          return event.kind == "peak" && event.nonsmooth && std::abs(event.omega - 14.0701017) < 1e-7;
+        }) == 1);
+  check_all_invariances(small_peak());
+}
