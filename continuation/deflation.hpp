@@ -21,6 +21,7 @@
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/problem.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -33,6 +34,7 @@ struct DeflationOptions {
   double apart = 1e-5;               // distance of solutions that are two, relative to 1 + |u|, in scales
   int solutions = 100;               // found, at most
   MakeLinearSolver linear_solver{};  // none: the problem's own, or what suits its Jacobian
+  std::function<bool()> go_on{};     // asked at each iteration; false ends it with what was found
 };
 
 /// known: solutions, to rounding; guesses: where to begin, each n. From each guess until it leads to nothing

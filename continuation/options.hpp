@@ -4,6 +4,7 @@
 #include <arcslip/continuation/linear_solver.hpp>
 
 #include <cstddef>
+#include <functional>
 
 namespace arcslip::continuation {
 
@@ -57,6 +58,10 @@ struct Options {
   double largest_state = 1e12;       // |u| in scales
   double event_tolerance = 1e-12;    // relative, of the free parameter at an event
   MakeLinearSolver linear_solver{};  // none: the problem's own, or what suits its Jacobian
+
+  /// Asked before each attempt of a step, so that a trace whose steps are rejected can be stopped, too: false
+  /// ends it with reason `user`. Unlike an observer it needs no evaluation.
+  std::function<bool()> go_on{};
 };
 
 /// Throws std::invalid_argument with the value and its bound.

@@ -39,6 +39,7 @@ bool Tracer::step() try {
   if (s_.ended) return false;
   if (!s_.begun) return begin();
   for (;;) {
+    if (options_.go_on && !options_.go_on()) return end(StopReason::user, 1, 1, "stopped by the caller");
     const double smallest = options_.step.smallest * (1 + main_->norm_u(s_.here.v));
     if (s_.step < smallest)
       return end(evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, s_.step, smallest,

@@ -11,7 +11,8 @@ constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch tha
 
 // The branch from rest through the excitation factors from -1 to 1. All laws are antisymmetric: u at -1 is
 // -u at 1. So it may leave rest on either side, or come back through 0, where u need not be zero.
-std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p) {
+std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p,
+                           const std::function<bool()>& go_on) {
   const int factor = problem->excitation_factor();
   p[factor] = 0;
   continuation::Options options;
@@ -19,6 +20,7 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   options.upper = 1;
   options.step.largest_parameter = 0.01;
   options.points = longest_ramp;
+  options.go_on = go_on;
   const auto branch = continuation::trace(problem, {Vector::Zero(problem->size()), p, factor, 1}, options);
   if (branch.stop.reason != continuation::StopReason::boundary) return {};
   return branch.points.back().parameter * branch.points.back().u;
@@ -48,10 +50,11 @@ std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, 
   return v.head(n);
 }
 
-std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p) {
+std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+                                   const std::function<bool()>& go_on) {
   for (const Vector& guess : {Vector(Vector::Zero(problem->size())), linear_response(*problem, p)})
     if (const auto found = response_near(*problem, p, guess)) return found;
-  return ramp(problem, p);
+  return ramp(problem, p, go_on);
 }
 
 }  // namespace arcslip::hbm

@@ -3,6 +3,7 @@
 
 #include <arcslip/hbm/problem.hpp>
 
+#include <functional>
 #include <optional>
 
 namespace arcslip::hbm {
@@ -16,7 +17,8 @@ std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, 
 
 /// Newton's method from rest (all sliders stuck), from the response without elements, and, where neither
 /// converges, a branch in the excitation factor from rest at 0 to 1 or -1, where the response is that of 1
-/// reversed. Empty where that fails too.
-std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p);
+/// reversed. Empty where that fails too, or go_on, asked along that branch, says false.
+std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+                                   const std::function<bool()>& go_on = {});
 
 }  // namespace arcslip::hbm

@@ -42,6 +42,13 @@ ResponseBranch CurveParts::failed(double over, const std::string& message) const
   return result;
 }
 
+ResponseBranch CurveParts::stopped(double over) const {
+  ResponseBranch result = described(*way_.model, set_, way_.name);
+  result.status = Status::stopped;
+  result.stop = {name(StopReason::user), over, 0, "stopped by the caller before all curves were found"};
+  return result;
+}
+
 // At a cusp a curve of folds turns in everything, and where a curve of peaks turns, dA/ds = dA/dp dp/ds is
 // zero: neither is an event of its own.
 bool CurveParts::belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const {

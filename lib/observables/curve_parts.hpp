@@ -25,6 +25,8 @@ class CurveParts {
   static std::vector<double> turns(const SpecialCurve& curve);
 
   ResponseBranch failed(double over, const std::string& message) const;
+  /// Before all curves were found, where the response at `over` was looked at.
+  ResponseBranch stopped(double over) const;
 
  private:
   bool belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const;

@@ -61,7 +61,11 @@ class Curves {
     std::vector<ResponseBranch> branches;
     for (const Found& found : found_)
       for (auto& part : reported(found)) branches.push_back(std::move(part));
-    if (stopped_) return branches;
+    if (stopped_) {
+      if (branches.empty() || branches.back().stop.reason != name(StopReason::user))
+        branches.push_back(parts_.stopped(way_.value(looked_at_.back())));
+      return branches;
+    }
     if (branches.empty()) {
       const std::string& why = failure_.empty() ? unbounded_ : failure_;
       branches.push_back(parts_.failed(way_.from, "no " + what() + " was found at " + way_.name + " = " +
@@ -84,6 +88,12 @@ class Curves {
 
   std::string what() const { return peaks_ ? "resonance peak" : "fold"; }
 
+  // Tells, and asks: between points, too, with the numbers of the last one.
+  bool go_on() {
+    if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
+    return !stopped_;
+  }
+
   bool is_looked_at(double share) const {
     return std::any_of(looked_at_.begin(), looked_at_.end(),
                        [&](double other) { return std::abs(other - share) < least_apart; });
@@ -93,7 +103,9 @@ class Curves {
   void look_at(double share) {
     looked_at_.push_back(share);
     const double over = way_.value(share);
-    const SpecialPoints response = special_points(way_, over, window_, peaks_ ? "peak" : "fold");
+    const SpecialPoints response =
+        special_points(way_, over, window_, peaks_ ? "peak" : "fold", [this] { return go_on(); });
+    if (stopped_) return;
     for (const SpecialPoint& start : response.points) {
       follow(start, share);
       if (stopped_) return;
@@ -118,7 +130,7 @@ class Curves {
     }
     if (curve.end.closed) curve = begun_at_a_turn(std::move(curve));
     drop_parts_of(tracer, curve);
-    stopped_ = is_stopped(curve.end) || (curve.begin && is_stopped(*curve.begin));
+    stopped_ = stopped_ || is_stopped(curve.end) || (curve.begin && is_stopped(*curve.begin));
     look_beyond(curve.end);
     if (curve.begin) look_beyond(*curve.begin);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
@@ -216,11 +228,12 @@ class Curves {
       progress_.step = last > 0 ? (omega - last) / to_rad_per_s_ : 0;
       progress_.share_done = way_.share(over);
       last = omega;
-      return !report_ || report_(progress_);
+      return go_on();
     };
     return SpecialCurveTracer(problem, peaks_ ? peak_kind(problem) : fold_kind(), way_, window_,
                               with_folds(peaks_ ? peak_monitors(section) : fold_monitors(n)),
-                              peaks_ ? peak_monitors(section) : turn_monitors(n), section, progress);
+                              peaks_ ? peak_monitors(section) : turn_monitors(n), section, progress,
+                              [this] { return go_on(); });
   }
 
   static std::vector<Monitor> peak_monitors(const std::shared_ptr<CurveSection>& section) {

@@ -21,7 +21,7 @@ constexpr double largest_relative_step = 0.05;  // of the frequency, so that wid
 }  // namespace
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
-                             double frequency_scale) {
+                             double frequency_scale, const GoOn& go_on) {
   const auto problem_with = [&](double displacement) {
     const double scale = displacement > 0 && std::isfinite(displacement) ? displacement : 1;
     return std::make_shared<const hbm::HbmProblem>(model, model->harmonics, scale, frequency_scale);
@@ -35,7 +35,7 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
             "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
                 "\", and friction leaves it free to drift; add a spring between it and the ground or what is "
                 "held, or excite odd harmonics only"};
-  const auto u = hbm::steady_state(problem, p);
+  const auto u = hbm::steady_state(problem, p, go_on);
   if (!u)
     return {problem,
             {},
@@ -46,11 +46,15 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
 
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record,
-                                 int direction, Steps steps) {
+                                 int direction, Steps steps, const GoOn& go_on) {
   const double width = window.upper - window.lower;
-  const FirstResponse first = first_response(model, from, width);
+  const FirstResponse first = first_response(model, from, width, go_on);
   if (!first.u) {
     FrequencyBranch none{first.problem, {}};
+    if (go_on && !go_on()) {
+      none.branch.stop = {continuation::StopReason::user, 1, 1, "stopped by the caller"};
+      return none;
+    }
     none.branch.stop = {continuation::StopReason::start_failed, from, 0, first.failure};
     return none;
   }
@@ -67,6 +71,7 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   options.step.smallest =
       std::min(options.step.smallest, smallest_step * largest_relative_step * window.lower / width);
   options.largest_state = resolvable;
+  options.go_on = go_on;
   const auto observer = std::make_shared<Observer>(problem);
   continuation::Observer each;
   if (record)

@@ -29,9 +29,13 @@ struct FirstResponse {
   std::string failure;
 };
 
+/// Whether to go on: asked about all the time, whatever is under way. Once it was false it stays so; what was
+/// under way is then left as it is, and means nothing.
+using GoOn = std::function<bool()>;
+
 /// At omega with the model's own parameters. frequency_scale: of the problem.
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
-                             double frequency_scale);
+                             double frequency_scale, const GoOn& go_on = {});
 
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
@@ -40,9 +44,10 @@ using Record = std::function<bool(Observer&, const continuation::Accepted&, cons
 /// alone, also 1/200 of the highest frequency, but no longer than 1/20 of the window.
 enum class Steps { curve, events };
 
-/// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1).
+/// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). Where go_on says false
+/// the branch ends with reason user.
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record = {},
-                                 int direction = 1, Steps steps = Steps::curve);
+                                 int direction = 1, Steps steps = Steps::curve, const GoOn& go_on = {});
 
 }  // namespace arcslip::observables

@@ -65,25 +65,30 @@ class Sweep {
         if (growth.unbounded) return false;
       }
       result.points.push_back(observer.observe(now));
-      if (!progress_) return true;
-      const Progress progress{index_,
-                              count_,
-                              static_cast<long>(course.size()),
-                              omega / unit_,
-                              (omega - last) / unit_,
-                              std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0)};
+      told_.points = static_cast<long>(course.size());
+      told_.frequency = omega / unit_;
+      told_.step = (omega - last) / unit_;
+      told_.share_done = std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0);
       last = omega;
-      return progress_(progress);
+      return go_on();
     };
+    told_ = {.branch = index_, .branches = count_, .frequency = from / unit_};
     if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
       end_unbounded(result, on_it, {{from, HUGE_VAL}});
       return result;
     }
-    const auto traced = frequency_branch(model_, {lower_, upper_}, from, record);
+    const auto traced =
+        frequency_branch(model_, {lower_, upper_}, from, record, 1, Steps::curve, [this] { return go_on(); });
     result.solver.unknowns = traced.problem->size();
     finish(result, traced, from, growth, course);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return result;
+  }
+
+  // Tells, and asks: between points, too, with the numbers of the last one.
+  bool go_on() {
+    if (!stopped_ && progress_ && !progress_(told_)) stopped_ = true;
+    return !stopped_;
   }
 
   void finish(ResponseBranch& result, const FrequencyBranch& traced, double from, const Unboundedness& growth,
@@ -144,6 +149,8 @@ class Sweep {
   int index_, count_;
   std::shared_ptr<const model::Model> model_;
   double far_side_ = 0;
+  Progress told_{};
+  bool stopped_ = false;  // by the callback
 };
 
 }  // namespace

@@ -10,14 +10,17 @@
 
 namespace arcslip::observables {
 
-/// Progress of one branch; told after every accepted point.
+/// Progress of one branch; told after every accepted point, and again in between while steps are rejected or
+/// a response to start from is sought, so that it can be stopped there.
 struct Progress {
   int branch = 0, branches = 0;                      // which of how many
   long points = 0;                                   // accepted so far on this branch
   double frequency = 0;                              // in the scene's unit
   double step = 0;                                   // last step in frequency, in the scene's unit
-  double share_done = 0;                             // 0 to 1, of this branch
+  double share_done = 0;                             // 0 to 1, of this branch; NaN: nobody knows
   const char *item = "branch", *counted = "points";  // in words for people
+  const char* phase = "";                            // of a search: what is done; else nothing
+  double best = no_value;                            // of a search: the least amplitude so far, m
 };
 
 /// Returns false to stop: the branch then ends with reason "user".

@@ -64,7 +64,7 @@ SpecialCurveTracer::SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> pr
                                        OverParameter way, const FrequencyWindow& window,
                                        std::vector<Monitor> smooth_monitors,
                                        std::vector<Monitor> corner_monitors,
-                                       std::shared_ptr<CurveSection> section, Progress progress)
+                                       std::shared_ptr<CurveSection> section, Progress progress, GoOn go_on)
     : problem_(std::move(problem)),
       kind_(std::move(kind)),
       way_(std::move(way)),
@@ -73,6 +73,7 @@ SpecialCurveTracer::SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> pr
       corner_monitors_(std::move(corner_monitors)),
       section_(std::move(section)),
       progress_(std::move(progress)),
+      go_on_(std::move(go_on)),
       smooth_(continuation::stationary_points(problem_, model::frequency, kind_.quantity)) {}
 
 SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
@@ -173,11 +174,13 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
     }
     return progress_(now.parameter, omega);
   };
+  auto options = way_.options();
+  options.go_on = go_on_;
   continuation::Branch branch =
       continuation::trace(corner ? hbm::slip_corner_points(problem_, *from.corner) : smooth_,
                           {corner ? with_angles(from.x, *from.corner) : from.x, parameters(from.x, from.over),
                            way_.index, from.direction},
-                          way_.options(), std::move(monitors), record);
+                          options, std::move(monitors), record);
   if (!branch.points.empty()) {  // what was seen beyond a terminal event is none of it
     arclength_ = begin + branch.points.back().arclength;
     const auto beyond = [&](const auto& each) { return each.arclength > arclength_; };

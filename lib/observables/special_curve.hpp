@@ -74,11 +74,11 @@ class SpecialCurveTracer {
   using Progress = std::function<bool(double over, double omega)>;
 
   /// monitors: of the curve, in addition to that of the frequency window. progress: after each point, with
-  /// its value of the parameter and its frequency; false stops.
+  /// its value of the parameter and its frequency; false stops. go_on: asked in between, too.
   SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> problem, SpecialKind kind, OverParameter way,
                      const FrequencyWindow& window, std::vector<continuation::Monitor> smooth_monitors,
                      std::vector<continuation::Monitor> corner_monitors,
-                     std::shared_ptr<CurveSection> section, Progress progress);
+                     std::shared_ptr<CurveSection> section, Progress progress, GoOn go_on = {});
 
   /// direction: of the parameter, +1 or -1.
   SpecialCurve run(const SpecialPoint& start, int direction);
@@ -125,6 +125,7 @@ class SpecialCurveTracer {
   std::vector<continuation::Monitor> smooth_monitors_, corner_monitors_;
   std::shared_ptr<CurveSection> section_;
   Progress progress_;
+  GoOn go_on_;
   std::shared_ptr<const continuation::Problem> smooth_;
   SpecialCurve result_;
   double arclength_ = 0;  // where the part begins

@@ -15,7 +15,8 @@ constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whet
 
 // From one pole to the next. Returns where the branch goes on beyond it, or the end of the window.
 double add_points(const std::shared_ptr<const model::Model>& model, double over, double from,
-                  const FrequencyWindow& window, const std::string& kind, SpecialPoints& found) {
+                  const FrequencyWindow& window, const std::string& kind, const GoOn& go_on,
+                  SpecialPoints& found) {
   const double width = window.upper - window.lower;
   if (const auto growth = unbounded_resonance(model, from); growth.unbounded) {
     found.unbounded = growth.message;
@@ -40,7 +41,7 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
     if (unbounded) found.unbounded = growth.message;
     return !unbounded;
   };
-  const auto swept = frequency_branch(model, window, from, record);
+  const auto swept = frequency_branch(model, window, from, record, 1, Steps::curve, go_on);
   for (std::size_t i = before; i < found.points.size(); ++i) found.points[i].problem = swept.problem;
   if (unbounded) return beyond_pole(course, width);
   if (swept.branch.stop.reason != StopReason::boundary) found.failure = swept.branch.stop.message;
@@ -50,12 +51,12 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
 }  // namespace
 
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
-                             const std::string& kind) {
+                             const std::string& kind, const GoOn& go_on) {
   SpecialPoints found;
   const auto model = way.at(over);
   double from = window.lower;
   for (int piece = 0; piece <= 2 * model->dofs && from < window.upper; ++piece)
-    from = add_points(model, over, from, window, kind, found);
+    from = add_points(model, over, from, window, kind, go_on, found);
   return found;
 }
 

@@ -24,7 +24,8 @@ struct SpecialPoints {
 };
 
 /// Those in a frequency window where the parameter has the value `over`. kind: the event, "peak" or "fold".
+/// What is found until go_on says false is right, but not all.
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
-                             const std::string& kind);
+                             const std::string& kind, const GoOn& go_on = {});
 
 }  // namespace arcslip::observables
