@@ -84,7 +84,8 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   bool flagged = resonance_left_out(now);
   wide_.factorize(free_);
   if (held != HeldBy::corner || !to_corner(now)) {
-    const bool converges = wide_.solve(now.bordered, residual_, {}, change_) <= converging;
+    const double enough = tolerance * now.u.norm();
+    const bool converges = wide_.solve(now.bordered, residual_, {}, change_, enough) <= converging;
     wide_.embed(now.tangent.head(n), tangent_.u);
     tangent_.parameter = now.tangent[n];
     const Step step = step_along(now, held);

@@ -32,6 +32,7 @@ WideEquations::WideEquations(const hbm::HbmProblem& problem, const elements::Har
   for (int j = kept_.sines(); j < wide_.sines(); ++j) orders_.push_back(wide_.sine_order(j));
   const int side = 2 * problem.coordinates().unknowns;
   block_.resize(side, side);
+  harmonic_.resize(side);
   lus_.assign(orders_.size(), Eigen::PartialPivLU<Eigen::MatrixXd>(side));
 }
 
@@ -79,7 +80,7 @@ bool WideEquations::factorize_kept(const Border& border, int q, continuation::Li
 }
 
 double WideEquations::solve(const continuation::LinearSolver& kept, const Vector& r, const Border& border,
-                            Change& change) {
+                            Change& change, double enough) {
   const int unknowns = narrow_.coordinates().unknowns, c = wide_.size(), n = narrow_.size();
   change.u.setZero(u_.size());
   change.parameter = 0;
@@ -89,10 +90,9 @@ double WideEquations::solve(const continuation::LinearSolver& kept, const Vector
     sweep_.setZero();
     for (std::size_t k = 0; k < orders_.size(); ++k) {
       const int place[2] = {wide_.cosine_index(orders_[k]), wide_.sine_index(orders_[k])};
-      Vector b(2 * unknowns);
-      for (int i = 0; i < 2 * unknowns; ++i) b[i] = -rest_[i / 2 * c + place[i % 2]];
-      b = lus_[k].solve(b);
-      for (int i = 0; i < 2 * unknowns; ++i) sweep_[i / 2 * c + place[i % 2]] = b[i];
+      for (int i = 0; i < 2 * unknowns; ++i) harmonic_[i] = -rest_[i / 2 * c + place[i % 2]];
+      harmonic_ = lus_[k].solve(harmonic_);
+      for (int i = 0; i < 2 * unknowns; ++i) sweep_[i / 2 * c + place[i % 2]] = harmonic_[i];
     }
     const double neglected = sweep_.norm();
     continuation::apply(evaluator_->jacobian(), sweep_, part_);
@@ -110,6 +110,7 @@ double WideEquations::solve(const continuation::LinearSolver& kept, const Vector
     change.u += sweep_;
     change.parameter += kept_part_[n];
     if (sweep == 0) {
+      if (size <= enough) return 0;
       first = size;
       continuation::apply(evaluator_->jacobian(), sweep_, part_);
       rest_ += part_ + kept_part_[n] * F_q_;

@@ -52,7 +52,7 @@ class WideEquations {
   /// At the last place, whose blocks were made here or next to it. Returns the size of the second sweep
   /// relative to the first.
   double solve(const continuation::LinearSolver& kept, const continuation::Vector& r, const Border& border,
-               Change& change);
+               Change& change, double enough = 0);
 
   /// y = J du + F_q dq in all rows.
   void apply(const Change& change, int q, continuation::Vector& y) const;
@@ -69,7 +69,7 @@ class WideEquations {
   std::vector<int> orders_;                                // neglected, n > N
   std::vector<Eigen::PartialPivLU<Eigen::MatrixXd>> lus_;  // of their blocks, 2 r x 2 r
   Eigen::MatrixXd block_;
-  continuation::Vector u_, F_q_, rest_, sweep_, part_, kept_part_;
+  continuation::Vector u_, F_q_, rest_, sweep_, part_, kept_part_, harmonic_;
 };
 
 }  // namespace arcslip::observables
