@@ -2,6 +2,7 @@
 
 #include <arcslip/output/friction_elements.hpp>
 #include <arcslip/output/units.hpp>
+#include <arcslip/scene/visible.hpp>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace arcslip::app {
@@ -66,18 +68,25 @@ Row row(const scene::Scene& scene, const ResponseBranch& branch, const observabl
   return cells;
 }
 
-void write_aligned(std::ostream& out, const std::vector<Row>& rows) {
+/// Of UTF-8.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+void write_aligned(std::ostream& out, std::vector<Row> rows) {
   std::vector<std::size_t> widths;
-  for (const Row& cells : rows) {
+  for (Row& cells : rows) {
     widths.resize(std::max(widths.size(), cells.size()));
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      widths[i] = std::max(widths[i], cells[i].size());
+      cells[i] = scene::visible(cells[i]);
+      widths[i] = std::max(widths[i], characters(cells[i]));
     }
   }
   for (const Row& cells : rows) {
     std::string line;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      line += (i > 0 ? "  " : "") + std::string(widths[i] - cells[i].size(), ' ') + cells[i];
+      line += (i > 0 ? "  " : "") + std::string(widths[i] - characters(cells[i]), ' ') + cells[i];
     }
     out << line << '\n';
   }
@@ -106,7 +115,7 @@ void write_table(std::ostream& out, const scene::Scene& scene, std::span<const R
       rows.push_back(row(scene, branch, nullptr, friction));
     }
   }
-  write_aligned(out, rows);
+  write_aligned(out, std::move(rows));
 }
 
 void write_table(std::ostream& out, const scene::Scene& scene, std::span<const Motion> motions) {
@@ -141,7 +150,7 @@ void write_table(std::ostream& out, const scene::Scene& scene, std::span<const M
                   motion.multipliers.empty() ? "-" : formatted("%.6f", std::abs(motion.multipliers.front())),
                   std::to_string(motion.periods), observables::name(motion.status)});
   }
-  write_aligned(out, rows);
+  write_aligned(out, std::move(rows));
 }
 
 }  // namespace arcslip::app

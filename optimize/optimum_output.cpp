@@ -1,5 +1,6 @@
 #include <arcslip/optimize/optimum_output.hpp>
 
+#include <arcslip/output/csv_text.hpp>
 #include <arcslip/output/json_text.hpp>
 #include <arcslip/output/units.hpp>
 
@@ -180,34 +181,46 @@ output::JsonSection json_section(const scene::Scene& scene, std::span<const Opti
 }
 
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumResult> results) {
-  const char* end = "\r\n";
+  using output::detail::csv_number;
   if (results.empty()) return;
-  const auto cell = [](double value) {
-    return std::isnan(value) ? std::string() : std::isinf(value) ? "inf" : output::shortest(value);
-  };
-  out << "optimum,what";
-  for (const auto& [name, value] : results.front().set)
-    out << ',' << output::with_unit(name, output::parameter_unit(scene, name));
-  for (const DesignVariable& v : results.front().problem.over)
-    out << ',' << output::with_unit(v.name, output::parameter_unit(scene, v.name));
-  out << ",amplitude (m)," << output::with_unit("frequency", scene::unit_name(scene.frequency_unit)) << end;
+  const auto of_another = [&](const OptimumResult& result) { return result.study != results.front().study; };
+  const bool several_studies = std::any_of(results.begin(), results.end(), of_another);
+  std::vector<std::string> names;
+  for (const OptimumResult& result : results)
+    for (const auto& [name, value] : result.set) output::detail::add_name(name, names);
+  for (const OptimumResult& result : results)
+    for (const DesignVariable& v : result.problem.over) output::detail::add_name(v.name, names);
+  std::vector<std::string> titles(several_studies ? 1 : 0, "study");
+  titles.insert(titles.end(), {"optimum", "what"});
+  for (const std::string& name : names)
+    titles.push_back(output::with_unit(name, output::parameter_unit(scene, name)));
+  titles.insert(titles.end(),
+                {"amplitude (m)", output::with_unit("frequency", scene::unit_name(scene.frequency_unit))});
+  output::detail::write_csv_header(out, titles);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const OptimumResult& result = results[i];
     const auto row = [&](const std::string& what, std::span<const double> design, double amplitude,
                          const std::string& frequency) {
-      out << i + 1 << ',' << what;
-      for (const auto& [name, value] : result.set) out << ',' << cell(value);
-      for (const double value : design) out << ',' << cell(value);
-      out << ',' << cell(amplitude) << ',' << frequency << end;
+      std::vector<std::string> cells(several_studies ? 1 : 0, output::detail::csv_text(result.study));
+      cells.insert(cells.end(), {std::to_string(i + 1), what});
+      for (const std::string& name : names) {
+        std::string& cell = cells.emplace_back();
+        for (const auto& [key, value] : result.set)
+          if (key == name) cell = csv_number(value);
+        for (std::size_t k = 0; k < design.size(); ++k)
+          if (result.problem.over[k].name == name) cell = csv_number(design[k]);
+      }
+      cells.insert(cells.end(), {std::isinf(amplitude) ? "inf" : csv_number(amplitude), frequency});
+      output::detail::write_csv_row(out, cells);
     };
     for (const Evaluation& evaluation : result.optimum.evaluations)
       row("evaluation", evaluation.design, evaluation.amplitude, "");
     if (result.optimum.design.empty()) continue;
     for (std::size_t c = 0; result.has_cases() && c < result.optimum.cases.size(); ++c)
       row("case " + std::to_string(c + 1), result.optimum.design, result.optimum.cases[c].amplitude,
-          cell(output::in_scene_unit(scene, result.optimum.cases[c].point.omega)));
+          csv_number(output::in_scene_unit(scene, result.optimum.cases[c].point.omega)));
     row("optimum", result.optimum.design, result.optimum.amplitude,
-        cell(output::in_scene_unit(scene, result.optimum.point.omega)));
+        csv_number(output::in_scene_unit(scene, result.optimum.point.omega)));
   }
 }
 

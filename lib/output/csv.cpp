@@ -17,6 +17,7 @@ namespace arcslip::output {
 namespace {
 
 using detail::csv_number;
+using detail::csv_text;
 using detail::write_csv_row;
 using observables::ResponseBranch;
 using observables::ResponsePoint;
@@ -29,18 +30,12 @@ struct Columns {
 
 Columns columns_of(std::span<const ResponseBranch> branches) {
   Columns columns;
-  const auto add = [&](const std::string& name) {
-    auto& names = columns.parameters;
-    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) {
-      names.push_back(name);
-    }
-  };
   for (const ResponseBranch& branch : branches) {
     columns.study = columns.study || branch.study != branches.front().study;
     for (const auto& [name, value] : branch.set) {
-      add(name);
+      detail::add_name(name, columns.parameters);
     }
-    add(branch.over);
+    detail::add_name(branch.over, columns.parameters);
   }
   columns.friction = friction_elements(branches);
   return columns;
@@ -97,12 +92,12 @@ double parameter(const ResponseBranch& branch, const ResponsePoint& point, const
 std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, const ResponseBranch& branch,
                              std::size_t branch_number, const std::string& event, const ResponsePoint& point,
                              std::size_t count) {
-  std::vector<std::string> cells(columns.study ? 1 : 0, branch.study);
+  std::vector<std::string> cells(columns.study ? 1 : 0, csv_text(branch.study));
   for (const std::string& name : columns.parameters) {
     cells.push_back(csv_number(parameter(branch, point, name)));
   }
   cells.push_back(std::to_string(branch_number));
-  cells.push_back(event);
+  cells.push_back(csv_text(event));
   cells.push_back(csv_number(in_scene_unit(scene, point.omega)));
   if (point.unbounded) {  // nothing but its place is known
     cells.emplace_back("inf");
@@ -136,7 +131,7 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const ResponseBranch> branches) {
   const Columns columns = columns_of(branches);
   const std::vector<std::string> heads = header(scene, columns);
-  write_csv_row(out, heads);
+  detail::write_csv_header(out, heads);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const ResponseBranch& branch = branches[b];
     const std::vector<std::size_t> before = points_before_events(branch);

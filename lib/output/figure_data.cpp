@@ -2,6 +2,7 @@
 
 #include <arcslip/output/friction_elements.hpp>
 #include <arcslip/output/units.hpp>
+#include <arcslip/scene/visible.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -148,7 +149,7 @@ FigureData figure_data(const scene::Scene& scene, StudyKind kind, std::span<cons
 void write_figure_data(std::ostream& out, const scene::Scene& scene, const FigureData& data) {
   const char* separator = "# ";
   for (const FigureColumn& column : data.columns) {
-    out << separator << column.label;
+    out << separator << scene::visible(column.label);
     separator = ", ";
   }
   out << '\n';

@@ -1,5 +1,7 @@
 #include <arcslip/output/gnuplot_style.hpp>
 
+#include <arcslip/scene/visible.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,12 +11,11 @@ namespace arcslip::output {
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) {
-    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  for (const char c : scene::visible(text)) {
     if (c == '\'') {
       result += R"('."'".')";  // gnuplot takes a doubled quote at the beginning for an empty text
     } else {
-      result += is_control ? ' ' : c;
+      result += c;
     }
   }
   return result + "'";

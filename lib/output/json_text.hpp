@@ -3,6 +3,8 @@
 
 #include <arcslip/observables/response.hpp>
 
+#include <arcslip/scene/visible.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <ostream>
@@ -14,9 +16,9 @@ namespace arcslip::output::detail {
 
 using Json = nlohmann::ordered_json;
 
-/// On one line; bytes that are not UTF-8 are replaced.
+/// On one line; bytes that are not UTF-8 are replaced. A terminal may show it.
 inline std::string text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return scene::visible(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 inline Json named_values(const std::vector<std::pair<std::string, double>>& values) {

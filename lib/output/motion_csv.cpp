@@ -1,8 +1,6 @@
 #include <arcslip/output/csv_text.hpp>
 #include <arcslip/output/motion.hpp>
 
-#include <algorithm>
-
 namespace arcslip::output {
 namespace {
 
@@ -35,9 +33,7 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Mot
   for (const Motion& motion : motions) {
     several_studies = several_studies || motion.study != motions.front().study;
     for (const auto& [name, value] : motion.set) {
-      if (std::find(set.begin(), set.end(), name) == set.end()) {
-        set.push_back(name);
-      }
+      detail::add_name(name, set);
     }
   }
   std::vector<std::string> header(several_studies ? 1 : 0, "study");
@@ -47,11 +43,11 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Mot
   header.insert(header.end(), {"motion", "time (s)", "displacement (m)", "velocity (m/s)"});
   const std::vector<std::string> elements = element_columns(motions);
   header.insert(header.end(), elements.begin(), elements.end());
-  detail::write_csv_row(out, header);
+  detail::write_csv_header(out, header);
 
   for (std::size_t m = 0; m < motions.size(); ++m) {
     const Motion& motion = motions[m];
-    std::vector<std::string> first(several_studies ? 1 : 0, motion.study);
+    std::vector<std::string> first(several_studies ? 1 : 0, detail::csv_text(motion.study));
     for (const std::string& name : set) {
       std::string value;
       for (const auto* values : {&motion.set, &motion.parameters}) {

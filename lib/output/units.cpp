@@ -1,5 +1,7 @@
 #include <arcslip/output/units.hpp>
 
+#include <arcslip/scene/visible.hpp>
+
 #include <array>
 #include <charconv>
 #include <cstdio>
@@ -11,7 +13,7 @@ std::string parameter_unit(const scene::Scene& scene, std::string_view parameter
 }
 
 std::string with_unit(std::string_view quantity, std::string_view unit) {
-  std::string text(quantity);
+  std::string text = scene::visible(quantity);
   if (!unit.empty()) {
     text.append(" (").append(unit).append(")");
   }
@@ -37,7 +39,7 @@ std::string quantity(double value, std::string_view unit) {
 std::string assignment(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
   std::string text;
   for (const auto& [name, value] : set) {
-    text.append(text.empty() ? "" : ", ").append(name).append(" = ");
+    text.append(text.empty() ? "" : ", ").append(scene::visible(name)).append(" = ");
     text += quantity(value, parameter_unit(scene, name));
   }
   return text;

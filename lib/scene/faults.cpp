@@ -1,4 +1,5 @@
 #include <arcslip/scene/faults.hpp>
+#include <arcslip/scene/visible.hpp>
 
 #include <array>
 #include <charconv>
@@ -12,7 +13,7 @@ std::string lines_of(const std::vector<Fault>& faults) {
   std::string lines;
   for (const Fault& fault : faults) {
     lines += lines.empty() ? "" : "\n";
-    lines += fault.pointer.empty() ? fault.message : fault.pointer + ": " + fault.message;
+    lines += fault.pointer.empty() ? fault.message : visible(fault.pointer) + ": " + fault.message;
   }
   return lines;
 }
@@ -74,32 +75,29 @@ std::string child(std::string_view pointer, std::size_t index) {
 }
 
 std::string number_text(double value) {
+  if (value == 0 && std::signbit(value)) {
+    return "-0.0";  // "-0" is read as an integer, which has no sign
+  }
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
 }
 
 std::string quoted(std::string_view text) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::string result = "\"";
+  std::string inside;
   for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
+      inside += '\\';
+      inside += c;
     } else if (c == '\n') {
-      result += "\\n";
+      inside += "\\n";
     } else if (c == '\t') {
-      result += "\\t";
-    } else if (code < 0x20 || code == 0x7f) {
-      result += "\\u00";
-      result += digits[code >> 4];
-      result += digits[code & 15];
+      inside += "\\t";
     } else {
-      result += c;
+      inside += c;
     }
   }
-  return result + '"';
+  return '"' + visible(inside) + '"';
 }
 
 std::string shown(std::string_view text) {

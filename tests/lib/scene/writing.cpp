@@ -177,6 +177,23 @@ TEST_CASE("the hash does not see how a file is laid out, and sees each value") {
   CHECK(hash(scene) != before);
 }
 
+TEST_CASE("a zero keeps its sign") {
+  Scene scene = read_text(good_scene());
+  set(scene, "k.value", -0.0);
+  const Scene again = read_text(write(scene));
+  CHECK(std::signbit(value(again, "k.value")));
+  CHECK(write(again) == write(scene));
+}
+
+TEST_CASE("text that a terminal must not get is escaped, and comes back as it was") {
+  Scene scene = read_text(good_scene());
+  scene.title = "\xc2\x9b\x1b[31m\xe2\x80\xae\xef\xbf\xbf\xf0\x9f\xbf\xbe \"\\ \n\t\xc3\xa9";
+  const std::string text = write(scene);
+  CHECK(text.find("\"\\u009b\\u001b[31m\\u202e\\uffff\\ud83f\\udffe \\\"\\\\ \\n\\t\xc3\xa9\"") !=
+        std::string::npos);
+  CHECK(read_text(text).title == scene.title);
+}
+
 TEST_CASE("a value that is not finite does not come back as a scene") {
   Scene scene = read_text(good_scene());
   scene.masses[0].values[0] = std::numeric_limits<double>::quiet_NaN();

@@ -1,0 +1,35 @@
+#include <arcslip/scene/visible.hpp>
+
+#include "catch.hpp"
+
+using arcslip::scene::visible;
+using arcslip::scene::visible_lines;
+
+TEST_CASE("what commands a terminal, turns the direction of writing or is no character is escaped") {
+  CHECK(visible("\x1b]0;owned\a\x1b[31m") == "\\u001b]0;owned\\u0007\\u001b[31m");
+  CHECK(visible("\xc2\x9b"
+                "31m") == "\\u009b31m");  // CSI of C1
+  CHECK(visible("a\nb\r\tc\x7f") == "a\\u000ab\\u000d\\u0009c\\u007f");
+  CHECK(visible("\xe2\x80\xae") == "\\u202e");  // right-to-left override
+  CHECK(visible("\xe2\x80\xa8") == "\\u2028");  // line separator
+  CHECK(visible("\xef\xbf\xbe\xef\xbf\xbf") == "\\ufffe\\uffff");
+  CHECK(visible("\xf0\x9f\xbf\xbe") == "\\ud83f\\udffe");  // U+1FFFE
+  CHECK(visible(std::string("a\0b", 3)) == "a\\u0000b");
+}
+
+TEST_CASE("bytes that are not UTF-8 are escaped one by one") {
+  CHECK(visible("\x9b") == "\\x9b");
+  CHECK(visible("\xc0\x8a") == "\\xc0\\x8a");  // overlong
+  CHECK(visible("\xe0\x80\x9b") == "\\xe0\\x80\\x9b");
+  CHECK(visible("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");  // above U+10FFFF
+  CHECK(visible("a\xc3") == "a\\xc3");
+  CHECK(visible("\xe2\x82") == "\\xe2\\x82");
+}
+
+TEST_CASE("all other text stays, also what was escaped before, and line breaks where they are asked for") {
+  const std::string text = "\xc2\xb5 = 0.5, \xe6\x91\xa9\xe6\x93\xa6 \xf0\x9f\x8e\xbb \"q\" \\ ~";
+  CHECK(visible(text) == text);
+  const std::string once = visible("\x1b\x9b\n");
+  CHECK(visible(once) == once);
+  CHECK(visible_lines("a\nb\x1b") == "a\nb\\u001b");
+}
