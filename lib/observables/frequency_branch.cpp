@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace arcslip::observables {
@@ -69,7 +70,8 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
                                                 options.step.largest_parameter, width / events_in_window);
   options.step.relative_parameter = largest_relative_step;
   options.step.smallest =
-      std::min(options.step.smallest, smallest_step * largest_relative_step * window.lower / width);
+      std::max(std::min(options.step.smallest, smallest_step * largest_relative_step * window.lower / width),
+               std::numeric_limits<double>::min());  // also where the window spans hundreds of decades
   options.largest_state = resolvable;
   options.go_on = go_on;
   const auto observer = std::make_shared<Observer>(problem);

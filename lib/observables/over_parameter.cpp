@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::observables {
 namespace {
@@ -17,14 +18,16 @@ continuation::Options OverParameter::options() const {
   continuation::Options options;
   options.lower = lower();
   options.upper = upper();
-  options.step.largest_parameter = (upper() - lower()) / points_in_range;
+  options.step.largest_parameter =
+      std::min(upper() - lower(), std::numeric_limits<double>::max()) / points_in_range;
   options.largest_state = resolvable;
   if (!has_one_sign()) return options;
   options.step.relative_parameter = largest_relative_step;
   const double scale = model->parameters[static_cast<std::size_t>(index)].scale;
   const double least = std::min(std::abs(from), std::abs(to));
   options.step.smallest =
-      std::min(options.step.smallest, smallest_step * largest_relative_step * least / scale);
+      std::max(std::min(options.step.smallest, smallest_step * largest_relative_step * least / scale),
+               std::numeric_limits<double>::min());
   return options;
 }
 
@@ -55,8 +58,11 @@ OverParameter over_parameter(scene::Scene scene, const std::string& over, double
   result.index = model::parameter_index(model, over);
   result.from = from;
   result.to = to;
+  const double product = from * to, width = std::abs(to - from);  // which may overflow or vanish
+  const double mean =
+      std::isnormal(product) ? std::sqrt(product) : std::sqrt(std::abs(from)) * std::sqrt(std::abs(to));
   model.parameters[static_cast<std::size_t>(result.index)].scale =
-      result.has_one_sign() ? std::sqrt(from * to) : std::abs(to - from);
+      result.has_one_sign() ? mean : std::min(width, std::numeric_limits<double>::max());
   result.model = std::make_shared<const model::Model>(std::move(model));
   return result;
 }

@@ -9,7 +9,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <istream>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -22,29 +21,10 @@ namespace {
 using Json =
     nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t, std::uint64_t, long double>;
 
+constexpr std::size_t between_questions = 1 << 14;  // whether to go on, in values
+
 [[noreturn]] void fail(std::string message) {
   throw SceneError({{"", std::move(message)}});
-}
-
-// All bytes of a stream, and no more of them than are allowed: what is too large is told before any of it is
-// parsed.
-std::string read_text(std::istream& in) {
-  constexpr std::size_t chunk = 1 << 16;
-  std::string text;
-  while (in.good()) {
-    const std::size_t before = text.size();
-    text.resize(before + chunk);
-    in.read(text.data() + before, static_cast<std::streamsize>(chunk));
-    text.resize(before + static_cast<std::size_t>(in.gcount()));
-    if (text.size() > largest_size) {
-      fail("found more than " + std::to_string(largest_size) + " bytes, a scene must be at most " +
-           std::to_string(largest_size >> 20) + " MB");
-    }
-  }
-  if (in.bad() || !in.eof()) {
-    throw FileError("reading the scene failed after " + std::to_string(text.size()) + " bytes");
-  }
-  return text;
 }
 
 // A text and how much of it the parser has taken.
@@ -123,7 +103,8 @@ bool is_not_finite(std::string_view token) {
 
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
-  TreeBuilder(Source& source, Node& root) : source_(source), root_(root) {}
+  TreeBuilder(Source& source, Node& root, const StopRequest& stop)
+      : source_(source), root_(root), stop_(stop) {}
 
   bool null() override { return add(Node{nullptr}); }
   bool boolean(bool value) override { return add(Node{value}); }
@@ -173,6 +154,9 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
       fail(source_.place() + ": found more than " + std::to_string(largest_count) +
            " values, a scene must have at most so many");
     }
+    if (count_ % between_questions == 0 && is_asked(stop_)) {
+      throw Interrupted("interrupted while the scene was read");
+    }
     if (open_.empty()) {
       root_ = std::move(node);
       return &root_;
@@ -203,17 +187,21 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   Source& source_;
   Node& root_;
+  const StopRequest& stop_;
   std::vector<Node*> open_;
   std::size_t count_ = 0;
 };
 
 }  // namespace
 
-Node read_tree(std::istream& in) {
-  const std::string text = read_text(in);
+Node read_tree(std::string_view text, const StopRequest& stop) {
   Source source(text);
+  const std::size_t nul = text.find('\0');  // nlohmann's parser takes it for the end
+  if (nul != std::string_view::npos) {
+    fail(source.place_of(nul + 1) + ": found a NUL byte, must be JSON in UTF-8, which has none");
+  }
   Node root;
-  TreeBuilder builder(source, root);
+  TreeBuilder builder(source, root, stop);
   Json::sax_parse(SourceIterator(source), SourceIterator(), &builder);
   return root;
 }

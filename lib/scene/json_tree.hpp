@@ -1,8 +1,9 @@
 #pragma once
 // A JSON text as an ordered tree that keeps duplicate keys, so that every fault of a file can be told.
 
+#include <arcslip/scene/stop_request.hpp>
+
 #include <cstddef>
-#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -34,10 +35,9 @@ struct Member {
   Node value;
 };
 
-/// Reads one JSON text to the end of the stream. Throws SceneError with one fault, which tells the line and
-/// the column, where it is not JSON or exceeds largest_size, largest_depth or largest_count; FileError where
-/// the stream fails.
-Node read_tree(std::istream& in);
+/// Reads one JSON text. Throws SceneError with one fault, which tells the line and the column, where it is
+/// not JSON or exceeds largest_depth or largest_count; Interrupted where `stop` is asked for.
+Node read_tree(std::string_view text, const StopRequest& stop = {});
 
 /// The text of a tree, indented by two, with what fits on one line on one line. Numbers are as short as they
 /// can be without loss.

@@ -6,6 +6,7 @@
 namespace arcslip::scene::detail {
 namespace {
 
+constexpr std::size_t largest_dofs = 1000;  // matrices are dense
 constexpr std::string_view dofs_wanted = "a list of at least one name";
 
 // Adds weight * x_name; ground adds nothing. False where the name is not known.
@@ -82,6 +83,12 @@ Dofs read_dofs(const Place& place, Faults& faults) {
   const Node::List* list = read_list(place, dofs_wanted, faults);
   if (list != nullptr && list->empty()) {
     faults.add(place.pointer, "found an empty list, must be " + std::string(dofs_wanted));
+  }
+  if (list != nullptr && list->size() > largest_dofs) {
+    faults.add(place.pointer, "found " + std::to_string(list->size()) +
+                                  " degrees of freedom, must be at most " + std::to_string(largest_dofs) +
+                                  ": the matrices of the linear part are dense, and with more a single "
+                                  "evaluation would take many seconds and gigabytes; reduce the model first");
   }
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const Place item{&(*list)[i], child(place.pointer, i)};

@@ -32,6 +32,17 @@ Field frequency_field(FrequencyUnit unit) {
           .lower_open = true};
 }
 
+// Beyond it the square of a frequency, times a mass, may be no number any more.
+constexpr double largest_frequency = 1e100;
+
+void check_frequency(double value, const std::string& pointer, const Field& bounds, Faults& faults) {
+  if (value > largest_frequency) {
+    faults.add(pointer, "found " + number_text(value) + ", must be at most " +
+                            with_unit(largest_frequency, bounds) +
+                            ": numbers with its square would overflow");
+  }
+}
+
 std::pair<double, double> read_range(const Keys& keys, const Field& bounds, Faults& faults) {
   const auto from = read_number(keys.require("from", allowed_text(bounds), faults), bounds, faults);
   const Place to_place = keys.require("to", allowed_text(bounds), faults);
@@ -52,6 +63,8 @@ void read_window(const Keys& keys, const Field& bounds, Study& study, Faults& fa
   const std::string wanted = "a window [lower, upper] of two frequencies, each " + allowed_text(bounds);
   const Place place = keys.require("frequency", wanted, faults);
   std::tie(study.frequency_from, study.frequency_to) = read_pair(place, wanted, bounds, "end", faults);
+  check_frequency(study.frequency_from, child(place.pointer, std::size_t{0}), bounds, faults);
+  check_frequency(study.frequency_to, child(place.pointer, std::size_t{1}), bounds, faults);
 }
 
 void read_one_frequency(const Keys& keys, const Field& bounds, Study& study, Faults& faults) {
@@ -62,6 +75,7 @@ void read_one_frequency(const Keys& keys, const Field& bounds, Study& study, Fau
     return;
   }
   study.frequency_from = study.frequency_to = read_number(place, bounds, faults).value_or(0);
+  check_frequency(study.frequency_from, place.pointer, bounds, faults);
 }
 
 void read_time(const Keys& keys, TimeSettings& time, Faults& faults) {
@@ -199,6 +213,8 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Pa
     const Field frequency = frequency_field(unit);
     if (study.kind == StudyKind::frf) {
       std::tie(study.from, study.to) = read_range(keys, frequency, faults);
+      check_frequency(study.from, keys.find("from").pointer, frequency, faults);
+      check_frequency(study.to, keys.find("to").pointer, frequency, faults);
     } else if (study.kind == StudyKind::time) {
       read_one_frequency(keys, frequency, study, faults);
       read_time(keys, study.time, faults);

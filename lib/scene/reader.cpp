@@ -3,13 +3,10 @@
 #include <arcslip/scene/json_tree.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
+#include <arcslip/scene/read_text.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/scene_file.hpp>
 #include <arcslip/scene/words.hpp>
-
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace arcslip::scene {
 namespace detail {
@@ -121,48 +118,31 @@ Scene read_scene(const Node& node, Faults& faults) {
   return scene;
 }
 
-}  // namespace
-}  // namespace detail
-
-Scene read(std::istream& in) {
-  const detail::Node root = detail::read_tree(in);
-  detail::Faults faults;
-  Scene scene = detail::read_scene(root, faults);
+Scene read_text_of_scene(const std::string& text, const StopRequest& stop) {
+  const Node root = read_tree(text, stop);
+  Faults faults;
+  Scene scene = read_scene(root, faults);
   faults.raise();
   return scene;
 }
 
+}  // namespace
+}  // namespace detail
+
+Scene read(std::istream& in) {
+  return detail::read_text_of_scene(detail::read_text(in), {});
+}
+
 Scene read_file(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) {
-    throw FileError(path + " is a directory, must be a scene file");
-  }
-  if (fs::is_regular_file(status)) {
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (!error && size > largest_size) {
-      throw SceneError({{"", "found a file of " + std::to_string(size) + " bytes, a scene must be at most " +
-                                 std::to_string(largest_size >> 20) + " MB"}});
-    }
-  }
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    const int reason = errno;
-    throw FileError("cannot open " + path + ": " +
-                    (reason != 0 ? std::generic_category().message(reason) : std::string("no reason given")));
-  }
-  try {
-    return read(in);
-  } catch (const FileError& failure) {
-    throw FileError(path + ": " + failure.what());
-  }
+  return read_file(path, {});
+}
+
+Scene read_file(const std::string& path, const StopRequest& stop) {
+  return detail::read_text_of_scene(detail::read_text(path, stop), stop);
 }
 
 void check(const Scene& scene) {
-  std::istringstream in(write(scene));
-  read(in);
+  detail::read_text_of_scene(write(scene), {});
 }
 
 }  // namespace arcslip::scene

@@ -56,6 +56,8 @@ void add_files(std::vector<BadScene>& rows) {
   rows.push_back({"a comma too many", "{\"format\":\n \"arcslip-scene-1\",}", "",
                   "line 2, column 20: this is not JSON"});
   rows.push_back({"something after the end", good + "x", "", "expected end of input"});
+  rows.push_back({"something after the end, behind a NUL byte", "{}\n" + std::string(1, '\0') + good, "",
+                  "line 2, column 1: found a NUL byte, must be JSON in UTF-8, which has none"});
   rows.push_back({"text that is not UTF-8", "{\"title\": \"\xff\"}", "", "ill-formed UTF-8 byte"});
   rows.push_back(
       {"100 000 nested lists", std::string(100'000, '['), "",
@@ -130,6 +132,11 @@ void add_dofs(std::vector<BadScene>& rows) {
   rows.push_back({"degree of freedom \"ground\"",
                   good_scene_with(dofs, "\"dofs\": [\"a\", \"b\", \"ground\"]"), "/structure/dofs/2",
                   "found \"ground\", which is reserved"});
+  std::string many = "\"dofs\": [\"a\", \"b\"";
+  for (int i = 2; i < 10'000; ++i) many += ", \"x" + std::to_string(i) + "\"";
+  rows.push_back({"10 000 degrees of freedom", good_scene_with(dofs, many + "]"), "/structure/dofs",
+                  "found 10000 degrees of freedom, must be at most 1000: the matrices of the linear part are "
+                  "dense"});
   rows.push_back({"degree of freedom twice", good_scene_with(dofs, "\"dofs\": [\"a\", \"b\", \"a\"]"),
                   "/structure/dofs/2", "found \"a\" again, which is also at /structure/dofs/0"});
   rows.push_back({"nothing acts on a degree of freedom",

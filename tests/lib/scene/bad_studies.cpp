@@ -42,6 +42,9 @@ void add_studies(std::vector<BadScene>& rows) {
                   "/studies/0/from", "found 0, must be above 0 Hz"});
   rows.push_back({"from that is no number", with_study("{\"kind\": \"frf\", \"from\": \"1\", \"to\": 2}"),
                   "/studies/0/from", "found \"1\" (a string), must be a number, above 0 Hz"});
+  rows.push_back({"a frequency whose square is no number",
+                  with_study("{\"kind\": \"frf\", \"from\": 1, \"to\": 1e300}"), "/studies/0/to",
+                  "found 1e+300, must be at most 1e+100 Hz: numbers with its square would overflow"});
   rows.push_back({"from above to", with_study("{\"kind\": \"frf\", \"from\": 3, \"to\": 2}"), "/studies/0/to",
                   "found 2, must be above \"from\", which is 3 Hz"});
   rows.push_back({"from equal to to", with_study("{\"kind\": \"frf\", \"from\": 2, \"to\": 2}"),
