@@ -1,5 +1,7 @@
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 
+#include <Eigen/SparseCore>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,7 @@ namespace arcslip::hbm {
 namespace {
 
 constexpr double pole = 1e-14;    // pivot of the linear coordinates, relative to the largest entry
+constexpr int many = 64;          // degrees of freedom, from which products of mostly zeros take too long
 constexpr Eigen::Index few = 16;  // unknowns, up to which blocks of a factorization cost more than they save
 
 using Complex = std::complex<double>;
@@ -81,7 +84,10 @@ void DynamicStiffness::assemble(In p) {
   }
   if (same) return;
   const auto in_y = [&](const std::vector<model::LinearPart>& parts) -> Eigen::MatrixXd {
-    return P_.transpose() * model::assemble(parts, p, model_.dofs) * P_;
+    const Eigen::MatrixXd A = model::assemble(parts, p, model_.dofs);
+    if (model_.dofs <= many) return P_.transpose() * A * P_;
+    const Eigen::SparseMatrix<double> P = P_.sparseView(), sparse = A.sparseView();
+    return Eigen::MatrixXd(Eigen::SparseMatrix<double>(P.transpose() * sparse * P));
   };
   M_ = in_y(model_.masses);
   C_ = in_y(model_.dampers);

@@ -105,7 +105,15 @@ std::unique_ptr<elements::Element> make_element(const Model& model, const Nonlin
 
 Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuation::Vector& p, int dofs) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dofs, dofs);
-  for (const LinearPart& part : parts) sum += p[part.parameter] * part.direction * part.direction.transpose();
+  std::vector<Eigen::Index> acted_on;  // few: whole outer products would cost dofs^2 for each part
+  for (const LinearPart& part : parts) {
+    const Eigen::VectorXd& d = part.direction;
+    acted_on.clear();
+    for (Eigen::Index i = 0; i < d.size(); ++i)
+      if (d[i] != 0) acted_on.push_back(i);
+    for (const Eigen::Index j : acted_on)
+      for (const Eigen::Index i : acted_on) sum(i, j) += p[part.parameter] * d[i] * d[j];
+  }
   return sum;
 }
 

@@ -15,20 +15,6 @@ constexpr std::ptrdiff_t neighbours = 2;  // that are looked at, on each side
 
 using continuation::StopReason;
 
-std::vector<Setting> combinations(const scene::Study& study) {
-  std::vector<Setting> all{{}};
-  for (const auto& [name, values] : study.for_each) {
-    std::vector<Setting> longer;
-    for (const auto& begun : all)
-      for (double value : values) {
-        longer.push_back(begun);
-        longer.back().emplace_back(name, value);
-      }
-    all = std::move(longer);
-  }
-  return all;
-}
-
 ResponseBranch described(const model::Model& model, const Setting& set, const std::string& over) {
   ResponseBranch branch;
   branch.over = over;

@@ -4,6 +4,7 @@
 #include <arcslip/continuation/branch.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/observables/response.hpp>
+#include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <string>
@@ -12,11 +13,12 @@
 
 namespace arcslip::observables {
 
-/// The values that one combination of the for_each lists gives to parameters.
-using Setting = std::vector<std::pair<std::string, double>>;
+using scene::Setting;
 
-/// All combinations of the for_each lists, the last one fastest; one empty setting where there are none.
-std::vector<Setting> combinations(const scene::Study& study);
+/// Those of the study's for_each lists. Refers to the study.
+inline scene::Combinations combinations(const scene::Study& study) {
+  return scene::Combinations(study);
+}
 
 /// An empty branch of a model: its parameters, harmonics and solver. over: the free parameter, if there is
 /// one in the study.

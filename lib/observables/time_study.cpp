@@ -22,8 +22,9 @@ using time::EquationOfMotion;
 using time::PeriodMotion;
 using time::State;
 
-constexpr int expected_maps = 20;                            // of shooting, for progress
-constexpr time::EventLimits affordable{100'000, 1'000'000};  // beyond, shooting takes Newmark's steps
+constexpr int expected_maps = 20;  // of shooting, for progress
+constexpr long affordable_events = 100'000,
+               affordable_pieces = 1'000'000;  // beyond, shooting takes Newmark's steps
 
 /// One way to integrate one equation of motion.
 struct Integrator {
@@ -53,6 +54,8 @@ std::string failure_name(time::EndReason reason) {
     case time::EndReason::events:
     case time::EndReason::pieces:
       return "event_limit";
+    case time::EndReason::stopped:
+      return "user";
     case time::EndReason::not_finite:
       break;
   }
@@ -141,7 +144,10 @@ class InTime {
     std::string reason, message;
     if (may_differ || settings_.method == TimeMethod::event_driven) {
       try {
-        integrator = event_driven(equation_, settings_.steps, may_differ ? affordable : time::EventLimits{});
+        time::EventLimits limits;
+        if (may_differ) limits = {affordable_events, affordable_pieces};
+        limits.stop = [this] { return !go_on(progress_.points); };
+        integrator = event_driven(equation_, settings_.steps, limits);
         return true;
       } catch (const time::NotPiecewiseLinear& error) {
         reason = "not_piecewise_linear";
@@ -207,6 +213,7 @@ class InTime {
     motion_.change = found.correction;
     if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
     record(integrator.periods(found.start, settings_.recorded, true));
+    if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
     if (!found.converged())
       return end(Status::failed, "no_periodic_motion", found.correction, settings_.tolerance, found.message);
     motion_.multipliers = found.multipliers;

@@ -20,6 +20,7 @@
 #include <arcslip/time/motion.hpp>
 #include <arcslip/time/period_map.hpp>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -50,6 +51,7 @@ enum class EndReason {
   events,      // number of events >= EventLimits::events
   pieces,      // number of pieces >= EventLimits::pieces
   not_finite,  // the motion grew beyond all numbers
+  stopped,     // EventLimits::stop was asked for
 };
 
 /// What one integration may cost.
@@ -57,6 +59,7 @@ struct EventLimits {
   long events = 1'000'000;
   long pieces =
       20'000'000;  // power series: about one for each radian of the fastest mode, and one for each event
+  std::function<bool()> stop{};  // asked now and then; true ends it
 };
 
 /// One friction element over the interval.

@@ -13,6 +13,8 @@ namespace {
 // Of a sum of size 1 after all the operations behind it.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
+constexpr long between_questions = 16;  // whether to go on, in pieces
+
 }  // namespace
 
 March::March(const EquationOfMotion& equation, const EventLimits& limits)
@@ -62,6 +64,7 @@ bool March::find(double to) {
   if (events_ >= limits_.events) reason_ = EndReason::events;
   if (pieces_++ >= limits_.pieces || !(t_ + linear_.longest() > t_)) reason_ = EndReason::pieces;
   if (!X_.allFinite() || !V_.allFinite()) reason_ = EndReason::not_finite;
+  if (limits_.stop && pieces_ % between_questions == 0 && limits_.stop()) reason_ = EndReason::stopped;
   if (reason_ != EndReason::reached) return false;
   end_ = std::min(t_ + linear_.longest(), to);
   h_ = end_ - t_;  // of the rounded time, or the force would lead or lag by more with every piece
@@ -184,6 +187,9 @@ std::string March::message() const {
       break;
     case EndReason::not_finite:
       text << "the motion is no longer finite at " << t_ << " s";
+      break;
+    case EndReason::stopped:
+      text << "stopped as asked, at " << t_ << " s";
       break;
   }
   return text.str();

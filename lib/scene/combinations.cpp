@@ -1,0 +1,31 @@
+#include <arcslip/scene/combinations.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace arcslip::scene {
+
+double Combinations::count() const {
+  double product = 1;
+  for (const auto& [parameter, values] : study_.for_each) {
+    product *= static_cast<double>(values.size());
+  }
+  return product;
+}
+
+std::size_t Combinations::size() const {
+  return static_cast<std::size_t>(std::min<double>(count(), std::numeric_limits<int>::max()));
+}
+
+Setting Combinations::operator[](std::size_t index) const {
+  Setting setting;
+  for (auto list = study_.for_each.rbegin(); list != study_.for_each.rend(); ++list) {
+    const auto& [parameter, values] = *list;
+    setting.emplace_back(parameter, values[index % values.size()]);
+    index /= values.size();
+  }
+  std::reverse(setting.begin(), setting.end());
+  return setting;
+}
+
+}  // namespace arcslip::scene
