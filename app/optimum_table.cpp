@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t most_cases = 24;  // lines of a table for people
 
 std::string number(double value, const char* format = "%.8g") {
+  if (std::isnan(value)) return "unknown";
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
