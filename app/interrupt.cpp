@@ -1,6 +1,7 @@
 #include "interrupt.hpp"
 
 #include <csignal>
+#include <utility>
 
 namespace arcslip::app {
 namespace {
@@ -21,8 +22,7 @@ void watch(int signal) {
     return;  // as nohup wants it
   }
   struct sigaction action {};
-  action.sa_handler = ask_for_end;
-  action.sa_flags = SA_RESTART;
+  action.sa_handler = ask_for_end;  // without SA_RESTART: whoever waits looks whether to go on
   sigemptyset(&action.sa_mask);
   ::sigaction(signal, &action, nullptr);
 }
@@ -38,6 +38,10 @@ void watch_signals() {
 
 bool interrupted() {
   return end_asked != 0;
+}
+
+bool Interruption::is_new() {
+  return interrupted() && !std::exchange(told_, true);
 }
 
 }  // namespace arcslip::app

@@ -9,4 +9,14 @@ void watch_signals();
 /// Whether an end was asked for.
 bool interrupted();
 
+/// That an end was asked for is told once.
+class Interruption {
+ public:
+  /// True once, when it was asked for.
+  bool is_new();
+
+ private:
+  bool told_ = false;
+};
+
 }  // namespace arcslip::app

@@ -8,6 +8,8 @@
 #include "verbs.hpp"
 
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/stop_request.hpp>
+#include <arcslip/scene/visible.hpp>
 
 #include <exception>
 #include <new>
@@ -31,14 +33,15 @@ void hold_standard_streams() {
 
 ExitCode print(const Information& information) {
   StandardOutput screen;
-  screen.write([&](std::ostream& out) { out << information.text; });
+  screen.write_lines([&](std::ostream& out) { out << information.text; });
   screen.finish();
   return ExitCode::done;
 }
 
 void tell_faults(const std::string& file, const scene::SceneError& error) {
   for (const scene::Fault& fault : error.faults()) {
-    tell_plainly(file + ": " + fault.pointer + (fault.pointer.empty() ? "" : ": ") + fault.message + "\n");
+    tell_line(scene::visible(file) + ": " + scene::visible(fault.pointer) +
+              (fault.pointer.empty() ? "" : ": ") + fault.message);
   }
 }
 
@@ -54,6 +57,9 @@ ExitCode run(int argc, const char* const* argv) {
   } catch (const scene::SceneError& error) {
     tell_faults(scene_file, error);
     return ExitCode::invalid_scene;
+  } catch (const scene::Interrupted& error) {
+    tell(error.what());
+    return ExitCode::stopped_early;
   } catch (const std::bad_alloc&) {
     tell("out of memory: ask for fewer harmonics, a shorter range or fewer values in for_each");
   } catch (const std::exception& error) {

@@ -1,19 +1,29 @@
 #include "message.hpp"
 
-#include <cstdio>
+#include "interrupt.hpp"
+
+#include <arcslip/output/atomic_file.hpp>
+#include <arcslip/scene/visible.hpp>
+
+#include <string>
 
 namespace arcslip::app {
 
-void tell(std::string_view message) noexcept {
-  std::fputs("arcslip: ", stderr);
-  tell_plainly(message);
-  std::fputc('\n', stderr);
-  std::fflush(stderr);
+void tell(std::string_view message) {
+  tell_line("arcslip: " + std::string(message));
 }
 
-void tell_plainly(std::string_view text) noexcept {
-  std::fwrite(text.data(), 1, text.size(), stderr);
-  std::fflush(stderr);
+void tell_line(std::string_view text) {
+  put(scene::visible_lines(text) + '\n');
+}
+
+void put(std::string_view text) {
+  try {
+    output::AtomicFile file = output::AtomicFile::standard_error(interrupted);
+    file.stream() << text;
+    file.commit();
+  } catch (const output::WriteError&) {
+  }
 }
 
 }  // namespace arcslip::app

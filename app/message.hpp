@@ -4,10 +4,14 @@
 
 namespace arcslip::app {
 
-/// A line on standard error, with "arcslip: " before it. What cannot be written there is lost.
-void tell(std::string_view message) noexcept;
+/// Lines on standard error, with what a terminal must not get escaped (scene/visible.hpp). What cannot be
+/// written there is lost.
+void tell_line(std::string_view text);
 
-/// Text on standard error as it is.
-void tell_plainly(std::string_view text) noexcept;
+/// The same with "arcslip: " before it.
+void tell(std::string_view message);
+
+/// Text of the program's own as it is, without a line break.
+void put(std::string_view text);
 
 }  // namespace arcslip::app

@@ -4,6 +4,8 @@
 
 #include <arcslip/output/units.hpp>
 #include <arcslip/output/version.hpp>
+#include <arcslip/scene/combinations.hpp>
+#include <arcslip/scene/visible.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -45,7 +47,7 @@ std::string verb_names() {
 /// What the parser keeps as text until all of it is read.
 struct Texts {
   std::vector<std::string> set, frequency, design;
-  std::string harmonics, from, to;
+  std::string harmonics, from, to, combinations;
   std::string steps, periods, recorded, tolerance, method;
   std::string along, criterion, evaluations, seconds;
 };
@@ -161,6 +163,10 @@ void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts
   if (kind != Verb::time) {
     verb.add_flag("--coefficients", options.coefficients, "JSON with the harmonics of each response");
   }
+  verb.add_option("--combinations", texts.combinations,
+                  "combinations of the values in for_each, at most (default: " +
+                      std::to_string(scene::usual_combinations) + ")")
+      ->type_name("N");
   verb.add_flag("--quiet", options.quiet, "no progress and no notes, only errors");
 }
 
@@ -231,9 +237,10 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const std::string first = argv[1];
     if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
-      throw UsageError("unknown verb \"" + first + "\", must be " + verb_names() + "\n" + hint);
+      throw UsageError("unknown verb \"" + scene::visible(first) + "\", must be " + verb_names() + "\n" +
+                       hint);
     }
-    throw UsageError(std::string(error.what()) + "\n" + hint);
+    throw UsageError(scene::visible(error.what()) + "\n" + hint);
   }
   const CLI::App* verb = app.get_subcommands().front();
   options.verb = verbs.at(verb);
@@ -241,6 +248,7 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
     options.set.push_back(assignment(text));
   }
   options.harmonics = whole_number("--harmonics", texts.harmonics, "the highest harmonic");
+  options.combinations = whole_number("--combinations", texts.combinations, "the combinations at most");
   options.steps = whole_number("--steps", texts.steps, "the steps per period");
   options.periods = whole_number("--periods", texts.periods, "the periods of a transient at most");
   options.recorded = whole_number("--recorded", texts.recorded, "the periods with history");

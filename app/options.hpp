@@ -40,6 +40,7 @@ struct Options {
   std::optional<double> tolerance;              // time
   std::optional<scene::TimeMethod> method;      // time
   std::string out, json, csv;                   // paths, "-" for standard output (json, csv), "" for none
+  std::optional<int> combinations;              // of for_each, at most
   bool coefficients = false;
   bool quiet = false;
 };

@@ -69,14 +69,14 @@ void ProgressLine::show(const observables::Progress& progress) {
   const std::size_t width = line.size();
   line.resize(std::max(width, width_), ' ');
   width_ = width;
-  tell_plainly("\r" + line);
+  put("\r" + line);
 }
 
 void ProgressLine::clear() {
   if (width_ > 0) {
     std::string blank(width_ + 2, ' ');
     blank.front() = blank.back() = '\r';
-    tell_plainly(blank);
+    put(blank);
     width_ = 0;
   }
 }

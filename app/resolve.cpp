@@ -1,6 +1,10 @@
 #include "resolve.hpp"
 
+#include "interrupt.hpp"
+
 #include <arcslip/output/units.hpp>
+#include <arcslip/scene/scene_file.hpp>
+#include <arcslip/scene/visible.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -28,7 +32,7 @@ void apply(scene::Scene& scene, const Options& options) {
   } catch (const scene::SceneError& error) {
     std::string message = "the options make the scene invalid:";
     for (const scene::Fault& fault : error.faults()) {
-      message += "\n  " + fault.pointer + ": " + fault.message;
+      message += "\n  " + scene::visible(fault.pointer) + ": " + fault.message;
     }
     throw UsageError(message);
   }
@@ -102,23 +106,6 @@ std::string option_of(const std::string& key, const Options& options) {
   return "";
 }
 
-/// Tells what the scene's own check says of a study that the options made, by these options.
-void check_study(const scene::Scene& scene, std::size_t index, const Options& options) {
-  try {
-    scene::check(scene);
-  } catch (const scene::SceneError& error) {
-    const std::string place = "/studies/" + std::to_string(index) + "/";
-    std::string message;
-    for (const scene::Fault& fault : error.faults()) {
-      const std::string key = fault.pointer.starts_with(place) ? fault.pointer.substr(place.size()) : "";
-      const std::string option = option_of(key, options);
-      message +=
-          (message.empty() ? "" : "\n  ") + (option.empty() ? fault.pointer : option) + ": " + fault.message;
-    }
-    throw UsageError(message);
-  }
-}
-
 /// The study that says what the command line does not. A name that no other study has, where there is none.
 std::size_t study_to_follow(scene::Scene& scene, scene::StudyKind kind, const Options& options) {
   const auto find = [&](bool over_the_same) {
@@ -178,8 +165,24 @@ void set_time(scene::TimeSettings& time, const Options& options) {
 
 }  // namespace
 
+void check_study(const scene::Scene& scene, std::size_t index, const Options& options) {
+  try {
+    scene::check(scene);
+  } catch (const scene::SceneError& error) {
+    const std::string place = "/studies/" + std::to_string(index) + "/";
+    std::string message;
+    for (const scene::Fault& fault : error.faults()) {
+      const std::string key = fault.pointer.starts_with(place) ? fault.pointer.substr(place.size()) : "";
+      const std::string option = option_of(key, options);
+      message += (message.empty() ? "" : "\n  ") + (option.empty() ? scene::visible(fault.pointer) : option) +
+                 ": " + fault.message;
+    }
+    throw UsageError(message);
+  }
+}
+
 scene::Scene resolve(const Options& options) {
-  scene::Scene scene = scene::read_file(options.scene);
+  scene::Scene scene = scene::read_file(options.scene, interrupted);
   apply(scene, options);
   return scene;
 }

@@ -1,21 +1,31 @@
 #include "results.hpp"
 
+#include "interrupt.hpp"
 #include "message.hpp"
 #include "options.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
+#include <arcslip/scene/visible.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
+#include <map>
 #include <ostream>
 #include <system_error>
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace arcslip::app {
+namespace {
+
+constexpr std::array<const char*, 5> file_extensions = {".scene.json", ".json", ".csv", ".dat", ".gp"};
+
+}  // namespace
 
 std::string StudyFiles::path(const std::string& extension) const {
   return (std::filesystem::path(folder) / (name + extension)).string();
@@ -49,6 +59,7 @@ ResultsFolder::ResultsFolder(const std::string& folder) : descriptor_(-1) {
     throw UsageError("another run writes into the folder " + folder +
                      ": wait for its end, or choose another with --out");
   }
+  output::clear_temporaries(folder);
 }
 
 ResultsFolder::~ResultsFolder() {
@@ -57,34 +68,81 @@ ResultsFolder::~ResultsFolder() {
   }
 }
 
-void check_writable(const std::string& file, const std::string& scene_file) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(file, scene_file, ignored)) {
-    throw UsageError(file + " is the scene itself: give the results another place");
+void add_places(const StudyFiles& files, const std::string& study, std::vector<Place>& places) {
+  for (const char* extension : file_extensions) {
+    places.push_back({"the results of the study \"" + study + '"', files.path(extension)});
   }
-  output::check_writable(file);
 }
 
-void check_writable(const StudyFiles& files, const std::string& scene_file) {
-  for (const char* extension : {".scene.json", ".json", ".csv", ".dat", ".gp"}) {
-    check_writable(files.path(extension), scene_file);
+void check_places(const std::vector<Place>& places, const std::string& scene_file) {
+  std::map<std::string, std::string> by_path;              // what goes there
+  std::map<std::pair<dev_t, ino_t>, std::string> by_file;  // the same, of what is there, by whatever name
+  struct stat status {};
+  if (::stat(scene_file.c_str(), &status) == 0) {
+    by_file.emplace(std::pair(status.st_dev, status.st_ino), "");
   }
+  if (::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode)) {
+    by_file.emplace(std::pair(status.st_dev, status.st_ino), "standard output");
+  }
+  for (const Place& place : places) {
+    const bool is_there = ::stat(place.path.c_str(), &status) == 0;
+    if (is_there && S_ISCHR(status.st_mode)) {
+      output::check_writable(place.path);
+      continue;  // a terminal or /dev/null takes all
+    }
+    const auto other = by_path.emplace(output::written_file(place.path), place.what);
+    const auto file = std::pair(status.st_dev, status.st_ino);
+    const auto same = is_there ? by_file.emplace(file, place.what) : std::pair(by_file.end(), true);
+    if (!same.second && same.first->second.empty()) {
+      throw UsageError(scene::visible(place.path) + " is the scene itself: give the results another place");
+    }
+    if (!other.second || !same.second) {
+      throw UsageError((other.second ? same.first->second : other.first->second) + " and " + place.what +
+                       " both go to " + scene::visible(place.path) + ": give one of them another place");
+    }
+    output::check_writable(place.path);
+  }
+}
+
+bool Writing::file(const std::string& path, const std::function<void(std::ostream&)>& writer) {
+  return attempt([&] { output::write_file(path, writer, interrupted); });
+}
+
+bool Writing::attempt(const std::function<void()>& write) {
+  try {
+    write();
+    return true;
+  } catch (const output::WriteError& error) {
+    tell(error.what());
+    (error.error() == EINTR ? stopped_ : failed_) = true;
+    return false;
+  }
+}
+
+ExitCode Writing::code(ExitCode otherwise) const {
+  return failed_ ? ExitCode::usage_or_file : stopped_ ? ExitCode::stopped_early : otherwise;
 }
 
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     scene::StudyKind kind, const StudyResult& result, bool coefficients) {
-  std::vector<std::string> paths{files.path(".scene.json"), files.path(".json"), files.path(".csv")};
-  output::write_file(paths[0], [&](std::ostream& out) { out << scene::write(scene); });
-  output::write_file(paths[1], [&](std::ostream& out) {
-    write_json(out, scene, {&result, 1}, coefficients);
+                                     scene::StudyKind kind, const StudyResult& result, bool coefficients,
+                                     Writing& writing) {
+  std::vector<std::string> paths;
+  const auto write = [&](const char* extension, const std::function<void(std::ostream&)>& writer) {
+    if (writing.file(files.path(extension), writer)) {
+      paths.push_back(files.path(extension));
+    }
+  };
+  write(".scene.json", [&](std::ostream& out) { out << scene::write(scene); });
+  write(".json", [&](std::ostream& out) { write_json(out, scene, {&result, 1}, coefficients); });
+  write(".csv", [&](std::ostream& out) { write_csv(out, scene, result); });
+  writing.attempt([&] {
+    const output::Figures figures = write_figures(scene, kind, result, files.folder, files.name, interrupted);
+    paths.insert(paths.end(), figures.sources.begin(), figures.sources.end());
+    paths.insert(paths.end(), figures.images.begin(), figures.images.end());
+    if (!figures.problem.empty()) {
+      tell(figures.problem);
+    }
   });
-  output::write_file(paths[2], [&](std::ostream& out) { write_csv(out, scene, result); });
-  const output::Figures figures = write_figures(scene, kind, result, files.folder, files.name);
-  paths.insert(paths.end(), figures.sources.begin(), figures.sources.end());
-  paths.insert(paths.end(), figures.images.begin(), figures.images.end());
-  if (!figures.problem.empty()) {
-    tell(figures.problem);
-  }
   return paths;
 }
 

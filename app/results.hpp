@@ -1,10 +1,13 @@
 #pragma once
 // Where the results of a run go, and that they can go there, known before anything is computed.
 
+#include "exit_code.hpp"
 #include "study_result.hpp"
 
 #include <arcslip/scene/scene.hpp>
 
+#include <functional>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,7 +26,8 @@ struct StudyFiles {
 std::vector<StudyFiles> study_files(const std::string& folder, std::span<const scene::Study> studies);
 
 /// A folder that one run at a time writes into: made with those above it, and held as long as this lives,
-/// even if the program is killed. Throws UsageError where it cannot be made or another run holds it.
+/// even if the program is killed. What a killed run has left half-written is removed. Throws UsageError where
+/// it cannot be made or another run holds it.
 class ResultsFolder {
  public:
   explicit ResultsFolder(const std::string& folder);
@@ -35,13 +39,36 @@ class ResultsFolder {
   int descriptor_;
 };
 
-/// Throws if one of the files cannot be written, or is the scene file itself.
-void check_writable(const StudyFiles& files, const std::string& scene_file);
-void check_writable(const std::string& file, const std::string& scene_file);
+/// Where something is to be written, and what, for people.
+struct Place {
+  std::string what, path;
+};
 
-/// Writes the files and figures of a study of this kind. Returns their paths; tells on standard error why
-/// figures are missing.
+/// All of a study that has files of its own.
+void add_places(const StudyFiles& files, const std::string& study, std::vector<Place>& places);
+
+/// Throws UsageError where two of them are one file, by whatever name, or one is the scene file or that below
+/// standard output; output::WriteError where one cannot be written.
+void check_places(const std::vector<Place>& places, const std::string& scene_file);
+
+/// Writes one thing after the other: what cannot be written is told on standard error and costs nothing else.
+class Writing {
+ public:
+  /// True where it is written.
+  bool file(const std::string& path, const std::function<void(std::ostream&)>& writer);
+  /// The same of whatever may throw output::WriteError.
+  bool attempt(const std::function<void()>& write);
+  /// How the program is to end, which would end in another way if all were written.
+  ExitCode code(ExitCode otherwise) const;
+
+ private:
+  bool failed_ = false, stopped_ = false;
+};
+
+/// Writes the files and figures of a study of this kind. Returns the paths of what is there; tells on
+/// standard error what is missing, and why.
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     scene::StudyKind kind, const StudyResult& result, bool coefficients);
+                                     scene::StudyKind kind, const StudyResult& result, bool coefficients,
+                                     Writing& writing);
 
 }  // namespace arcslip::app

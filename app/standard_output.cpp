@@ -1,6 +1,11 @@
 #include "standard_output.hpp"
 
-#include <cerrno>
+#include "interrupt.hpp"
+
+#include <arcslip/scene/visible.hpp>
+
+#include <ostream>
+#include <sstream>
 
 namespace arcslip::app {
 
@@ -9,15 +14,18 @@ void StandardOutput::write(const std::function<void(std::ostream&)>& writer) {
     return;
   }
   try {
-    output::AtomicFile file = output::AtomicFile::standard_output();
+    output::AtomicFile file = output::AtomicFile::standard_output(interrupted);
     writer(file.stream());
     file.commit();
   } catch (const output::WriteError& error) {
-    if (error.error() != EPIPE) {
-      throw;
-    }
     lost_ = error;
   }
+}
+
+void StandardOutput::write_lines(const std::function<void(std::ostream&)>& writer) {
+  std::ostringstream text;
+  writer(text);
+  write([&](std::ostream& out) { out << scene::visible_lines(text.str()); });
 }
 
 void StandardOutput::finish() const {

@@ -8,14 +8,17 @@
 
 namespace arcslip::app {
 
-/// Standard output, which somebody may stop reading: then the rest of the run goes on without it, so that all
-/// files are written, and finish() says so.
+/// Standard output, which may be closed, full or read by nobody: then the rest of the run goes on without it,
+/// and finish() says so.
 class StandardOutput {
  public:
-  /// Throws output::WriteError for any other failure.
+  /// What a terminal may get as it is, such as JSON and CSV.
   void write(const std::function<void(std::ostream&)>& writer);
 
-  /// Throws output::WriteError where not all that was written was read.
+  /// Lines for people, with what a terminal must not get escaped (scene/visible.hpp).
+  void write_lines(const std::function<void(std::ostream&)>& writer);
+
+  /// Throws output::WriteError where not all was written.
   void finish() const;
 
  private:

@@ -62,15 +62,15 @@ output::JsonSection section(const scene::Scene& scene, std::span<const OptimumCu
 
 template <class Item>
 output::Figures draw(const scene::Scene& scene, scene::StudyKind kind, const std::vector<Item>& items,
-                     const std::string& folder, const std::string& name) {
+                     const std::string& folder, const std::string& name, const scene::StopRequest& stop) {
   using output::write_figures;
-  return write_figures(scene, kind, items, folder, name);
+  return write_figures(scene, kind, items, folder, name, stop);
 }
 
 output::Figures draw(const scene::Scene& scene, scene::StudyKind /*kind*/,
                      const std::vector<OptimumCurveResult>& items, const std::string& folder,
-                     const std::string& name) {
-  return optimize::write_figures(scene, items, folder, name);
+                     const std::string& name, const scene::StopRequest& stop) {
+  return optimize::write_figures(scene, items, folder, name, stop);
 }
 
 /// What has the status and the stop.
@@ -195,8 +195,9 @@ void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& 
 }
 
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
-                              const std::string& folder, const std::string& name) {
-  return std::visit([&](const auto& items) { return draw(scene, kind, items, folder, name); }, result);
+                              const std::string& folder, const std::string& name,
+                              const scene::StopRequest& stop) {
+  return std::visit([&](const auto& items) { return draw(scene, kind, items, folder, name, stop); }, result);
 }
 
 }  // namespace arcslip::app

@@ -45,6 +45,7 @@ void write_json(std::ostream& out, const scene::Scene& scene, std::span<const St
 void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
 
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
-                              const std::string& folder, const std::string& name);
+                              const std::string& folder, const std::string& name,
+                              const scene::StopRequest& stop);
 
 }  // namespace arcslip::app

@@ -9,13 +9,17 @@
 #include "study_result.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/output/atomic_file.hpp>
+#include <arcslip/scene/combinations.hpp>
+#include <arcslip/scene/visible.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -27,19 +31,22 @@ bool takes_standard_output(const Options& options) {
 }
 
 /// Meets what writing the results would meet at its beginning. Returns the folder, held for this run.
-std::optional<ResultsFolder> prepare_places(const Options& options, const std::vector<StudyFiles>& files) {
+std::optional<ResultsFolder> prepare_places(const Options& options, const std::vector<scene::Study>& studies,
+                                            const std::vector<StudyFiles>& files) {
   std::optional<ResultsFolder> folder;
+  std::vector<Place> places;
   if (!options.out.empty()) {
     folder.emplace(options.out);
-    for (const StudyFiles& study : files) {
-      check_writable(study, options.scene);
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+      add_places(files[i], studies[i].name, places);
     }
   }
-  for (const std::string& file : {options.json, options.csv}) {
+  for (const auto& [option, file] : {std::pair{"--json", options.json}, std::pair{"--csv", options.csv}}) {
     if (!file.empty() && file != "-") {
-      check_writable(file, options.scene);
+      places.push_back({option, file});
     }
   }
+  check_places(places, options.scene);
   return folder;
 }
 
@@ -54,90 +61,135 @@ void check_one_table(const Options& options, const std::vector<scene::Study>& st
   }
 }
 
-StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study, bool quiet) {
+/// "1000000000"; beyond 15 digits with an exponent.
+std::string whole(double count) {
+  std::ostringstream text;
+  text.precision(15);
+  text << count;
+  return text.str();
+}
+
+/// Throws where lists in for_each, whose lengths multiply, ask for more than anybody may have meant.
+void check_combinations(const Options& options, const std::vector<scene::Study>& studies) {
+  const int most = options.combinations.value_or(scene::usual_combinations);
+  for (const scene::Study& study : studies) {
+    const double count = scene::Combinations(study).count();
+    if (count > most) {
+      std::string product;
+      for (const auto& [parameter, values] : study.for_each) {
+        product += std::to_string(values.size()) + (&values == &study.for_each.back().second ? "" : " x ");
+      }
+      throw UsageError("the lists of for_each in the study \"" + study.name + "\" have " +
+                       (study.for_each.size() > 1 ? product + " = " : "") + whole(count) +
+                       " combinations, must be at most " + std::to_string(most) +
+                       ": give fewer values, or allow more with --combinations N");
+    }
+  }
+}
+
+void tell_partial(Interruption& interruption) {
+  if (interruption.is_new()) {
+    tell("interrupted; what is computed so far will be written (Ctrl-C again: end at once)");
+  }
+}
+
+StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study, bool quiet,
+                            Interruption& interruption) {
   ProgressLine line(quiet, std::string(scene::unit_name(scene.frequency_unit)));
-  bool told = false;
-  return compute(scene, study, [&](const observables::Progress& progress) {
+  StudyResult result = compute(scene, study, [&](const observables::Progress& progress) {
     if (!interrupted()) {
       line.show(progress);
       return true;
     }
-    if (!std::exchange(told, true)) {
-      line.clear();
-      tell("stopping; what is computed so far will be written (Ctrl-C again: end at once)");
-    }
+    line.clear();
+    tell_partial(interruption);
     return false;
   });
+  line.clear();
+  tell_partial(interruption);
+  return result;
 }
 
-/// Into a file, to standard output for "-", nowhere for "".
-void write_to(const std::string& place, StandardOutput& screen,
-              const std::function<void(std::ostream&)>& writer) {
-  if (place == "-") {
-    screen.write(writer);
-  } else if (!place.empty()) {
-    output::write_file(place, writer);
-  }
+/// Files before what may have to wait for a reader: pipes, devices, standard output.
+bool may_wait(const std::string& place) {
+  std::error_code ignored;
+  return place == "-" || std::filesystem::is_other(place, ignored);
 }
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const Options& options) {
   check_one_table(options, studies);
+  check_combinations(options, studies);
   const std::vector<StudyFiles> files = study_files(options.out, studies);
-  const std::optional<ResultsFolder> held = prepare_places(options, files);
+  const std::optional<ResultsFolder> held = prepare_places(options, studies, files);
 
-  StandardOutput screen;
+  Interruption interruption;
+  Writing writing;
   ExitCode code = ExitCode::done;
   std::vector<StudyResult> all;
   std::string places;
+  std::ostringstream tables;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     if (interrupted()) {
-      code = ExitCode::stopped_early;
       tell("the study \"" + studies[i].name + "\" was not begun");
       continue;
     }
-    StudyResult result = compute_visibly(scene, studies[i], options.quiet);
+    StudyResult result = compute_visibly(scene, studies[i], options.quiet, interruption);
     for (const std::string& sentence : early_ends(scene, result)) {
       code = ExitCode::stopped_early;
       tell(sentence);
     }
     if (!options.out.empty()) {
       for (const std::string& path :
-           write_study(files[i], scene, studies[i].kind, result, options.coefficients)) {
-        places += path + "\n";
+           write_study(files[i], scene, studies[i].kind, result, options.coefficients, writing)) {
+        places += scene::visible(path) + "\n";
       }
     }
-    if (interrupted()) {  // while figures were drawn, too
-      code = ExitCode::stopped_early;
+    if (studies.size() > 1) {
+      tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
     }
-    if (!takes_standard_output(options)) {
-      screen.write([&](std::ostream& out) {
-        if (studies.size() > 1) {
-          out << (i > 0 ? "\n" : "") << studies[i].name << '\n';
-        }
-        write_table(out, scene, result);
-      });
-    }
+    write_table(tables, scene, result);
     append(std::move(result), all);
   }
   if (all.empty()) {  // nothing was begun
     all.push_back(no_result(studies.front()));
   }
-  write_to(options.json, screen,
-           [&](std::ostream& out) { write_json(out, scene, all, options.coefficients); });
-  write_to(options.csv, screen, [&](std::ostream& out) { write_csv(out, scene, all.front()); });
-  if (!places.empty() && !options.quiet && !takes_standard_output(options)) {
-    screen.write([&](std::ostream& out) { out << '\n' << places; });
+
+  StandardOutput screen;
+  using Output = std::pair<std::string, std::function<void(std::ostream&)>>;
+  std::vector<Output> outputs{
+      {options.json, [&](std::ostream& out) { write_json(out, scene, all, options.coefficients); }},
+      {options.csv, [&](std::ostream& out) { write_csv(out, scene, all.front()); }}};
+  std::stable_partition(outputs.begin(), outputs.end(),
+                        [](const Output& each) { return !may_wait(each.first); });
+  for (const auto& [place, writer] : outputs) {
+    if (place == "-") {
+      screen.write(writer);
+    } else if (!place.empty()) {
+      writing.file(place, writer);
+    }
   }
-  screen.finish();
-  return code;
+  if (!takes_standard_output(options)) {
+    if (!places.empty() && !options.quiet) {
+      tables << '\n' << places;
+    }
+    screen.write_lines([&](std::ostream& out) { out << tables.str(); });
+  }
+  writing.attempt([&] { screen.finish(); });
+  if (interrupted()) {
+    code = ExitCode::stopped_early;
+    if (interruption.is_new()) {
+      tell("interrupted while results were written; see above for what is missing, if anything");
+    }
+  }
+  return writing.code(code);
 }
 
 ExitCode check(const Options& options) {
   const scene::Scene scene = resolve(options);
   if (!options.quiet) {
     StandardOutput screen;
-    screen.write([&](std::ostream& out) { out << scene::write(scene); });
+    screen.write_lines([&](std::ostream& out) { out << scene::write(scene); });
     screen.finish();
   }
   return ExitCode::done;
@@ -163,9 +215,12 @@ ExitCode run(Options options) {
         "arcslip frf with --from and --to");
   }
   bool any_frf = false;
-  for (scene::Study& study : scene.studies) {
-    if (study.kind == scene::StudyKind::frf) {
-      set_range(study, scene, options);
+  for (std::size_t i = 0; i < scene.studies.size(); ++i) {
+    if (scene.studies[i].kind == scene::StudyKind::frf) {
+      set_range(scene.studies[i], scene, options);
+      if (options.from || options.to) {
+        check_study(scene, i, options);
+      }
       any_frf = true;
     }
   }

@@ -1,5 +1,6 @@
 #include <arcslip/optimize/optimum_curve_output.hpp>
 
+#include <arcslip/output/csv_text.hpp>
 #include <arcslip/output/draw_figures.hpp>
 #include <arcslip/output/json_text.hpp>
 #include <arcslip/output/units.hpp>
@@ -136,29 +137,43 @@ output::JsonSection json_section(const scene::Scene& scene, std::span<const Opti
 }
 
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumCurveResult> results) {
+  using output::detail::csv_number;
   if (results.empty()) return;
-  const char* end = "\r\n";
-  const auto heading = [&](const std::string& name) {
-    out << ',' << output::with_unit(name, output::parameter_unit(scene, name));
-  };
-  out << "curve,what";
-  for (const auto& [name, value] : results.front().set) heading(name);
-  heading(results.front().curve.along);
-  for (const DesignVariable& v : results.front().problem.over) heading(v.name);
-  out << ",amplitude (m)," << output::with_unit("frequency", scene::unit_name(scene.frequency_unit))
-      << ",stick (%),active peaks,minimum" << end;
+  const auto of_another = [&](const auto& result) { return result.study != results.front().study; };
+  const bool several_studies = std::any_of(results.begin(), results.end(), of_another);
+  std::vector<std::string> names;
+  for (const OptimumCurveResult& result : results)
+    for (const auto& [name, value] : result.set) output::detail::add_name(name, names);
+  for (const OptimumCurveResult& result : results) output::detail::add_name(result.curve.along, names);
+  for (const OptimumCurveResult& result : results)
+    for (const DesignVariable& v : result.problem.over) output::detail::add_name(v.name, names);
+  std::vector<std::string> titles(several_studies ? 1 : 0, "study");
+  titles.insert(titles.end(), {"curve", "what"});
+  for (const std::string& name : names)
+    titles.push_back(output::with_unit(name, output::parameter_unit(scene, name)));
+  titles.insert(titles.end(),
+                {"amplitude (m)", output::with_unit("frequency", scene::unit_name(scene.frequency_unit)),
+                 "stick (%)", "active peaks", "minimum"});
+  output::detail::write_csv_header(out, titles);
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const OptimumCurve& curve = results[i].curve;
+    const OptimumCurveResult& result = results[i];
+    const OptimumCurve& curve = result.curve;
     const auto row = [&](const std::string& what, const OptimumPoint& at) {
-      out << i + 1 << ',' << what;
-      for (const auto& [name, value] : results[i].set) out << ',' << output::shortest(value);
-      out << ',' << output::shortest(at.along);
-      for (const double value : at.design) out << ',' << output::shortest(value);
+      std::vector<std::string> cells(several_studies ? 1 : 0, output::detail::csv_text(result.study));
+      cells.insert(cells.end(), {std::to_string(i + 1), what});
+      for (const std::string& name : names) {
+        std::string& cell = cells.emplace_back(name == curve.along ? csv_number(at.along) : "");
+        for (const auto& [key, value] : result.set)
+          if (key == name) cell = csv_number(value);
+        for (std::size_t k = 0; k < at.design.size(); ++k)
+          if (result.problem.over[k].name == name) cell = csv_number(at.design[k]);
+      }
       const auto* element = friction_of(at.response);
-      out << ',' << output::shortest(at.amplitude) << ','
-          << output::shortest(output::in_scene_unit(scene, at.response.omega)) << ','
-          << (element ? output::shortest(element->stick_percent) : "") << ',' << at.peaks.size() << ','
-          << (at.minimum ? "yes" : "no") << end;
+      cells.insert(cells.end(),
+                   {csv_number(at.amplitude), csv_number(output::in_scene_unit(scene, at.response.omega)),
+                    element ? csv_number(element->stick_percent) : "", std::to_string(at.peaks.size()),
+                    at.minimum ? "yes" : "no"});
+      output::detail::write_csv_row(out, cells);
     };
     auto event = curve.events.begin();
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
@@ -169,7 +184,8 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Opt
 }
 
 output::Figures write_figures(const scene::Scene& scene, std::span<const OptimumCurveResult> results,
-                              const std::string& folder, const std::string& name) {
+                              const std::string& folder, const std::string& name,
+                              const scene::StopRequest& stop) {
   output::FigureData all;
   all.kind = scene::StudyKind::optimum;
   for (const OptimumCurveResult& result : results) {
@@ -188,7 +204,7 @@ output::Figures write_figures(const scene::Scene& scene, std::span<const Optimum
                          ? output::Scale::logarithmic
                          : output::Scale::linear;
   }
-  return output::draw_figures(scene, all, folder, name);
+  return output::draw_figures(scene, all, folder, name, stop);
 }
 
 }  // namespace arcslip::optimize

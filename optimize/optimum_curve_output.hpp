@@ -39,6 +39,7 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Opt
 /// Over s, with a line for each result: each parameter of the design (NAME_PARAMETER), the amplitude
 /// (NAME_amplitude) and the stick share of each friction element (NAME_stick).
 output::Figures write_figures(const scene::Scene& scene, std::span<const OptimumCurveResult> results,
-                              const std::string& folder, const std::string& name);
+                              const std::string& folder, const std::string& name,
+                              const scene::StopRequest& stop = {});
 
 }  // namespace arcslip::optimize

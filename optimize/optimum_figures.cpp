@@ -141,11 +141,16 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, outpu
 
 class Drawing {
  public:
-  Drawing(const scene::Scene& scene, const std::string& folder) : scene_(scene), folder_(folder) {}
+  Drawing(const scene::Scene& scene, const std::string& folder, const scene::StopRequest& stop)
+      : scene_(scene), folder_(folder), stop_(stop) {}
 
   void add(const output::FigureData& data, const std::string& name) {
-    if (data.lines.empty()) return;
-    output::Figures more = output::draw_figures(scene_, data, folder_, name);
+    if (data.lines.empty()) {
+      if (!drawn_.contains(name)) output::remove_figures(folder_, name);  // of an earlier run
+      return;
+    }
+    drawn_.insert(name);
+    output::Figures more = output::draw_figures(scene_, data, folder_, name, stop_);
     std::move(more.sources.begin(), more.sources.end(), std::back_inserter(all.sources));
     std::move(more.images.begin(), more.images.end(), std::back_inserter(all.images));
     if (all.problem.empty()) all.problem = std::move(more.problem);
@@ -156,6 +161,8 @@ class Drawing {
  private:
   const scene::Scene& scene_;
   const std::string& folder_;
+  const scene::StopRequest& stop_;
+  std::set<std::string> drawn_;
 };
 
 void draw_cases(const scene::Scene& scene, const OptimumResult& result, const std::string& name,
@@ -178,8 +185,8 @@ void draw_cases(const scene::Scene& scene, const OptimumResult& result, const st
 
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind,
                               std::span<const OptimumResult> results, const std::string& folder,
-                              const std::string& name) {
-  Drawing drawing(scene, folder);
+                              const std::string& name, const scene::StopRequest& stop) {
+  Drawing drawing(scene, folder, stop);
   std::vector<ResponseBranch> curves, responses;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const OptimumResult& result = results[i];

@@ -42,6 +42,6 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const Opt
 /// (NAME_amplitude), and the responses of the cases at the optimum.
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
                               std::span<const OptimumResult> results, const std::string& folder,
-                              const std::string& name);
+                              const std::string& name, const scene::StopRequest& stop = {});
 
 }  // namespace arcslip::optimize

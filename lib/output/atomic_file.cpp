@@ -1,13 +1,16 @@
 #include <arcslip/output/atomic_file.hpp>
 
-#include <array>
+#include <arcslip/output/descriptor_buffer.hpp>
+#include <arcslip/scene/visible.hpp>
+
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
+#include <filesystem>
 #include <optional>
-#include <streambuf>
+#include <regex>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -39,6 +42,10 @@ const char* advice(int error) {
       return "it is closed";
     case EPIPE:
       return "the reader has gone";
+    case EINTR:
+      return "nobody read it when the run was interrupted";
+    case ELOOP:
+      return "its links lead in a circle; give the name of a file";
     default:
       return "check the disk, or write to another place";
   }
@@ -48,55 +55,23 @@ const char* advice(int error) {
   throw WriteError(path, error);
 }
 
-/// A buffer that puts its bytes into a file descriptor, or throws.
-class DescriptorBuffer : public std::streambuf {
- public:
-  DescriptorBuffer(int descriptor, std::string path) : descriptor_(descriptor), path_(std::move(path)) {
-    setp(buffer_.data(), buffer_.data() + buffer_.size());
-  }
-
- protected:
-  int_type overflow(int_type character) override {
-    sync();
-    if (!traits_type::eq_int_type(character, traits_type::eof())) {
-      sputc(traits_type::to_char_type(character));
-    }
-    return traits_type::not_eof(character);
-  }
-
-  int sync() override {
-    const char* begin = pbase();
-    const char* const end = pptr();
-    setp(buffer_.data(), buffer_.data() + buffer_.size());  // a failed write is not tried again
-    while (begin != end) {
-      const auto written = ::write(descriptor_, begin, static_cast<std::size_t>(end - begin));
-      if (written < 0 && errno != EINTR) {
-        fail(path_, errno);
-      }
-      begin += written > 0 ? written : 0;
-    }
-    return 0;
-  }
-
- private:
-  int descriptor_;
-  std::string path_;
-  std::array<char, 1 << 16> buffer_;
-};
-
 std::string folder_of(const std::string& path) {
   const auto slash = path.rfind('/');
   return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-/// The file that a link stands for, so that renaming replaces the file and not the link.
-std::string resolved(const std::string& path) {
-  struct stat link {};
-  if (::lstat(path.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) {
-    return path;
+/// What a link stands for, so that renaming replaces the file and not the link; it need not be there.
+std::string resolved(const std::string& link) {
+  std::string path = link;
+  std::error_code error;
+  for (int links = 0; links < 40; ++links) {
+    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
+    if (error) {
+      return path;
+    }
+    path = target.is_absolute() ? target.string() : (folder_of(path) + "/" + target.string());
   }
-  const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr), &std::free);
-  return real ? std::string(real.get()) : path;
+  fail(link, ELOOP);
 }
 
 /// Where Linux shows an open file that has no name.
@@ -121,8 +96,8 @@ std::pair<std::string, int> unused_name(const std::string& folder, const TryName
 }  // namespace
 
 WriteError::WriteError(const std::string& path, int error)
-    : std::runtime_error("cannot write " + path + ": " + std::generic_category().message(error) + " (" +
-                         advice(error) + ")"),
+    : std::runtime_error("cannot write " + scene::visible(path) + ": " +
+                         std::generic_category().message(error) + " (" + advice(error) + ")"),
       error_(error) {}
 
 struct AtomicFile::Target {
@@ -131,7 +106,8 @@ struct AtomicFile::Target {
   std::string temporary;   // its present name; empty: it has none
   int descriptor = -1;
   bool owns_descriptor = true;
-  std::optional<DescriptorBuffer> buffer;
+  scene::StopRequest stop{};
+  std::optional<detail::DescriptorBuffer> buffer;
   std::optional<std::ostream> stream;
 
   void open();
@@ -154,10 +130,7 @@ void AtomicFile::Target::open() {
     fail(path, EISDIR);
   }
   if (exists && !S_ISREG(old.st_mode)) {
-    descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
-    if (descriptor < 0) {
-      fail(path, errno);
-    }
+    descriptor = detail::open_special(path, stop);
     return;
   }
   if (exists && ::access(path.c_str(), W_OK) != 0) {
@@ -192,7 +165,7 @@ void AtomicFile::Target::open_temporary(mode_t mode) {
 }
 
 void AtomicFile::Target::start_stream() {
-  buffer.emplace(descriptor, path);
+  buffer.emplace(descriptor, path, stop);
   stream.emplace(&*buffer);
   stream->exceptions(std::ios::badbit | std::ios::failbit);  // WriteError passes through
 }
@@ -200,8 +173,10 @@ void AtomicFile::Target::start_stream() {
 void AtomicFile::Target::commit() {
   stream->flush();
   if (!final_name.empty()) {
-    if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) {
-      fail(path, errno);
+    while (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) {
+      if (errno != EINTR) {
+        fail(path, errno);
+      }
     }
     if (temporary.empty()) {
       const std::string unnamed = unnamed_link(descriptor);
@@ -244,19 +219,30 @@ AtomicFile::AtomicFile(AtomicFile&&) noexcept = default;
 AtomicFile& AtomicFile::operator=(AtomicFile&&) noexcept = default;
 AtomicFile::~AtomicFile() = default;
 
-AtomicFile::AtomicFile(const std::string& path) : target_(std::make_unique<Target>()) {
+AtomicFile::AtomicFile(const std::string& path, scene::StopRequest stop)
+    : target_(std::make_unique<Target>()) {
   target_->path = path;
+  target_->stop = std::move(stop);
   target_->open();
   target_->start_stream();
 }
 
-AtomicFile AtomicFile::standard_output() {
+AtomicFile AtomicFile::standard_stream(int descriptor, const char* name, scene::StopRequest stop) {
   auto target = std::make_unique<Target>();
-  target->path = "standard output";
-  target->descriptor = STDOUT_FILENO;
+  target->stop = std::move(stop);
+  target->path = name;
+  target->descriptor = descriptor;
   target->owns_descriptor = false;
   target->start_stream();
   return AtomicFile(std::move(target));
+}
+
+AtomicFile AtomicFile::standard_output(scene::StopRequest stop) {
+  return standard_stream(STDOUT_FILENO, "standard output", std::move(stop));
+}
+
+AtomicFile AtomicFile::standard_error(scene::StopRequest stop) {
+  return standard_stream(STDERR_FILENO, "standard error", std::move(stop));
 }
 
 std::ostream& AtomicFile::stream() {
@@ -267,14 +253,42 @@ void AtomicFile::commit() {
   target_->commit();
 }
 
-void write_file(const std::string& path, const std::function<void(std::ostream&)>& writer) {
-  AtomicFile file(path);
+void write_file(const std::string& path, const std::function<void(std::ostream&)>& writer,
+                const scene::StopRequest& stop) {
+  AtomicFile file(path, stop);
   writer(file.stream());
   file.commit();
 }
 
 void check_writable(const std::string& path) {
-  AtomicFile{path};
+  struct stat old {};
+  if (::stat(path.c_str(), &old) != 0 || S_ISREG(old.st_mode) || S_ISDIR(old.st_mode)) {
+    AtomicFile{path};
+  } else if (::access(path.c_str(), W_OK) != 0) {
+    fail(path, errno);
+  }
+}
+
+std::string written_file(const std::string& path) {
+  const std::filesystem::path target = resolved(path);
+  std::error_code error;
+  const auto folder = std::filesystem::canonical(folder_of(target.string()), error);
+  return error ? target.string() : (folder / target.filename()).string();
+}
+
+void clear_temporaries(const std::string& folder) {
+  static const std::regex left_over(R"(\.arcslip-[0-9]+-[0-9]+\.tmp|.*\.(svg|png)\.[0-9]+\.tmp)");
+  std::error_code error;
+  std::vector<std::filesystem::path> paths;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (std::regex_match(entry->path().filename().string(), left_over)) {
+      paths.push_back(entry->path());
+    }
+  }
+  for (const auto& path : paths) {
+    std::filesystem::remove(path, error);
+  }
 }
 
 }  // namespace arcslip::output

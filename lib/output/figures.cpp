@@ -6,6 +6,7 @@
 #include <arcslip/output/process.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <string_view>
@@ -14,6 +15,13 @@
 
 namespace arcslip::output {
 namespace {
+
+constexpr std::chrono::seconds least_time{60};           // for gnuplot
+constexpr std::chrono::microseconds time_of_point{100};  // more for each point of each figure
+
+std::string folder_prefix(const std::string& folder) {
+  return folder + (folder.empty() || folder.back() != '/' ? "/" : "");
+}
 
 /// Whether an image is whole: it ends as its format must.
 bool is_whole(const std::string& path, std::string_view ending) {
@@ -26,15 +34,55 @@ bool is_whole(const std::string& path, std::string_view ending) {
   return file && tail.find(ending) != std::string::npos;
 }
 
-std::string problem_of(const ProcessResult& result, const std::string& folder, const std::string& script) {
-  if (!result.found) {
+/// How long gnuplot may take: what it draws in a second is tens of thousands of points.
+std::chrono::milliseconds time_for(const FigureData& data, std::size_t figures) {
+  std::size_t points = 0;
+  for (const FigureLine& line : data.lines) {
+    for (const auto& part : line.parts) {
+      points += part.size();
+    }
+  }
+  return least_time + std::chrono::duration_cast<std::chrono::milliseconds>(points * figures * time_of_point);
+}
+
+/// The images, without their folder, that an old script draws; none where there is no script.
+std::vector<std::string> images_of(const std::string& script) {
+  constexpr std::string_view begin = "set output '", end = "'.suffix";
+  std::vector<std::string> images;
+  std::ifstream file(script, std::ios::binary);
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(begin) && line.ends_with(end)) {
+      const std::string image = line.substr(begin.size(), line.size() - begin.size() - end.size());
+      if (image == file_name(image)) {  // nothing outside of the folder
+        images.push_back(image);
+      }
+    }
+  }
+  return images;
+}
+
+/// Old figures must not stand beside new data. Returns how many there were.
+int remove_images(const std::string& base, const std::vector<std::string>& images) {
+  int count = 0;
+  for (const std::string& image : images) {
+    count += std::remove((base + image).c_str()) == 0 ? 1 : 0;
+  }
+  return count;
+}
+
+std::string problem_of(const ProcessResult& result, const std::string& folder, const std::string& script,
+                       std::chrono::milliseconds time) {
+  if (result.end == ProcessEnd::not_found) {
     return "figures need gnuplot (Debian package gnuplot-nox); the data and the script are there: "
            "after installing it, run gnuplot -d " +
            script + " in " + folder;
   }
   std::string problem =
       "gnuplot could not draw the figures (exit code " + std::to_string(result.exit_code) + ")";
-  if (result.signal != 0) {
+  if (result.end == ProcessEnd::out_of_time) {
+    problem =
+        "gnuplot has not drawn the figures in " + std::to_string(time.count() / 1000) + " s and was ended";
+  } else if (result.signal != 0) {
     problem = "gnuplot was ended by signal " + std::to_string(result.signal);
   } else if (result.exit_code == 0) {
     problem = "gnuplot left a figure incomplete, or it could not be put in its place (is the disk full?)";
@@ -66,30 +114,55 @@ std::string file_name(const std::string& name) {
 
 Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
                       std::span<const observables::ResponseBranch> branches, const std::string& folder,
-                      const std::string& name) {
-  return draw_figures(scene, figure_data(scene, kind, branches), folder, name);
+                      const std::string& name, const scene::StopRequest& stop) {
+  return draw_figures(scene, figure_data(scene, kind, branches), folder, name, stop);
+}
+
+void remove_figures(const std::string& folder, const std::string& name) {
+  const std::string base = folder_prefix(folder), stem = file_name(name);
+  remove_images(base, images_of(base + stem + ".gp"));
+  remove_images(base, {stem + ".dat", stem + ".gp"});
 }
 
 Figures draw_figures(const scene::Scene& scene, const FigureData& data, const std::string& folder,
-                     const std::string& name) {
+                     const std::string& name, const scene::StopRequest& stop) {
   const std::string stem = file_name(name);
-  const std::string base = folder + (folder.empty() || folder.back() != '/' ? "/" : "");
+  const std::string base = folder_prefix(folder);
   const std::vector<GnuplotFigure> figures = gnuplot_figures(data, stem);
 
   Figures result;
   result.sources = {base + stem + ".dat", base + stem + ".gp"};
+  std::vector<std::string> old = images_of(result.sources[1]);
+  for (const GnuplotFigure& figure : figures) {
+    old.insert(old.end(), {figure.name + ".svg", figure.name + ".png"});
+  }
+  const int removed = remove_images(base, old);
   write_file(result.sources[0], [&](std::ostream& out) { write_figure_data(out, scene, data); });
   write_file(result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, figures); });
+  const auto problem = [&](const std::string& what) {
+    result.problem = what + (removed > 0 && result.images.empty()
+                                 ? "; those of an earlier run are removed, since they show other data"
+                                 : "");
+  };
   if (figures.empty()) {
-    result.problem = "there is no point to draw, so there is no figure";
+    problem("there is no point to draw, so there is no figure");
+    return result;
+  }
+  const std::string interrupted =
+      "interrupted before the figures were drawn; the data and the script are "
+      "there: run gnuplot -d " +
+      stem + ".gp in " + folder;
+  if (scene::is_asked(stop)) {
+    problem(interrupted);
     return result;
   }
 
   // gnuplot writes under a temporary name; what is whole gets its own.
   const std::string suffix = "." + std::to_string(::getpid()) + ".tmp";
+  const auto time = time_for(data, figures.size());
   const ProcessResult run =
-      run_program("gnuplot", {"-d", "-e", "suffix='" + suffix + "'", stem + ".gp"}, folder);
-  bool all_whole = run.found && run.exit_code == 0;
+      run_program("gnuplot", {"-d", "-e", "suffix='" + suffix + "'", stem + ".gp"}, folder, {stop, time});
+  bool all_whole = run.end == ProcessEnd::by_itself && run.exit_code == 0;
   for (const GnuplotFigure& figure : figures) {
     for (const auto& [extension, ending] : {std::pair{".svg", "</svg>"}, std::pair{".png", "IEND"}}) {
       const std::string path = base + figure.name + extension;
@@ -104,7 +177,7 @@ Figures draw_figures(const scene::Scene& scene, const FigureData& data, const st
     }
   }
   if (!all_whole) {
-    result.problem = problem_of(run, folder, stem + ".gp");
+    problem(run.end == ProcessEnd::stopped ? interrupted : problem_of(run, folder, stem + ".gp", time));
   }
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/stop_request.hpp>
 
 #include <span>
 #include <string>
@@ -19,10 +20,15 @@ struct Figures {
 /// Writes NAME.dat and NAME.gp into `folder`, of the branches of one study of this kind, and lets gnuplot
 /// make of them the figures of gnuplot_figures(), as SVG and PNG, with a line for each combination of set
 /// parameters. NAME is made of letters, digits, '.', '_' and '-' only. Without gnuplot, or where it fails,
-/// `problem` says so and the sources are there all the same. Throws WriteError where these cannot be written.
+/// hangs (it has a minute, and 0.1 ms more for each point of each figure) or `stop` is asked for, `problem`
+/// says so and the sources are there all the same. Images of an earlier run with this NAME are removed first.
+/// Throws WriteError where the sources cannot be written.
 Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
                       std::span<const observables::ResponseBranch> branches, const std::string& folder,
-                      const std::string& name);
+                      const std::string& name, const scene::StopRequest& stop = {});
+
+/// Removes the sources of this NAME in `folder` and the images that they were drawn to, if they are there.
+void remove_figures(const std::string& folder, const std::string& name);
 
 /// A file name for anything that has a name: what is not a letter, a digit, '_', '-' or an inner '.' becomes
 /// '_'.

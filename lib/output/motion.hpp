@@ -37,7 +37,7 @@ void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const obs
 /// 000 instants are thinned.
 Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
                       std::span<const observables::Motion> motions, const std::string& folder,
-                      const std::string& name);
+                      const std::string& name, const scene::StopRequest& stop = {});
 
 /// Columns: time, displacement of the response, then displacement and force of each friction element.
 FigureData figure_data(const scene::Scene& scene, std::span<const observables::Motion> motions);

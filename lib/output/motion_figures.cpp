@@ -81,8 +81,8 @@ FigureData figure_data(const scene::Scene& scene, std::span<const Motion> motion
 }
 
 Figures write_figures(const scene::Scene& scene, scene::StudyKind /*time*/, std::span<const Motion> motions,
-                      const std::string& folder, const std::string& name) {
-  return draw_figures(scene, figure_data(scene, motions), folder, name);
+                      const std::string& folder, const std::string& name, const scene::StopRequest& stop) {
+  return draw_figures(scene, figure_data(scene, motions), folder, name, stop);
 }
 
 }  // namespace arcslip::output

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,7 +16,11 @@ extern char** environ;
 namespace arcslip::output {
 namespace {
 
-/// What a started program inherits: its folder, its streams, and default reactions to signals.
+constexpr int moment = 20;                   // ms between questions whether to go on
+constexpr std::size_t most_text = 1u << 20;  // bytes of it that are kept
+
+/// What a started program inherits: its folder, its streams, default reactions to signals, and a process
+/// group.
 class SpawnSettings {
  public:
   SpawnSettings(const std::string& folder, int output) {
@@ -28,8 +33,9 @@ class SpawnSettings {
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGPIPE);
+    sigaddset(&signals, SIGXFSZ);
     posix_spawnattr_setsigdefault(&attributes_, &signals);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   }
   SpawnSettings(const SpawnSettings&) = delete;
   SpawnSettings& operator=(const SpawnSettings&) = delete;
@@ -66,17 +72,22 @@ class Pipe {
       ends_[1] = -1;
     }
   }
-  std::string read_all() const {
-    std::string text;
-    std::array<char, 4096> buffer;
-    while (true) {
-      const auto count = ::read(ends_[0], buffer.data(), buffer.size());
-      if (count > 0) {
-        text.append(buffer.data(), static_cast<std::size_t>(count));
-      } else if (count == 0 || errno != EINTR) {
-        return text;
-      }
+  bool has_text() const {
+    pollfd place{ends_[0], POLLIN, 0};
+    return ::poll(&place, 1, 0) > 0 && (place.revents & POLLIN) != 0;
+  }
+  /// Waits a moment for text. False at the end of it.
+  bool read_some(std::string& text) const {
+    pollfd place{ends_[0], POLLIN, 0};
+    if (::poll(&place, 1, moment) <= 0) {
+      return true;
     }
+    std::array<char, 4096> buffer;
+    const auto count = ::read(ends_[0], buffer.data(), buffer.size());
+    if (count > 0 && text.size() < most_text) {
+      text.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+    return count > 0 || (count < 0 && errno == EINTR);
   }
 
  private:
@@ -86,7 +97,7 @@ class Pipe {
 }  // namespace
 
 ProcessResult run_program(const std::string& program, const std::vector<std::string>& arguments,
-                          const std::string& folder) {
+                          const std::string& folder, const ProcessLimits& limits) {
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -102,16 +113,37 @@ ProcessResult run_program(const std::string& program, const std::vector<std::str
                                    argv.data(), environ);
   ProcessResult result;
   if (error == ENOENT || error == EACCES || error == ENOTDIR) {
-    result.found = false;
+    result.end = ProcessEnd::not_found;
     return result;
   }
   if (error != 0) {
     throw std::system_error(error, std::generic_category(), "cannot start " + program);
   }
   pipe.close_writing();
-  result.text = pipe.read_all();
+  const auto began = std::chrono::steady_clock::now();
+  bool writes = true;
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  while (true) {
+    if (writes) {
+      writes = pipe.read_some(result.text);
+    } else {
+      ::poll(nullptr, 0, moment);
+    }
+    // At the end of its text it is about to end; what it started may hold the pipe longer than it lives.
+    if (::waitpid(child, &status, WNOHANG) == child) {
+      break;
+    }
+    const bool stopped = scene::is_asked(limits.stop);
+    if (stopped || std::chrono::steady_clock::now() - began > limits.time) {
+      result.end = stopped ? ProcessEnd::stopped : ProcessEnd::out_of_time;
+      ::kill(-child, SIGKILL);
+      while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+      }
+      break;
+    }
+  }
+  while (writes && pipe.has_text()) {
+    writes = pipe.read_some(result.text);
   }
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;

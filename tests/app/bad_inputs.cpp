@@ -173,6 +173,30 @@ std::vector<BadInput> make() {
              structure("1", "100"),
              R"(, "studies": [{"kind": "frf", "from": 1, "to": 2}, {"kind": "time", "frequency": 1}])");
        }},
+      {"more combinations than anybody meant",
+       {"frf", "bad.json"},
+       1,
+       "the lists of for_each in the study \"frf\" have 1000 x 1000 x 1000 = 1000000000 combinations, must "
+       "be at "
+       "most "
+       "100000: give fewer values, or allow more with --combinations N",
+       "bad.json",
+       [] {
+         std::string values = "1";
+         for (int i = 2; i <= 1000; ++i) {
+           values += ", " + std::to_string(i);
+         }
+         return scene_with(structure("1", "100"),
+                           R"(, "studies": [{"kind": "frf", "from": 1, "to": 2, "for_each": {"m.value": [)" +
+                               values + R"(], "k.value": [)" + values + R"(], "force.cosine": [)" + values +
+                               "]}}]");
+       }},
+      line("fewer combinations allowed than there are", {"frf", "scene.json", "--combinations", "11"},
+           "have 12 combinations, must be at most 11"),
+      line("--to beyond every frequency", {"frf", "scene.json", "--to", "1e300"},
+           "--to 1e+300: found 1e+300, must be at most 1e+100 Hz"),
+      line("--to beyond every frequency in run", {"run", "scene.json", "--to", "1e300"},
+           "--to 1e+300: found 1e+300, must be at most 1e+100 Hz"),
       // places
       line("a scene that is not there", {"run", "nothing.json"}, "nothing.json: No such file or directory"),
       line("a folder as the scene", {"run", "."}, ". is a directory, must be a scene file"),
@@ -196,6 +220,11 @@ std::vector<BadInput> make() {
       line("a full disk for the table",
            {"frf", "scene.json", "--set", "damper.normal_load=3", "--csv", "/dev/full"},
            "cannot write /dev/full: No space left on device"),
+      line("a verb with control characters", {"\x1b[31mfry\xc2\x9b", "scene.json"},
+           "unknown verb \"\\u001b[31mfry\\u009b\""),
+      line("results into two files that are one",
+           {"frf", "scene.json", "--json", "a.json", "--csv", "./a.json"},
+           "--json and --csv both go to ./a.json: give one of them another place"),
       printed_on("/dev/full", "a full disk below standard output",
                  {"frf", "scene.json", "--set", "damper.normal_load=3", "--json", "-"},
                  "cannot write standard output: No space left on device"),

@@ -216,7 +216,8 @@ TEST_CASE("every figure has its data, and what figures.json says of it holds") {
 TEST_CASE("each script draws its figure from its data without a word") {
   const Made made;
   REQUIRE(made.ended.exit_code == 0);
-  if (!arcslip::output::run_program("gnuplot", {"--version"}, ".").found) {
+  if (arcslip::output::run_program("gnuplot", {"--version"}, ".").end ==
+      arcslip::output::ProcessEnd::not_found) {
     WARN("gnuplot is not there");
     return;
   }

@@ -6,6 +6,8 @@
 #include "lib/observables/extremes.hpp"
 #include "lib/scene/bad_scenes.hpp"
 
+#include <arcslip/scene/visible.hpp>
+
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -70,7 +72,7 @@ void print_head(const std::vector<std::string>& titles) {
 std::string command_line(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"arcslip"};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  return joined(words, " ");
+  return arcslip::scene::visible(joined(words, " "));
 }
 
 void print_introduction() {

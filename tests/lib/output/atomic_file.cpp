@@ -155,3 +155,33 @@ TEST_CASE("a link stays a link to the new content") {
   CHECK(support::fs::is_symlink(folder / "link"));
   CHECK(content(folder / "folder/real") == "new");
 }
+
+TEST_CASE("a link to what is not there yet is followed, link by link, and one in a circle is refused") {
+  const TemporaryFolder folder;
+  support::fs::create_directory(folder / "folder");
+  support::fs::create_symlink("folder/new", folder / "link");
+  support::fs::create_symlink(folder / "link", folder / "another");
+  CHECK(arcslip::output::written_file(folder / "another") ==
+        arcslip::output::written_file(folder / "folder/new"));
+  CHECK(arcslip::output::written_file(folder / "folder/../link") ==
+        arcslip::output::written_file(folder / "folder/new"));
+  CHECK(arcslip::output::written_file(folder / "folder/old") !=
+        arcslip::output::written_file(folder / "folder/new"));
+  write_file(folder / "another", [](std::ostream& out) { out << "new"; });
+  CHECK(support::fs::is_symlink(folder / "link"));
+  CHECK(content(folder / "folder/new") == "new");
+  support::fs::create_symlink("circle", folder / "circle");
+  CHECK_THROWS_AS(write_file(folder / "circle", [](std::ostream&) {}), WriteError);
+}
+
+TEST_CASE("what killed writers have left is cleared, and nothing else") {
+  const TemporaryFolder folder;
+  for (const char* name : {".arcslip-17-0.tmp", "a.svg.17.tmp", "b.c.png.4711.tmp", "a.svg", "a.tmp",
+                           "a.svg.x.tmp", ".arcslip-x.tmp", "a.json.17.tmp"}) {
+    write_file(folder / name, [](std::ostream& out) { out << "x"; });
+  }
+  arcslip::output::clear_temporaries(folder.path());
+  CHECK(folder.files() == 5);
+  CHECK(support::fs::exists(folder / "a.json.17.tmp"));
+  CHECK_FALSE(support::fs::exists(folder / "b.c.png.4711.tmp"));
+}

@@ -7,7 +7,11 @@
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/process.hpp>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
+
+#include <unistd.h>
 
 using namespace arcslip;
 using scene::StudyKind;
@@ -31,7 +35,7 @@ class SearchPath {
 };
 
 bool have_gnuplot() {
-  return output::run_program("gnuplot", {"--version"}, ".").found;
+  return output::run_program("gnuplot", {"--version"}, ".").end != output::ProcessEnd::not_found;
 }
 
 void write_program(const std::string& path, const std::string& script) {
@@ -214,6 +218,42 @@ TEST_CASE("what a failing gnuplot says is told") {
   const auto figures = output::write_figures(support::scene(), StudyKind::frf, std::vector{support::branch()},
                                              folder.path(), "frf");
   CHECK(figures.problem.find("\nno such terminal") != std::string::npos);
+}
+
+TEST_CASE("a program that takes too long, or is asked to stop, is ended with all that it has started") {
+  const TemporaryFolder folder;
+  const std::string script = "sleep 600 & echo $! > child; echo said; exec sleep 600";
+  for (const bool asked : {false, true}) {
+    const output::ProcessLimits limits{[&] { return asked && support::fs::exists(folder / "child"); },
+                                       std::chrono::milliseconds(asked ? 600'000 : 500)};
+    const auto result = output::run_program("sh", {"-c", script}, folder.path(), limits);
+    CHECK(result.end == (asked ? output::ProcessEnd::stopped : output::ProcessEnd::out_of_time));
+    CHECK(result.signal == SIGKILL);
+    const pid_t child = std::stoi(content(folder / "child"));
+    for (int i = 0; i < 200 && ::kill(child, 0) == 0; ++i) ::usleep(10'000);  // until it is gone
+    CHECK((::kill(child, 0) != 0 ||
+           content("/proc/" + std::to_string(child) + "/stat").find(") Z ") != std::string::npos));
+    support::fs::remove(folder / "child");
+  }
+}
+
+TEST_CASE("images of an earlier run are removed where the new ones cannot be drawn") {
+  const TemporaryFolder folder;
+  const SearchPath nothing("/nonexistent");
+  const std::vector branches{support::branch()};
+  output::write_figures(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+  // As if they had been drawn, with one that the present figures do not have.
+  const std::string script = content(folder / "frf.gp");
+  output::write_file(folder / "frf.gp", [&](std::ostream& out) {
+    out << script << "set output 'frf_stick_other.svg'.suffix\nset output '../outside.svg'.suffix\n";
+  });
+  for (const char* image : {"frf_amplitude.svg", "frf_stick.png", "frf_stick_other.svg", "frf_mine.svg"})
+    output::write_file(folder / image, [](std::ostream& out) { out << "</svg>"; });
+  const auto figures =
+      output::write_figures(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+  CHECK(figures.problem.find("; those of an earlier run are removed") != std::string::npos);
+  CHECK(folder.files() == 3);
+  CHECK(support::fs::exists(folder / "frf_mine.svg"));
 }
 
 TEST_CASE("the data of a figure has a block for each line and its marks") {

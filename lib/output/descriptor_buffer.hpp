@@ -1,0 +1,50 @@
+#pragma once
+// Writing to a file descriptor on whose other side somebody may have to read first.
+
+#include <arcslip/scene/stop_request.hpp>
+
+#include <array>
+#include <chrono>
+#include <streambuf>
+#include <string>
+
+namespace arcslip::output::detail {
+
+/// Waiting for whoever reads on the other side: as long as it takes, but no longer than a second without
+/// progress once an end is asked for.
+class Patience {
+ public:
+  explicit Patience(scene::StopRequest stop);
+  bool is_at_end();
+  void progress() { asked_ = false; }
+
+ private:
+  scene::StopRequest stop_;
+  bool asked_ = false;
+  std::chrono::steady_clock::time_point since_{};
+};
+
+/// Opens what is there and is no regular file, once; a pipe waits for its reader. Throws WriteError.
+int open_special(const std::string& path, const scene::StopRequest& stop);
+
+/// A buffer that puts its bytes into a file descriptor, or throws WriteError with this path.
+class DescriptorBuffer : public std::streambuf {
+ public:
+  /// stop: asked while the descriptor waits.
+  DescriptorBuffer(int descriptor, std::string path, scene::StopRequest stop);
+
+ protected:
+  int_type overflow(int_type character) override;
+  int sync() override;
+
+ private:
+  void wait();
+
+  int descriptor_;
+  bool waits_;
+  std::string path_;
+  Patience patience_;
+  std::array<char, 1 << 16> buffer_;
+};
+
+}  // namespace arcslip::output::detail
