@@ -38,22 +38,39 @@ std::string time_left(double share, double seconds) {
 
 std::string progress_text(const observables::Progress& progress, const std::string& unit, double seconds) {
   const int branches = std::max(progress.branches, 1);
-  const double share = std::clamp((progress.branch + progress.share_done) / branches, 0.0, 1.0);
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "%s %d/%d  %ld %s  %.6g %s", progress.item,
-                std::min(progress.branch + 1, branches), branches, progress.points, progress.counted,
-                progress.frequency, unit.c_str());
-  std::string line = text.data();
-  if (progress.step != 0) {  // at a fixed frequency there is none
-    std::snprintf(text.data(), text.size(), "  step %.2g %s", progress.step, unit.c_str());
+  std::string line;
+  const auto add = [&](const char* format, auto... values) {
+    std::array<char, 200> text{};
+    std::snprintf(text.data(), text.size(), format, values...);
     line += text.data();
+  };
+  add("%s %d/%d", progress.item, std::min(progress.branch + 1, branches), branches);
+  if (*progress.phase != '\0') {
+    add("  %s", progress.phase);
   }
-  std::snprintf(text.data(), text.size(), "  %.0f %%", 100 * share);
-  return line + text.data() + time_left(share, seconds);
+  add("  %ld %s", progress.points, progress.counted);
+  if (progress.frequency > 0) {
+    add("  %.6g %s", progress.frequency, unit.c_str());
+  }
+  if (progress.step != 0) {  // at a fixed frequency there is none
+    add("  step %.2g %s", progress.step, unit.c_str());
+  }
+  if (!std::isnan(progress.best)) {
+    add("  best %.5g m", progress.best);
+  }
+  if (std::isnan(progress.share_done)) {
+    add("  %.0f s", seconds);
+    return line;
+  }
+  const double share = std::clamp((progress.branch + progress.share_done) / branches, 0.0, 1.0);
+  add("  %.0f %%", 100 * share);
+  return line + time_left(share, seconds);
 }
 
 ProgressLine::ProgressLine(bool quiet, std::string unit)
-    : shown_(!quiet && ::isatty(STDERR_FILENO) == 1), unit_(std::move(unit)) {}
+    : shown_(!quiet), terminal_(::isatty(STDERR_FILENO) == 1), unit_(std::move(unit)) {
+  next_ = begin_ + (terminal_ ? rewritten_every : told_every);
+}
 
 void ProgressLine::show(const observables::Progress& progress) {
   if (!shown_) {
@@ -63,8 +80,12 @@ void ProgressLine::show(const observables::Progress& progress) {
   if (now < next_) {
     return;
   }
-  next_ = now + std::chrono::milliseconds(100);
+  next_ = now + (terminal_ ? rewritten_every : told_every);
   std::string line = progress_text(progress, unit_, std::chrono::duration<double>(now - begin_).count());
+  if (!terminal_) {
+    tell(line);
+    return;
+  }
   line.resize(std::min(line.size(), terminal_width()));
   const std::size_t width = line.size();
   line.resize(std::max(width, width_), ' ');
