@@ -95,15 +95,19 @@ void write_sums(std::ostream& out, const optimize::OptimumResult& result) {
   }
 }
 
+const char* cut_by(bool bound, bool limit) {
+  return bound ? " (a bound)" : limit ? " (a limit)" : "";
+}
+
 void write_certificate(std::ostream& out, const scene::Scene& scene, const optimize::OptimumResult& result) {
   const optimize::Certificate& certificate = *result.optimum.certificate;
   const auto& over = result.problem.over;
   for (std::size_t k = 0; k < certificate.ranges.size(); ++k)
     for (const optimize::ToleranceRange& range : certificate.ranges[k])
       out << "  within " << number(100 * range.share, "%.0f") << " % for " << over[k].name << " from "
-          << with_unit(scene, over[k].name, range.lower) << (range.lower_is_bound ? " (a bound)" : "")
+          << with_unit(scene, over[k].name, range.lower) << cut_by(range.lower_is_bound, range.lower_is_limit)
           << " to " << with_unit(scene, over[k].name, range.upper)
-          << (range.upper_is_bound ? " (a bound)" : "") << '\n';
+          << cut_by(range.upper_is_bound, range.upper_is_limit) << '\n';
   for (std::size_t k = 0; k < certificate.at_bound.size(); ++k)
     if (certificate.at_bound[k] != 0)
       out << "  " << over[k].name << " is at its " << (certificate.at_bound[k] < 0 ? "lower" : "upper")

@@ -1,6 +1,7 @@
 #include <arcslip/optimize/certificate.hpp>
 
 #include <arcslip/continuation/deflation.hpp>
+#include <arcslip/optimize/design_space.hpp>
 #include <arcslip/optimize/multipliers.hpp>
 
 #include <Eigen/Cholesky>
@@ -16,13 +17,15 @@ constexpr double same_amplitude = 1e-7;  // relative
 constexpr double same_response = 1e-6;   // relative
 constexpr int most_steps = 20;           // to an end of a tolerance range
 constexpr double range_accuracy = 1e-6;  // of the share
+constexpr double narrow = 1e-9;          // relative: a bracket of the place where a limit is reached
 constexpr int deflation_iterations = 40;
 
 class Certifier {
  public:
   Certifier(Cases& cases, std::span<const double> lower, std::span<const double> upper,
-            std::vector<ActiveLimit> limits)
+            std::vector<ActiveLimit> limits, const std::function<double()>& margin)
       : cases_(cases),
+        margin_(margin),
         lower_(lower),
         upper_(upper),
         design_(cases.state(0).design),
@@ -34,6 +37,7 @@ class Certifier {
   }
 
   Certificate run(const std::function<bool()>& go_on) {
+    go_on_ = go_on;
     const auto more = [&] { return !go_on || go_on(); };
     stationarity();
     for (std::size_t c = 0; c < cases_.size() && more(); ++c) other_branches(c);
@@ -47,6 +51,7 @@ class Certifier {
     Balance found = balance(cases_, lower_, upper_, std::move(result_.limits));
     result_.gradient.assign(gradient_.begin(), gradient_.end());
     result_.stationarity = found.stationarity;
+    result_.complementarity = found.complementarity;
     result_.at_bound = found.at_bound;
     result_.limits = std::move(found.limits);
     smooth_ = found.smooth;
@@ -80,36 +85,51 @@ class Certifier {
     result_.to_minimum.assign(step.begin(), step.end());
   }
 
-  // The place beyond the optimum where V = (1 + share) V_opt, from a guess; the bound where it comes first.
-  double range_end(std::size_t k, int side, double share, double guess, bool& is_bound) {
+  enum class End { level, limit, bound };
+
+  // The place beyond the optimum where V = (1 + share) V_opt, from a guess; where a limit is exceeded or the
+  // bound comes first, that.
+  double range_end(std::size_t k, int side, double share, double guess, End& end) {
     auto design = design_;
     const double target = std::log1p(share), bound = side < 0 ? lower_[k] : upper_[k];
-    double inner = design[k], outer = bound;  // V <= target at inner; not yet known at the bound
+    double inner = design[k], outer = bound;  // within the range at inner; not yet known at the bound
+    double inner_margin = margin_at_optimum_, outer_margin = 0;
     double value = guess;
     bool bracketed = false;
-    is_bound = false;
-    for (int step = 0; step < most_steps; ++step) {
+    end = End::level;
+    for (int step = 0; step < most_steps && (!go_on_ || go_on_()); ++step) {
       if (!(side * (value - inner) > 0) || side * (value - outer) > 0) value = 0.5 * (inner + outer);
       design[k] = value;
       cases_.at(design);
       const double now = cases_.value(), level = std::log(now / value_);
-      if (now < lowest_) {
+      const double margin = margin_ ? margin_() : -1;
+      const bool kept = margin <= limit_tolerance;
+      if (kept && now < lowest_) {
         lowest_ = now;
         result_.lower_design = design;
       }
-      if (std::abs(level - target) <= range_accuracy * share) return value;
-      if (level < target) {
+      if (kept && std::abs(level - target) <= range_accuracy * share) return value;
+      if (kept && level < target) {
         if (value == bound) {
-          is_bound = true;
+          end = End::bound;
           return value;
         }
         inner = value;
+        inner_margin = margin;
       } else {
+        end = kept ? End::level : End::limit;
         outer = value;
+        outer_margin = margin;
         bracketed = true;
       }
       double next = bracketed ? 0.5 * (inner + outer) : bound;
-      if (std::isfinite(now)) {
+      if (end == End::limit) {
+        // A limit is nearly a line over the way; every third step halves, for one that is not.
+        const double share_of_way =
+            std::max(0.0, -inner_margin) / (outer_margin - std::min(0.0, inner_margin));
+        if (step % 3 != 2) next = inner + share_of_way * (outer - inner);
+        if (std::abs(next - inner) <= narrow * std::abs(outer)) return inner;
+      } else if (std::isfinite(now)) {
         const double slope = cases_.gradient()[static_cast<Eigen::Index>(k)] / now;
         // V is nearly a parabola over the distance from the optimum: so is Newton's method exact at once.
         const double distance = value - design_[k];
@@ -121,7 +141,7 @@ class Certifier {
       }
       value = next;
     }
-    return value;
+    return end == End::limit ? inner : value;
   }
 
   void ranges(std::size_t k) {
@@ -131,7 +151,6 @@ class Certifier {
       ToleranceRange range{share, at, at};
       for (const int side : {-1, 1}) {
         double& end = side < 0 ? range.lower : range.upper;
-        bool& is_bound = side < 0 ? range.lower_is_bound : range.upper_is_bound;
         const double bound = side < 0 ? lower_[k] : upper_[k];
         double guess = at + side * 0.1 * std::abs(at);
         if (!of.empty())
@@ -141,12 +160,10 @@ class Certifier {
           guess = at + side * std::sqrt(2 * share * value_ / std::max(result_.curvature(i, i), 1e-300));
         }
         if (side * (guess - bound) > 0) guess = bound;
-        if (side * (bound - at) <= 0) {
-          end = at;
-          is_bound = true;
-        } else {
-          end = range_end(k, side, share, guess, is_bound);
-        }
+        End by = End::bound;
+        if (side * (bound - at) > 0) end = range_end(k, side, share, guess, by);
+        (side < 0 ? range.lower_is_bound : range.upper_is_bound) = by == End::bound;
+        (side < 0 ? range.lower_is_limit : range.upper_is_limit) = by == End::limit;
       }
       of.push_back(range);
     }
@@ -172,7 +189,7 @@ class Certifier {
     };
     const auto model = peaks.model_at(design_);
     const auto& window = peaks.window();
-    const auto end = observables::first_response(model, window.upper, window.upper - window.lower);
+    const auto end = observables::first_response(model, window.upper, window.upper - window.lower, go_on_);
     const bool same = end.u && optimum.upper_end.size() == end.u->size() &&
                       (*end.u - optimum.upper_end).norm() <= same_response * end.u->norm();
     if (end.u && !same) {
@@ -185,7 +202,8 @@ class Certifier {
         if (here > most) most = here, omega = now.parameter, u = now.u;
         return true;
       };
-      observables::frequency_branch(model, window, window.upper, record, -1);
+      observables::frequency_branch(model, window, window.upper, record, -1, observables::Steps::curve,
+                                    go_on_);
       if (most > 0) add("sweep downwards", u, omega);
     }
     const Peak& peak = optimum.peaks[optimum.highest];
@@ -193,14 +211,18 @@ class Certifier {
     const Vector known = peak.x.head(problem->size());
     continuation::DeflationOptions options;
     options.iterations = deflation_iterations;
+    options.go_on = go_on_;
     for (const Vector& u : continuation::deflate(*problem, p, {known}, {known}, options))
       add("deflation", u, peak.omega());
   }
 
   Cases& cases_;
+  const std::function<double()>& margin_;
+  std::function<bool()> go_on_{};
   std::span<const double> lower_, upper_;
   const std::vector<double> design_;
   const double value_;
+  const double margin_at_optimum_ = margin_ ? margin_() : -1;
   double lowest_ = (1 - same_amplitude) * value_;
   const Vector gradient_;
   std::vector<PeakState> optimum_;  // of each case
@@ -212,8 +234,9 @@ class Certifier {
 }  // namespace
 
 Certificate certify(Cases& cases, std::span<const double> lower, std::span<const double> upper,
-                    std::vector<ActiveLimit> limits, const std::function<bool()>& go_on) {
-  return Certifier(cases, lower, upper, std::move(limits)).run(go_on);
+                    std::vector<ActiveLimit> limits, const std::function<double()>& margin,
+                    const std::function<bool()>& go_on) {
+  return Certifier(cases, lower, upper, std::move(limits), margin).run(go_on);
 }
 
 }  // namespace arcslip::optimize

@@ -7,8 +7,8 @@
 #include <arcslip/optimize/optimum_curve.hpp>
 #include <arcslip/optimize/standing.hpp>
 #include <arcslip/optimize/text.hpp>
+#include <arcslip/optimize/watch.hpp>
 
-#include <chrono>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -41,6 +41,7 @@ class CurveOfOptima {
   const ScaledParameter& sigma() const { return scaled_.back(); }
   std::string place(double s) const { return text(along_.name, " = ", sigma().value(s)); }
   bool end(observables::Status status, std::string reason, std::string message);
+  bool end_interrupted();
   // The first optimum, by search, and its active set.
   bool begin();
   bool hold_flat(std::vector<double>& design);
@@ -87,12 +88,12 @@ class CurveOfOptima {
   static bool same_kinds(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at);
   void changed(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at);
   void finish();
-  double seconds() const;
 
   const scene::Scene& scene_;
   const OptimumProblem& problem_;
   const scene::DesignVariable& along_;
   const OptimumCurveOptions& options_;
+  Watch watch_;
   DesignSpace space_;  // of the design and, last, s
   double unit_;
   PeakAmplitude peaks_;
@@ -113,7 +114,6 @@ class CurveOfOptima {
 
   std::optional<OptimumPoint> mark_;
   int idle_ = 0;
-  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace arcslip::optimize

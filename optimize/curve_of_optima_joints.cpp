@@ -31,9 +31,8 @@ void CurveOfOptima::guard() {
     end(Status::stopped, "no_progress",
         text("at ", place(here_.sigma), " ", most_idle,
              " pieces of the curve came one after the other within ", progress, " of the logarithms"));
-  } else if (options_.seconds > 0 && seconds() >= options_.seconds) {
-    end(Status::stopped, "time_limit",
-        text("the limit of ", options_.seconds, " s was reached at ", place(here_.sigma)));
+  } else if (!watch_.go_on()) {
+    end_interrupted();
   }
 }
 

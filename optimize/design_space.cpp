@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::optimize {
 namespace {
 
 constexpr std::array<double, 7> diagonal = {0.5, 0.25, 0.75, 0.125, 0.875, 0, 1};  // shares of the bounds
-constexpr double tolerance = 1e-8;  // of linear limits, relative
+constexpr int samples_of_all = 8, samples_of_each = 8;                             // parameter
 constexpr double as_active = 1e-6;  // relative: a linear limit that is nearer is active
 constexpr const char* linear_name = "a linear limit";
 
@@ -92,6 +93,33 @@ std::vector<double> DesignSpace::attempt(int k) const {
   return design(y);
 }
 
+int DesignSpace::samples() const {
+  return samples_of_all + samples_of_each * static_cast<int>(names_.size());
+}
+
+// A lattice by the powers of the root g of g^(n+1) = g + 1 (for n = 1 the golden ratio), from the centre.
+std::vector<double> DesignSpace::sample(int k) const {
+  const auto n = static_cast<double>(names_.size());
+  double g = 2;
+  for (int i = 0; i < 60; ++i) g = std::pow(1 + g, 1 / (n + 1));
+  std::vector<double> y = scaled(lower_);
+  const std::vector<double> upper = scaled(upper_);
+  double rate = 1, whole = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    rate /= g;
+    y[i] += std::modf(0.5 + rate * (k + 1), &whole) * (upper[i] - y[i]);
+  }
+  return design(y);
+}
+
+double DesignSpace::distance(std::span<const double> a, std::span<const double> b) const {
+  double most = 0;
+  for (std::size_t k = 0; k < names_.size(); ++k)
+    most = std::max(most, std::abs(scales_[k].scaled(a[k]) - scales_[k].scaled(b[k])) /
+                              (scales_[k].scaled(upper_[k]) - scales_[k].scaled(lower_[k])));
+  return most;
+}
+
 std::vector<double> DesignSpace::scaled(std::span<const double> design) const {
   std::vector<double> y;
   for (std::size_t k = 0; k < design.size(); ++k) y.push_back(scales_[k].scaled(design[k]));
@@ -148,24 +176,24 @@ void DesignSpace::add_linear(Problem& problem) const {
                                        g[k] = limit.weights[k] * slope(k, p[k]) / limit.scale;
                                      return value(limit, p);
                                    },
-                                   tolerance});
+                                   limit_tolerance});
 }
 
-double DesignSpace::excess(std::span<const double> design) const {
-  double excess = 0;
-  for (const Linear& limit : linear_)
-    if (const double over = value(limit, design); over > tolerance) excess = std::max(excess, over);
-  return excess;
+double DesignSpace::margin(std::span<const double> design) const {
+  double margin = -std::numeric_limits<double>::infinity();
+  for (const Linear& limit : linear_) margin = std::max(margin, value(limit, design));
+  return margin;
 }
 
 std::vector<ActiveLimit> DesignSpace::active(std::span<const double> design) const {
   std::vector<ActiveLimit> active;
   for (const Linear& limit : linear_) {
-    if (value(limit, design) < -as_active) continue;
+    const double at = value(limit, design);
+    if (at < -as_active) continue;
     Vector gradient(static_cast<Eigen::Index>(design.size()));
     for (std::size_t k = 0; k < design.size(); ++k)
-      gradient[static_cast<Eigen::Index>(k)] = limit.weights[k] * design[k] / limit.scale;
-    active.push_back({linear_name, 0, gradient, 0});
+      gradient[static_cast<Eigen::Index>(k)] = limit.weights[k] * slope(k, design[k]) / limit.scale;
+    active.push_back({linear_name, 0, gradient, -at});
   }
   return active;
 }

@@ -12,6 +12,8 @@
 
 namespace arcslip::optimize {
 
+inline constexpr double limit_tolerance = 1e-8;  // of limits, relative: what exceeds them by less keeps them
+
 class DesignSpace {
  public:
   /// Throws as optimum() does.
@@ -31,6 +33,13 @@ class DesignSpace {
   int attempts() const;
   std::vector<double> attempt(int k) const;
 
+  /// Designs that fill the box of the variables evenly, each further one where there is most room.
+  int samples() const;
+  std::vector<double> sample(int k) const;
+
+  /// The largest difference of a variable, of its range.
+  double distance(std::span<const double> a, std::span<const double> b) const;
+
   std::vector<double> scaled(std::span<const double> design) const;  // y
   std::vector<double> design(std::span<const double> y) const;
   double slope(std::size_t k, double value) const;  // dp_k/dy_k
@@ -38,9 +47,10 @@ class DesignSpace {
   /// What a limit's name stands for.
   PeakAmplitude::Observable observable(const std::string& name) const;
 
-  /// The linear limits as constraints, and by how much the worst is exceeded.
+  /// The linear limits as constraints, and the largest of their values, which is above 0 where one is
+  /// exceeded; -infinity: there are none.
   void add_linear(Problem& problem) const;
-  double excess(std::span<const double> design) const;
+  double margin(std::span<const double> design) const;
   std::vector<ActiveLimit> active(std::span<const double> design) const;
 
   std::string text(std::span<const double> design) const;  // "d.normal_load = 3, c.value = 0.1"

@@ -4,17 +4,44 @@
 #include <arcslip/optimize/peak_amplitude.hpp>
 #include <arcslip/optimize/text.hpp>
 
+#include <algorithm>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace arcslip::optimize {
 namespace {
 
 constexpr double as_high = 1e-6;  // relative: no other peak is higher
 
+// Of the curves of the result. Where another peak is higher at one, a sentence about it.
+std::string least_minimum(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space,
+                          observables::GoOn go_on, DirectOptimum& result) {
+  const double unit = scene::to_rad_per_s(scene.frequency_unit);
+  PeakAmplitude peaks(space.model(), space.parameters(),
+                      {problem.frequency_from * unit, problem.frequency_to * unit}, std::move(go_on));
+  std::string higher;
+  for (const auto& curve : result.curves)
+    for (const auto& event : curve.events) {
+      if (event.kind != "minimum" || (result.found && event.point.amplitude >= result.point.amplitude))
+        continue;
+      const double highest = peaks.trace(std::span(&event.point.over, 1)).amplitude();
+      if (!(highest > (1 + as_high) * event.point.amplitude)) {
+        result.found = true;
+        result.point = event.point;
+      } else if (higher.empty()) {
+        higher = text("a curve of peaks has a minimum of ", event.point.amplitude, " m at ",
+                      problem.over[0].name, " = ", event.point.over, ", where the largest amplitude is ",
+                      highest, " m: another peak is higher there");
+      }
+    }
+  return higher;
+}
+
 }  // namespace
 
-DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem) {
+DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem,
+                             const observables::ProgressCallback& progress) {
   if (problem.over.size() != 1)
     throw OptionsError(text("the direct way is over one parameter, not ", problem.over.size()));
   if (!problem.cases.empty() || !problem.scatter.empty())
@@ -28,29 +55,35 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
   study.frequency_from = problem.frequency_from;
   study.frequency_to = problem.frequency_to;
   DirectOptimum result;
-  result.curves = observables::resonance_peaks(scene, study);
-  const double unit = scene::to_rad_per_s(scene.frequency_unit);
-  PeakAmplitude peaks(space.model(), space.parameters(),
-                      {problem.frequency_from * unit, problem.frequency_to * unit});
+  const bool slides = std::any_of(scene.elements.begin(), scene.elements.end(),
+                                  [](const scene::Part& part) { return part.type == &scene::jenkins_type; });
+  if (slides && scene.harmonics.friction == scene::Friction::sampled) {
+    result.message =
+        "curves of peaks are followed with exact friction only: sampled, a response has a kink wherever a "
+        "sample "
+        "changes between stick and slip";
+    return result;
+  }
+  bool stopped = false;
+  const auto ask = [&](const observables::Progress& now) {
+    stopped = stopped || (progress && !progress(now));
+    return !stopped;
+  };
+  result.curves = observables::resonance_peaks(scene, study, ask);
   std::string higher;
-  for (const auto& curve : result.curves)
-    for (const auto& event : curve.events) {
-      if (event.kind != "minimum" || (result.found && event.point.amplitude >= result.point.amplitude))
-        continue;
-      const double highest = peaks.trace(std::span(&event.point.over, 1)).amplitude();
-      if (!(highest > (1 + as_high) * event.point.amplitude)) {
-        result.found = true;
-        result.point = event.point;
-      } else if (higher.empty()) {
-        higher = text("a curve of peaks has a minimum of ", event.point.amplitude, " m at ", study.over,
-                      " = ", event.point.over, ", where the largest amplitude is ", highest,
-                      " m: another peak is higher there");
-      }
-    }
-  if (!result.found)
+  try {
+    higher = least_minimum(
+        scene, problem, space, [&] { return ask({}); }, result);
+  } catch (const Interrupted&) {
+  }
+  if (stopped) {
+    result.found = false;
+    result.message = "stopped by the caller";
+  } else if (!result.found) {
     result.message = !higher.empty() ? higher
                                      : "no curve of peaks has a minimum within the bounds; " +
                                            result.curves.front().stop.message;
+  }
   return result;
 }
 

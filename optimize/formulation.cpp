@@ -15,7 +15,6 @@ constexpr int spare_peaks = 3;       // that may come up during a round, in each
 constexpr double least_level = -60;  // of ln V/V_0
 constexpr double beyond_all = 60;    // ln V/V_0 where it is infinite
 constexpr double as_active = 1e-6;   // of limits on observables, relative: one that is nearer is active
-constexpr double tolerance = 1e-8;   // of limits on observables, relative
 
 }  // namespace
 
@@ -107,16 +106,21 @@ void Formulation::add_limits(Problem& problem, std::size_t n) {
                                        }});
 }
 
+double Formulation::margin() {
+  double margin = space_.margin(cases_.state(0).design);
+  if (limits_.empty()) return margin;
+  for (std::size_t c = 0; c < cases_.size(); ++c) {
+    const PeakState& state = cases_.state(c);
+    if (state.unbounded || state.peaks.empty()) return std::max(margin, 1.0);
+    for (const Limited& each : limits_)
+      for (std::size_t i = 0; i < state.peaks.size(); ++i) margin = std::max(margin, limit(each, c, i, {}));
+  }
+  return margin;
+}
+
 double Formulation::excess() {
-  double excess = 0;
-  for (const Limited& each : limits_)
-    for (std::size_t c = 0; c < cases_.size(); ++c) {
-      const PeakState& state = cases_.state(c);
-      if (state.unbounded || state.peaks.empty()) return 1;
-      for (std::size_t i = 0; i < state.peaks.size(); ++i)
-        if (const double value = limit(each, c, i, {}); value > tolerance) excess = std::max(excess, value);
-    }
-  return excess;
+  const double worst = margin();
+  return worst > limit_tolerance ? worst : 0;
 }
 
 std::vector<ActiveLimit> Formulation::active() {
@@ -129,9 +133,8 @@ std::vector<ActiveLimit> Formulation::active() {
         if (value < -as_active) continue;
         Vector gradient(static_cast<Eigen::Index>(design.size()));
         limit(each, c, i, {gradient.data(), design.size()});
-        for (std::size_t k = 0; k < design.size(); ++k)
-          gradient[static_cast<Eigen::Index>(k)] *= design[k] / space_.slope(k, design[k]);
-        if (gradient.allFinite()) active.push_back({each.name, c, gradient, 0, value == height(c, i)});
+        if (gradient.allFinite())
+          active.push_back({each.name, c, gradient, -value, 0, value == height(c, i)});
       }
   return active;
 }

@@ -30,7 +30,10 @@ class Formulation {
   bool wants_epigraph(const Algorithm& algorithm) const;
   bool epigraph() const { return epigraph_; }
 
-  /// By how much the worst of the limits is exceeded where the cases stand, relative; 0 where all hold.
+  /// The largest value of the limits on observables and of the linear ones where the cases stand, relative;
+  /// -infinity where there are none.
+  double margin();
+  /// By how much the worst of the limits is exceeded there; 0 where all hold.
   double excess();
   /// Those that are active there, without those at a kink.
   std::vector<ActiveLimit> active();

@@ -21,7 +21,7 @@ namespace arcslip::optimize {
 
 /// f(x). Where `gradient` is not empty it has as many entries as x, and df/dx_i is to be written into each.
 /// Algorithms with an N as their second letter never ask for it, those with a D at most of their calls. It
-/// may throw: the run then ends with reason objective_failed.
+/// may throw: the run then ends with reason objective_failed, or, of Interrupted, user.
 using Function = std::function<double(std::span<const double> x, std::span<double> gradient)>;
 
 /// c(x) <= 0. Values up to `tolerance` count as satisfied.

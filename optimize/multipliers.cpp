@@ -1,5 +1,7 @@
 #include <arcslip/optimize/multipliers.hpp>
 
+#include <arcslip/optimize/scaled_parameter.hpp>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -10,7 +12,7 @@ namespace arcslip::optimize {
 namespace {
 
 constexpr double as_high = 1e-6;      // relative: a peak nearer to the highest is active
-constexpr double on_bound = 1e-9;     // relative
+constexpr double on_bound = 1e-9;     // of the range of y
 constexpr double no_descent = 1e-12;  // of |G|^2: a multiplier that would gain less stays 0
 constexpr int steps_per_column = 20;  // far more than there are: guards against cycling by rounding
 
@@ -101,6 +103,10 @@ Eigen::VectorXd least_combination(const Eigen::MatrixXd& G, const std::vector<st
   return weights;
 }
 
+bool is_stationary(const Balance& balance) {
+  return balance.stationarity <= most_stationarity && balance.complementarity <= most_complementarity;
+}
+
 Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper,
                 std::vector<ActiveLimit> limits) {
   Balance result;
@@ -108,35 +114,45 @@ Balance balance(const Cases& cases, std::span<const double> lower, std::span<con
   const auto n = static_cast<Eigen::Index>(design.size());
   std::vector<Vector> columns;
   std::vector<std::size_t> group, count(cases.groups(), 0);
-  std::vector<double> heights, shares;
+  std::vector<double> heights, shares, slack;
   for (std::size_t g = 0; g < cases.groups(); ++g) {
     heights.push_back(cases.height(cases.highest_of(g)));
     shares.push_back(heights[g] / cases.value());
   }
-  const Vector p = Vector::Map(design.data(), n);
+  Vector slope(n);  // dp/dy
+  for (std::size_t k = 0; k < design.size(); ++k) {
+    const ScaledParameter scale(lower[k], upper[k]);
+    slope[static_cast<Eigen::Index>(k)] = scale.slope(design[k]);
+    const double y = scale.scaled(design[k]), y_lower = scale.scaled(lower[k]),
+                 y_upper = scale.scaled(upper[k]);
+    const double near = on_bound * (y_upper - y_lower);
+    result.at_bound.push_back(y <= y_lower + near ? -1 : y >= y_upper - near ? 1 : 0);
+  }
   for (std::size_t c = 0; c < cases.size(); ++c)
     for (std::size_t i = 0; i < cases.state(c).peaks.size(); ++i) {
       const Peak& peak = cases.state(c).peaks[i];
       const std::size_t g = cases.group(c);
       if (peak.amplitude == 0 || cases.weight(c) * peak.amplitude < (1 - as_high) * heights[g]) continue;
       result.active.push_back({c, i});
-      columns.push_back(peak.gradient.cwiseProduct(p) / peak.amplitude);
+      columns.push_back(peak.gradient.cwiseProduct(slope) / peak.amplitude);
+      slack.push_back(std::log(heights[g] / (cases.weight(c) * peak.amplitude)));
       group.push_back(g);
       if (++count[g] > 1 || peak.kind == PeakKind::kink) result.smooth = false;
     }
-  for (const ActiveLimit& limit : limits) columns.push_back(limit.gradient);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const double width = on_bound * (upper[at] - lower[at]);
-    const int side = p[k] <= lower[at] + width ? -1 : p[k] >= upper[at] - width ? 1 : 0;
-    result.at_bound.push_back(side);
-    if (side != 0 && p[k] != 0) columns.push_back((p[k] > 0 ? side : -side) * Vector::Unit(n, k));
+  for (const ActiveLimit& limit : limits) {
+    columns.push_back(limit.gradient);
+    slack.push_back(std::max(0.0, limit.slack));
   }
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (const int side = result.at_bound[static_cast<std::size_t>(k)]; side != 0)
+      columns.push_back(side * Vector::Unit(n, k));
   group.resize(columns.size(), shares.size());
+  slack.resize(columns.size(), 0.0);
   Eigen::MatrixXd G(n, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) G.col(static_cast<Eigen::Index>(i)) = columns[i];
   const Eigen::VectorXd m = least_combination(G, group, shares);
   result.stationarity = (G * m).norm();
+  result.complementarity = m.dot(Eigen::VectorXd::Map(slack.data(), m.size()));
   Eigen::Index next = 0;
   for (ActivePeak& peak : result.active) peak.multiplier = m[next++];
   for (ActiveLimit& limit : limits) limit.multiplier = m[next++];

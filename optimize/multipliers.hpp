@@ -3,10 +3,11 @@
 // whose w_c A_ck is the highest of their group g, and n_i >= 0 of the active limits c_i(p) <= 0, those of
 // bounds among them,
 //
-//   minimise |sum of m_ck d ln A_ck / d ln p + sum of n_i dc_i / d ln p|
+//   minimise |sum of m_ck d ln A_ck / dy + sum of n_i dc_i / dy|
 //   such that the m_ck of group g add up to its share of V
 //
-// The minimum is 0 where p is stationary, and all m_ck add up to 1. Not installed.
+// over the scaled variables y (scaled_parameter.hpp). The minimum is 0 where p is stationary, and all m_ck
+// add up to 1. Not installed.
 
 #include <arcslip/optimize/certificate.hpp>
 
@@ -27,9 +28,13 @@ struct Balance {
   std::vector<ActivePeak> active;
   std::vector<ActiveLimit> limits;  // with their multipliers
   double stationarity = 0;          // the norm that is left
+  double complementarity = 0;       // sum of m_ck ln(V_g / (w_c A_ck)) + sum of n_i (-c_i)
   std::vector<int> at_bound;        // of each parameter: -1 lower, 1 upper, 0 inside
   bool smooth = true;               // one active peak in each group, and none at a kink
 };
+
+/// Whether these are the conditions of a minimum, but for that of second order.
+bool is_stationary(const Balance& balance);
 
 /// Where the cases stand, V finite.
 Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper,

@@ -21,6 +21,7 @@
 // local searches and corners have none that is higher (Mutapcic & Boyd 2009). Limits hold at the q that are
 // cases.
 
+#include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/optimize/certificate.hpp>
 #include <arcslip/optimize/minimize.hpp>
@@ -58,6 +59,7 @@ struct OptimumProgress {
   std::span<const double> design;  // of the last one
   double omega = 0;                // of the highest peak of the highest case, rad/s; 0 where there is none
   double amplitude = 0, best = 0;  // m, of the criterion: there, and the least so far where all limits hold
+  const char* phase = "";          // what is done, in words: "the search", "the certificate"
 };
 
 struct OptimumOptions {
@@ -73,7 +75,13 @@ struct OptimumOptions {
   int population = 0;
   unsigned long seed = 1;
   bool certificate = true;
-  std::function<bool(const OptimumProgress&)> progress{};  // after each evaluation; false stops
+  bool elsewhere = true;  // with limits: searches from the lowest of designs over all the bounds, too, and by
+                          // LN_COBYLA and LD_MMA from the start, each of as many evaluations
+  std::function<bool(const OptimumProgress&)> progress{};  // after each evaluation, and where another phase
+                                                           // begins; false stops
+  /// Asked all the time, in every phase, at each step of each response; false stops with reason user, as soon
+  /// as what is under way has ended, or in half a second. So does the limit of time.
+  std::function<bool()> go_on{};
 };
 
 /// A design that was tried.
@@ -100,7 +108,9 @@ struct Optimum {
   /// is infinite wherever it was looked at), "no_response", "scatter_limit" (the worst of what scatters was
   /// still higher after scatter_rounds), "infeasible" (no design that keeps the limits was found),
   /// "other_peak" (the responses had higher peaks than could be followed), "lower_beside" (each of several
-  /// minima had a lower design beside it).
+  /// minima had a lower design beside it), "not_stationary" (no algorithm came to a design at which the
+  /// conditions of a minimum hold: most_stationarity, most_complementarity). Complete: the certificate holds,
+  /// and all of it was made.
   observables::Stop stop;
   std::vector<double> design;        // best so far; empty where there is none
   double amplitude = 0;              // of the criterion there, m: A_max where there is one case of weight 1
@@ -133,6 +143,8 @@ struct DirectOptimum {
   std::vector<observables::ResponseBranch> curves;  // of peaks over the bounds
   std::string message;                              // where there is none
 };
-DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem);
+/// progress: of the curves; false ends it, with what was found.
+DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem,
+                             const observables::ProgressCallback& progress = {});
 
 }  // namespace arcslip::optimize

@@ -40,10 +40,12 @@ CurveOfOptima::CurveOfOptima(const scene::Scene& scene, const OptimumProblem& pr
       problem_(problem),
       along_(along),
       options_(options),
+      watch_(options.seconds, options.search.go_on),
       space_(scene, with_along(problem, along)),
       unit_(scene::to_rad_per_s(scene.frequency_unit)),
       peaks_(space_.model(), space_.parameters(),
-             {problem.frequency_from * unit_, problem.frequency_to * unit_}) {
+             {problem.frequency_from * unit_, problem.frequency_to * unit_},
+             [this] { return watch_.go_on_within(); }) {
   scaled_ = space_.scales();
   curve_.along = along.name;
   if (!(options.points >= 1)) throw OptionsError(text("points = ", options.points, ": at least 1"));
@@ -59,6 +61,8 @@ OptimumCurve CurveOfOptima::run() {
         piece();
         if (!ended_) guard();
       }
+  } catch (const Interrupted&) {
+    end_interrupted();
   } catch (const std::exception& thrown) {
     end(Status::failed, name(Reason::objective_failed),
         text("it threw \"", thrown.what(), "\" at ", place(here_.sigma)));
@@ -86,12 +90,22 @@ bool CurveOfOptima::end(Status status, std::string reason, std::string message) 
   return false;
 }
 
+bool CurveOfOptima::end_interrupted() {
+  const observables::Stop why = watch_.why();
+  return end(Status::stopped, why.reason,
+             why.message + (curve_.points.empty() ? "" : " at " + place(here_.sigma)));
+}
+
 bool CurveOfOptima::begin() {
+  watch_.begin("the search for the first optimum");
   scene::Scene at = scene_;
   scene::set(at, along_.name, along_.lower);
   OptimumOptions search = options_.search;
   search.certificate = false;
+  search.go_on = [this] { return watch_.go_on(); };
   curve_.start = optimum(at, problem_, search);
+  if (watch_.stopped()) return end_interrupted();
+  watch_.begin("the curve");
   const Optimum& first = curve_.start;
   const std::string where = text("at ", along_.name, " = ", along_.lower, ": ");
   if (first.status != Status::complete || first.stop.reason == "flat" || first.design.empty())
@@ -203,7 +217,7 @@ void CurveOfOptima::piece() {
   options.step.initial = step_;
   options.step.smallest = smallest_step;
   options.points = std::max<long>(1, options_.points - static_cast<long>(curve_.points.size()) + 1);
-  if (options_.seconds > 0) options.seconds = std::max(options_.seconds - seconds(), 1e-9);
+  options.go_on = [this] { return watch_.go_on(); };
 
   std::map<double, Seen> seen;  // by arclength
   bool due = false, user = false;
@@ -266,7 +280,9 @@ void CurveOfOptima::piece() {
       change(last_change(branch), may_change, at);
       return;
     case StopReason::user:
-      if (due && !user)
+      if (watch_.stopped())
+        end_interrupted();
+      else if (due && !user)
         verify();
       else
         stop_with(branch.stop);
@@ -348,16 +364,12 @@ double CurveOfOptima::way_since_response(const OptimumPoint& at) {
 
 void CurveOfOptima::finish() {
   curve_.work.peaks = peaks_.work();
-  curve_.work.seconds = seconds();
+  curve_.work.seconds = watch_.seconds();
   if (curve_.points.empty()) return;
   const OptimumPoint& last = curve_.points.back();
   std::vector<double> design = last.design;
   design.push_back(last.along);
   curve_.stop.message += text("; the last amplitude is ", last.amplitude, " m at ", space_.text(design));
-}
-
-double CurveOfOptima::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
 }
 
 OptimumCurve optimum_curve(const scene::Scene& scene, const OptimumProblem& problem,

@@ -83,10 +83,11 @@ struct OptimumCurve {
 };
 
 struct OptimumCurveOptions {
-  OptimumOptions search{};  // of the first optimum; its certificate is left out
-  int points = 1000;        // at most
-  double seconds = 0;       // 0: no limit
-  double step = 0.02;       // largest, as a share of the range of ln s (of s where the range touches zero)
+  OptimumOptions
+      search{};        // of the first optimum, without its certificate; go_on is asked along the curve, too
+  int points = 1000;   // at most
+  double seconds = 0;  // 0: no limit
+  double step = 0.02;  // largest, as a share of the range of ln s (of s where the range touches zero)
   std::function<bool(const OptimumPoint&)> progress{};  // after each point; false stops
 };
 

@@ -74,7 +74,9 @@ Json cases_of(const scene::Scene& scene, const OptimumResult& result) {
 
 Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, const Certificate& c,
                     bool has_cases) {
-  Json json = {{"gradient", named(problem, c.gradient)}, {"stationarity", c.stationarity}};
+  Json json = {{"gradient", named(problem, c.gradient)},
+               {"stationarity", c.stationarity},
+               {"complementarity", c.complementarity}};
   if (!c.to_minimum.empty()) json["to_minimum"] = named(problem, c.to_minimum);
   if (c.curvature.size() > 0) {
     Json& rows = json["curvature"] = Json::array();
@@ -90,7 +92,9 @@ Json certificate_of(const scene::Scene& scene, const OptimumProblem& problem, co
                                               {"lower", range.lower},
                                               {"upper", range.upper},
                                               {"lower_is_bound", range.lower_is_bound},
-                                              {"upper_is_bound", range.upper_is_bound}});
+                                              {"upper_is_bound", range.upper_is_bound},
+                                              {"lower_is_limit", range.lower_is_limit},
+                                              {"upper_is_limit", range.upper_is_limit}});
   Json& peaks = json["peaks"] = Json::array();
   for (const CertifiedPeak& peak : c.peaks)
     peaks.push_back({{"kind", name(peak.kind)},

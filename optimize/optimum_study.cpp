@@ -1,6 +1,8 @@
 #include <arcslip/optimize/optimum_study.hpp>
 
 #include <arcslip/observables/study_branches.hpp>
+#include <arcslip/optimize/scaled_parameter.hpp>
+#include <arcslip/optimize/watch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +26,8 @@ double rounded(double value) {
 
 // The frequency responses at a multiple of the optimum, if the parameters may have it.
 std::vector<observables::ResponseBranch> responses(scene::Scene scene, const OptimumProblem& problem,
-                                                   const std::vector<double>& design, double factor) {
+                                                   const std::vector<double>& design, double factor,
+                                                   const observables::ProgressCallback& progress) {
   observables::Setting set;
   try {
     for (std::size_t k = 0; k < design.size(); ++k) {
@@ -38,14 +41,15 @@ std::vector<observables::ResponseBranch> responses(scene::Scene scene, const Opt
   scene::Study frf;
   frf.from = problem.frequency_from;
   frf.to = problem.frequency_to;
-  auto branches = observables::frequency_response(scene, frf);
+  auto branches = observables::frequency_response(scene, frf, progress);
   for (auto& branch : branches) branch.set = set;
   return branches;
 }
 
 // Of the highest cases.
 std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const OptimumProblem& problem,
-                                        const Optimum& optimum) {
+                                        const Optimum& optimum,
+                                        const observables::ProgressCallback& progress) {
   const auto& cases = optimum.cases;
   std::vector<std::size_t> shown(cases.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
@@ -58,12 +62,14 @@ std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const Optimum
   }
   std::vector<CaseCurves> all;
   for (const std::size_t c : shown) {
+    if (!progress({})) break;
     CaseCurves& curves = all.emplace_back(CaseCurves{c});
     const scene::Scene in_case = scene_of(scene, problem, cases[c]);
     if (problem.over.size() == 1)
       curves.peaks =
-          direct_optimum(in_case, {problem.over, problem.frequency_from, problem.frequency_to}).curves;
-    curves.responses = responses(in_case, problem, optimum.design, 1);
+          direct_optimum(in_case, {problem.over, problem.frequency_from, problem.frequency_to}, progress)
+              .curves;
+    curves.responses = responses(in_case, problem, optimum.design, 1, progress);
   }
   return all;
 }
@@ -73,20 +79,47 @@ OptimumProblem problem_of(const scene::Study& study) {
           study.cases,  study.criterion,      study.scatter};
 }
 
-// Tells what is new: the number of evaluations and points, and the frequency of the highest peak (rad/s).
-// False stops, once and for all.
+// Tells what is new, and what is done, again and again. False stops, once and for all.
 class Teller {
  public:
-  Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, std::size_t of)
+  Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, const char* item,
+         std::size_t of)
       : progress_(progress), unit_(scene::to_rad_per_s(scene.frequency_unit)) {
     told_.branches = static_cast<int>(of);
+    told_.item = item;
+    told_.share_done = std::numeric_limits<double>::quiet_NaN();
   }
 
-  void begin(std::size_t k) { told_.branch = static_cast<int>(k); }
-  bool tell(int points, double omega) {
+  void begin(std::size_t k) {
+    told_.branch = static_cast<int>(k);
+    told_.points = 0;
+    told_.counted = "evaluations";
+    told_.best = observables::no_value;
+    told_.phase = "the first design";
+  }
+  void begin(const char* phase) { told_.phase = phase; }
+  const char* phase() const { return told_.phase; }
+
+  bool tell(const OptimumProgress& now) {
+    told_.points = now.evaluations;
+    told_.counted = now.evaluations == 1 ? "evaluation" : "evaluations";
+    told_.frequency = now.omega / unit_;
+    told_.best = std::isfinite(now.best) ? now.best : observables::no_value;
+    told_.phase = now.phase;
+    return again();
+  }
+  // Of a curve of optima. share: of its way.
+  bool tell(long points, const OptimumPoint& now, double share) {
     told_.points = points;
-    told_.frequency = omega / unit_;
-    go_on = !progress_ || progress_(told_);
+    told_.counted = "points";
+    told_.frequency = now.response.omega / unit_;
+    told_.best = now.amplitude;
+    told_.phase = "the curve";
+    told_.share_done = share;
+    return again();
+  }
+  bool again() {
+    go_on = go_on && (!progress_ || progress_(told_));
     return go_on;
   }
 
@@ -97,6 +130,40 @@ class Teller {
   double unit_;
   observables::Progress told_;
 };
+
+// What figures show and the direct way, as long as the watch goes on: where it does not the result is not
+// complete.
+void add_curves(OptimumResult& result, const scene::Scene& with, bool limited, bool alone, Watch& watch,
+                Teller& teller) {
+  const observables::ProgressCallback ask = [&](const observables::Progress&) { return watch.go_on(); };
+  const auto begin = [&](const char* phase) {
+    watch.begin(phase);
+    teller.begin(phase);
+  };
+  const bool bounded = std::isfinite(result.optimum.amplitude);
+  if (result.has_cases() && bounded) {
+    begin("the curves of the cases");
+    result.curves = curves_of_cases(with, result.problem, result.optimum, ask);
+  }
+  if (!result.has_cases() && result.problem.over.size() == 1 && !limited) {
+    begin("the direct way");
+    result.direct = direct_optimum(with, result.problem, ask);
+  }
+  begin("the responses at the optimum");
+  for (const double factor : around)
+    if (!result.has_cases() && bounded && (factor == 1 || alone) && watch.go_on()) {
+      auto more = responses(with, result.problem, result.optimum.design, factor, ask);
+      std::move(more.begin(), more.end(), std::back_inserter(result.responses));
+    }
+}
+
+// A study that was ended before all of it was done is not complete, whatever its search has come to.
+void end_early(OptimumResult& result, const Watch& watch) {
+  const std::string before = result.stop.message;
+  result.stop = watch.why();
+  result.stop.message += "; of the search: " + before;
+  result.status = observables::Status::stopped;
+}
 
 OptimumOptions options_of(const scene::SearchSettings& search) {
   OptimumOptions options;
@@ -131,9 +198,11 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const C
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
                                          const observables::ProgressCallback& progress) {
   const auto all = observables::combinations(study);
-  Teller teller(progress, scene, all.size());
+  Teller teller(progress, scene, "search", all.size());
   OptimumOptions options = options_of(study.search);
-  options.progress = [&](const OptimumProgress& now) { return teller.tell(now.evaluations, now.omega); };
+  options.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
+  options.go_on = [&] { return teller.again(); };
+  const bool limited = !study.constraints.empty() || !study.linear_constraints.empty();
   std::vector<OptimumResult> results;
   for (std::size_t k = 0; k < all.size() && teller.go_on; ++k) {
     scene::Scene with = scene;
@@ -145,22 +214,14 @@ std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene:
     result.set = all[k];
     result.problem = problem_of(study);
     teller.begin(k);
+    Watch watch(options.seconds, options.go_on);
     result.optimum = optimum(with, result.problem, options);
     result.status = result.optimum.status;
     result.stop = result.optimum.stop;
-    if (teller.go_on && !result.optimum.design.empty()) {
-      const bool limited = !study.constraints.empty() || !study.linear_constraints.empty();
-      const bool bounded = std::isfinite(result.optimum.amplitude);
-      if (result.has_cases() && bounded)
-        result.curves = curves_of_cases(with, result.problem, result.optimum);
-      if (!result.has_cases() && study.design.size() == 1 && !limited)
-        result.direct = direct_optimum(with, result.problem);
-      for (const double factor : around)
-        if (!result.has_cases() && bounded && (factor == 1 || all.size() == 1)) {
-          auto more = responses(with, result.problem, result.optimum.design, factor);
-          std::move(more.begin(), more.end(), std::back_inserter(result.responses));
-        }
-    }
+    watch.begin(teller.phase());
+    if (watch.go_on() && !result.optimum.design.empty())
+      add_curves(result, with, limited, all.size() == 1, watch, teller);
+    if (watch.stopped() && result.status == observables::Status::complete) end_early(result, watch);
     results.push_back(std::move(result));
   }
   return results;
@@ -169,18 +230,22 @@ std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene:
 std::vector<OptimumCurveResult> optimum_curve_study(const scene::Scene& scene, const scene::Study& study,
                                                     const observables::ProgressCallback& progress) {
   const auto all = observables::combinations(study);
-  Teller teller(progress, scene, all.size());
-  int count = 0;
+  Teller teller(progress, scene, "curve", all.size());
+  const ScaledParameter along(study.along->lower, study.along->upper);
+  const double from = along.scaled(along.lower), to = along.scaled(along.upper);
+  long count = 0;
   OptimumCurveOptions options{.search = options_of(study.search), .seconds = study.search.seconds};
-  options.search.progress = [&](const OptimumProgress& now) {
-    return teller.tell(count = now.evaluations, now.omega);
+  options.search.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
+  options.search.go_on = [&] { return teller.again(); };
+  options.progress = [&](const OptimumPoint& now) {
+    return teller.tell(++count, now, (along.scaled(now.along) - from) / (to - from));
   };
-  options.progress = [&](const OptimumPoint& now) { return teller.tell(++count, now.response.omega); };
   std::vector<OptimumCurveResult> results;
   for (std::size_t k = 0; k < all.size() && teller.go_on; ++k) {
     scene::Scene with = scene;
     for (const auto& [name, value] : all[k]) scene::set(with, name, value);
     teller.begin(k);
+    count = 0;
     results.push_back({{}, {}, all[k], problem_of(study), {}});
     results.back().curve = optimum_curve(with, results.back().problem, *study.along, options);
   }

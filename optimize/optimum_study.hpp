@@ -45,7 +45,8 @@ struct OptimumResult {
 scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of);
 
 /// One for each combination of the study's for_each lists, each from the optimum of the one before. progress:
-/// after each evaluation, `points` is their number; false stops. Throws as optimum() does.
+/// asked all the time, in all phases (`phase`), with the number of evaluations (`points`) and the least
+/// amplitude (`best`) so far; false stops. Throws as optimum() does.
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
                                          const observables::ProgressCallback& progress = {});
 

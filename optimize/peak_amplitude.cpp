@@ -43,8 +43,8 @@ double PeakState::amplitude() const {
 }
 
 PeakAmplitude::PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
-                             const observables::FrequencyWindow& window)
-    : model_(std::move(model)), over_(std::move(over)), window_(window) {}
+                             const observables::FrequencyWindow& window, observables::GoOn go_on)
+    : model_(std::move(model)), over_(std::move(over)), window_(window), go_on_(std::move(go_on)) {}
 
 PeakAmplitude::~PeakAmplitude() = default;
 
@@ -74,7 +74,8 @@ PeakState PeakAmplitude::response(std::span<const double> design) {
   }
   // Without an observer, which would have the equations evaluated at each point.
   const auto traced =
-      observables::frequency_branch(model, window_, window_.lower, {}, 1, observables::Steps::events);
+      observables::frequency_branch(model, window_, window_.lower, {}, 1, observables::Steps::events, go_on_);
+  if (go_on_ && !go_on_()) throw Interrupted();
   work_.factorizations += traced.branch.counts.factorizations;
   const auto& points = traced.branch.points;
   bool asked = false;
@@ -139,12 +140,15 @@ bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
   return done;
 }
 
-// The gradient at a kink, from responses at neighbouring designs.
+// The gradient at a kink and how it moves, from responses at neighbouring designs.
 void PeakAmplitude::differences(Peak& peak) {
   std::vector<double> design = state_.design;
   const auto problem = problem_;
+  peak.along.resize(peak.x.size(), static_cast<Eigen::Index>(over_.size()));
   for (std::size_t k = 0; k < over_.size(); ++k) {
-    double amplitude[2] = {0, 0};
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    double amplitude[2] = {none, none};
+    Vector place[2] = {Vector::Constant(peak.x.size(), none), Vector::Constant(peak.x.size(), none)};
     const double h = small_difference * std::max(std::abs(design[k]), small_difference);
     for (const int side : {0, 1}) {
       design[k] = state_.design[k] + (side == 0 ? -h : h);
@@ -157,10 +161,13 @@ void PeakAmplitude::differences(Peak& peak) {
         Vector unused(0);
         there.at_frequency(other.x, parameters(design), {}, unused);
         amplitude[side] = there.amplitude();
+        place[side] = other.x;
       }
     }
     design[k] = state_.design[k];
-    peak.gradient[static_cast<Eigen::Index>(k)] = (amplitude[1] - amplitude[0]) / (2 * h);
+    const auto column = static_cast<Eigen::Index>(k);
+    peak.gradient[column] = (amplitude[1] - amplitude[0]) / (2 * h);
+    peak.along.col(column) = (place[1] - place[0]) / (2 * h);
   }
   problem_ = problem;
 }
@@ -183,10 +190,11 @@ void PeakAmplitude::watch() {
 }
 
 const PeakState& PeakAmplitude::trace(std::span<const double> design) {
+  PeakState found = response(design);
   for (const auto& each : followers_)
     if (each) work_.factorizations += each->factorizations();
   followers_.clear();
-  state_ = response(design);
+  state_ = std::move(found);
   traced_ = state_.design;
   if (state_.peaks.empty()) return state_;
   sensitivity_ = std::make_unique<observables::Sensitivity>(problem_);
@@ -196,10 +204,17 @@ const PeakState& PeakAmplitude::trace(std::span<const double> design) {
     measure(peak, state_.design);
   }
   watch();
+  followers_.resize(state_.peaks.size());
   for (Peak& peak : state_.peaks)
     if (peak.kind == PeakKind::kink) differences(peak);
-  followers_.resize(state_.peaks.size());
   return state_;
+}
+
+observables::ResponsePoint PeakAmplitude::observe(
+    const PeakState& state, const std::shared_ptr<const hbm::HbmProblem>& problem) const {
+  Vector p = continuation::parameter_values(*problem);
+  for (std::size_t k = 0; k < over_.size(); ++k) p[over_[k]] = state.design[k];
+  return observables::CurveSection(problem, over_.front()).observe(state.peaks[state.highest].x, p);
 }
 
 }  // namespace arcslip::optimize

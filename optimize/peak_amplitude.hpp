@@ -22,6 +22,7 @@
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/observables/sensitivity.hpp>
+#include <arcslip/optimize/interrupted.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,7 @@ struct Peak {
   std::optional<hbm::SlipCorner> corner{};  // where it sits at one
   double amplitude = 0;                     // m
   continuation::Vector gradient{};          // dA/dp of the design parameters, m over their units
+  continuation::Matrix along{};             // of a kink: dx/dp, by responses beside it; else empty
   double slope = 0;                         // of an end of the window: dA/domega, m s/rad
   std::uint64_t piece = 0;                  // of the equations of motion there; 0 at a corner, between two
 
@@ -83,9 +85,10 @@ class Follower;
 
 class PeakAmplitude {
  public:
-  /// over: indices of parameters of the model.
+  /// over: indices of parameters of the model. go_on: asked at each step of each response; where it says
+  /// false at() and trace() throw Interrupted, and this is of no more use.
   PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
-                const observables::FrequencyWindow& window);
+                const observables::FrequencyWindow& window, observables::GoOn go_on = {});
   ~PeakAmplitude();
 
   /// At a design, by following the peaks of the last one. The reference holds until the next call.
@@ -105,11 +108,15 @@ class PeakAmplitude {
   /// All observables at a peak of the state.
   observables::ResponsePoint observe(const Peak& peak) { return observe(peak.x, state_.design); }
 
+  /// All observables at the highest peak of a state that this had, and the problem of that time.
+  observables::ResponsePoint observe(const PeakState& state,
+                                     const std::shared_ptr<const hbm::HbmProblem>& problem) const;
+
   /// What is taken from the observables.
   using Observable = std::function<double(const observables::ResponsePoint&)>;
 
   /// Its derivative by design parameter k, as a peak of the state follows its equations: a central difference
-  /// along the tangent. NaN at a kink.
+  /// along the tangent. NaN where a kink is not in the responses beside it.
   double change(std::size_t peak, std::size_t k, const Observable& observable);
 
   /// d2A/dp_j dp_k of a peak of the state, symmetric (sensitivity.hpp). Empty at a kink, or where the
@@ -147,6 +154,7 @@ class PeakAmplitude {
   std::shared_ptr<const model::Model> model_;
   std::vector<int> over_;
   observables::FrequencyWindow window_;
+  observables::GoOn go_on_;
   PeakState state_;
   std::vector<double> traced_;    // the design of the last response
   std::vector<LowerPeak> lower_;  // the peaks there that are not watched

@@ -190,8 +190,9 @@ continuation::Matrix PeakAmplitude::hessian(std::size_t peak) {
 
 double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& observable) {
   const Peak& of = state_.peaks[peak];
-  const continuation::Matrix along = tangents(peak);
-  if (along.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+  const continuation::Matrix along = of.kind == PeakKind::kink ? of.along : tangents(peak);
+  if (along.size() == 0 || !along.col(static_cast<Eigen::Index>(k)).allFinite())
+    return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> design = state_.design;
   const double h = difference * std::max(std::abs(design[k]), difference);
   double value[2];

@@ -1,4 +1,6 @@
 #include <arcslip/optimize/run.hpp>
+
+#include <arcslip/optimize/interrupted.hpp>
 #include <arcslip/optimize/text.hpp>
 
 #include <algorithm>
@@ -71,6 +73,8 @@ double Run::call(std::size_t k, const Function& function, std::span<const double
     take(k, x, gradient, value);
     called = problem_.constraints.size() + 1;
     if (k == 0 && !interrupted_) report(x, value);
+  } catch (const Interrupted&) {
+    interrupt(Reason::user);
   } catch (...) {
     thrown_ = std::current_exception();
     interrupt(Reason::objective_failed, called);

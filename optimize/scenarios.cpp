@@ -106,7 +106,7 @@ std::vector<Scenario> Scenarios::first() const {
   return all;
 }
 
-std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario) const {
+std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario, observables::GoOn go_on) const {
   const DesignCase& of = cases_[scenario.of];
   auto model = space_.model();
   if (!of.set.empty() || of.response || box_) {
@@ -115,7 +115,7 @@ std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario) const 
       scene::set(scene, problem_.scatter[k].name, scenario.scatter[k]);
     model = std::make_shared<const model::Model>(model::build(scene));
   }
-  return std::make_unique<PeakAmplitude>(model, space_.parameters(), window_);
+  return std::make_unique<PeakAmplitude>(model, space_.parameters(), window_, std::move(go_on));
 }
 
 CaseResult Scenarios::result(const Scenario& scenario) const {
@@ -136,9 +136,9 @@ std::string Scenarios::text(const Scenario& scenario) const {
 
 Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
                                   const std::vector<std::vector<double>>& known, double level,
-                                  const std::function<bool()>& go_on) const {
+                                  const std::function<bool()>& go_on, const observables::GoOn& within) const {
   Worst worst;
-  PeakAmplitude peaks(std::move(model), box_->parameters(), window_);
+  PeakAmplitude peaks(std::move(model), box_->parameters(), window_, within);
   const auto look = [&](const PeakState& state) {
     const double amplitude = state.amplitude();
     if (std::isnan(amplitude))

@@ -31,7 +31,7 @@ class Scenarios {
   /// Number of the problem's cases, at least 1.
   std::size_t size() const { return cases_.size(); }
   double weight(const Scenario& scenario) const { return cases_[scenario.of].weight; }
-  std::unique_ptr<PeakAmplitude> peaks(const Scenario& scenario) const;
+  std::unique_ptr<PeakAmplitude> peaks(const Scenario& scenario, observables::GoOn go_on) const;
   CaseResult result(const Scenario& scenario) const;
 
   /// "in case 2 with k.value = 3: ", or nothing where there is one case and nothing scatters.
@@ -46,10 +46,10 @@ class Scenarios {
 
   /// The highest amplitude in the box of a case, with the parameters of a model: local searches, from each of
   /// `known` and from the centre. Where none is above `level`, one more from the highest of the corners, at
-  /// most 64 of them. go_on: asked after each evaluation; false ends them. Throws std::runtime_error where
-  /// one fails.
+  /// most 64 of them. go_on: asked after each evaluation; false ends them. within: asked all the time; false
+  /// throws Interrupted. Throws std::runtime_error where one fails.
   Worst worst(std::shared_ptr<const model::Model> model, const std::vector<std::vector<double>>& known,
-              double level, const std::function<bool()>& go_on) const;
+              double level, const std::function<bool()>& go_on, const observables::GoOn& within) const;
 
  private:
   std::vector<double> centre() const;

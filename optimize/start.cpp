@@ -51,7 +51,7 @@ Start find_start(Trials& trials, const std::vector<double>& given, std::vector<s
       start.found = true;
       return start;
     }
-    if (!trials.interruption().reason.empty()) break;
+    if (!trials.watch().go_on()) break;
   }
   start.design = given;
   return start;

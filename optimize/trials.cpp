@@ -21,8 +21,9 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 Trials::Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
-               bool far_apart)
+               Watch& watch, bool far_apart)
     : options_(options),
+      watch_(watch),
       space_(scene, problem),
       scenarios_(scene, problem, space_),
       cases_(problem.criterion),
@@ -33,12 +34,14 @@ Trials::Trials(const scene::Scene& scene, const OptimumProblem& problem, const O
 
 void Trials::add(const Scenario& scenario) {
   all_.push_back(scenario);
-  cases_.add(scenarios_.peaks(scenario), scenarios_.weight(scenario));
+  cases_.add(scenarios_.peaks(scenario, [this] { return watch_.go_on_within(); }),
+             scenarios_.weight(scenario));
   best_.excess = std::numeric_limits<double>::infinity();
 }
 
 void Trials::evaluate(std::span<const double> design, bool trace) {
   if (!trace && cases_.stand_at(design)) return;
+  trace = trace || trace_all_;
   const int responses = cases_.work().responses;
   if (!trace) cases_.at(design);
   if (trace || (far_apart_ && cases_.value() < best_.value && responses == cases_.work().responses))
@@ -46,24 +49,29 @@ void Trials::evaluate(std::span<const double> design, bool trace) {
   const double value = cases_.value();
   evaluations_.push_back({{design.begin(), design.end()}, value});
   if (std::isnan(value)) return;
-  const double excess = std::max(formulation_.excess(), space_.excess(design));
+  const double excess = formulation_.excess();
   if (excess < best_.excess || (excess == best_.excess && value < best_.value)) {
     best_.excess = excess;
-    best_.design.assign(design.begin(), design.end());
-    best_.value = value;
+    call_best();
   }
   tell();
 }
 
 void Trials::tell() {
   if (!options_.progress) return;
+  if (evaluations_.empty()) return;
   const Evaluation& last = evaluations_.back();
   const PeakState& state = cases_.state(cases_.highest());
   const double best = best_.excess == 0 ? best_.value : std::numeric_limits<double>::infinity();
-  if (!options_.progress({static_cast<int>(evaluations_.size()), last.design,
+  if (!options_.progress({static_cast<int>(evaluations_.size() + elsewhere_.size()), last.design,
                           state.peaks.empty() ? 0.0 : state.peaks[state.highest].omega(), last.amplitude,
-                          best}))
-    user_stopped_ = true;
+                          best, watch_.phase()}))
+    watch_.stop();
+}
+
+void Trials::begin(const char* phase) {
+  watch_.begin(phase);
+  tell();
 }
 
 void Trials::move_to(std::span<const double> y) {
@@ -89,10 +97,13 @@ std::vector<Scenario> Trials::worse_scatter() {
         any = c;
       }
     const double level = (1 + worse) * cases_.value() / cases_.weight(any);
-    const auto worst = scenarios_.worst(cases_.peaks(any).model_at(design), known, level, [this] {
-      tell();
-      return interruption().reason.empty();
-    });
+    const auto worst = scenarios_.worst(
+        cases_.peaks(any).model_at(design), known, level,
+        [this] {
+          tell();
+          return watch_.go_on();
+        },
+        [this] { return watch_.go_on_within(); });
     const bool seen = std::any_of(known.begin(), known.end(),
                                   [&](const auto& scatter) { return same(scatter, worst.scatter); });
     if (!seen && worst.amplitude > level) found.push_back({of, worst.scatter});
@@ -103,22 +114,9 @@ std::vector<Scenario> Trials::worse_scatter() {
 void Trials::call_best() {
   best_.design = cases_.state(0).design;
   best_.value = cases_.value();
-}
-
-observables::Stop Trials::interruption() const {
-  observables::Stop stop;
-  if (user_stopped_) {
-    stop.reason = name(Reason::user);
-    stop.message = "the progress callback stopped the run";
-  } else if (options_.seconds > 0 && seconds() >= options_.seconds) {
-    stop.reason = name(Reason::time_limit);
-    stop.message = text("the limit of ", options_.seconds, " s was reached at ", seconds(), " s");
-  }
-  return stop;
-}
-
-double Trials::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  best_.cases.clear();
+  for (std::size_t c = 0; c < cases_.size(); ++c)
+    best_.cases.push_back({cases_.state(c), cases_.peaks(c).problem()});
 }
 
 }  // namespace arcslip::optimize

@@ -5,8 +5,8 @@
 #include <arcslip/optimize/cases.hpp>
 #include <arcslip/optimize/formulation.hpp>
 #include <arcslip/optimize/scenarios.hpp>
+#include <arcslip/optimize/watch.hpp>
 
-#include <chrono>
 #include <limits>
 #include <span>
 #include <string>
@@ -19,21 +19,30 @@ struct Best {
   std::vector<double> design;
   double value = 0;                                         // V, m
   double excess = std::numeric_limits<double>::infinity();  // of the limits, relative; 0 where all hold
+
+  /// As each case was there: so the best design is known even where a search is interrupted at another.
+  struct Seen {
+    PeakState state;
+    std::shared_ptr<const hbm::HbmProblem> problem;
+  };
+  std::vector<Seen> cases{};
 };
 
 class Trials {
  public:
   /// With the scenarios to begin with. far_apart: so lie the designs of a global search, that no best one may
   /// owe that to a peak that was not seen: its responses are traced. Throws as optimum() does. Refers to its
-  /// arguments.
+  /// arguments. What takes the cases to a design throws Interrupted where the watch ends it.
   Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
-         bool far_apart);
+         Watch& watch, bool far_apart);
 
   /// Adds a case; what was best without it is no longer.
   void add(const Scenario& scenario);
 
   /// Takes the cases to a design, unless they stand there; trace: by responses, in any case.
   void evaluate(std::span<const double> design, bool trace = false);
+  /// From here on by responses in any case.
+  void trace_all() { trace_all_ = true; }
   /// The same for the variables of a search. Throws std::runtime_error where a case has no response.
   void move_to(std::span<const double> y);
 
@@ -42,15 +51,13 @@ class Trials {
   std::vector<Scenario> worse_scatter();
 
   const Best& best() const { return best_; }
-  /// Where the cases stand, when rounding has made another design look better.
+  /// Where the cases stand, when rounding has made another design look better, or new responses have another
+  /// V there.
   void call_best();
-  /// V at the best design, as new responses have it.
-  void correct_best(double value) { best_.value = value; }
 
-  /// Why the search is to end before its time; empty: it is not.
-  observables::Stop interruption() const;
-  bool user_stopped() const { return user_stopped_; }
-  double seconds() const;
+  Watch& watch() { return watch_; }
+  /// Another phase, which is told.
+  void begin(const char* phase);
 
   const DesignSpace& space() const { return space_; }
   const Scenarios& scenarios() const { return scenarios_; }
@@ -59,21 +66,23 @@ class Trials {
   Cases& cases() { return cases_; }
   Formulation& formulation() { return formulation_; }
   std::vector<Evaluation>& evaluations() { return evaluations_; }
+  /// Others of the same search, which are told of as well.
+  std::vector<Evaluation>& elsewhere() { return elsewhere_; }
 
  private:
   Trials(const Trials&) = delete;
   void tell();
 
   const OptimumOptions& options_;
+  Watch& watch_;
   DesignSpace space_;
   Scenarios scenarios_;
   Cases cases_;
   std::vector<Scenario> all_;  // of the cases
   Formulation formulation_;
-  std::vector<Evaluation> evaluations_;
+  std::vector<Evaluation> evaluations_, elsewhere_;
   Best best_;
-  bool far_apart_, user_stopped_ = false;
-  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  bool far_apart_, trace_all_ = false;
 };
 
 }  // namespace arcslip::optimize
