@@ -254,6 +254,25 @@ TEST_CASE("user: the observer stops the branch, at a point or at an event") {
   CHECK(at_event.events.size() == 1);
 }
 
+TEST_CASE("user: a trace is asked whether to go on before each attempt, where all are rejected, too") {
+  // No residual beyond 0.7: steps are rejected until they are too small.
+  const auto problem = scalar([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); });
+  Options options = window(0, 2);
+  long asked = 0;
+  options.go_on = [&] { return ++asked > 0; };
+  const Branch whole = trace(problem, at(std::sqrt(0.7), 0), options);
+  CHECK(asked >= whole.counts.points - 1 + whole.counts.rejected_steps);
+  const long last = asked;
+  asked = 0;
+  options.go_on = [&] { return ++asked < last; };
+  const Branch stopped = trace(problem, at(std::sqrt(0.7), 0), options);
+  CHECK(stopped.stop.reason == StopReason::user);
+  CHECK(stopped.points.size() == whole.points.size());
+  CHECK(asked == last);
+  options.go_on = [] { return false; };
+  CHECK(trace(problem, at(std::sqrt(0.7), 0), options).points.size() == 1);
+}
+
 TEST_CASE("not_evaluated: a residual that cannot be evaluated ahead ends the branch where it can") {
   const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); }),
                               at(std::sqrt(0.7), 0), window(0, 2));

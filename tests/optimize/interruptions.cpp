@@ -1,0 +1,147 @@
+// A search obeys at once, whatever it is doing, and says so.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/observables/curves.hpp>
+#include <arcslip/optimize/optimum_study.hpp>
+
+#include <map>
+#include <set>
+#include <string>
+
+using namespace arcslip;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+scene::Study one_load() {
+  scene::Study study;
+  study.kind = scene::StudyKind::optimum;
+  study.design = {{"damper.normal_load", 0.1, 100}};
+  study.frequency_from = 18;
+  study.frequency_to = 22;
+  return study;
+}
+
+// How often each phase asks, where nothing stops it.
+std::map<std::string, long> asked(const scene::Scene& s, const scene::Study& study) {
+  std::map<std::string, long> asked;
+  optimize::optimum_study(s, study, [&](const observables::Progress& now) {
+    ++asked[now.phase];
+    return true;
+  });
+  return asked;
+}
+
+}  // namespace
+
+TEST_CASE("every phase of a search asks at every step of a response, and a stop in any of them is told") {
+  const scene::Scene s = scenes::paper(7, 3);
+  const scene::Study study = one_load();
+  const auto times = asked(s, study);
+  std::set<std::string> phases;
+  for (const auto& [phase, count] : times) {
+    phases.insert(phase);
+    CAPTURE(phase, count);
+    if (phase != "the search") CHECK(count >= 30);  // the peaks of the search are followed, without responses
+    for (const long last : {1L, count / 2, count}) {
+      long here = 0, after = 0;
+      const auto results =
+          optimize::optimum_study(s, study, [&, name = phase](const observables::Progress& now) {
+            if (here >= last) ++after;
+            if (now.phase == name) ++here;
+            return here < last;
+          });
+      CAPTURE(last);
+      CHECK(after == 0);  // never asked again
+      REQUIRE(results.size() == 1);
+      CHECK(results[0].status == observables::Status::stopped);
+      CHECK(results[0].stop.reason == "user");
+      CHECK(contains(results[0].stop.message, "it was interrupted in " + phase));
+    }
+  }
+  CHECK(phases == std::set<std::string>{"the first design", "the search", "the verification",
+                                        "the certificate", "the direct way", "the responses at the optimum"});
+}
+
+TEST_CASE("a search over cases asks in its curves, and is not complete without them") {
+  scene::Scene s = scenes::paper(3, 3);
+  scene::Study study = one_load();
+  study.cases = {{{{"force.cosine", 0.5}}}, {{{"force.cosine", 1}}}};
+  const auto times = asked(s, study);
+  REQUIRE(times.contains("the curves of the cases"));
+  long here = 0;
+  const auto results = optimize::optimum_study(s, study, [&](const observables::Progress& now) {
+    return now.phase != std::string("the curves of the cases") || ++here < 40;
+  });
+  CHECK(results[0].status == observables::Status::stopped);
+  CHECK(results[0].optimum.status == observables::Status::complete);
+  CHECK(contains(results[0].stop.message, "it was interrupted in the curves of the cases; of the search: "));
+}
+
+TEST_CASE("a search that is interrupted far from its best design tells the best, as it was seen there") {
+  const scene::Scene s = scenes::paper(7, 3);
+  const optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 18, 22};
+  bool certifying = false;
+  int asked = 0;
+  optimize::OptimumOptions options;
+  options.progress = [&](const optimize::OptimumProgress& now) {
+    certifying = now.phase == std::string("the certificate");
+    return true;
+  };
+  options.go_on = [&] { return !certifying || ++asked < 200; };
+  const auto cut = optimize::optimum(s, problem, options);
+  const auto whole = optimize::optimum(s, problem);
+  CHECK(cut.status == observables::Status::stopped);
+  CHECK(cut.design == whole.design);
+  CHECK(cut.amplitude == whole.amplitude);
+  REQUIRE(cut.cases.size() == 1);
+  CHECK(cut.point.omega == Approx(whole.point.omega).epsilon(1e-12));
+  CHECK(cut.point.amplitude == Approx(whole.amplitude).epsilon(1e-9));
+}
+
+TEST_CASE("a stop before the first design leaves none, and its reason") {
+  const auto found = optimize::optimum(scenes::paper(7, 3), {{{"damper.normal_load", 0.1, 100}}, 18, 22},
+                                       {.go_on = [] { return false; }});
+  CHECK(found.status == observables::Status::stopped);
+  CHECK(found.stop.reason == "user");
+}
+
+TEST_CASE("curves of peaks ask while they look for their beginnings, and are stopped there") {
+  const scene::Scene s = scenes::paper(7, 3);
+  scene::Study study;
+  study.kind = scene::StudyKind::peaks;
+  study.over = "damper.normal_load";
+  study.from = 0.1;
+  study.to = 100;
+  study.frequency_from = 18;
+  study.frequency_to = 22;
+  int asked = 0;
+  const auto branches = observables::resonance_peaks(
+      s, study, [&](const observables::Progress& now) { return now.points > 0 || ++asked < 5; });
+  REQUIRE(branches.size() == 1);
+  CHECK(asked == 5);
+  CHECK(branches[0].status == observables::Status::stopped);
+  CHECK(branches[0].stop.reason == "user");
+}
+
+TEST_CASE("a curve of optima asks in the search for its first point, and along it") {
+  const scene::Scene s = scenes::paper(3, 3);
+  for (const bool along : {false, true}) {
+    optimize::OptimumCurveOptions options;
+    int points = 0, asked = 0;
+    options.progress = [&](const optimize::OptimumPoint&) { return ++points > 0; };
+    options.search.go_on = [&] { return along ? points < 3 : ++asked < 20; };
+    const auto curve = optimize::optimum_curve(s, {{{"damper.normal_load", 0.1, 100}}, 18, 22},
+                                               {"force.cosine", 0.5, 2}, options);
+    CAPTURE(along, curve.stop.message);
+    CHECK(curve.status == observables::Status::stopped);
+    CHECK(curve.stop.reason == "user");
+    CHECK(points == (along ? 3 : 0));
+  }
+}

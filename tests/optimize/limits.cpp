@@ -1,0 +1,151 @@
+// Limits: what a search tells to be least is least among the designs that keep them.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/optimize/optimum.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace arcslip;
+
+namespace {
+
+// The highest peak of a frequency response of its own.
+double highest(scene::Scene s, const optimize::OptimumProblem& problem, const std::vector<double>& design) {
+  for (std::size_t k = 0; k < design.size(); ++k) scene::set(s, problem.over[k].name, design[k]);
+  scene::Study study;
+  study.from = problem.frequency_from;
+  study.to = problem.frequency_to;
+  double most = 0;
+  for (const auto& branch : observables::frequency_response(s, study))
+    for (const auto& event : branch.events)
+      if (event.kind == "peak") most = std::max(most, event.point.amplitude);
+  return most;
+}
+
+// Four masses with three dampers. Without a limit the least amplitude is at 265 N.
+scene::Scene beyond_the_limit() {
+  return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+    "dofs": ["d0", "d1", "d2", "d3"],
+    "masses": [{"name": "m0", "at": "d0", "value": 0.009080666466133484},
+      {"name": "m1", "at": "d1", "value": 0.024606568779417852},
+      {"name": "m2", "at": "d2", "value": 0.006481573158675282},
+      {"name": "m3", "at": "d3", "value": 0.032738884191987346}],
+    "springs": [{"name": "k0", "at": "d0", "value": 5825.333241475204},
+      {"name": "k1", "between": ["d1", "d0"], "value": 4519.85429173067},
+      {"name": "k2", "between": ["d2", "d1"], "value": 17595.645988177683},
+      {"name": "k3", "between": ["d3", "d2"], "value": 18695.139452636467}],
+    "dampers": [{"name": "c0", "at": "d0", "value": 0.011937098158187697},
+      {"name": "c1", "between": ["d1", "d0"], "value": 0.006709983280877862},
+      {"name": "c2", "between": ["d2", "d1"], "value": 0.040162989274122124},
+      {"name": "c3", "between": ["d3", "d2"], "value": 0.021476583174727646}]},
+    "elements": [{"name": "j0", "type": "jenkins", "direction": {"d3": 1.22, "d1": 0.162, "d0": -1.481},
+        "stiffness": 10378.336279615089, "friction_coefficient": 0.37, "normal_load": 25.71877920887347},
+      {"name": "j1", "type": "jenkins", "at": "d0", "stiffness": 2522.244430624866,
+        "friction_coefficient": 0.36, "normal_load": 1.4762664206668485},
+      {"name": "j2", "type": "jenkins", "at": "d1", "stiffness": 5702.977117658664,
+        "friction_coefficient": 0.57, "normal_load": 6.525254555425639}],
+    "excitation": [{"name": "f0", "at": "d0", "cosine": 7.851910291846936, "sine": -0.15942405601798834}],
+    "harmonics": {"order": 5}, "response": {"at": "d1"}, "studies": []})");
+}
+
+// Two dampers, whose sum is limited.
+scene::Scene two_loads() {
+  return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+    "dofs": ["d0", "d1", "d2", "d3"],
+    "masses": [{"name": "m0", "at": "d0", "value": 0.054675451761274335},
+      {"name": "m1", "at": "d1", "value": 0.021864748560994896},
+      {"name": "m2", "at": "d2", "value": 0.023009120510070452},
+      {"name": "m3", "at": "d3", "value": 0.026876878639523073}],
+    "springs": [{"name": "k0", "at": "d0", "value": 1830.0115908835144},
+      {"name": "k1", "between": ["d1", "d0"], "value": 6891.621626238909},
+      {"name": "k2", "between": ["d2", "d1"], "value": 4569.089541067508},
+      {"name": "k3", "between": ["d3", "d2"], "value": 2388.5630288445095}],
+    "dampers": [{"name": "c0", "at": "d0", "value": 0.0047529035437501805},
+      {"name": "c1", "between": ["d1", "d0"], "value": 0.02725549656783224},
+      {"name": "c2", "between": ["d2", "d1"], "value": 0.009196575019557366},
+      {"name": "c3", "between": ["d3", "d2"], "value": 0.00861836612153333}]},
+    "elements": [{"name": "j0", "type": "jenkins", "between": ["d1", "d2"], "stiffness": 1113.2887442728763,
+        "friction_coefficient": 0.5, "normal_load": 3.359313204121562},
+      {"name": "j1", "type": "jenkins", "direction": {"d0": -0.532, "d2": 0.76, "d3": -1.198, "d1": -1.002},
+        "stiffness": 3117.5008594897818, "friction_coefficient": 0.59, "normal_load": 0.001}],
+    "excitation": [{"name": "f0", "at": "d2", "cosine": 0.12510411458903353, "sine": 0.02363175289468158},
+      {"name": "f1", "at": "d1", "harmonic": 3, "cosine": -0.03734013177613091, "sine": 0.014896434202919912},
+      {"name": "f2", "at": "d1", "harmonic": 5, "cosine": -0.0037426990885463004,
+        "sine": -0.009543547585975549}],
+    "harmonics": {"order": 5}, "response": {"at": "d3"}, "studies": []})");
+}
+
+}  // namespace
+
+TEST_CASE("a search that comes from beyond a limit ends on it, where no load within is better") {
+  const scene::Scene s = beyond_the_limit();
+  const double weight = 3.8882094359089208, most = 10.631852594787354;
+  const optimize::OptimumProblem problem{{{"j0.normal_load", 0.2571877920887347, 2571.877920887347}},
+                                         145.1296141076351,
+                                         2334.1892002942623,
+                                         {},
+                                         {{.weights = {{"j0.normal_load", weight}}, .at_most = most}}};
+  const auto found = optimize::optimum(s, problem);
+  CAPTURE(found.stop.message);
+  REQUIRE(found.status == observables::Status::complete);
+  // The amplitude falls up to the limit: on its whole way it is higher.
+  const double load = most / weight;
+  // What complementarity leaves: the limit's multiplier, 0.44, times the distance from it.
+  CHECK(found.design[0] == Approx(load).epsilon(optimize::most_complementarity / 0.44));
+  CHECK(found.amplitude == Approx(highest(s, problem, {load})).epsilon(optimize::most_complementarity));
+  for (int i = 0; i < 10; ++i) {
+    const double below = 0.2572 * std::pow(load / 0.2572, i / 10.0);
+    CAPTURE(below);
+    CHECK(highest(s, problem, {below}) > found.amplitude);
+  }
+  REQUIRE(found.certificate);
+  CHECK(found.certificate->stationarity <= optimize::most_stationarity);
+  CHECK(found.certificate->complementarity <= optimize::most_complementarity);
+  // Where the sum is loosened by a share, the load grows by it.
+  REQUIRE(found.certificate->limits.size() == 1);
+  const double share = 1e-4;
+  const double slope =
+      std::log(highest(s, problem, {load * (1 - share)}) / highest(s, problem, {load * (1 + share)})) /
+      (2 * share);
+  CHECK(found.certificate->limits[0].multiplier == Approx(slope).epsilon(1e-4));
+  for (const auto& range : found.certificate->ranges[0]) {
+    CHECK(range.upper == Approx(load).epsilon(2e-8));
+    CHECK(range.upper_is_limit);
+    CHECK_FALSE(range.upper_is_bound);
+    CHECK_FALSE(range.lower_is_limit);
+    CHECK(highest(s, problem, {range.lower}) == Approx((1 + range.share) * found.amplitude).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("two loads with a limit on their sum: no pair on the limit is better, however loose it is") {
+  const scene::Scene s = two_loads();
+  const double a = 29.767989444184423, b = 99999.99999999999;
+  for (const double most : {2000.0, 8000.0}) {
+    const optimize::OptimumProblem problem{
+        {{"j0.normal_load", 0.03359313204121562, 335.9313204121562}, {"j1.normal_load", 1e-5, 0.1}},
+        61.635003206579064,
+        318.3633434309565,
+        {},
+        {{.weights = {{"j0.normal_load", a}, {"j1.normal_load", b}}, .at_most = most}}};
+    const auto found = optimize::optimum(s, problem);
+    CAPTURE(most, found.stop.message);
+    REQUIRE(found.status == observables::Status::complete);
+    CHECK(found.feasible);
+    double least = HUGE_VAL;
+    for (int i = 0; i < 20; ++i) {
+      const double first = 0.05 * std::pow(most / a / 0.06, i / 19.0);
+      least = std::min(least, highest(s, problem, {first, (most - a * first) / b}));
+    }
+    CHECK(found.amplitude <= least * (1 + 1e-8));
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const auto& range : found.certificate->ranges[k]) {
+        auto end = found.design;
+        end[k] = range.upper;
+        CHECK(a * end[0] + b * end[1] <= most * (1 + 2e-8));
+      }
+  }
+}
