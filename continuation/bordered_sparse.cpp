@@ -13,6 +13,10 @@ namespace {
 
 constexpr double border_power = -5;  // of n: the size of [R D] beside [J C]
 
+double power_of_two(double largest) {
+  return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, -std::ilogb(largest)) : 1.0;
+}
+
 int number_of_entries(const SparseMatrix& J, std::int64_t m) {
   const std::int64_t entries = J.nonZeros() + 2 * m * J.rows() + m * m;
   if (entries > std::numeric_limits<int>::max())
@@ -72,13 +76,17 @@ void BorderedSparse::scale(int n) {
   scales_.setZero(size);
   row_sums_.setZero(size);
   column_sums_.setZero(size);
-  for (int k = 0; k < outer[size]; ++k) scales_[inner[k]] = std::max(scales_[inner[k]], std::abs(value[k]));
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const double largest = scales_[i];
-    scales_[i] = largest > 0 && std::isfinite(largest)
-                     ? std::ldexp(1.0, (i < n ? 0 : of_borders) - std::ilogb(largest))
-                     : 1.0;
+  for (int k = 0; k < outer[n]; ++k) scales_[inner[k]] = std::max(scales_[inner[k]], std::abs(value[k]));
+  for (double& scale : scales_) scale = power_of_two(scale);
+  column_scales_.setZero(size - n);
+  for (Eigen::Index j = n; j < size; ++j) {
+    double& scale = column_scales_[j - n];
+    for (int k = outer[j]; k < outer[j + 1]; ++k)
+      scale = std::max(scale, std::abs(value[k]) * scales_[inner[k]]);
+    scale = power_of_two(scale);
+    for (int k = outer[j]; k < outer[j + 1]; ++k) value[k] *= scale;
   }
+  scales_.tail(size - n) *= std::ldexp(1.0, of_borders);
   for (Eigen::Index j = 0; j < size; ++j)
     for (int k = outer[j]; k < outer[j + 1]; ++k) {
       column_sums_[j] += std::abs(value[k]);

@@ -46,8 +46,12 @@ class Klu final : public LinearSolver {
       if (!usable(symbolic_)) return false;
       refinement_.resize(A.rows());
     }
-    return (numeric_ && with_kept_pivots(A)) || with_new_pivots(A);
+    keeps_pivots_ = numeric_ && with_kept_pivots(A);
+    return keeps_pivots_ || with_new_pivots(A);
   }
+
+  bool keeps_pivots() const override { return keeps_pivots_; }
+  void forget_pivots() override { klu_free_numeric(&numeric_, &common_); }
 
   void solve(Out x) const override {
     const SparseMatrix& A = matrix_.matrix();
@@ -62,11 +66,13 @@ class Klu final : public LinearSolver {
     };
     if (!numeric_ || !refinement_.solve(x, matrix_.row_sums(), eliminate, multiply))
       x.setConstant(std::numeric_limits<double>::quiet_NaN());
+    x.tail(matrix_.column_scales().size()).array() *= matrix_.column_scales().array();
   }
 
   bool solve_transposed(Out x) const override {
     const SparseMatrix& A = matrix_.matrix();
     const Vector& scales = matrix_.scales();
+    x.tail(matrix_.column_scales().size()).array() *= matrix_.column_scales().array();
     const auto eliminate = [&](const Vector& b, Vector& z) {
       z = b;
       if (!klu_tsolve(symbolic_, numeric_, static_cast<int>(z.size()), 1, z.data(), &common_)) return false;
@@ -154,6 +160,7 @@ class Klu final : public LinearSolver {
   double chosen_growth_ = 0;
   std::vector<char> seen_;
   int parity_ = 1, sign_ = 1;
+  bool keeps_pivots_ = false;
 };
 
 }  // namespace

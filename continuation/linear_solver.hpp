@@ -47,6 +47,12 @@ class LinearSolver {
     return false;
   }
 
+  /// Whether the last factors took pivots, or anything else, from earlier ones, so that they are not those of
+  /// this matrix alone to the last bit.
+  virtual bool keeps_pivots() const { return false; }
+  /// So that the next factors do not.
+  virtual void forget_pivots() {}
+
   /// Sign of the determinant of the bordered matrix, +1 or -1, where the solver knows it. It orients branches
   /// across kinks and tells branch points and jumps; without it their parity goes unchecked.
   virtual std::optional<int> determinant_sign() const { return {}; }

@@ -34,6 +34,7 @@ class Umfpack final : public LinearSolver {
     const bool new_pattern = matrix_.assemble(*J, borders);
     umfpack_di_free_numeric(&numeric_);
     if (new_pattern) forget();
+    keeps_pivots_ = symbolic_ != nullptr;
     if (!matrix_.finite()) return false;
     const SparseMatrix& A = matrix_.matrix();
     const int n = static_cast<int>(A.rows());
@@ -57,13 +58,19 @@ class Umfpack final : public LinearSolver {
   void solve(Out x) const override {
     x.array() *= matrix_.scales().array();
     solve(UMFPACK_A, x);
+    x.tail(matrix_.column_scales().size()).array() *= matrix_.column_scales().array();
   }
 
   bool solve_transposed(Out x) const override {
+    x.tail(matrix_.column_scales().size()).array() *= matrix_.column_scales().array();
     solve(UMFPACK_At, x);
     x.array() *= matrix_.scales().array();
     return true;
   }
+
+  // The symbolic analysis looks at values.
+  bool keeps_pivots() const override { return keeps_pivots_; }
+  void forget_pivots() override { forget(); }
 
   std::optional<int> determinant_sign() const override { return sign_; }
 
@@ -106,6 +113,7 @@ class Umfpack final : public LinearSolver {
   mutable std::vector<double> work_;
   mutable Vector right_;
   int sign_ = 1;
+  bool keeps_pivots_ = false;
 };
 
 }  // namespace

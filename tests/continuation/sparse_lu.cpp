@@ -1,6 +1,8 @@
 #include "bordered.hpp"
 #include "catch.hpp"
 
+#include <malloc.h>
+
 #include <limits>
 
 using namespace bordered;
@@ -147,6 +149,33 @@ TEST_CASE("KLU's factors stay sparse where a tridiagonal J is indefinite or sing
     solver->solve(x);
     const Vector r = J * x.head(n) + borders.columns * x[n] - b.head(n);
     CHECK(r.cwiseAbs().maxCoeff() < 1e-15 * rounding * x.cwiseAbs().maxCoeff());
+  }
+}
+
+TEST_CASE("KLU's factors stay sparse where F_p is 1e23 at the top of a peak and 1 beside it") {
+  // -u'' = p e^u near p = 0: J is a Laplacian with p e^u at its top, F_p = -e^u.
+  const int n = 4000;
+  SparseMatrix J = singular_laplacian(n);
+  Borders borders(n, 1);
+  borders.rows.setOnes(), borders.corner.setOnes();
+  const auto solver = klu();
+  for (const double top : {10.0, 30.0, 53.0}) {
+    for (int i = 0; i < n; ++i) borders.columns(i, 0) = -std::exp(top * (1 - std::abs(2.0 * i / n - 1)));
+    J.coeffRef(n / 2, n / 2) -= 0.7;
+    Vector exact = Vector::Random(n + 1);
+    exact[n] *= std::exp(-top);
+    const std::size_t before = mallinfo2().uordblks + mallinfo2().hblkhd;
+    REQUIRE(solver->factorize(J, borders));
+    CAPTURE(top);
+    CHECK(mallinfo2().uordblks + mallinfo2().hblkhd < before + 4'000'000);  // full: 100 million
+    Vector b(n + 1), x;
+    b.head(n) = J * exact.head(n) + borders.columns * exact[n];
+    b[n] = exact.sum();
+    x = b;
+    solver->solve(x);
+    const Vector r = J * x.head(n) + borders.columns * x[n] - b.head(n);
+    CHECK((r.cwiseAbs().array() / (b.head(n).cwiseAbs().array() + 1)).maxCoeff() < 1e-12);
+    CHECK(std::abs(x.sum() - b[n]) < 1e-9);
   }
 }
 
