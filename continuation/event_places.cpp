@@ -143,7 +143,9 @@ std::optional<Corner> EventLocator::corner(const Place& from, double length, con
 
 std::vector<Corner> EventLocator::corners(const Place& from, const Place& to) {
   std::vector<Corner> found;
-  const auto looks = [](const Monitor& each) { return each.kind == MonitorKind::kink || each.quantity; };
+  const auto looks = [](const Monitor& each) {
+    return each.kind == MonitorKind::kink || (each.quantity && each.divides_at_kinks);
+  };
   if (to.piece == from.piece || std::none_of(monitors_.begin(), monitors_.end(), looks)) return found;
   const Place* side = &from;
   for (int k = 0; k < most_kinks && side->piece != to.piece; ++k) {

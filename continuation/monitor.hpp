@@ -60,6 +60,10 @@ struct Monitor {
   /// asked for.
   double chord_tolerance = 0;
 
+  /// Where value() is the slope of quantity(): steps are divided at their kinks, so that a zero there is told
+  /// by the slopes on both sides. False: they are taken as they are, as where kinks are many and small.
+  bool divides_at_kinks = true;
+
   /// Whether a zero of value() at a branch point is an event of this monitor as well. False: of dp/ds.
   bool at_branch_points = true;
 };

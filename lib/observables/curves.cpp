@@ -242,6 +242,8 @@ class Curves {
     std::vector<Monitor> monitors{{"minimum", slope, Crossing::rising, amplitude},
                                   {"maximum", slope, Crossing::falling, amplitude}};
     monitors.front().chord_tolerance = chord;
+    for (Monitor& monitor : monitors)
+      monitor.divides_at_kinks = false;  // a curve ends at a kink, see corners
     return monitors;
   }
 
@@ -249,7 +251,9 @@ class Curves {
   static std::vector<Monitor> turn_monitors(Eigen::Index n) {
     const auto slope = [n](const Accepted& now) { return now.tangent[n]; };
     const auto frequency = [n](const Accepted& now) { return now.u[n]; };
-    return {{"turn", slope, Crossing::any, frequency}};
+    Monitor turn{"turn", slope, Crossing::any, frequency};
+    turn.divides_at_kinks = false;
+    return {turn};
   }
 
   static std::vector<Monitor> fold_monitors(Eigen::Index n) {

@@ -109,9 +109,13 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held) 
 }
 
 continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
-  return {"peak", [observer](const continuation::Accepted& now) { return observer->amplitude_slope(now); },
-          continuation::Crossing::falling,
-          [observer](const continuation::Accepted&) { return observer->last_amplitude(); }};
+  continuation::Monitor monitor{
+      "peak", [observer](const continuation::Accepted& now) { return observer->amplitude_slope(now); },
+      continuation::Crossing::falling,
+      [observer](const continuation::Accepted&) { return observer->last_amplitude(); }};
+  // Sampled friction has a kink wherever a sample begins or ceases to slip.
+  monitor.divides_at_kinks = observer->problem().model().settings.friction == scene::Friction::exact;
+  return monitor;
 }
 
 }  // namespace arcslip::observables

@@ -23,8 +23,11 @@ constexpr double same = 1e-6;       // responses that differ by less, relatively
 
 continuation::Monitor extreme_monitor(const char* kind, Crossing crossing,
                                       const std::shared_ptr<Observer>& observer) {
-  return {kind, [observer](const Accepted& now) { return observer->amplitude_slope(now); }, crossing,
-          [observer](const Accepted&) { return observer->last_amplitude(); }};
+  continuation::Monitor monitor{kind,
+                                [observer](const Accepted& now) { return observer->amplitude_slope(now); },
+                                crossing, [observer](const Accepted&) { return observer->last_amplitude(); }};
+  monitor.divides_at_kinks = observer->problem().model().settings.friction == scene::Friction::exact;
+  return monitor;
 }
 
 std::string text(double value) {

@@ -62,8 +62,7 @@ Response response(const Variant& variant);
 Response response(const arcslip::scene::Scene& scene);
 
 /// What differs between the events of two responses, in words; "" where they have the same ones, each located
-/// to `tolerance`, relative, in frequency and amplitude. Peaks of less than `rounding`, relative to what is
-/// beside them, are not looked for.
+/// to `tolerance`, relative, in frequency and amplitude.
 std::string difference(const Response& one, const Response& other, double tolerance);
 
 }  // namespace invariances
