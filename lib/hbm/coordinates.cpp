@@ -2,41 +2,108 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <utility>
 
 namespace arcslip::hbm {
 namespace {
 
 constexpr double independent = 1e-10;  // of unit directions, after taking out those before
+constexpr double much_stiffer = 1e4;   // than the softest part: five digits are lost beyond
+
+using Directions = std::vector<Eigen::VectorXd>;
+
+// A largest independent set, in the order of the directions, with an orthonormal basis of its span.
+class Independent {
+ public:
+  explicit Independent(int dofs) : chosen_(dofs, 0), orthonormal_(dofs, 0) {}
+
+  bool add(const Eigen::VectorXd& d) {
+    const Eigen::VectorXd rest = outside(d);
+    if (rest.norm() < independent) return false;
+    const Eigen::Index r = chosen_.cols();
+    chosen_.conservativeResize(Eigen::NoChange, r + 1);
+    orthonormal_.conservativeResize(Eigen::NoChange, r + 1);
+    chosen_.col(r) = d;
+    orthonormal_.col(r) = rest.normalized();
+    return true;
+  }
+  bool spans(const Eigen::VectorXd& d) const { return outside(d).norm() < independent; }
+  const Eigen::MatrixXd& chosen() const { return chosen_; }
+  const Eigen::MatrixXd& orthonormal() const { return orthonormal_; }
+
+ private:
+  Eigen::VectorXd outside(const Eigen::VectorXd& d) const {
+    Eigen::VectorXd rest = d.normalized();
+    for (int pass = 0; pass < 2; ++pass) rest -= orthonormal_ * (orthonormal_.transpose() * rest);
+    return rest;
+  }
+
+  Eigen::MatrixXd chosen_, orthonormal_;
+};
+
+// Directions of the parts that are much stiffer than the softest, stiffest first.
+Directions stiff_directions(const model::Model& model) {
+  std::vector<std::pair<double, Eigen::VectorXd>> all;
+  const auto add = [&](int parameter, const Eigen::VectorXd& d) {
+    const double k = std::abs(model.parameters[static_cast<std::size_t>(parameter)].value) * d.squaredNorm();
+    if (k > 0) all.emplace_back(k, d);
+  };
+  for (const auto& spring : model.springs) add(spring.parameter, spring.direction);
+  for (const auto& element : model.elements)
+    if (element.law == model::Law::jenkins) add(element.parameters[0], element.direction);
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  Directions stiff;
+  for (const auto& [k, d] : all)
+    if (k > much_stiffer * all.back().first) stiff.push_back(d);
+  return stiff;
+}
+
+// What the elements' displacements determine of the elongations of stiff parts: single ones, then sums of
+// several.
+Directions stiff_between_elements(const Directions& stiff, const Independent& elements, int dofs) {
+  Directions found;
+  if (stiff.empty()) return found;
+  Independent all(dofs);
+  for (const auto& d : stiff) {
+    all.add(d);
+    if (elements.spans(d)) found.push_back(d);
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> angles(all.orthonormal().transpose() * elements.orthonormal(),
+                                                 Eigen::ComputeFullV);
+  for (Eigen::Index i = 0; i < angles.singularValues().size(); ++i)
+    if (angles.singularValues()[i] > 1 - independent)
+      found.push_back(elements.orthonormal() * angles.matrixV().col(i));
+  return found;
+}
 
 }  // namespace
 
 Coordinates coordinates(const model::Model& model) {
-  std::vector<Eigen::VectorXd> directions;
+  Directions directions;
   for (const auto& element : model.elements) directions.push_back(element.direction);
   if (directions.empty()) directions.push_back(model.response);
-
-  // An independent set, in the order of the scene.
-  Eigen::MatrixXd B(model.dofs, 0), orthonormal(model.dofs, 0);
-  for (const Eigen::VectorXd& d : directions) {
-    Eigen::VectorXd rest = d.normalized();
-    for (int pass = 0; pass < 2; ++pass) rest -= orthonormal * (orthonormal.transpose() * rest);
-    if (rest.norm() < independent) continue;
-    const Eigen::Index r = B.cols();
-    B.conservativeResize(Eigen::NoChange, r + 1);
-    orthonormal.conservativeResize(Eigen::NoChange, r + 1);
-    B.col(r) = d;
-    orthonormal.col(r) = rest.normalized();
-  }
+  Independent elements(model.dofs);
+  for (const Eigen::VectorXd& d : directions) elements.add(d);
 
   Coordinates c;
-  c.unknowns = static_cast<int>(B.cols());
+  c.unknowns = static_cast<int>(elements.chosen().cols());
   c.P.resize(model.dofs, model.dofs);
-  // B^T x = unknowns: x = B (B^T B)^-1 unknowns + (null space of B^T) * linear coordinates.
-  c.P.leftCols(c.unknowns) = B * (B.transpose() * B).inverse();
-  if (c.linear() > 0) {
+  const Directions stiff = stiff_directions(model);
+  Independent chosen(model.dofs);
+  for (const auto& d : stiff_between_elements(stiff, elements, model.dofs)) chosen.add(d);
+  for (const Eigen::VectorXd& d : directions) chosen.add(d);
+  for (const auto& d : stiff) chosen.add(d);
+  const Eigen::MatrixXd& B = chosen.chosen();
+  // B^T x = (unknowns, elongations): x = B (B^T B)^-1 (unknowns, elongations) + (null space of B^T) * the
+  // rest.
+  c.P.leftCols(B.cols()) = B * (B.transpose() * B).inverse();
+  if (B.cols() < model.dofs) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(B);
     const Eigen::MatrixXd Q = qr.householderQ();
-    c.P.rightCols(c.linear()) = Q.rightCols(c.linear());
+    c.P.rightCols(model.dofs - B.cols()) = Q.rightCols(model.dofs - B.cols());
   }
   return c;
 }

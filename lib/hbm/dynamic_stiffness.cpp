@@ -1,15 +1,15 @@
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 
-#include <Eigen/SparseCore>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace arcslip::hbm {
 namespace {
 
-constexpr double pole = 1e-14;    // pivot of the linear coordinates, relative to the largest entry
-constexpr int many = 64;          // degrees of freedom, from which products of mostly zeros take too long
+constexpr double pole =
+    1e-14;  // pivot of the linear coordinates, relative to the largest entry of its column
+constexpr double rounding = 1e-13;  // of a direction in y, relative to its largest entry
 constexpr Eigen::Index few = 16;  // unknowns, up to which blocks of a factorization cost more than they save
 
 using Complex = std::complex<double>;
@@ -23,11 +23,13 @@ Complex less_product(Complex a, Complex b, Complex c) {
 // B := A^-1 B for a small A, which is overwritten, by elimination with row pivots. False: A is singular.
 bool eliminate(Eigen::MatrixXcd& A, Eigen::MatrixXcd& B) {
   const Eigen::Index n = A.rows(), m = B.cols();
-  const double least = pole * pole * A.cwiseAbs2().maxCoeff();
+  std::array<double, few> least;
+  for (Eigen::Index k = 0; k < n; ++k)
+    least[static_cast<std::size_t>(k)] = pole * pole * A.col(k).cwiseAbs2().maxCoeff();
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::Index pivot = 0;
     const double square = A.col(k).tail(n - k).cwiseAbs2().maxCoeff(&pivot);
-    if (!(square > least)) return false;
+    if (!(square > least[static_cast<std::size_t>(k)])) return false;
     if (pivot > 0) {
       A.row(k).tail(n - k).swap(A.row(k + pivot).tail(n - k));
       B.row(k).swap(B.row(k + pivot));
@@ -58,6 +60,9 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       l_(coordinates.linear()),
       P_(coordinates.P),
       response_(P_.transpose() * model.response),
+      masses_(in_y(model.masses)),
+      dampers_(in_y(model.dampers)),
+      springs_(in_y(model.springs)),
       lu_(l_),
       Zll_(l_, l_),
       rhs_(l_, r_ + 2),
@@ -76,6 +81,23 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
   last_p_ = Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""));
 }
 
+// A stiff part stands in its own row and column there; what rounding leaves of it in others is taken out:
+// added to softer ones, it would leave nothing of them. Directions are mostly zeros.
+std::vector<DynamicStiffness::PartInY> DynamicStiffness::in_y(
+    const std::vector<model::LinearPart>& parts) const {
+  std::vector<PartInY> all;
+  for (const model::LinearPart& part : parts) {
+    Vector d = Vector::Zero(P_.cols());
+    for (Eigen::Index i = 0; i < part.direction.size(); ++i)
+      if (part.direction[i] != 0) d += part.direction[i] * P_.row(i).transpose();
+    const double least = rounding * d.cwiseAbs().maxCoeff();
+    all.push_back({part.parameter, {}});
+    for (Eigen::Index i = 0; i < d.size(); ++i)
+      if (d[i] != 0 && std::abs(d[i]) >= least) all.back().direction.emplace_back(i, d[i]);
+  }
+  return all;
+}
+
 void DynamicStiffness::assemble(In p) {
   bool same = true;
   for (std::size_t k = 0; k < structural_.size(); ++k) {
@@ -83,15 +105,15 @@ void DynamicStiffness::assemble(In p) {
     structural_[k] = p[structural_parameters_[k]];
   }
   if (same) return;
-  const auto in_y = [&](const std::vector<model::LinearPart>& parts) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd A = model::assemble(parts, p, model_.dofs);
-    if (model_.dofs <= many) return P_.transpose() * A * P_;
-    const Eigen::SparseMatrix<double> P = P_.sparseView(), sparse = A.sparseView();
-    return Eigen::MatrixXd(Eigen::SparseMatrix<double>(P.transpose() * sparse * P));
+  const auto add_up = [&](const std::vector<PartInY>& parts, Eigen::MatrixXd& sum) {
+    sum.setZero(P_.cols(), P_.cols());
+    for (const PartInY& part : parts)
+      for (const auto& [j, at_j] : part.direction)
+        for (const auto& [i, at_i] : part.direction) sum(i, j) += p[part.parameter] * at_i * at_j;
   };
-  M_ = in_y(model_.masses);
-  C_ = in_y(model_.dampers);
-  K_ = in_y(model_.springs);
+  add_up(masses_, M_);
+  add_up(dampers_, C_);
+  add_up(springs_, K_);
 }
 
 bool DynamicStiffness::move_to(In p) {
@@ -130,8 +152,8 @@ bool DynamicStiffness::move_to(In p) {
       if (!eliminate(Zll_, W)) return false;
     } else {
       lu_.compute(Zll_);
-      const double largest = Zll_.cwiseAbs().maxCoeff();
-      if (!(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > pole * largest)) return false;
+      for (Eigen::Index k = 0; k < l_; ++k)
+        if (!(std::abs(lu_.matrixLU()(k, k)) > pole * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
       W.noalias() = lu_.permutationP() * rhs_;
       lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(W);
       lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(W);

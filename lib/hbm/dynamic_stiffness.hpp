@@ -12,6 +12,7 @@
 #include <Eigen/LU>
 
 #include <complex>
+#include <utility>
 #include <vector>
 
 namespace arcslip::hbm {
@@ -58,6 +59,11 @@ class DynamicStiffness {
   using Vectorc = Eigen::VectorXcd;
   using Matrixc = Eigen::MatrixXcd;
 
+  struct PartInY {
+    int parameter;
+    std::vector<std::pair<Eigen::Index, double>> direction;  // what is not zero of P^T d
+  };
+  std::vector<PartInY> in_y(const std::vector<model::LinearPart>& parts) const;
   void assemble(In p);
   bool depends_on(int k) const;
   void differentiate(int k, In u, int h, double force_factor, Vectorc& v) const;
@@ -70,9 +76,10 @@ class DynamicStiffness {
   const model::Model& model_;
   const Harmonics harmonics_;
   const int r_, l_;
-  Eigen::MatrixXd P_;                     // dofs x (r + l)
-  Eigen::MatrixXd M_, C_, K_;             // in y
-  Vector response_;                       // in y
+  Eigen::MatrixXd P_;          // dofs x (r + l)
+  Eigen::MatrixXd M_, C_, K_;  // in y
+  Vector response_;            // in y
+  std::vector<PartInY> masses_, dampers_, springs_;
   std::vector<Vector> force_directions_;  // in y
   std::vector<double> structural_;        // values of the last assemble()
   std::vector<int> structural_parameters_;

@@ -119,7 +119,15 @@ Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuatio
 
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p) {
   if (model.harmonics.odd) return {};
-  Eigen::MatrixXd K = assemble(model.springs, p, model.dofs);
+  // Springs of any stiffness hold what they are between: a stiff link takes nothing from the softer ones.
+  // Only where some are negative it takes their values to tell.
+  const bool negative = std::any_of(model.springs.begin(), model.springs.end(),
+                                    [&](const LinearPart& spring) { return p[spring.parameter] < 0; });
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(model.dofs, model.dofs);
+  for (const LinearPart& spring : model.springs)
+    if (const double k = p[spring.parameter]; k != 0)
+      K += (negative ? k : 1 / spring.direction.squaredNorm()) * spring.direction *
+           spring.direction.transpose();
   const double typical = K.cwiseAbs().maxCoeff();
   for (const NonlinearPart& element : model.elements)
     if (element.law == Law::cubic_spring && p[element.parameters[0]] != 0)

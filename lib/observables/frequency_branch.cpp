@@ -1,6 +1,7 @@
 #include <arcslip/observables/frequency_branch.hpp>
 
 #include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/model/stiffness_apart.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,17 @@ constexpr double step_between_events = 1.0 / 200;  // relative to the highest fr
 constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
 constexpr double smallest_step = 1e-2;          // of the largest at the low end of the window
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
+
+// The Jacobian is none of a scene's user: where it fails its check, F is rounding there, as with stiffnesses
+// that lie too far apart.
+void speak_of_scene(const model::Model& model, const Vector& p, continuation::Stop& stop) {
+  using continuation::StopReason;
+  if (const auto doubt = stop.message.find("; the Jacobian"); doubt != std::string::npos)
+    stop.message.erase(doubt);
+  const bool ended = stop.reason == StopReason::boundary || stop.reason == StopReason::user;
+  if (const auto apart = model::stiffness_apart(model, p); !ended && !apart.empty())
+    stop.message += "; " + apart;
+}
 
 }  // namespace
 
@@ -37,11 +49,14 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
                 "\", and friction leaves it free to drift; add a spring between it and the ground or what is "
                 "held, or excite odd harmonics only"};
   const auto u = hbm::steady_state(problem, p, go_on);
-  if (!u)
+  if (!u) {
+    const std::string apart = model::stiffness_apart(*model, p);
     return {problem,
             {},
             "Newton's method failed from rest, from the response without elements, and along a growing "
-            "excitation"};
+            "excitation" +
+                (apart.empty() ? "" : "; " + apart)};
+  }
   return {problem_with(u->norm()), u, {}};
 }
 
@@ -80,9 +95,12 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
     each = [&](const continuation::Accepted& now, const continuation::Event* event) {
       return record(*observer, now, event);
     };
-  return {problem, continuation::trace(
-                       problem, {*first.u, hbm::parameters_at(*problem, from), model::frequency, direction},
-                       options, {peak_monitor(observer), continuation::fold_monitor()}, each)};
+  const Vector p = hbm::parameters_at(*problem, from);
+  FrequencyBranch traced{problem,
+                         continuation::trace(problem, {*first.u, p, model::frequency, direction}, options,
+                                             {peak_monitor(observer), continuation::fold_monitor()}, each)};
+  speak_of_scene(*model, p, traced.branch.stop);
+  return traced;
 }
 
 }  // namespace arcslip::observables

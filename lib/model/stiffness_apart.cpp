@@ -1,0 +1,32 @@
+#include <arcslip/model/stiffness_apart.hpp>
+
+#include <sstream>
+
+namespace arcslip::model {
+namespace {
+
+constexpr double far_apart = 1e12;  // stiffnesses, one over the other
+
+}  // namespace
+
+std::string stiffness_apart(const Model& model, const continuation::Vector& p) {
+  int stiffest = -1, softest = -1;
+  const auto look = [&](int k) {
+    if (!(p[k] > 0)) return;
+    if (stiffest < 0 || p[k] > p[stiffest]) stiffest = k;
+    if (softest < 0 || p[k] < p[softest]) softest = k;
+  };
+  for (const auto& spring : model.springs) look(spring.parameter);
+  for (const auto& element : model.elements)
+    if (element.law == Law::jenkins) look(element.parameters[0]);
+  if (stiffest < 0 || p[stiffest] < far_apart * p[softest]) return {};
+  std::ostringstream text;
+  text.precision(4);
+  const auto name = [&](int k) { return model.parameters[static_cast<std::size_t>(k)].name; };
+  text << name(stiffest) << " = " << p[stiffest] << " N/m is " << p[stiffest] / p[softest] << " times "
+       << name(softest) << " = " << p[softest]
+       << " N/m, farther apart than double precision can follow; make " << name(stiffest) << " smaller";
+  return text.str();
+}
+
+}  // namespace arcslip::model
