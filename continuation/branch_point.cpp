@@ -149,7 +149,7 @@ std::optional<BranchPoint> describe_branch_point(const Problem& problem, int alo
   const double negative = form.eigenvalues()[0], positive = form.eigenvalues()[1];
   const double larger = std::max(positive, -negative), smaller = std::min(positive, -negative);
   if (!(smaller > smallest_share * larger)) return {};
-  const double parameter_scale = problem.parameters()[static_cast<std::size_t>(along)].scale;
+  const double parameter_scale = problem.parameters()[static_cast<std::size_t>(along)].change();
 
   BranchPoint point;
   for (const double sign : {1.0, -1.0}) {

@@ -47,7 +47,7 @@ Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOpt
       tangent_(problem.size() + 1),
       metric_(problem.size()),
       free_(free),
-      parameter_scale_(problem.parameters()[static_cast<std::size_t>(free)].scale) {
+      parameter_scale_(problem.parameters()[static_cast<std::size_t>(free)].change()) {
   weights_.head(problem.size()) = problem.scales().cwiseAbs2().cwiseInverse();
   weights_[problem.size()] = 1 / (parameter_scale_ * parameter_scale_);
   has_metric_ = problem.metric(dv_.head(problem.size()).setZero(), metric_);

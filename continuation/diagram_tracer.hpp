@@ -2,6 +2,7 @@
 // How a diagram grows: branches that are followed, and branch points whose half-branches are known or not.
 
 #include <arcslip/continuation/diagram.hpp>
+#include <arcslip/continuation/window_scale.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -28,7 +29,7 @@ class DiagramTracer {
  public:
   DiagramTracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                 const DiagramOptions& limits, std::vector<Monitor> monitors, Observer observer)
-      : problem_(std::move(problem)),
+      : problem_(scaled_to_window(std::move(problem), start.free, options.lower, options.upper)),
         start_(start),
         options_(options),
         limits_(limits),

@@ -69,7 +69,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     if (f_->derivative)
       f_->derivative(u_, p_, k, dF);
     else
-      difference(p_[k], f_->parameters[static_cast<std::size_t>(k)].scale, dF);
+      difference(p_[k], f_->parameters[static_cast<std::size_t>(k)].change(), dF);
   }
 
   bool second_derivative(In w, In v, In q, Out du, Out dp) const override {

@@ -21,7 +21,7 @@ InnerProblem::InnerProblem(std::shared_ptr<const Problem> which, int index, Make
 
 Vector InnerProblem::scales() const {
   Vector scales(size() + 1);
-  scales << problem->scales(), parameter(along).scale;
+  scales << problem->scales(), parameter(along).change();
   return scales;
 }
 
@@ -92,7 +92,7 @@ class AugmentedProblem final : public Problem {
   }
   bool metric(In v, Out Mv) const override {
     const Eigen::Index n = inner_->size();
-    const double scale = inner_->parameter(inner_->along).scale;
+    const double scale = inner_->parameter(inner_->along).change();
     Mv[n] = v[n] / (scale * scale);
     Mv.tail(further_.size()) = v.tail(further_.size()).cwiseQuotient(further_.cwiseAbs2());
     return inner_->problem->metric(v.head(n), Mv.head(n));

@@ -81,7 +81,7 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto index = static_cast<Eigen::Index>(k);
     here->parameter_derivative(static_cast<int>(k), column);
-    compare(static_cast<int>(n + index), at_p[index], parameters[k].scale);
+    compare(static_cast<int>(n + index), at_p[index], parameters[k].change());
   }
   if (worst.relative > agreement) worst.message = describe(worst, problem);
   return worst;

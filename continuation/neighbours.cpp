@@ -22,7 +22,7 @@ bool Neighbours::along(const Site& here, In d) {
 }
 
 bool Neighbours::over(const Site& here, int k) {
-  const double h = difference * std::max(std::abs(here.p()[k]), inner_.parameter(k).scale);
+  const double h = difference * std::max(std::abs(here.p()[k]), inner_.parameter(k).change());
   x_ = here.x();
   p_ = here.p();
   return take(here, h, [&](double distance) { p_[k] = here.p()[k] + distance; });

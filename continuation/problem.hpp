@@ -43,8 +43,11 @@ enum class Needs { residual, jacobian };
 struct Parameter {
   std::string name, unit;
   double value = 0;  // default
-  double scale = 1;  // a change that counts as large, > 0
+  double scale = 0;  // a change that counts as large, > 0; 0: the width of the window it is traced in
   double lower = -1e300, upper = 1e300;
+
+  /// A change that counts as large where there is no window: 1, if no scale is given.
+  double change() const { return scale > 0 ? scale : 1; }
 };
 
 /// Evaluates F at one place at a time. Mutable, one for each thread, owns every buffer: nothing that it does

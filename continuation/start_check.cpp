@@ -19,9 +19,10 @@ void check_scales(const Problem& problem) {
   if (!scales.allFinite() || !(scales.minCoeff() > 0))
     throw std::invalid_argument("the scales of the unknowns must be positive and finite");
   for (const Parameter& parameter : problem.parameters())
-    if (!(parameter.scale > 0 && std::isfinite(parameter.scale)))
+    if (!(parameter.scale >= 0 && std::isfinite(parameter.scale)))
       throw std::invalid_argument("the scale of the parameter \"" + parameter.name + "\" is " +
-                                  text(parameter.scale) + ", must be positive and finite");
+                                  text(parameter.scale) +
+                                  ", must be positive and finite, or 0 for the width of its window");
 }
 
 // A parameter that can be free, and its window.

@@ -5,6 +5,7 @@
 #include <arcslip/continuation/start_check.hpp>
 #include <arcslip/continuation/text.hpp>
 #include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/window_scale.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ constexpr double first_share_of_window = 0.01;  // |dp| of a step where the user
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                std::vector<Monitor> monitors, Observer observer)
-    : problem_(given(std::move(problem))),
+    : problem_(scaled_to_window(given(std::move(problem)), start.free, options.lower, options.upper)),
       options_(options),
       monitors_(std::move(monitors)),
       observer_(std::move(observer)),
@@ -38,7 +39,7 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
                std::vector<Monitor> monitors, Observer observer)
-    : problem_(given(std::move(problem))),
+    : problem_(scaled_to_window(given(std::move(problem)), state.free, options.lower, options.upper)),
       options_(options),
       monitors_(std::move(monitors)),
       observer_(std::move(observer)),

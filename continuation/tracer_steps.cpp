@@ -43,7 +43,9 @@ double Tracer::largest_parameter_step() const {
 }
 
 double Tracer::limited(double ds) const {
-  ds = std::min(ds, options_.step.relative_state * (1 + main_->norm_u(s_.here.v)));
+  const double largest_change = options_.step.relative_state * (1 + main_->norm_u(s_.here.v));
+  const double change = main_->norm_u(s_.here.tangent);  // |du/ds|
+  if (change * ds > largest_change) ds = largest_change / change;
   if (options_.step.largest > 0) ds = std::min(ds, options_.step.largest);
   const double along = std::abs(s_.here.tangent[n_]), limit = largest_parameter_step();
   return along * ds > limit ? limit / along : ds;

@@ -184,7 +184,7 @@ class OptimalityProblem final : public continuation::Problem {
 
  private:
   std::shared_ptr<const OptimalityData> data_;
-  continuation::Parameter sigma_{"sigma", "-"};
+  continuation::Parameter sigma_{"sigma", "-", 0, 1};
 };
 
 }  // namespace

@@ -230,3 +230,45 @@ TEST_CASE("a quantity's curve departs from the chords between its points by no m
   CHECK(departure(1e-3) < 1.2e-3);
   CHECK(departure(1e-4) < 1.2e-4);
 }
+
+TEST_CASE("a branch that is all but straight takes the steps that its window asks for, in any unit of p") {
+  for (const double unit : {1e-6, 1.0, 1e6}) {
+    const double end = 1e4 * unit;
+    const auto problem = from_functions(
+        1, {{"p", ""}}, [=](In u, In p, Out F) { F[0] = u[0] - 1e-3 * std::sin(p[0] / (1e3 * unit)); });
+    const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, end));
+    CAPTURE(unit, branch.counts.points);
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.counts.points > 100);
+    CHECK(branch.counts.points < 110);
+  }
+}
+
+TEST_CASE("relative_state limits the change of u, not the whole step") {
+  const auto problem =
+      from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - 0.01 * p[0]; });
+  Options options = window(0, 1000);
+  options.step.largest_parameter = 100;
+  options.step.relative_state = 0.1;
+  const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, options);
+  double largest = 0;
+  for (std::size_t k = 1; k < branch.points.size(); ++k) {
+    const double before = branch.points[k - 1].u[0], change = branch.points[k].u[0] - before;
+    CHECK(change < 0.1 * (1 + before) * (1 + 1e-8));  // du/dp by differences
+    largest = std::max(largest, change / (1 + before));
+  }
+  CHECK(largest > 0.099);
+}
+
+TEST_CASE("a scale that is given is kept, whatever the window") {
+  for (const double scale : {0.1, 10.0}) {
+    const auto problem =
+        from_functions(1, {parameter("p", 0, scale)}, [](In u, In p, Out F) { F[0] = u[0] - 0 * p[0]; });
+    const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 1));
+    CHECK(branch.points.back().arclength == Approx(1 / scale));
+  }
+  const auto problem =
+      from_functions(1, {{"p", "", 0, 0, 0, 5}}, [](In u, In p, Out F) { F[0] = u[0] - 0 * p[0]; });
+  const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 100));
+  CHECK(branch.points.back().arclength == Approx(1));
+}

@@ -357,8 +357,10 @@ TEST_CASE("scales that are not positive are refused before anything is traced") 
     return from_functions(1, {parameter("p", 0, scale)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   };
   CHECK_NOTHROW(trace(line(1), at(0, 0), window(0, 1)));
-  CHECK_THROWS_WITH(trace(line(0), at(0, 0), window(0, 1)),
-                    "the scale of the parameter \"p\" is 0, must be positive and finite");
+  CHECK_NOTHROW(trace(line(0), at(0, 0), window(0, 1)));
+  CHECK_THROWS_WITH(trace(line(-2), at(0, 0), window(0, 1)),
+                    "the scale of the parameter \"p\" is -2, must be positive and finite, or 0 for the width "
+                    "of its window");
   for (double scale : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
     CHECK_THROWS_AS(trace(line(scale), at(0, 0), window(0, 1)), std::invalid_argument);
 }
