@@ -1,11 +1,17 @@
 #include <arcslip/continuation/functions.hpp>
 
+#include <arcslip/continuation/start_check.hpp>
+
 #include <cmath>
+#include <exception>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace arcslip::continuation {
 namespace {
+
+constexpr int shorter_differences = 4;
 
 double difference_step(double x, double scale) {
   return std::cbrt(2.2e-16) * std::max(std::abs(x), scale);
@@ -86,15 +92,41 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     return static_cast<bool>(f_->apply_transposed_jacobian);
   }
 
-  // d F / d x by central differences, where x is one of the entries of u_ or p_.
+  // d F / d x by central differences, where x is one of the entries of u_ or p_; at an edge of the domain by
+  // differences to one side, -3 F + 4 F(h) - F(2h) over 2h, and next to two edges by shorter ones.
   void difference(double& x, double scale, Out dF) const {
-    const double at = x, h = difference_step(at, scale);
-    x = at + h;
-    f_->residual(u_, p_, plus_);
-    x = at - h;
-    f_->residual(u_, p_, minus_);
-    x = at;
-    dF = (plus_ - minus_) / (2 * h);
+    const double at = x;
+    std::exception_ptr thrown;
+    const auto residual = [&](double distance, Vector& F) {
+      x = at + distance;
+      try {
+        f_->residual(u_, p_, F);
+      } catch (...) {
+        thrown = std::current_exception();
+        x = at;
+        return false;
+      }
+      x = at;
+      return F.allFinite();
+    };
+    double h = difference_step(at, scale);
+    for (int k = 0; k < shorter_differences; ++k, h /= 16) {
+      const bool above = residual(h, plus_), below = residual(-h, minus_);
+      if (above && below) {
+        dF = (plus_ - minus_) / (2 * h);
+        return;
+      }
+      if (above && residual(2 * h, minus_)) {
+        dF = (4 * plus_ - minus_ - 3 * F_) / (2 * h);
+        return;
+      }
+      if (below && residual(-2 * h, plus_)) {
+        dF = (3 * F_ + plus_ - 4 * minus_) / (2 * h);
+        return;
+      }
+    }
+    if (thrown) std::rethrow_exception(thrown);
+    dF.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 
   std::shared_ptr<const Functions> f_;
@@ -136,6 +168,7 @@ std::shared_ptr<const Problem> from_functions(Functions f) {
                                 " unknowns");
   if (!(f.scales.minCoeff() > 0) || !f.scales.allFinite())
     throw std::invalid_argument("scales must be positive and finite");
+  check_parameters(f.parameters);
   return std::make_shared<FunctionProblem>(std::move(f));
 }
 

@@ -25,6 +25,19 @@ void check_scales(const Problem& problem) {
                                   ", must be positive and finite, or 0 for the width of its window");
 }
 
+}  // namespace
+
+void check_parameters(std::span<const Parameter> parameters) {
+  if (parameters.empty()) throw std::invalid_argument("the problem has no parameters: one has to be free");
+  for (std::size_t k = 1; k < parameters.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j)
+      if (parameters[j].name == parameters[k].name)
+        throw std::invalid_argument("the parameters " + std::to_string(j) + " and " + std::to_string(k) +
+                                    " are both called \"" + parameters[k].name + "\"");
+}
+
+namespace {
+
 // A parameter that can be free, and its window.
 void check_free(const Problem& problem, int free, const Options& options) {
   const auto parameters = problem.parameters();
@@ -47,6 +60,7 @@ void check_start(const Problem& problem, const Start& start, const Options& opti
   const int n = problem.size();
   const auto parameters = problem.parameters();
   if (n < 1) throw std::invalid_argument("the problem has no unknowns");
+  check_parameters(parameters);
   if (start.u.size() != n)
     throw std::invalid_argument("the start has " + std::to_string(start.u.size()) +
                                 " unknowns, the problem " + std::to_string(n));
@@ -59,6 +73,9 @@ void check_start(const Problem& problem, const Start& start, const Options& opti
                                 " finite entries, not " + std::to_string(start.tangent.size()));
   if (start.tangent.size() != 0 && start.tangent.isZero(0))
     throw std::invalid_argument("the tangent of the start is zero");
+  if (start.direction != 1 && start.direction != -1)
+    throw std::invalid_argument("the direction of the start is " + std::to_string(start.direction) +
+                                ", must be +1 or -1");
   const double p = start.p[start.free];
   if (!start.u.allFinite() || !std::isfinite(p))
     throw std::invalid_argument("the start has numbers that are not finite");

@@ -28,7 +28,7 @@ struct Start {
   Vector u;           // n
   Vector p;           // all parameters
   int free = 0;       // index of the free one
-  int direction = 1;  // +1: towards larger values of the free parameter, -1: smaller
+  int direction = 1;  // +1: towards larger values of the free parameter, -1: smaller; no other number
   Vector tangent{};   // n + 1, or none: the way to go, in place of `direction`; the solution is then sought
                       // across it, and not at p[free]
 };

@@ -29,7 +29,7 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const
   check_start(*problem_, start, options);
   check_monitors(monitors_);
   s_.free = start.free;
-  s_.direction = start.direction < 0 ? -1 : 1;
+  s_.direction = start.direction;
   s_.p = start.p;
   s_.here.v.resize(n_ + 1);
   s_.here.v << start.u, start.p[s_.free];

@@ -1,10 +1,13 @@
 #include "catch.hpp"
 
+#include "continuation/problems.hpp"
+
 #include <arcslip/continuation/functions.hpp>
 
 #include <cmath>
 
 using namespace arcslip::continuation;
+using problems::window;
 
 TEST_CASE("derivatives that are not given are central differences, good to 1e-9") {
   const auto problem = from_functions(2, {{"a", "", 2, 1, -1e300, 1e300}}, [](In u, In p, Out F) {
@@ -44,4 +47,24 @@ TEST_CASE("an unknown parameter is refused with the names that there are") {
   CHECK(parameter_index(*problem, "b") == 1);
   CHECK(parameter_values(*problem) == Vector{{1.0, 3.0}});
   CHECK_THROWS_WITH(parameter_index(*problem, "c"), "no parameter \"c\"; there are: a, b");
+}
+
+TEST_CASE("a branch by differences comes to the edge of the domain, whether it is told by NaN or thrown") {
+  for (const bool throws : {false, true})
+    for (const int direction : {1, -1}) {
+      // u = p^3, where |p| <= 1/2.
+      const auto problem = from_functions(1, {{"p", ""}}, [=](In u, In p, Out F) {
+        if (throws && std::abs(p[0]) > 0.5) throw std::runtime_error("beyond the domain");
+        F[0] = u[0] - p[0] * p[0] * p[0] + 0 * std::sqrt(0.5 - std::abs(p[0]));
+      });
+      const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, direction}, window(-1, 1));
+      CAPTURE(throws, direction, branch.stop.message);
+      CHECK(branch.stop.reason == StopReason::not_evaluated);
+      CHECK(0.5 - std::abs(branch.points.back().parameter) < 1e-9);
+      CHECK(branch.stop.message.find("dF/dp") == std::string::npos);
+      if (throws) CHECK(branch.stop.message.find("beyond the domain") != std::string::npos);
+      // dF/dp by differences to one side is good to h^2: the tangent has du/dp = 3/4.
+      const Vector& t = branch.points.back().tangent;
+      CHECK(std::abs(t[0] / t[1] - 0.75) < 1e-8);
+    }
 }
