@@ -23,8 +23,9 @@ int longest_chord(const Jacobian& J) {
 }
 
 constexpr double smallest_damping = 1.0 / 256;
-constexpr double undamped = 1e-2;  // corrections below are taken whole, and tested at the next place
-constexpr double divergence = 2;   // of such corrections, from one to the next
+constexpr double undamped = 1e-2;      // corrections below are taken whole, and tested at the next place
+constexpr double divergence = 2;       // of such corrections, from one to the next
+constexpr double linear_share = 1e-2;  // of a small Newton correction in the next one: not quadratic
 constexpr double smallest_relevant_state = 1e-6;  // in scales: below, corrections are measured absolutely
 constexpr double smallest_relevant_parameter = 1e-3;
 
@@ -105,7 +106,7 @@ bool Corrector::evaluate(const Vector& v, Needs needs) {
   return evaluator_->residual().allFinite();
 }
 
-bool Corrector::factorize(const Vector& row) {
+bool Corrector::factorize(const Vector& v, const Vector& row) {
   failure_.clear();
   const Eigen::Index n = F_p_.size();
   try {
@@ -125,7 +126,16 @@ bool Corrector::factorize(const Vector& row) {
   borders_.corner(0, 0) = row[n];
   ++counts_.factorizations;
   try {
-    return solver_->factorize(evaluator_->jacobian(), borders_);
+    const bool regular = solver_->factorize(evaluator_->jacobian(), borders_);
+    if (!solver_->keeps_pivots())
+      memory_.pivots_kept = false;
+    else if (!memory_.pivots_kept) {
+      std::swap(memory_.pivots, memory_.factors);
+      memory_.pivots_kept = true;
+    }
+    memory_.factors.v = v;
+    memory_.factors.row = row;
+    return regular;
   } catch (const std::exception& thrown) {
     failure_ = thrown.what();
     return false;
@@ -165,7 +175,20 @@ void Corrector::project(Vector& dv) {
 }
 
 bool Corrector::linearize(const Vector& v, const Vector& row) {
-  return evaluate(v, Needs::jacobian) && factorize(row);
+  return evaluate(v, Needs::jacobian) && factorize(v, row);
+}
+
+void Corrector::restore(const FactorMemory& memory) {
+  const Counts before = counts_;
+  if (memory.pivots_kept) linearize(memory.pivots.v, memory.pivots.row);
+  if (memory.factors.v.size() != 0) linearize(memory.factors.v, memory.factors.row);
+  counts_ = before;
+  memory_ = memory;
+}
+
+void Corrector::forget() {
+  memory_ = {};
+  if (solver_) solver_->forget_pivots();
 }
 
 bool Corrector::tangent(Vector& t) const {
@@ -192,7 +215,7 @@ bool Corrector::chord(Vector& v, Correction& result) {
   v += dv_;
   ++result.iterations;
   const int longest = longest_chord(evaluator_->jacobian());
-  for (int k = 1; k < longest && now * chord_safety_ * contraction_ > options_.tolerance; ++k) {
+  for (int k = 1; k < longest && now * chord_safety_ * memory_.contraction > options_.tolerance; ++k) {
     if (!evaluate(v, Needs::residual)) {
       result.evaluated = false;
       return false;
@@ -208,7 +231,7 @@ bool Corrector::chord(Vector& v, Correction& result) {
     v += next_;
     std::swap(dv_, next_);
     now = next;
-    contraction_ = ratio;
+    memory_.contraction = ratio;
     ++result.iterations;
   }
   result.last = now;
@@ -233,7 +256,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
       result.evaluated = false;
       return result;
     }
-    if (!factorize(row)) {
+    if (!factorize(v, row)) {
       result.singular = true;
       return result;
     }
@@ -242,7 +265,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
     const double now = size(dv_, v);
     if (result.first == 0) result.first = now;
     if (result.contraction == 0 && before > 0) result.contraction = now / before;
-    if (k == 0 && before > 0) contraction_ = std::max(now / before, 1e-4);
+    if (k == 0 && before > 0) memory_.contraction = std::max(now / before, 1e-4);
     result.last = now;
     const bool stagnates = before > 0 && now > 0.5 * before && now <= options_.rounding_level;
     if (now <= options_.tolerance || stagnates) {
@@ -252,6 +275,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
       return result;
     }
     if (!std::isfinite(now)) return result;
+    if (k > 0 && before > 0 && before < undamped && now > linear_share * before) result.linear = true;
     if (now < undamped) {
       if (k > 0 && before > 0 && before < undamped && now > divergence * before) return result;
       v += dv_;
@@ -271,6 +295,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
     v = trial_;
     before = 0;
   }
+  result.linear = true;  // in all its iterations it came nearer, and not near enough
   return result;
 }
 

@@ -17,6 +17,7 @@
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/options.hpp>
 #include <arcslip/continuation/problem.hpp>
+#include <arcslip/continuation/scratch.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -32,6 +33,21 @@ struct Correction {
   int iterations = 0;
   double first = 0, last = 0;  // size of the first and of the last correction
   double contraction = 0;      // of the second over the first
+  /// A small Newton correction was followed by one that is not much smaller, or by too many.
+  bool linear = false;
+};
+
+/// Of which place and with which border row a matrix was factorized. None: empty.
+struct Linearization {
+  Vector v, row;  // n + 1
+};
+
+/// What a corrector takes from one correction to the next: the place of its factors, and, where they keep the
+/// pivots of earlier ones, the place of these; and the contraction that chord steps showed.
+struct FactorMemory {
+  Linearization factors, pivots;
+  bool pivots_kept = false;
+  double contraction = 1;
 };
 
 /// One place to work in: an evaluator, factors and buffers. Nothing in correct() or linearize() allocates.
@@ -79,10 +95,18 @@ class Corrector {
   const std::string& failure() const { return failure_; }
   Evaluator& evaluator() { return *evaluator_; }
   const LinearSolver& factors() const { return *solver_; }  // once there was a linearization
+  Scratch& scratch() { return scratch_; }
+
+  /// So that another corrector goes on as this one, bit for bit.
+  const FactorMemory& memory() const { return memory_; }
+  /// Makes the factors that another corrector had. Its work is not counted.
+  void restore(const FactorMemory& memory);
+  /// Forgets what was before, so that what comes does not depend on it.
+  void forget();
 
  private:
   bool evaluate(const Vector& v, Needs needs);
-  bool factorize(const Vector& row);
+  bool factorize(const Vector& v, const Vector& row);
   void solve(Vector& dv) const;           // dv = -B^-1 (F, 0)
   void back_substitute(Vector& x) const;  // x = B^-1 x; not finite where the linear solver throws
   bool chord(Vector& v, Correction& result);
@@ -101,7 +125,8 @@ class Corrector {
   int free_;
   double chord_safety_ = 1;
   double parameter_scale_;
-  double contraction_ = 1;  // of the last chord step
+  FactorMemory memory_;
+  Scratch scratch_;
 };
 
 }  // namespace arcslip::continuation

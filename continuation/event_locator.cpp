@@ -11,7 +11,6 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double newton_share = 1e-2;   // the corrector's tolerance, of that on the branch
-constexpr double same_place = 1e-6;     // of a step: monitors of one name with zeros so near share an event
 constexpr double smallest_kink = 1e-4;  // rad
 
 // An extreme between two places that is not looked for lies no farther off than where the tangents to the
@@ -64,24 +63,18 @@ std::vector<LocatedEvent> EventLocator::across(const Corner& corner) {
 std::vector<LocatedEvent> EventLocator::gather(Find by, const Place& from, const Place& to) {
   std::vector<LocatedEvent> found;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    const auto before = static_cast<std::ptrdiff_t>(found.size());
     if (monitors_[m].quantity) {
       follow(m, by, from, to, found);
     } else if (changes(m, from, to, monitors_[m].crossing)) {
       auto event = (this->*by)(m, from, to);
       if (event && is_event(m, *event)) found.push_back(std::move(*event));
     }
+    std::for_each(found.begin() + before, found.end(), [&](LocatedEvent& each) { describe(m, each); });
   }
-  std::sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
+  std::stable_sort(found.begin(), found.end(), [](const LocatedEvent& x, const LocatedEvent& y) {
     return x.event.point.arclength < y.event.point.arclength;
   });
-  const double same = same_place * (to.arclength - from.arclength);
-  const auto again =
-      std::unique(found.begin(), found.end(), [&](const LocatedEvent& x, const LocatedEvent& y) {
-        return x.event.monitor == y.event.monitor &&
-               y.event.point.arclength - x.event.point.arclength <= same;
-      });
-  found.erase(again, found.end());
-  for (LocatedEvent& each : found) describe(each);
   return found;
 }
 
@@ -139,11 +132,10 @@ bool EventLocator::is_event(std::size_t monitor, const LocatedEvent& found) {
   return !now || call(monitors_[monitor].is_event, monitors_[monitor], *now);
 }
 
-void EventLocator::describe(LocatedEvent& found) {
-  const auto monitor = std::find_if(monitors_.begin(), monitors_.end(),
-                                    [&](const Monitor& m) { return m.name == found.event.monitor; });
-  if (!monitor->describe || found.event.nonsmooth || !found.event.located) return;
-  if (const auto now = look_at(found.place)) found.event.data = call(monitor->describe, *monitor, *now);
+void EventLocator::describe(std::size_t monitor, LocatedEvent& found) {
+  const Monitor& by = monitors_[monitor];
+  if (!by.describe || found.event.nonsmooth || !found.event.located) return;
+  if (const auto now = look_at(found.place)) found.event.data = call(by.describe, by, *now);
 }
 
 std::optional<Accepted> EventLocator::look_at(const Place& event) {

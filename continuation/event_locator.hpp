@@ -13,8 +13,8 @@
 // a waiting extreme by more than r, while its slope has not changed its sign again, q is right: the extreme
 // moves along, from point to point.
 //
-// A monitor may have zeros that are no events (Monitor::is_event), and zeros of several monitors of one name
-// at one place of a step are one event.
+// A monitor may have zeros that are no events (Monitor::is_event). What is located in a step does not depend
+// on the steps before it: the probe forgets.
 
 #include <arcslip/continuation/place.hpp>
 #include <arcslip/continuation/state.hpp>
@@ -33,6 +33,11 @@ class EventLocator {
   /// the work is added up. Both outlive this.
   EventLocator(std::shared_ptr<const Problem> problem, Vector p, int free, const Options& options,
                const std::vector<Monitor>& monitors, std::vector<Course>& courses, Counts& counts);
+
+  /// So that the events of a step do not depend on the steps before it, to the last bit.
+  void forget() {
+    if (probe_) probe_->forget();
+  }
 
   /// Whether any monitor changes its sign, in whichever direction.
   bool changes_sign(const Place& from, const Place& to) const;
@@ -77,7 +82,7 @@ class EventLocator {
   LocatedEvent kink_event(const Monitor& monitor, const Corner& corner) const;
   bool look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards, Place& beyond);
   bool is_event(std::size_t monitor, const LocatedEvent& found);
-  void describe(LocatedEvent& found);
+  void describe(std::size_t monitor, LocatedEvent& found);
   Event event(std::size_t monitor, const Place& place, double value, const Correction& correction) const;
   Corrector& probe();
 

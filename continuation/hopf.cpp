@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <complex>
-#include <functional>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -14,49 +12,74 @@ namespace {
 
 constexpr const char* not_computed = "the eigenvalues of the Jacobian could not be computed";
 
+constexpr double same_crossing = 1e-8;  // real parts, of the largest eigenvalue: pairs that cross together
+
 // The eigenvalues of J by falling real parts, for all monitors of one place: computed where J is another one.
 class Spectrum {
  public:
-  explicit Spectrum(Vector scales) : scales_(std::move(scales)) {}
-
   std::complex<double> eigenvalue(const Jacobian& jacobian, std::size_t k) {
-    to_dense(jacobian, J_);
-    if (eigenvalues_.empty() || J_ != at_) {
-      at_ = J_;
-      solver_.compute(at_, false);
-      if (solver_.info() != Eigen::Success) throw std::runtime_error(not_computed);
-      const auto& all = solver_.eigenvalues();
-      eigenvalues_.assign(all.begin(), all.end());
-      std::stable_sort(eigenvalues_.begin(), eigenvalues_.end(),
-                       [](const auto& x, const auto& y) { return x.real() > y.real(); });
-    }
+    compute(jacobian);
     return eigenvalues_[k];
   }
 
-  // Of the pair nearest to the imaginary axis.
-  EventData hopf(const Jacobian& jacobian) {
-    to_dense(jacobian, J_);
-    const Eigen::EigenSolver<Matrix> solver(J_);
-    Eigen::Index best = -1;
-    for (Eigen::Index i = 0; i < J_.rows(); ++i) {
-      const auto mu = solver.eigenvalues()[i];
-      if (mu.imag() > 0 && (best < 0 || std::abs(mu.real()) < std::abs(solver.eigenvalues()[best].real())))
-        best = i;
+  // Of the k-th eigenvalue, on the imaginary axis to rounding. Which of several pairs that cross together the
+  // k-th is, rounding decides: they are told apart by their frequencies, the first of them having the lowest.
+  EventData hopf(const Jacobian& jacobian, std::size_t k, const Vector& scales) {
+    compute(jacobian);
+    double largest = 0;
+    for (const auto& each : eigenvalues_) largest = std::max(largest, std::abs(each));
+    std::size_t rank = 0;
+    std::vector<double> frequencies;
+    for (std::size_t i = 0; i < eigenvalues_.size(); ++i) {
+      const auto each = eigenvalues_[i];
+      if (!(each.imag() > 0) || std::abs(each.real() - eigenvalues_[k].real()) > same_crossing * largest)
+        continue;
+      if (i < k) ++rank;
+      frequencies.push_back(each.imag());
     }
-    if (best < 0) return {};
-    Eigen::VectorXcd z = solver.eigenvectors().col(best).cwiseQuotient(scales_.cast<std::complex<double>>());
+    if (rank >= frequencies.size()) return {};
+    std::sort(frequencies.begin(), frequencies.end());
+    return with_vector(frequencies, rank, scales);
+  }
+
+ private:
+  void compute(const Jacobian& jacobian) {
+    to_dense(jacobian, J_);
+    if (!eigenvalues_.empty() && J_ == at_) return;
+    at_ = J_;
+    solver_.compute(at_, false);
+    if (solver_.info() != Eigen::Success) throw std::runtime_error(not_computed);
+    const auto& all = solver_.eigenvalues();
+    eigenvalues_.assign(all.begin(), all.end());
+    std::stable_sort(eigenvalues_.begin(), eigenvalues_.end(),
+                     [](const auto& x, const auto& y) { return x.real() > y.real(); });
+  }
+
+  EventData with_vector(const std::vector<double>& frequencies, std::size_t rank, const Vector& scales) {
+    const Eigen::EigenSolver<Matrix> solver(J_);
+    const auto& all = solver.eigenvalues();
+    // The pairs nearest to the axis, as many as cross together, in the order of their frequencies.
+    std::vector<Eigen::Index> pairs;
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+      if (all[i].imag() > 0) pairs.push_back(i);
+    if (pairs.size() < frequencies.size()) return {};
+    std::stable_sort(pairs.begin(), pairs.end(), [&](Eigen::Index i, Eigen::Index j) {
+      return std::abs(all[i].real()) < std::abs(all[j].real());
+    });
+    pairs.resize(frequencies.size());
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [&](Eigen::Index i, Eigen::Index j) { return all[i].imag() < all[j].imag(); });
+    const Eigen::Index chosen = pairs[rank];
+    Eigen::VectorXcd z = solver.eigenvectors().col(chosen).cwiseQuotient(scales.cast<std::complex<double>>());
     z /= z.norm();
     // By the phase that makes sum z_i^2 = |a|^2 - |b|^2 + 2i a . b real and not negative.
     z *= std::polar(1.0, -0.5 * std::arg(z.cwiseProduct(z).sum()));
     Eigen::Index largest;
     z.real().cwiseAbs().maxCoeff(&largest);
     if (z[largest].real() < 0) z = -z;
-    return Hopf{solver.eigenvalues()[best].imag(), z.real().cwiseProduct(scales_),
-                z.imag().cwiseProduct(scales_)};
+    return Hopf{all[chosen].imag(), z.real().cwiseProduct(scales), z.imag().cwiseProduct(scales)};
   }
 
- private:
-  Vector scales_;
   Matrix J_, at_;
   Eigen::EigenSolver<Matrix> solver_;
   std::vector<std::complex<double>> eigenvalues_;
@@ -81,17 +104,18 @@ std::vector<Monitor> hopf_monitors(const Problem& problem) {
     throw std::invalid_argument("Hopf points are looked for with at most " +
                                 std::to_string(largest_spectrum) + " unknowns, not " + std::to_string(n) +
                                 ": all eigenvalues are computed at each point");
-  const auto spectrum = std::make_shared<Spectrum>(problem.scales());
+  const Vector scales = problem.scales();
   std::vector<Monitor> monitors(static_cast<std::size_t>(n));
   for (std::size_t k = 0; k < monitors.size(); ++k) {
+    const auto eigenvalue = [k](const Accepted& now) {
+      return now.scratch.get<Spectrum>().eigenvalue(now.at.jacobian(), k);
+    };
     monitors[k].name = "hopf";
-    monitors[k].value = [=](const Accepted& now) {
-      return spectrum->eigenvalue(now.at.jacobian(), k).real();
+    monitors[k].value = [=](const Accepted& now) { return eigenvalue(now).real(); };
+    monitors[k].is_event = [=](const Accepted& now) { return eigenvalue(now).imag() > 0; };  // once a pair
+    monitors[k].describe = [=](const Accepted& now) {
+      return now.scratch.get<Spectrum>().hopf(now.at.jacobian(), k, scales);
     };
-    monitors[k].is_event = [=](const Accepted& now) {
-      return spectrum->eigenvalue(now.at.jacobian(), k).imag() != 0;
-    };
-    monitors[k].describe = [=](const Accepted& now) { return spectrum->hopf(now.at.jacobian()); };
   }
   return monitors;
 }

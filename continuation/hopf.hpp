@@ -11,8 +11,8 @@
 //   - several pairs that cross within one step are zeros of different s_k, and all are found;
 //   - a pair and a real eigenvalue within one step leave at least one s_k that the pair alone has changed.
 // What cancels is a pair that crosses and another one that crosses back within one step.
-// A pair is a zero of two neighbours, s_k = s_(k+1), which is one event; so are pairs that cross at one
-// place.
+// A pair is a zero of two neighbours, s_k = s_(k+1), which is one event, that of the eigenvalue with a
+// positive imaginary part. Pairs that cross at one place are as many events, by rising frequencies.
 //
 // The sign convention is that of u' = F: negative real parts are stable. -F has the same Hopf points.
 
@@ -27,9 +27,9 @@ namespace arcslip::continuation {
 /// this.
 constexpr int largest_spectrum = 500;
 
-/// The monitors of s_1 to s_n, each called "hopf"; to be used together, for one trace at a time. Their events
-/// carry Hopf, with omega > 0, and a + ib normalised by |a|^2 + |b|^2 = 1, a . b = 0, |a| >= |b| in the
-/// scales of the problem, and the component of a that is largest in scales positive. Throws
+/// The monitors of s_1 to s_n, each called "hopf"; to be used together. Copies serve several traces at a
+/// time. Their events carry Hopf, with omega > 0, and a + ib normalised by |a|^2 + |b|^2 = 1, a . b = 0, |a|
+/// >= |b| in the scales of the problem, and the component of a that is largest in scales positive. Throws
 /// std::invalid_argument for more than largest_spectrum unknowns. A Jacobian that is an operator, or a QR
 /// that does not converge, ends the branch (StopReason::monitor_failed).
 std::vector<Monitor> hopf_monitors(const Problem& problem);

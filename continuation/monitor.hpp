@@ -4,6 +4,7 @@
 #include <arcslip/continuation/branch.hpp>
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/problem.hpp>
+#include <arcslip/continuation/scratch.hpp>
 
 #include <functional>
 #include <string>
@@ -22,6 +23,7 @@ struct Accepted {
   Evaluator& at;
   const LinearSolver& bordered;
   double parameter;  // value of the free one
+  Scratch& scratch;  // of this trace: what monitors keep between calls
 };
 
 /// Which changes of sign count, along the branch in the direction of travel.
@@ -31,6 +33,8 @@ enum class Crossing { any, falling, rising };
 /// at.
 enum class MonitorKind { zero, branch_point, kink };
 
+/// Its functions are called by one trace at a time, and copies of it by several at once: what they change
+/// beside their own variables is to stand in Accepted::scratch.
 struct Monitor {
   std::string name;
   std::function<double(const Accepted&)> value;

@@ -89,7 +89,7 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
 Accepted accepted(Corrector& at, const Place& place) {
   const Eigen::Index n = place.v.size() - 1;
   return {place.v.head(n), at.parameters(), place.tangent, place.arclength,
-          at.evaluator(),  at.factors(),    place.v[n]};
+          at.evaluator(),  at.factors(),    place.v[n],    at.scratch()};
 }
 
 void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place) {

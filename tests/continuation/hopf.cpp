@@ -2,6 +2,8 @@
 
 #include "continuation/hopf_problems.hpp"
 
+#include <Eigen/LU>
+
 #include <arcslip/continuation/hopf.hpp>
 
 #include <algorithm>
@@ -213,4 +215,38 @@ TEST_CASE("Hopf points are refused where not all eigenvalues can be computed") {
   const auto applied = from_functions(f);
   Matrix dense;
   REQUIRE_THROWS_AS(to_dense(applied->evaluator()->jacobian(), dense), std::invalid_argument);
+}
+
+TEST_CASE("two pairs that cross at one parameter are two events, each with its frequency and its vector") {
+  // Blocks [p -w; w p] and [2p -v; v 2p], mixed by a similarity, with frequencies apart or equal.
+  for (const double v : {2.5, 1.0})
+    for (const double rate : {2.0, 1.0}) {
+      Matrix S = Matrix::Identity(4, 4);
+      S(0, 2) = 0.3, S(1, 3) = -0.2, S(3, 0) = 0.1;
+      const Matrix inverse = S.inverse();
+      const auto jacobian = [=](double p) {
+        Matrix A = Matrix::Zero(4, 4);
+        A.topLeftCorner(2, 2) << p, -1, 1, p;
+        A.bottomRightCorner(2, 2) << rate * p, -v, v, rate * p;
+        return Matrix(S * A * inverse);
+      };
+      const auto problem = from_functions(
+          4, {parameter("p", -1)}, [=](In u, In p, Out F) { F = jacobian(p[0]) * u; },
+          [=](In, In p, Eigen::Ref<Matrix> J) { J = jacobian(p[0]); });
+      const Branch branch = along_zero(problem, -0.913, 1, 0.31);
+      CAPTURE(v, rate);
+      REQUIRE(branch.events.size() == 2);
+      std::vector<double> frequencies;
+      for (const Event& event : branch.events) {
+        CHECK(std::abs(event.point.parameter) < 1e-11);
+        const auto& hopf = std::get<Hopf>(event.data);
+        const Matrix J = jacobian(event.point.parameter);
+        CHECK((J * hopf.real + hopf.frequency * hopf.imaginary).norm() < 1e-10);
+        CHECK((J * hopf.imaginary - hopf.frequency * hopf.real).norm() < 1e-10);
+        frequencies.push_back(hopf.frequency);
+      }
+      std::sort(frequencies.begin(), frequencies.end());
+      CHECK(frequencies[0] == Approx(1).epsilon(1e-11));
+      CHECK(frequencies[1] == Approx(v).epsilon(1e-11));
+    }
 }
