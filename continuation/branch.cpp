@@ -33,6 +33,8 @@ const char* name(StopReason reason) {
       return "not_evaluated";
     case StopReason::monitor_failed:
       return "monitor_failed";
+    case StopReason::wrong_jacobian:
+      return "wrong_jacobian";
   }
   return "unknown";
 }

@@ -77,6 +77,8 @@ struct Event {
 ///                    threw, as did its linear solver: the message has its words. value is the step that was
 ///                    tried, limit the smallest.
 ///   monitor_failed   a function of a monitor threw: the message names it and has its words. value is p there.
+///   wrong_jacobian   an entry of J or dF/dp is wrong, which the message names, and the branch no longer gets on:
+///                    value is the relative error of the entry, limit what would have been let pass.
 // clang-format on
 enum class StopReason {
   boundary,
@@ -90,7 +92,8 @@ enum class StopReason {
   memory_limit,
   user,
   not_evaluated,
-  monitor_failed
+  monitor_failed,
+  wrong_jacobian
 };
 
 const char* name(StopReason reason);
@@ -113,8 +116,8 @@ struct Branch {
   Counts counts;
   std::string linear_solver;  // the one that was used
 
-  /// What the trace could not see, a sentence each: monitors that are not a number at a point, so that their
-  /// zeros beside it are no events.
+  /// What makes the branch doubtful, a sentence each: monitors that are not a number at a point, so that
+  /// their zeros beside it are no events; a Jacobian that is wrong, so that tangents and events may be.
   std::vector<std::string> warnings;
 };
 

@@ -77,6 +77,7 @@ Monitor fold_monitor() {
   monitor.name = "fold";
   monitor.value = [](const Accepted& now) { return now.tangent[now.tangent.size() - 1]; };
   monitor.quantity = [](const Accepted& now) { return now.parameter; };
+  monitor.quantity_is_parameter = true;
   monitor.describe = describe;
   monitor.at_branch_points = false;
   return monitor;

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 namespace arcslip::continuation {
@@ -15,19 +13,6 @@ namespace {
 constexpr double difference_step = 6e-6;  // the cube root of the rounding
 constexpr double wider = 4;               // another step, in steps
 constexpr double agreement = 1e-4;        // relative differences below are not worth a message
-constexpr int largest_to_check = 500;     // unknowns, where a failure asks for a check of the Jacobian
-
-std::string describe(const JacobianError& worst, const Problem& problem) {
-  std::ostringstream text;
-  text.precision(6);
-  text << "the Jacobian is wrong: dF[" << worst.row << "]/d";
-  if (worst.column < problem.size())
-    text << "u[" << worst.column << "]";
-  else
-    text << "(" << problem.parameters()[static_cast<std::size_t>(worst.column - problem.size())].name << ")";
-  text << " is given as " << worst.given << ", differences of F say " << worst.difference;
-  return text.str();
-}
 
 }  // namespace
 
@@ -85,16 +70,6 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
   }
   if (worst.relative > agreement) worst.message = describe(worst, problem);
   return worst;
-}
-
-std::string doubt_of_jacobian(const Problem& problem, In u, In p) {
-  if (problem.size() > largest_to_check) return {};
-  try {
-    const std::string doubt = check_jacobian(problem, u, p).message;
-    return doubt.empty() ? doubt : "; " + doubt;
-  } catch (const std::exception&) {
-    return {};
-  }
 }
 
 }  // namespace arcslip::continuation

@@ -70,6 +70,10 @@ struct Monitor {
 
   /// Whether a zero of value() at a branch point is an event of this monitor as well. False: of dp/ds.
   bool at_branch_points = true;
+
+  /// quantity() is the free parameter, whose scale is known: extremes that differ by less than 1e-9 of it are
+  /// not looked for by shorter steps, as in a tail in which p falls to 0.
+  bool quantity_is_parameter = false;
 };
 
 /// dp/ds = 0: a fold in the free parameter, described by its null vectors and its curvature; at a nonsmooth

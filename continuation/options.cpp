@@ -17,6 +17,30 @@ void require(bool holds, const char* what, double value, const char* bound) {
 
 }  // namespace
 
+const char* name(Rejected why) {
+  switch (why) {
+    case Rejected::not_converged:
+      return "not_converged";
+    case Rejected::not_evaluated:
+      return "not_evaluated";
+    case Rejected::singular:
+      return "singular";
+    case Rejected::turn:
+      return "turn";
+    case Rejected::another_branch:
+      return "another_branch";
+    case Rejected::parameter_step:
+      return "parameter_step";
+    case Rejected::curve:
+      return "curve";
+    case Rejected::quantity:
+      return "quantity";
+    case Rejected::end_of_window:
+      return "end_of_window";
+  }
+  return "unknown";
+}
+
 void check(const Options& o) {
   require(std::isfinite(o.lower), "options.lower", o.lower, "finite");
   require(std::isfinite(o.upper) && o.upper > o.lower, "options.upper", o.upper,

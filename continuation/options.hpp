@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 namespace arcslip::continuation {
 
@@ -46,6 +47,33 @@ struct StepOptions {
   double contraction = 0.3;    // of the corrector's first two corrections, aimed at
 };
 
+/// Why a step was tried in vain: its corrector did not converge, or the problem could not be evaluated; the
+/// matrix was singular; the tangent turned by more than largest_angle; the branch would have gone back, or to
+/// another branch near by; the parameter moved too far; the curve is not within curve_tolerance; a monitored
+/// quantity may have extremes between the points; the end of the window was not reached.
+enum class Rejected {
+  not_converged,
+  not_evaluated,
+  singular,
+  turn,
+  another_branch,
+  parameter_step,
+  curve,
+  quantity,
+  end_of_window
+};
+
+const char* name(Rejected why);
+
+/// A step that was tried in vain from the last point of a branch.
+struct Rejection {
+  Rejected why = Rejected::not_converged;
+  double arclength = 0, parameter = 0;  // of the last point
+  double step = 0;                      // that was tried, in scaled arclength
+  double value = 0, limit = 0;          // the numbers that decided it, where there are such
+  std::string words;                    // what the problem threw; the monitor of the quantity
+};
+
 struct Options {
   double lower = 0,
          upper = 0;  // window of the free parameter, lower < upper, within the parameter's own bounds
@@ -62,6 +90,15 @@ struct Options {
   /// Asked before each attempt of a step, so that a trace whose steps are rejected can be stopped, too: false
   /// ends it with reason `user`. Unlike an observer it needs no evaluation.
   std::function<bool()> go_on{};
+
+  /// J and dF/dp are compared with differences of F along a direction or two: at points 1, 8, 64, 512 ...,
+  /// and where Newton's method does not converge as it should, as seldom (doubt_jacobian() in
+  /// jacobian_check.hpp). What is found is told in Branch::warnings. For derivatives that are known to be
+  /// right: false.
+  bool check_jacobian = true;
+
+  /// Called at each step that was tried in vain, with the reason: for a log.
+  std::function<void(const Rejection&)> on_rejection{};
 };
 
 /// Throws std::invalid_argument with the value and its bound.

@@ -160,6 +160,11 @@ void fields(Visit&& visit, auto& x) {
     visit("rounding", x.rounding);
   } else if constexpr (is<T, Course>) {
     visit("last", x.last), visit("waiting", x.waiting), visit("side", x.side);
+  } else if constexpr (is<T, Linearization>) {
+    visit("v", x.v), visit("row", x.row);
+  } else if constexpr (is<T, FactorMemory>) {
+    visit("factors", x.factors), visit("pivots", x.pivots), visit("pivots_kept", x.pivots_kept);
+    visit("contraction", x.contraction);
   } else if constexpr (is<T, State::Turn>) {
     visit("angle", x.angle), visit("step", x.step), visit("end", x.end);
   } else {
@@ -170,6 +175,11 @@ void fields(Visit&& visit, auto& x) {
     visit("step", x.step), visit("last_step", x.last_step), visit("rejections", x.rejections);
     visit("trouble_end", x.trouble_end), visit("unresolved_end", x.unresolved_end);
     visit("unresolved_step", x.unresolved_step), visit("turn", x.turn), visit("courses", x.courses);
+    if (visit.holds("factors")) {  // nor have they these
+      visit("longest", x.longest), visit("slow", x.slow), visit("jacobian_doubt", x.jacobian_doubt);
+      visit("jacobian_error", x.jacobian_error), visit("factors_fit", x.factors_fit);
+      visit("factors", x.factors);
+    }
   }
 }
 

@@ -1,8 +1,9 @@
 #pragma once
-// Where a trace stands: all that decides how it goes on. Saved and resumed, it goes on bit for bit as the
-// trace that was saved.
+// Where a trace stands: all that decides how it goes on. Resumed from it, a trace goes on bit for bit as the
+// one that was saved, which saving does not change.
 
 #include <arcslip/continuation/branch.hpp>
+#include <arcslip/continuation/corrector.hpp>
 #include <arcslip/continuation/place.hpp>
 
 #include <cstdint>
@@ -42,6 +43,12 @@ struct State {
     double angle = 0, step = 0, end = -1;
   } turn;
   std::vector<Course> courses;  // of the monitors
+  double longest = 0;           // of the steps so far
+  int slow = 0;                 // corrections that did not converge as Newton's method does
+  std::string jacobian_doubt;   // the entry of J that was found to be wrong
+  double jacobian_error = 0;    // its relative error
+  bool factors_fit = false;     // those of the last correction serve the next one
+  FactorMemory factors;         // as the trace was saved
 };
 
 /// As JSON ("arcslip-state-1"): every number to its last bit.

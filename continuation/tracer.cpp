@@ -18,6 +18,10 @@ constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
 constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: no shorter step tells two branches apart
 constexpr double parameter_overrun = 1.5;   // of the largest |dp| of a step
 constexpr double visible_corner = 0.05;     // rad: a kink of less is not seen in a curve
+constexpr double endless_tail =
+    1e-12;  // of the parameter's scale: so near to a bound a branch that does not reach it ends
+constexpr double tail_before = 1e-9;     // and its last point was so near
+constexpr double least_power = 0.1;      // of the distance from a bound, with which u comes to rest there
 constexpr double singular_bound = 1e-6;  // relative to p: so near to a singular bound a branch has reached it
 
 }  // namespace
@@ -38,13 +42,16 @@ bool Tracer::notify() {
 bool Tracer::step() try {
   if (s_.ended) return false;
   if (!s_.begun) return begin();
+  events_->forget();
   for (;;) {
     if (options_.go_on && !options_.go_on()) return end(StopReason::user, 1, 1, "stopped by the caller");
+    if (!gets_on())
+      return end(StopReason::wrong_jacobian, s_.jacobian_error, largest_jacobian_error,
+                 "the branch gets no further: " + s_.jacobian_doubt);
     const double smallest = options_.step.smallest * (1 + main_->norm_u(s_.here.v));
     if (s_.step < smallest)
       return end(evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, s_.step, smallest,
-                 evaluated_ ? "the step fell below its smallest size after rejections" +
-                                  doubt_of_jacobian(*problem_, s_.here.v.head(n_), main_->parameters())
+                 evaluated_ ? "the step fell below its smallest size after rejections" + doubt(s_.here.v)
                             : "the problem could not be evaluated ahead, however short the step" +
                                   because(failure_));
     switch (attempt()) {
@@ -54,12 +61,15 @@ bool Tracer::step() try {
         return false;
       case Attempt::unresolved:
         ++s_.branch.counts.rejected_steps;
-        factors_fit_ = false;
+        log_rejection();
+        s_.factors_fit = false;
         s_.step *= unresolved_factor();
         break;
       case Attempt::rejected:
         ++s_.branch.counts.rejected_steps;
-        factors_fit_ = false;
+        log_rejection();
+        if (rejection_.why == Rejected::not_converged) suspect(next_.v);
+        s_.factors_fit = false;
         s_.has_before = false;
         if (!main_->failure().empty()) {
           evaluated_ = false;
@@ -70,7 +80,7 @@ bool Tracer::step() try {
           s_.rejections = 0;
         }
         if (++s_.rejections >= rejections_before_a_corner && corner()) return !s_.ended;
-        factors_fit_ = false;
+        s_.factors_fit = false;
         s_.step *= rejection;
         break;
     }
@@ -97,31 +107,40 @@ Tracer::Attempt Tracer::attempt() {
   curve_error_ = 0;
   predict(next_.v);
   main_->border_row(s_.here.tangent, row_);
-  const Correction correction = main_->correct(next_.v, row_, factors_fit_, options_.newton.corrector);
+  const Correction correction = main_->correct(next_.v, row_, s_.factors_fit, options_.newton.corrector);
   evaluated_ = correction.evaluated && main_->failure().empty();
   failure_ = main_->failure();
-  if (!correction.converged) return Attempt::rejected;
+  if (!correction.converged)
+    return refuse(correction.singular ? Rejected::singular
+                  : evaluated_        ? Rejected::not_converged
+                                      : Rejected::not_evaluated,
+                  correction.last, options_.newton.tolerance);
+  if (correction.linear) suspect(next_.v);
 
   v_ = next_.v - s_.here.v;
   double length = std::sqrt(main_->dot(v_, v_));
-  if (!(length > 0) || !settle(*main_, next_) || went_back(next_)) return Attempt::rejected;
+  if (!(length > 0) || !settle(*main_, next_)) return refuse(Rejected::singular, length, 0);
+  if (went_back(next_)) return refuse(Rejected::another_branch, 0, 0);
 
   const double turn = angle_between(
       std::min(main_->dot(next_.tangent, s_.here.tangent), main_->dot(v_, s_.here.tangent) / length));
   bool kink = false;
   if (turn > options_.step.largest_angle) {
     kink = is_kink(turn, next_);
-    if (!kink || next_.orientation != s_.here.orientation) return Attempt::rejected;
+    if (!kink || next_.orientation != s_.here.orientation)
+      return refuse(Rejected::turn, turn, options_.step.largest_angle);
   } else if (next_.orientation != s_.here.orientation) {
     // A jump to a branch near by, unless branches cross here, or it stays however short the step.
     next_.arclength = s_.here.arclength + length;
     crossing_ = events_->branch_point(s_.here, next_);
-    if (!crossing_ && s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v))) return Attempt::rejected;
+    if (!crossing_ && s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v)))
+      return refuse(Rejected::another_branch, 0, 0);
     if (!crossing_) crossing_ = unlocated_branch_point(s_.here, next_);
   }
   // The tangent may turn towards the parameter within the step.
   const double moved = std::abs(next_.v[n_] - s_.here.v[n_]);
-  if (!kink && moved > parameter_overrun * largest_parameter_step()) return Attempt::unresolved;
+  if (!kink && moved > parameter_overrun * largest_parameter_step())
+    return refuse(Rejected::parameter_step, moved, largest_parameter_step(), Attempt::unresolved);
   next_.arclength = s_.here.arclength + length;
   corners_ = events_->corners(s_.here, next_);
   if (!corners_.empty()) {
@@ -129,9 +148,10 @@ Tracer::Attempt Tracer::attempt() {
     length = last.arclength - s_.here.arclength + distance(*main_, last.v, next_.v);
     next_.arclength = s_.here.arclength + length;
   }
-  if (!measure(next_)) return Attempt::rejected;
+  if (!measure(next_)) return refuse(Rejected::singular, 0, 0);
   if (next_.piece == s_.here.piece) curve_error_ = curve_error(length);
-  if (curve_error_ > 1 || !resolved(length)) return Attempt::unresolved;
+  if (curve_error_ > 1) return refuse(Rejected::curve, curve_error_, 1, Attempt::unresolved);
+  if (!resolved(length)) return refuse(Rejected::quantity, 0, 0, Attempt::unresolved);
   const double next_ds = kink ? s_.turn.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);
 }
@@ -166,9 +186,15 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
     if (!draw_back(*main_, from, *exit, orientation, next_, row_) || !measure(next_)) {
       const double left = std::abs(bound - s_.here.v[n_]);
       if (left > singular_bound * std::max(std::abs(bound), main_->parameter_scale()))
-        return Attempt::rejected;
-      end(StopReason::boundary, s_.here.v[n_], bound,
-          "reached the end of the window at " + text(bound) + ", a singular point");
+        return refuse(Rejected::end_of_window, left, 0);
+      if (!runs_along(bound)) {
+        end(StopReason::boundary, s_.here.v[n_], bound,
+            "reached the end of the window at " + text(bound) + ", a singular point");
+      } else if (left > endless_tail * main_->parameter_scale()) {
+        return refuse(Rejected::end_of_window, left, 0);
+      } else {
+        end_in_tail(bound);
+      }
       return Attempt::ended;
     }
     if (crossing_ && (crossing_->place.v[n_] < options_.lower || crossing_->place.v[n_] > options_.upper))
@@ -192,7 +218,7 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
       return Attempt::ended;
     }
     main_->border_row(next_.tangent, row_);
-    if (!main_->linearize(next_.v, row_)) return Attempt::rejected;
+    if (!main_->linearize(next_.v, row_)) return refuse(Rejected::singular, 0, 0);
   }
   const double rounding = rounding_of_home(*main_, s_.start, options_.newton.rounding_level);
   for (std::size_t k = 0; k < corners_.size() && s_.here.arclength > 0; ++k) {
@@ -206,11 +232,39 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
       end(StopReason::closed, miss, rounding, "came back to the start, a kink: the branch is closed");
     return Attempt::ended;
   }
+  s_.longest = std::max(s_.longest, length);
+  evaluated_ = true;
   s_.has_before = !kink || !corners_.empty();
-  factors_fit_ = !kink;
+  s_.factors_fit = !kink;
   if (!accept(std::move(next_), correction)) return Attempt::ended;
   s_.step = limited(next_ds);
+  for (const double bound : {options_.lower, options_.upper})
+    if (std::abs(bound - s_.here.v[n_]) <= endless_tail * main_->parameter_scale() &&
+        std::abs(bound - s_.before.v[n_]) <= tail_before * main_->parameter_scale() && runs_along(bound)) {
+      end_in_tail(bound);
+      return Attempt::ended;
+    }
   return within_limits() ? Attempt::accepted : Attempt::ended;
+}
+
+// Whether the branch comes nearer to a bound of the window for ever: with the distance x = |p - bound|, x
+// |du/dp| is how much u changes until x is 1/e of what it is. Towards a point at the bound it falls as a
+// power of x, 1/2 at a fold; where u goes to infinity it does not.
+bool Tracer::runs_along(double bound) const {
+  const auto change = [&](const Place& at) {
+    return std::abs(bound - at.v[n_]) * main_->norm_u(at.tangent) / std::abs(at.tangent[n_]);
+  };
+  const double x = std::abs(bound - s_.here.v[n_]), x_before = std::abs(bound - s_.before.v[n_]);
+  if (!(x > 0 && x < x_before)) return false;
+  const double now = change(s_.here), before = change(s_.before);
+  return std::isfinite(now) && std::log(now / before) > least_power * std::log(x / x_before);
+}
+
+void Tracer::end_in_tail(double bound) {
+  end(StopReason::boundary, s_.here.v[n_], bound,
+      "came within " + text(std::abs(bound - s_.here.v[n_])) + " of the end of the window at " + text(bound) +
+          ", which it does not reach: it goes to infinity along it, |u| = " + text(main_->norm_u(s_.here.v)) +
+          " in scales");
 }
 
 bool Tracer::within_limits() {
@@ -265,6 +319,7 @@ bool Tracer::accept(Place&& place, const Correction& correction) {
   else
     s_.before = corners_.back().beyond;
   std::swap(s_.here, place);
+  if (is_due(s_.branch.counts.points)) look_at_jacobian(s_.here.v);
   if (!go_on || !notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }

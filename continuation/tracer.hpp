@@ -53,9 +53,8 @@ class Tracer {
   /// One more point (the first call corrects the start). False once the branch has ended: see branch().stop.
   bool step();
 
-  /// Where the trace stands. Factors and evaluators are made anew, so that the trace that goes on and the one
-  /// that is resumed are the same bit for bit.
-  State save();
+  /// Where the trace stands. This one goes on as if it had not been saved.
+  State save() const;
 
   const Branch& branch() const { return s_.branch; }
   Branch take() { return std::move(s_.branch); }
@@ -65,6 +64,13 @@ class Tracer {
 
   void make_tools();
   bool begin();
+  Attempt refuse(Rejected why, double value, double limit, Attempt as = Attempt::rejected);
+  void log_rejection();
+  void suspect(const Vector& v);
+  void look_at_jacobian(const Vector& v);
+  std::string doubt(const Vector& v);
+  bool gets_on() const;
+  static bool is_due(long times);
   // A turn that keeps so much of itself over so much shorter a step is a kink.
   static constexpr double kink_step = 0.25;
 
@@ -91,6 +97,8 @@ class Tracer {
   bool end_at(const Place& place);
   bool notify();
   bool within_limits();
+  bool runs_along(double bound) const;
+  void end_in_tail(double bound);
   double curve_error(double length);
   double unresolved_factor() const;
   double choose_step(double angle, const Correction& correction) const;
@@ -107,7 +115,8 @@ class Tracer {
   std::unique_ptr<Corrector> main_;
   std::unique_ptr<EventLocator> events_;
   Place next_;
-  bool factors_fit_ = false;
+  Rejection rejection_;          // the last one
+  std::size_t unresolved_ = 0;   // the monitor whose quantity it was
   bool evaluated_ = true;        // the last rejection came from the corrector, not from the problem
   double curve_error_ = 0;       // of the curve along the last step, over that allowed
   double chord_error_ = 0;       // of the monitored quantities in the last step, over that allowed

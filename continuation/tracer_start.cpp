@@ -15,6 +15,8 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double first_share_of_window = 0.01;  // |dp| of a step where the user names none
+constexpr const char* remedy =
+    ": on a fold or a branch point, p tells no way to go, and a start needs a tangent (Start::tangent)";
 
 }  // namespace
 
@@ -61,16 +63,18 @@ void Tracer::make_tools() {
                                       options_.linear_solver);
   events_ = std::make_unique<EventLocator>(problem_, s_.p, s_.free, options_, monitors_, s_.courses,
                                            s_.branch.counts);
-  factors_fit_ = false;
+  main_->restore(s_.factors);
+  s_.factors = {};
   next_ = s_.here;
   next_.tangent.resize(n_ + 1);
   row_.resize(n_ + 1);
   v_.resize(n_ + 1);
 }
 
-State Tracer::save() {
-  make_tools();
-  return s_;
+State Tracer::save() const {
+  State state = s_;
+  state.factors = main_->memory();
+  return state;
 }
 
 bool Tracer::begin() {
@@ -81,20 +85,24 @@ bool Tracer::begin() {
   const Correction correction = main_->correct(s_.here.v, row_, false);
   if (correction.singular)
     return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
-               "the linearization at the start is singular" + because(main_->failure()));
+               "the linearization at the start is singular" +
+                   (main_->failure().empty() ? given ? "" : remedy : because(main_->failure())));
+  if (!correction.converged && correction.evaluated) {
+    std::string doubts = doubt(s_.here.v);
+    if (doubts.empty() && correction.linear && !given) doubts = std::string("; it converges slowly") + remedy;
+    return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
+               "the corrector did not converge at the start (" + std::to_string(correction.iterations) +
+                   " iterations)" + doubts + because(main_->failure()));
+  }
   if (!correction.converged)
-    return end(correction.evaluated ? StopReason::start_failed : StopReason::not_evaluated, correction.last,
-               options_.newton.tolerance,
-               (correction.evaluated ? "the corrector did not converge at the start (" +
-                                           std::to_string(correction.iterations) + " iterations)" +
-                                           doubt_of_jacobian(*problem_, s_.here.v.head(n_), s_.p)
-                                     : "the problem could not be evaluated at the start") +
-                   because(main_->failure()));
+    return end(StopReason::not_evaluated, correction.last, options_.newton.tolerance,
+               "the problem could not be evaluated at the start" + because(main_->failure()));
   if (!settle(*main_, s_.here)) {
     const std::string& failure = main_->failure();
     return end(failure.empty() ? StopReason::start_failed : StopReason::not_evaluated, 0, 0,
-               failure.empty() ? "the linearization at the start is singular"
-                               : "the problem could not be evaluated at the start: " + failure);
+               failure.empty()
+                   ? std::string("the linearization at the start is singular") + (given ? "" : remedy)
+                   : "the problem could not be evaluated at the start: " + failure);
   }
   if (!given && s_.direction < 0) s_.here.reverse();
   s_.branch.linear_solver = main_->factors().name();
@@ -108,7 +116,8 @@ bool Tracer::begin() {
   evaluate(monitors_, *main_, s_.here);
   warn_of_undefined(s_.here);
   s_.start = s_.before = s_.here;
-  factors_fit_ = false;  // their border row is that of the start
+  s_.factors_fit = false;  // their border row is that of the start
+  look_at_jacobian(s_.here.v);
   if (!notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return within_limits();
 }

@@ -124,8 +124,12 @@ bool Tracer::tells(const Place& from, const Place& to, double length) {
                                    ? chord_departure(from, to, m, length) / monitors_[m].chord_tolerance
                                    : 0;
     if (chord_error > chord_error_) chord_error_ = chord_error;
-    if ((!is_told(a, b, bend) || chord_error > 1) && size > quantity_rounding * std::abs(to.quantities[m]))
+    const double typical = std::max(std::abs(to.quantities[m]),
+                                    monitors_[m].quantity_is_parameter ? main_->parameter_scale() : 0.0);
+    if ((!is_told(a, b, bend) || chord_error > 1) && size > quantity_rounding * typical) {
+      unresolved_ = m;
       return false;
+    }
   }
   return true;
 }

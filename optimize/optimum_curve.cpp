@@ -213,6 +213,7 @@ void CurveOfOptima::piece() {
   continuation::Options options;
   options.lower = sigma().scaled(along_.lower);
   options.upper = sigma().scaled(along_.upper);
+  options.check_jacobian = false;
   options.step.largest_parameter = options_.step * (options.upper - options.lower);
   options.step.initial = step_;
   options.step.smallest = smallest_step;

@@ -18,6 +18,7 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   continuation::Options options;
   options.lower = -1;
   options.upper = 1;
+  options.check_jacobian = false;
   options.step.largest_parameter = 0.01;
   options.points = longest_ramp;
   options.go_on = go_on;

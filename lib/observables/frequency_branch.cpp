@@ -79,6 +79,7 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   continuation::Options options;
   options.lower = window.lower;
   options.upper = window.upper;
+  options.check_jacobian = false;
   options.step.largest_parameter = width / points_in_window;
   if (steps == Steps::events)
     options.step.largest_parameter = std::clamp(step_between_events * window.upper,

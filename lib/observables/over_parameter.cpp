@@ -18,6 +18,7 @@ continuation::Options OverParameter::options() const {
   continuation::Options options;
   options.lower = lower();
   options.upper = upper();
+  options.check_jacobian = false;
   options.step.largest_parameter =
       std::min(upper() - lower(), std::numeric_limits<double>::max()) / points_in_range;
   options.largest_state = resolvable;

@@ -124,3 +124,41 @@ TEST_CASE(
   CHECK_THROWS_WITH(check_jacobian(*line(), Vector{{0.0, 1.0}}, Vector{{0.0}}),
                     "a place of 2 unknowns and 1 parameters, the problem has 1 and 1");
 }
+
+TEST_CASE("a direction that is neither +1 nor -1 is refused") {
+  for (const int direction : {0, 5, -2}) {
+    Start start = at(0);
+    start.direction = direction;
+    CHECK_THROWS_WITH(trace(line(), start, window(0, 1)),
+                      "the direction of the start is " + std::to_string(direction) + ", must be +1 or -1");
+  }
+}
+
+TEST_CASE("parameters of one name, and a problem without any, are refused") {
+  const ResidualFunction residual = [](In u, In p, Out F) { F[0] = u[0] - (p.size() > 0 ? p[0] : 0); };
+  const auto twice = [&] {
+    return from_functions(1, {parameter("a", 0), parameter("b", 0), parameter("a", 1)}, residual);
+  };
+  CHECK_THROWS_AS(twice(), std::invalid_argument);
+  CHECK_THROWS_WITH(twice(), "the parameters 0 and 2 are both called \"a\"");
+  CHECK_THROWS_AS(from_functions(1, {}, residual), std::invalid_argument);
+  CHECK_THROWS_WITH(from_functions(1, {}, residual), "the problem has no parameters: one has to be free");
+}
+
+TEST_CASE("a start on a fold or a branch point is told to need a tangent") {
+  const auto parabola = from_functions(
+      1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = p[0] - u[0] * u[0]; },
+      [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = -2 * u[0]; });
+  const auto pitchfork = from_functions(
+      1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] * (p[0] - u[0] * u[0]); },
+      [](In u, In p, Eigen::Ref<Matrix> J) { J(0, 0) = p[0] - 3 * u[0] * u[0]; });
+  for (const auto& problem : {parabola, pitchfork})
+    for (const double u : {0.0, 1e-3}) {
+      const Branch branch = trace(problem, {Vector{{u}}, Vector{{0.0}}, 0, 1}, window(-1, 1));
+      CAPTURE(u, branch.stop.message);
+      CHECK(branch.stop.reason == StopReason::start_failed);
+      CHECK(branch.stop.message.find("a start needs a tangent (Start::tangent)") != std::string::npos);
+    }
+  Start start{Vector{{0.0}}, Vector{{0.0}}, 0, 1, Vector{{1.0, 0.0}}};
+  CHECK(trace(parabola, start, window(-1, 1)).stop.reason == StopReason::boundary);
+}

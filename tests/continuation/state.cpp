@@ -1,4 +1,4 @@
-// A trace that is saved and resumed is the same bit for bit.
+// A trace that is saved, or saved and resumed, is the one that was not, bit for bit.
 
 #include "catch.hpp"
 
@@ -36,9 +36,14 @@ void check_same(const Branch& a, const Branch& b) {
   CHECK(a.linear_solver == b.linear_solver);
 }
 
-// Saved after some points, in the middle of things, and at the end.
+// The trace that is never saved, those that are saved after some points, in the middle of things, and at the
+// end, and go on, and those that are resumed there.
 void check_resumed(const std::shared_ptr<const Problem>& problem, const Start& start, const Options& options,
                    const std::vector<Monitor>& monitors) {
+  Tracer never_saved(problem, start, options, monitors);
+  while (never_saved.step()) {
+  }
+  const std::string end = to_json(never_saved.save());
   for (int points : {0, 1, 2, 17, 60, 100000}) {
     Tracer whole(problem, start, options, monitors);
     for (int k = 0; k < points && whole.step(); ++k) {
@@ -49,8 +54,10 @@ void check_resumed(const std::shared_ptr<const Problem>& problem, const Start& s
     Tracer resumed(problem, state_from_json(saved), options, monitors);
     while (resumed.step()) {
     }
+    CAPTURE(points);
     check_same(whole.branch(), resumed.branch());
-    CHECK(to_json(whole.save()) == to_json(resumed.save()));
+    CHECK(to_json(whole.save()) == end);
+    CHECK(to_json(resumed.save()) == end);
   }
 }
 
@@ -122,4 +129,46 @@ TEST_CASE("a state whose free parameter the problem does not have is refused") {
   State state = tracer.save();
   state.free = 2;
   CHECK_THROWS_WITH(Tracer(cusp(), state, window(-1, 1)), "the free parameter of the state is number 2 of 2");
+}
+
+TEST_CASE("a trace that is saved at each point is the one that is not, as is one that is resumed from each") {
+  const auto sparse = from_functions(rod(30));
+  const auto bent = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) {
+    F[0] = u[0] * u[0] * u[0] - 2 * u[0] - p[0] + 0.1 * std::sin(5 * u[0]);
+  });
+  const auto gap = from_functions({.size = 2,
+                                   .parameters = {{"p", ""}},
+                                   .residual =
+                                       [](In u, In p, Out F) {
+                                         F << u[0] + 2 * std::max(0.0, u[0] - 0.2) + 0.5 * u[1] - p[0],
+                                             u[1] * u[1] * u[1] + u[1] - 0.5 * u[0];
+                                       },
+                                   .piece = [](In u, In) { return u[0] > 0.2 ? 1 : 2; }});
+  struct Case {
+    std::shared_ptr<const Problem> problem;
+    Start start;
+    Options options;
+    std::vector<Monitor> monitors;
+  };
+  const Monitor level{"level", [](const Accepted& now) { return now.u[0] - 0.11; }};
+  for (const Case& c :
+       {Case{sparse,
+             {Vector::Zero(30), Vector{{5.0}}, 0, 1},
+             window(5, 120),
+             {branch_point_monitor(), fold_monitor()}},
+        Case{bent, {Vector{{-2.0}}, Vector{{-4.0}}, 0, 1}, window(-6, 6), {fold_monitor(), level}},
+        Case{gap, {Vector::Zero(2), Vector{{0.0}}, 0, 1}, window(-1, 1), {kink_monitor(), level}}}) {
+    Tracer plain(c.problem, c.start, c.options, c.monitors), saved(c.problem, c.start, c.options, c.monitors);
+    auto resumed = std::make_unique<Tracer>(c.problem, c.start, c.options, c.monitors);
+    while (plain.step()) {
+    }
+    while (saved.step()) saved.save();
+    while (resumed->step())
+      resumed = std::make_unique<Tracer>(c.problem, state_from_json(to_json(resumed->save())), c.options,
+                                         c.monitors);
+    CHECK(plain.branch().points.size() > 20);
+    const std::string end = to_json(plain.save());
+    CHECK(to_json(saved.save()) == end);
+    CHECK(to_json(resumed->save()) == end);
+  }
 }

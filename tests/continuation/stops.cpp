@@ -58,21 +58,37 @@ TEST_CASE("start_failed: no solution near the start is said, and there are no po
 TEST_CASE("start_failed: a singular start is said") {
   const Branch branch = trace(scalar([](In u, In, Out F) { F[0] = 0 * u[0]; }), at(0.5, 0), window(0, 1));
   CHECK(branch.stop.reason == StopReason::start_failed);
-  CHECK(branch.stop.message == "the linearization at the start is singular");
+  CHECK(
+      branch.stop.message ==
+      "the linearization at the start is singular: on a fold or a branch point, p tells no way to go, and a "
+      "start needs a tangent (Start::tangent)");
   CHECK(branch.points.empty());
 }
 
-TEST_CASE("step_too_small: a wrong Jacobian ends the branch and keeps what there is") {
+TEST_CASE("wrong_jacobian: a Jacobian that becomes wrong ends the branch and keeps what there is") {
   const auto problem = from_functions(
       1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - std::sin(3 * p[0]); },
       [](In, In p, Eigen::Ref<Eigen::MatrixXd> J) { J(0, 0) = p[0] > 0.5 ? -0.4 : 1; });
   const Branch branch = trace(problem, at(0, 0), window(0, 1));
-  CHECK(branch.stop.reason == StopReason::step_too_small);
-  CHECK(branch.stop.value < branch.stop.limit);
+  CHECK(branch.stop.reason == StopReason::wrong_jacobian);
+  CHECK(branch.stop.value > branch.stop.limit);
   CHECK(branch.points.size() > 10);
   CHECK(branch.stop.message.find(
             "the Jacobian is wrong: dF[0]/du[0] is given as -0.4, differences of F say 1") !=
         std::string::npos);
+}
+
+TEST_CASE("step_too_small: a corner that tells no pieces ends the branch") {
+  const Branch branch =
+      trace(from_functions(
+                1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = p[0] + std::abs(u[0]) - 0.5; },
+                [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = u[0] < 0 ? -1 : 1; }),
+            at(-0.5, 0), window(-1, 1));
+  CAPTURE(branch.stop.message);
+  CHECK(branch.stop.reason == StopReason::step_too_small);
+  CHECK(branch.stop.value < branch.stop.limit);
+  CHECK(branch.points.size() > 10);
+  CHECK(branch.warnings.empty());
 }
 
 TEST_CASE("state_too_large: a pole is followed to the limit of the state and no further") {
@@ -291,10 +307,12 @@ TEST_CASE("not_evaluated: nor can a start outside the domain") {
 }
 
 TEST_CASE("every stop reason has a name of its own") {
-  const StopReason all[] = {StopReason::boundary,     StopReason::closed,         StopReason::event,
-                            StopReason::start_failed, StopReason::step_too_small, StopReason::state_too_large,
-                            StopReason::point_limit,  StopReason::time_limit,     StopReason::memory_limit,
-                            StopReason::user,         StopReason::not_evaluated,  StopReason::monitor_failed};
+  const StopReason all[] = {
+      StopReason::boundary,      StopReason::closed,         StopReason::event,
+      StopReason::start_failed,  StopReason::step_too_small, StopReason::state_too_large,
+      StopReason::point_limit,   StopReason::time_limit,     StopReason::memory_limit,
+      StopReason::user,          StopReason::not_evaluated,  StopReason::monitor_failed,
+      StopReason::wrong_jacobian};
   for (StopReason a : all) {
     CHECK(std::strcmp(name(a), "unknown") != 0);
     for (StopReason b : all) CHECK((a == b) == (std::strcmp(name(a), name(b)) == 0));
