@@ -62,9 +62,10 @@ int hopf_curve() {
 }
 
 int branch_point_curve() {
-  const auto rod = from_functions(1, {{"p", "", -1}, {"c", "", 0.5}}, [](In u, In p, Out F) {
-    F[0] = (p[0] - p[1]) * u[0] - u[0] * u[0] * u[0];
-  });
+  const auto rod = from_functions(
+      1, {{"p", "", -1}, {"c", "", 0.5}},
+      [](In u, In p, Out F) { F[0] = (p[0] - p[1]) * u[0] - u[0] * u[0] * u[0]; },
+      [](In u, In p, Eigen::Ref<Matrix> J) { J(0, 0) = p[0] - p[1] - 3 * u[0] * u[0]; });
   const int load = parameter_index(*rod, "p"), stiffness = parameter_index(*rod, "c");
   const Vector p = parameter_values(*rod);
 
