@@ -27,12 +27,13 @@ struct Fold {
       0;  // d2p/ds2: > 0 where the branch lies at larger parameters than the fold, < 0 at smaller
 };
 
-/// A simple branch point: J has rank n - 1 and F_p lies in its range, so that two smooth branches cross.
+/// A branch point: J has rank n - 1 and F_p lies in its range, so that two smooth branches cross. Or
+/// `multiple`: [J F_p] has lost more than one rank, and any number of branches may cross.
 struct BranchPoint {
-  enum class Type { transcritical, pitchfork };  // pitchfork: dp/ds = 0 on one of the branches
+  enum class Type { transcritical, pitchfork, multiple };  // pitchfork: dp/ds = 0 on one of the branches
   Type type = Type::transcritical;
   std::vector<Vector> tangents;  // of the branches, n + 1; the first is that of the branch traced
-  Vector left_null;              // w J = 0, w . F_p = 0, n, |w| = 1
+  Vector left_null;              // w J = 0, w . F_p = 0, n, |w| = 1; empty if multiple
 };
 
 /// A Hopf point of u' = F(u, p): J (a + ib) = i omega (a + ib).

@@ -66,14 +66,14 @@ class DenseLU final : public LinearSolver {
  private:
   // Partial pivoting compares the entries of J with those of the border's rows, and a row that is large only
   // in its corner, where the parameter moves nothing, would drown J if it were taken for a pivot: each border
-  // is made as large as J, its columns first. A J of a single entry may vanish beside its columns.
+  // is made as large as J, its columns first. A J that is no larger than the border may vanish beside it.
   void balance(const Matrix& J, const Borders& borders) {
     const Eigen::Index n = J.rows(), m = borders.width();
     rows_.setOnes(m);
     columns_.setOnes(m);
     if (n == 0 || m == 0) return;
     double magnitude = J.cwiseAbs().maxCoeff();
-    if (n == 1) magnitude = std::max(magnitude, borders.columns.cwiseAbs().maxCoeff());
+    if (n <= m) magnitude = std::max(magnitude, borders.columns.cwiseAbs().maxCoeff());
     if (!(magnitude > 0)) return;
     for (Eigen::Index j = 0; j < m; ++j) {
       const double largest = borders.columns.col(j).cwiseAbs().maxCoeff();

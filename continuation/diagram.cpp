@@ -3,6 +3,8 @@
 #include <arcslip/continuation/branch_parts.hpp>
 #include <arcslip/continuation/diagram_tracer.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -110,7 +112,10 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
   }
   auto& tangents = std::get<BranchPoint>(event.data).tangents;
   if (simple(event)) {
-    std::swap(tangents.front(), tangents.back());
+    const auto along = [&](const Vector& t) { return std::abs(with_->dot(t, half(h).direction)); };
+    std::iter_swap(tangents.begin(),
+                   std::max_element(tangents.begin(), tangents.end(),
+                                    [&](const Vector& a, const Vector& b) { return along(a) < along(b); }));
     if (with_->dot(tangents.front(), half(h).direction) < 0) tangents.front() = -tangents.front();
   }
   whole.points.push_back(event.point);
@@ -164,7 +169,7 @@ Branch DiagramTracer::follow(const Entry& entry, int branch, int depth) {
 Arrival DiagramTracer::pass(const Event& event, const Entry& entry, int branch, int depth) {
   if (event.point.parameter < options_.lower || event.point.parameter > options_.upper) return Arrival::first;
   const BranchPoint& crossing = std::get<BranchPoint>(event.data);
-  std::size_t k = index_of(joined(event.point.u, event.point.parameter));
+  std::size_t k = index_of(event);
   if (k == diagram_.branch_points.size()) k = meet(event, depth);
   Junction& junction = diagram_.branch_points[k];
   const Vector& beyond = simple(event) ? crossing.tangents.front() : crossing.tangents.back();
@@ -201,11 +206,18 @@ std::size_t DiagramTracer::meet(const Event& event, int depth) {
   return diagram_.branch_points.size() - 1;
 }
 
-std::size_t DiagramTracer::index_of(const Vector& x) const {
+// The branch point that an event is: there, and with the same branches, as two may lie closely together.
+std::size_t DiagramTracer::index_of(const Event& event) const {
+  const Vector x = joined(event.point.u, event.point.parameter);
+  const std::vector<Vector>& tangents = std::get<BranchPoint>(event.data).tangents;
   std::size_t k = 0;
   for (; k < diagram_.branch_points.size(); ++k) {
     const Junction& junction = diagram_.branch_points[k];
-    if (distance(*with_, joined(junction.u, junction.parameter), x) <= reach(x)) break;
+    if (distance(*with_, joined(junction.u, junction.parameter), x) > reach(x)) continue;
+    if (!simple(event) || std::all_of(tangents.begin(), tangents.end(), [&](const Vector& t) {
+          return nearest(junction, t) || nearest(junction, -t);
+        }))
+      break;
   }
   return k;
 }
@@ -214,7 +226,7 @@ void DiagramTracer::name_events(int branch) {
   const auto& events = diagram_.branches[static_cast<std::size_t>(branch)].branch.events;
   for (std::size_t e = 0; e < events.size(); ++e) {
     if (!std::holds_alternative<BranchPoint>(events[e].data)) continue;
-    const std::size_t k = index_of(joined(events[e].point.u, events[e].point.parameter));
+    const std::size_t k = index_of(events[e]);
     if (k == diagram_.branch_points.size() || diagram_.branch_points[k].branch >= 0) continue;
     diagram_.branch_points[k].branch = branch;
     diagram_.branch_points[k].event = static_cast<int>(e);

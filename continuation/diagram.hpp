@@ -31,9 +31,9 @@ struct HalfBranch {
   std::string untraced;  // why there is none
 };
 
-/// A place where branches cross, as it was first met. Simple ones have four half-branches. Where pieces of F
-/// meet, those beside the branch traced are looked for, and followed if there are two. Of others, only the
-/// half-branches of the branch traced are known.
+/// A place where branches cross, as it was first met, with two half-branches of each: four at simple ones.
+/// Where pieces of F meet, those beside the branch traced are looked for, and followed if there are two. Of
+/// others, only the half-branches of the branch traced are known.
 struct Junction {
   Vector u;  // n
   double parameter = 0;
@@ -56,9 +56,9 @@ struct DiagramBranch {
 struct Diagram {
   std::vector<DiagramBranch> branches;
   std::vector<Junction> branch_points;
-  bool complete = true;  // every half-branch of the branch points found within the depth was followed; an
-                         // even number of them in one step, or of even multiplicity, is not found
-  std::string message;   // what is missing, and why
+  bool complete = true;  // every half-branch of the branch points found within the depth was followed, and
+                         // the modes that passed zero on the way are those of these branch points
+  std::string message;  // what is missing, and why
 };
 
 /// `start.direction` is that of the first branch. branch_point_monitor() is added to the monitors where it

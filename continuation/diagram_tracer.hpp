@@ -58,7 +58,7 @@ class DiagramTracer {
   std::size_t half_towards(Junction& junction, const Vector& direction);
   double angle_to_others(const Junction& junction, const HalfBranch& half) const;
   double reach(const Vector& x) const { return limits_.same_place * (1 + with_->norm_u(x)); }
-  std::size_t index_of(const Vector& x) const;
+  std::size_t index_of(const Event& event) const;
   void name_events(int branch);
   void incomplete(const std::string& why);
 

@@ -66,6 +66,9 @@ class EventLocator {
   /// none do: then `to` is on another branch. The event is the first branch_point monitor's, or has no name.
   std::optional<LocatedEvent> branch_point(const Place& from, const Place& to);
 
+  /// The same where [J F_p] loses `rank_loss` ranks at once, 2 or more.
+  std::optional<LocatedEvent> multiple_point(const Place& from, const Place& to, int rank_loss);
+
   /// An event as monitors and observers see it: evaluator and factors are those there, until the next call.
   /// Nothing where it cannot be linearized.
   std::optional<Accepted> look_at(const Place& event);
@@ -78,6 +81,8 @@ class EventLocator {
   std::optional<LocatedEvent> at_kink(std::size_t monitor, const Place& kink, const Place& beyond);
   std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
   std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
+  std::optional<LocatedEvent> crossing_event(const Place& from, const Place& to, const Vector& x,
+                                             BranchPoint&& branches);
   LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
   LocatedEvent kink_event(const Monitor& monitor, const Corner& corner) const;
   bool look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards, Place& beyond);

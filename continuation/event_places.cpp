@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/branch_point.hpp>
 #include <arcslip/continuation/event_locator.hpp>
+#include <arcslip/continuation/multiple_point.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,46 +13,83 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr int most_kinks = 16;  // looked for in one step
+constexpr double guesses[] = {0.5, 0.1, 0.9};  // shares of a step: where branch points are looked for
+constexpr int most_kinks = 16;                 // looked for in one step
 constexpr double just_beyond[] = {1e-9, 1e-6,
                                   1e-3};  // of a step: where the other side of a kink is looked at
 constexpr double beside_step = 0.1;       // of a step: a branch point so near lies on it
+constexpr double beyond_step = 1e-4;      // and so far beyond its ends, for rounding
 // Of a monitor's change over a step, and of the largest dp/ds as for the type of a branch point: less is
 // zero.
 constexpr double zero_share = 1e-6;
 
 }  // namespace
 
-std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const Place& to) {
+// The branch point x as an event of the step. Nothing where it does not lie on the step.
+std::optional<LocatedEvent> EventLocator::crossing_event(const Place& from, const Place& to, const Vector& x,
+                                                         BranchPoint&& branches) {
   const double length = to.arclength - from.arclength;
   Corrector& probe = this->probe();
-  Place place = from;
+  Vector beside(x.size());
+  const double share = probe.dot(x - from.v, to.v - from.v) / (length * length);
+  if (!(share > -beyond_step && share < 1 + beyond_step)) return std::nullopt;
+  hermite(from.v, from.tangent, to.v, to.tangent, length, share, beside);
+  if (distance(probe, beside, x) > beside_step * length) return std::nullopt;
+  LocatedEvent found;
+  found.place = from;
+  found.place.v = x;
+  found.place.tangent = branches.tangents.front();
+  found.place.arclength = from.arclength + std::clamp(share, 0.0, 1.0) * length;
+  for (const Monitor& monitor : monitors_)
+    if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
+  found.event.point = point(found.place, {});
+  found.event.data = std::move(branches);
+  return found;
+}
+
+std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const Place& to) {
   Vector beside(from.v.size());
-  for (double guess : {0.5, 0.1, 0.9}) {
-    hermite(from.v, from.tangent, to.v, to.tangent, length, guess, beside);
+  for (const double guess : guesses) {
+    hermite(from.v, from.tangent, to.v, to.tangent, to.arclength - from.arclength, guess, beside);
     std::optional<BranchPointLocation> crossing;
     try {
       crossing = locate_branch_point(problem_, p_, free_, beside, options_.linear_solver, options_.newton);
     } catch (const std::exception&) {  // what the corrector takes for a place that cannot be evaluated
     }
-    if (!crossing || !crossing->branches_cross()) continue;
-    const Vector way = crossing->x - from.v;
-    const double share = probe.dot(way, to.v - from.v) / (length * length);
-    if (!(share > -beside_step && share < 1 + beside_step)) continue;
-    hermite(from.v, from.tangent, to.v, to.tangent, length, share, beside);
-    if (distance(probe, beside, crossing->x) > beside_step * length) continue;
+    if (!crossing) continue;
     auto branches = describe_branch_point(*problem_, free_, *crossing, to.v - from.v);
     if (!branches) continue;
-    place.v = crossing->x;
-    place.tangent = branches->tangents.front();
-    place.arclength = from.arclength + std::clamp(share, 0.0, 1.0) * length;
-    LocatedEvent found;
-    for (const Monitor& monitor : monitors_)
-      if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
-    found.event.point = point(place, {});
-    found.event.data = std::move(*branches);
-    found.place = std::move(place);
-    return found;
+    if (auto found = crossing_event(from, to, crossing->x, std::move(*branches))) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<LocatedEvent> EventLocator::multiple_point(const Place& from, const Place& to, int rank_loss) {
+  const double length = to.arclength - from.arclength;
+  Corrector& probe = this->probe();
+  const Vector chord = to.v - from.v;
+  Vector beside(from.v.size());
+  for (const double guess : guesses) {
+    hermite(from.v, from.tangent, to.v, to.tangent, length, guess, beside);
+    std::optional<MultiplePoint> crossing;
+    try {
+      crossing = locate_multiple_point(*problem_, p_, free_, beside, rank_loss, (1 + beside_step) * length,
+                                       options_.linear_solver);
+    } catch (const std::exception&) {
+    }
+    if (!crossing || crossing->tangents.empty()) continue;
+    BranchPoint branches;
+    branches.type = BranchPoint::Type::multiple;
+    branches.tangents = std::move(crossing->tangents);
+    const auto along = [&](const Vector& t) { return std::abs(probe.dot(t, chord)); };
+    const auto traced =
+        std::max_element(branches.tangents.begin(), branches.tangents.end(),
+                         [&](const Vector& a, const Vector& b) { return along(a) < along(b); });
+    if (along(*traced) < length * std::cos(options_.step.largest_angle)) continue;
+    std::iter_swap(branches.tangents.begin(), traced);
+    Vector& tangent = branches.tangents.front();
+    if (probe.dot(tangent, chord) < 0) tangent = -tangent;
+    if (auto found = crossing_event(from, to, crossing->x, std::move(branches))) return found;
   }
   return std::nullopt;
 }

@@ -29,6 +29,8 @@ const char* name(Rejected why) {
       return "turn";
     case Rejected::another_branch:
       return "another_branch";
+    case Rejected::branch_points:
+      return "branch_points";
     case Rejected::parameter_step:
       return "parameter_step";
     case Rejected::curve:

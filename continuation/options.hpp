@@ -49,14 +49,16 @@ struct StepOptions {
 
 /// Why a step was tried in vain: its corrector did not converge, or the problem could not be evaluated; the
 /// matrix was singular; the tangent turned by more than largest_angle; the branch would have gone back, or to
-/// another branch near by; the parameter moved too far; the curve is not within curve_tolerance; a monitored
-/// quantity may have extremes between the points; the end of the window was not reached.
+/// another branch near by; more modes may pass zero than branch points are told apart (value, limit); the
+/// parameter moved too far; the curve is not within curve_tolerance; a monitored quantity may have extremes
+/// between the points; the end of the window was not reached.
 enum class Rejected {
   not_converged,
   not_evaluated,
   singular,
   turn,
   another_branch,
+  branch_points,
   parameter_step,
   curve,
   quantity,

@@ -15,9 +15,8 @@ namespace {
 
 constexpr double rejection = 0.25;             // of the step after a rejection
 constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
-constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: no shorter step tells two branches apart
-constexpr double parameter_overrun = 1.5;   // of the largest |dp| of a step
-constexpr double visible_corner = 0.05;     // rad: a kink of less is not seen in a curve
+constexpr double parameter_overrun = 1.5;      // of the largest |dp| of a step
+constexpr double visible_corner = 0.05;        // rad: a kink of less is not seen in a curve
 constexpr double endless_tail =
     1e-12;  // of the parameter's scale: so near to a bound a branch that does not reach it ends
 constexpr double tail_before = 1e-9;     // and its last point was so near
@@ -129,13 +128,8 @@ Tracer::Attempt Tracer::attempt() {
     kink = is_kink(turn, next_);
     if (!kink || next_.orientation != s_.here.orientation)
       return refuse(Rejected::turn, turn, options_.step.largest_angle);
-  } else if (next_.orientation != s_.here.orientation) {
-    // A jump to a branch near by, unless branches cross here, or it stays however short the step.
-    next_.arclength = s_.here.arclength + length;
-    crossing_ = events_->branch_point(s_.here, next_);
-    if (!crossing_ && s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v)))
-      return refuse(Rejected::another_branch, 0, 0);
-    if (!crossing_) crossing_ = unlocated_branch_point(s_.here, next_);
+  } else if (const auto refused = look_for_crossing(length)) {
+    return *refused;
   }
   // The tangent may turn towards the parameter within the step.
   const double moved = std::abs(next_.v[n_] - s_.here.v[n_]);

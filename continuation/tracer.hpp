@@ -9,6 +9,7 @@
 
 #include <arcslip/continuation/branch.hpp>
 #include <arcslip/continuation/corrector.hpp>
+#include <arcslip/continuation/crossed_modes.hpp>
 #include <arcslip/continuation/event_locator.hpp>
 #include <arcslip/continuation/monitor.hpp>
 #include <arcslip/continuation/options.hpp>
@@ -81,7 +82,10 @@ class Tracer {
   std::optional<Exit> exit(bool kink);
   void predict(Vector& v) const;
   bool went_back(const Place& next) const;
+  std::optional<Attempt> look_for_crossing(double length);
   bool measure(Place& place);
+  bool stretch_is_short(double share) const;
+  void begin_stretch(double length);
   bool resolved(double length);
   bool tells(const Place& from, const Place& to, double length);
   double chord_departure(const Place& from, const Place& to, std::size_t m, double length) const;
@@ -114,6 +118,7 @@ class Tracer {
   int n_;
   std::unique_ptr<Corrector> main_;
   std::unique_ptr<EventLocator> events_;
+  std::unique_ptr<ModeCounter> modes_;  // where branch points are wanted
   Place next_;
   Rejection rejection_;          // the last one
   std::size_t unresolved_ = 0;   // the monitor whose quantity it was

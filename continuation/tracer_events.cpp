@@ -1,5 +1,6 @@
 // What becomes of the events of a step: their order, and branch points that could not be located.
 
+#include <arcslip/continuation/multiple_point.hpp>
 #include <arcslip/continuation/text.hpp>
 #include <arcslip/continuation/tracer.hpp>
 
@@ -8,6 +9,43 @@
 #include <utility>
 
 namespace arcslip::continuation {
+namespace {
+
+constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: no shorter step tells two branches apart
+constexpr double pair_share =
+    1e-3;  // of the first step in which a mode may pass zero and come back: not shorter
+
+}  // namespace
+
+// The branch point in the step to next_, if there is one. What comes of the step where there is more than is
+// found: a change of orientation is a jump to a branch near by, unless branches cross here, or it stays
+// however short the step; and several modes that pass zero are several branch points, unless they do at one
+// place.
+std::optional<Tracer::Attempt> Tracer::look_for_crossing(double length) {
+  const bool turned = next_.orientation != s_.here.orientation;
+  int modes = turned ? 1 : 0;
+  const bool apart = s_.step > branch_point_step * (1 + main_->norm_u(s_.here.v));
+  if (modes_ && next_.orientation != 0 && next_.piece == s_.here.piece) {
+    const auto crossed = modes_->between(s_.here, next_, length, row_, main_->factors());
+    if (crossed && crossed->at_zero && apart)
+      return refuse(Rejected::branch_points, 1, 0, Attempt::unresolved);
+    if (crossed && (crossed->count % 2 == 1) == turned) modes = crossed->count;
+    if (crossed && modes == 0 && !crossed->told && !stretch_is_short(pair_share)) {
+      begin_stretch(length);
+      return refuse(Rejected::branch_points, 2, 1, Attempt::unresolved);
+    }
+  }
+  if (modes == 0) return {};
+  next_.arclength = s_.here.arclength + length;
+  if (modes == 1) crossing_ = events_->branch_point(s_.here, next_);
+  for (int loss = std::max(modes, 2); modes_ && !crossing_ && loss <= largest_rank_loss; ++loss)
+    if (loss == modes || modes == 1) crossing_ = events_->multiple_point(s_.here, next_, loss);
+  if (crossing_) return {};
+  if (apart && turned) return refuse(Rejected::another_branch, 0, 0);
+  if (apart) return refuse(Rejected::branch_points, modes, 1, Attempt::unresolved);
+  crossing_ = unlocated_branch_point(s_.here, next_);
+  return {};
+}
 
 // In the order of arclength: an event may have waited for a few points until it was certain.
 const Event* Tracer::add(Event&& event) {

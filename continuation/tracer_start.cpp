@@ -65,6 +65,9 @@ void Tracer::make_tools() {
                                            s_.branch.counts);
   main_->restore(s_.factors);
   s_.factors = {};
+  if (std::any_of(monitors_.begin(), monitors_.end(),
+                  [](const Monitor& each) { return each.kind == MonitorKind::branch_point; }))
+    modes_ = std::make_unique<ModeCounter>(*problem_, s_.p, s_.free, s_.branch.counts);
   next_ = s_.here;
   next_.tangent.resize(n_ + 1);
   row_.resize(n_ + 1);

@@ -87,8 +87,7 @@ double Tracer::chord_departure(const Place& from, const Place& to, std::size_t m
 // no further than to a part of the first one.
 bool Tracer::resolved(double length) {
   chord_error_ = 0;
-  const bool in_stretch = s_.here.arclength <= s_.unresolved_end;
-  if (in_stretch && s_.step <= unresolved_share * s_.unresolved_step) return true;
+  if (stretch_is_short(unresolved_share)) return true;
   const Place* from = &s_.here;
   bool all = true;
   for (std::size_t k = 0; k <= corners_.size() && all; ++k) {
@@ -96,11 +95,7 @@ bool Tracer::resolved(double length) {
     all = tells(*from, to, to.arclength - from->arclength);
     if (k < corners_.size()) from = &corners_[k].beyond;
   }
-  if (!all && !in_stretch) {
-    if (s_.here.arclength > s_.unresolved_end + length) s_.unresolved_step = 0;
-    s_.unresolved_end = s_.here.arclength + length;
-    s_.unresolved_step = std::max(s_.unresolved_step, s_.step);
-  }
+  if (!all) begin_stretch(length);
   return all;
 }
 
@@ -132,6 +127,19 @@ bool Tracer::tells(const Place& from, const Place& to, double length) {
     }
   }
   return true;
+}
+
+// Whether steps have been shortened enough in the stretch of the branch where they do not tell what is asked
+// for.
+bool Tracer::stretch_is_short(double share) const {
+  return s_.here.arclength <= s_.unresolved_end && s_.step <= share * s_.unresolved_step;
+}
+
+void Tracer::begin_stretch(double length) {
+  if (s_.here.arclength <= s_.unresolved_end) return;
+  if (s_.here.arclength > s_.unresolved_end + length) s_.unresolved_step = 0;
+  s_.unresolved_end = s_.here.arclength + length;
+  s_.unresolved_step = std::max(s_.unresolved_step, s_.step);
 }
 
 // Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink

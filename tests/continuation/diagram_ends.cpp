@@ -34,14 +34,14 @@ TEST_CASE("a branch point just beyond the window is none of the diagram") {
 }
 
 TEST_CASE(
-    "three pitchforks at one place are no simple branch point: the diagram says that it is incomplete") {
+    "four pitchforks at one place are more than is switched at: the diagram says that it is incomplete") {
   const auto problem = from_functions(
-      3, {parameter("lambda", 0)}, [](In u, In p, Out F) { F = (p[0] - u.array().square()) * u.array(); },
+      4, {parameter("lambda", 0)}, [](In u, In p, Out F) { F = (p[0] - u.array().square()) * u.array(); },
       [](In u, In p, Eigen::Ref<Matrix> J) {
         J.setZero();
         J.diagonal() = p[0] - 3 * u.array().square();
       });
-  const Start start{.u = Vector::Zero(3), .p = Vector{{-0.93}}, .free = 0};
+  const Start start{.u = Vector::Zero(4), .p = Vector{{-0.93}}, .free = 0};
   const Diagram diagram = trace_diagram(problem, start, window(-1, 1), {.depth = 1});
   CHECK(!diagram.complete);
   CHECK(diagram.message.find("not simple") != std::string::npos);

@@ -75,7 +75,8 @@ TEST_CASE("a step that a quantity forbids names its monitor") {
 TEST_CASE("every reason for a rejection has a name of its own") {
   const Rejected all[] = {Rejected::not_converged, Rejected::not_evaluated,  Rejected::singular,
                           Rejected::turn,          Rejected::another_branch, Rejected::parameter_step,
-                          Rejected::curve,         Rejected::quantity,       Rejected::end_of_window};
+                          Rejected::curve,         Rejected::quantity,       Rejected::end_of_window,
+                          Rejected::branch_points};
   std::map<std::string, int> names;
   for (const Rejected why : all) ++names[name(why)];
   CHECK(names.size() == std::size(all));
