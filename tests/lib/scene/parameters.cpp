@@ -1,3 +1,4 @@
+#include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <limits>
@@ -142,4 +143,25 @@ TEST_CASE("each type of element is known by its name and describes its fields") 
     }
   }
   CHECK(names == std::vector<std::string>{"jenkins", "cubic_spring"});
+}
+
+TEST_CASE("combinations of for_each are made one at a time, the last list fastest, however many there are") {
+  Study study;
+  CHECK(Combinations(study).count() == 1);
+  CHECK(Combinations(study)[0].empty());
+  study.for_each = {{"a", {1, 2}}, {"b", {3, 4, 5}}};
+  const Combinations six(study);
+  REQUIRE(six.size() == 6);
+  CHECK(six[0] == Setting{{"a", 1}, {"b", 3}});
+  CHECK(six[1] == Setting{{"a", 1}, {"b", 4}});
+  CHECK(six[5] == Setting{{"a", 2}, {"b", 5}});
+
+  std::vector<double> thousand(1000);
+  for (std::size_t i = 0; i < thousand.size(); ++i) thousand[i] = static_cast<double>(i);
+  study.for_each = {{"a", thousand}, {"b", thousand}, {"c", thousand}};
+  CHECK(Combinations(study).count() == 1e9);
+  CHECK(Combinations(study)[123'456'789] == Setting{{"a", 123}, {"b", 456}, {"c", 789}});
+  study.for_each.emplace_back("d", thousand);
+  CHECK(Combinations(study).count() == 1e12);
+  CHECK(Combinations(study).size() == static_cast<std::size_t>(std::numeric_limits<int>::max()));
 }

@@ -270,6 +270,21 @@ TEST_CASE("an event-driven integration that is too long ends with the limit that
   CHECK(none.time == 1);
 }
 
+TEST_CASE(
+    "an event-driven integration asks whether to go on, and ends with what there is where it is not to") {
+  const auto equation = two_masses();
+  EventLimits limits;
+  int asked = 0;
+  limits.stop = [&] { return ++asked == 3; };
+  EventDriven events(equation, limits);
+  const auto motion = events.integrate(at_rest(equation), 0, 1e6);
+  CHECK(motion.reason == EndReason::stopped);
+  CHECK(asked == 3);
+  CHECK(motion.time > 0);
+  CHECK(motion.message.find("stopped as asked") == 0);
+  CHECK(relative_defect(motion.energy) < 1e-12);
+}
+
 TEST_CASE("a motion that grows beyond all numbers ends as not finite") {
   EventDriven integrator(oscillator(1, 0, -100));  // a negative spring
   const auto motion = integrator.integrate({Vector::Ones(1), Vector::Zero(1), Vector()}, 0, 1000);
