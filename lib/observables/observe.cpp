@@ -9,6 +9,9 @@
 namespace arcslip::observables {
 namespace {
 
+// Of the motion of the elements: a response below is their rounding, as where symmetry holds it at 0.
+constexpr double at_rest = 1e-13;
+
 const hbm::HbmEvaluator& evaluator_of(const continuation::Accepted& now) {
   return static_cast<const hbm::HbmEvaluator&>(now.at);
 }
@@ -43,7 +46,11 @@ double Observer::amplitude_change(const hbm::HbmEvaluator& at, continuation::In 
 
 double Observer::amplitude_slope(const continuation::Accepted& now) {
   const Eigen::Index n = now.u.size();
-  return amplitude_change(evaluator_of(now), now.u, now.tangent.head(n), {{free_, now.tangent[n]}});
+  const double slope =
+      amplitude_change(evaluator_of(now), now.u, now.tangent.head(n), {{free_, now.tangent[n]}});
+  if (last_amplitude_ > at_rest * now.u.norm()) return slope;
+  last_amplitude_ = 0;
+  return 0;
 }
 
 // Lag of the response's fundamental behind the first force of that harmonic, in (-pi, pi].

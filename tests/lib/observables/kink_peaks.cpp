@@ -126,6 +126,30 @@ TEST_CASE("in a motion of half the period peaks are the same in all units, names
   check_all_invariances(half_period());
 }
 
+TEST_CASE("a response that symmetry holds at 0 has no peaks, and costs no more points than any other") {
+  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["a", "b", "c"],
+      "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1},
+                 {"name": "mc", "at": "c", "value": 1.3}],
+      "springs": [{"name": "ka", "between": ["a", "c"], "value": 1}, {"name": "kb", "between": ["b", "c"], "value": 1},
+                  {"name": "kc", "at": "c", "value": 0.7}],
+      "dampers": [{"name": "da", "at": "a", "value": 0.03}, {"name": "db", "at": "b", "value": 0.03}]},
+    "elements": [
+      {"name": "d1", "type": "jenkins", "between": ["a", "c"], "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": 0.9},
+      {"name": "d2", "type": "jenkins", "between": ["b", "c"], "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": 0.9}],
+    "excitation": [{"name": "f", "at": "c", "cosine": 1}, {"name": "g", "at": "c", "harmonic": 3, "cosine": 0.3}],
+    "harmonics": {"order": 5}, "response": {"direction": {"a": 1, "b": -1}},
+    "studies": [{"kind": "frf", "from": 0.3, "to": 2.2}]})");
+  const auto at_rest = observables::frequency_response(s, s.studies.front()).front();
+  CHECK(at_rest.status == observables::Status::complete);
+  CHECK(at_rest.events.empty());
+  s.response = {{0, 1.0}};
+  const auto moving = observables::frequency_response(s, s.studies.front()).front();
+  CHECK(moving.status == observables::Status::complete);
+  CHECK(at_rest.points.size() <= moving.points.size());
+  for (const auto& point : at_rest.points) CHECK(point.amplitude < 1e-12);
+}
+
 TEST_CASE("a peak of 0.26 % at a kink is found in all units, names and directions") {
   const auto seen = invariances::response(small_peak());
   CHECK(std::count_if(seen.events.begin(), seen.events.end(), [](const auto& event) {
