@@ -65,7 +65,11 @@ TEST_CASE("at 20 Hz the response over the load has one maximum, above both respo
   CHECK(branch.points.size() >= 150);
   CHECK(events(branch, "fold").empty());
   const auto maxima = events(branch, "maximum");
-  CHECK(maxima.size() == events(branch, "minimum").size() + 1);
+  CHECK(maxima.size() == 1);
+  // Beside full stick, from where on the load moves nothing, the amplitude may pass a minimum by some 1e-7.
+  const auto minima = events(branch, "minimum");
+  CHECK(minima.size() <= 1);
+  for (const auto& event : minima) CHECK(event.point.amplitude < branch.points.back().amplitude);
   for (const auto& kind : {"maximum", "minimum"})
     for (const auto& event : events(branch, kind)) {
       CAPTURE(kind, event.point.over);
