@@ -165,13 +165,13 @@ TEST_CASE("a pair that becomes unstable and one that becomes stable later are fo
   CHECK(std::get<Hopf>(branch.events[1].data).frequency == Approx(2).epsilon(1e-12));
 }
 
-TEST_CASE("two equal pairs that cross at one place are one Hopf point") {
+TEST_CASE("two equal pairs that cross at one place are two Hopf points") {
   const auto twice = linear(4, [](double p, Eigen::Ref<Matrix> M) {
     pair(M, 0, p, 1);
     pair(M, 2, p, 1);
   });
   const Branch branch = along_zero(twice, -0.7, 1);
-  REQUIRE(branch.events.size() == 1);
+  REQUIRE(branch.events.size() == 2);
   CHECK(std::abs(branch.events[0].point.parameter) < 1e-12);
 }
 

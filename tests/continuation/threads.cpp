@@ -7,7 +7,7 @@
 
 #include <arcslip/continuation/branch_point.hpp>
 #include <arcslip/continuation/diagram.hpp>
-#include <arcslip/continuation/hopf_curve.hpp>
+#include <arcslip/continuation/hopf.hpp>
 #include <arcslip/continuation/stationary.hpp>
 
 #include <functional>
