@@ -7,6 +7,7 @@
 #include <arcslip/optimize/trials.hpp>
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,6 +114,8 @@ class Search {
   std::size_t refinements_ = 0;  // by other algorithms
   int restarts_ = 0;             // from lower designs beside a minimum
   bool was_elsewhere_ = false;
+  // V of a minimum by its conditions from which the search went elsewhere, and its end.
+  std::optional<std::pair<double, std::pair<observables::Status, observables::Stop>>> stood_{};
   PeakWork work_elsewhere_{};
   bool ended_ = false;
 };

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <tuple>
 #include <utility>
 
 namespace arcslip::optimize {
@@ -29,6 +30,10 @@ constexpr std::array ladder = {"LD_CCSAQ", "LD_SLSQP", "LN_COBYLA", "LD_SLSQP"};
 }  // namespace
 
 bool Search::goes_on() {
+  if (stood_ && result_.status == Status::failed && best().value == stood_->first &&
+      result_.stop.reason != name(Reason::objective_failed))
+    std::tie(result_.status, result_.stop) = stood_->second;  // it led to nothing
+  stood_.reset();
   if (result_.status == Status::complete && interrupted()) return false;
   if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
     return false;
@@ -165,12 +170,12 @@ bool Search::look_elsewhere() {
     lower = found.design;
   }
   if (lower.empty() || watch_.stopped()) return false;
-  const double before = best().value;
   const std::string left = space().text(best().design);
   trials_.evaluate(lower, true);
-  if (!(best().value < before)) return false;
-  note("the search came to " + left + ", and elsewhere to the lower " + space().text(best().design));
-  go_from(best().design);
+  if (!std::isfinite(cases().value())) return false;
+  note("the search came to " + left + ", and went on from the lower " + space().text(lower) + " elsewhere");
+  stood_ = {best().value, {result_.status, result_.stop}};
+  go_from(lower);  // a limit that is active may be exceeded there, by rounding
   return true;
 }
 
