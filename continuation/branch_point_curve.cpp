@@ -258,6 +258,7 @@ class BranchPointSolver final : public LinearSolver {
       S_(0, 2 + j) = -y_[n + 1];
       S_.col(2 + j).segment(1, 2) = -dg_;
       if (j > 0) S_.col(2 + j).segment(1, 2) += borders.columns.col(j - 1).tail(2);
+      if (m == 0) continue;  // no border has a row
       S_.col(2 + j).tail(m) = -rows_.topRows(n + 1).transpose() * X_.col(j);
       if (j == 0)
         S_.col(2).tail(m) += rows_.row(n + 1).transpose();
