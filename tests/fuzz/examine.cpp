@@ -1,0 +1,227 @@
+#include "fuzz/examine.hpp"
+
+#include "csv_text.hpp"
+
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/output/csv.hpp>
+#include <arcslip/output/json.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <exception>
+#include <sstream>
+#include <string_view>
+#include <typeinfo>
+#include <utility>
+
+namespace fuzz {
+namespace {
+
+using namespace arcslip;
+using nlohmann::json;
+
+constexpr int most_points = 30, most_combinations = 4, highest_order = 5, most_samples = 128;
+constexpr std::size_t most_dofs = 8, most_elements = 8;
+
+// What an engineer has never heard of.
+constexpr std::string_view internal_words[] = {"step.",      "options.", "std::",   "basic_string",
+                                               "json.excep", "vector::", "Eigen",   "_M_",
+                                               "nullptr",    "iterator", "callback"};
+
+/// The examination of one text.
+class Examination {
+ public:
+  explicit Examination(const std::string& text) : text_(text) {}
+
+  Findings run() {
+    try {
+      const scene::Scene s = read();
+      if (findings_.reached == Reached::refused) return findings_;
+      check_writing(s);
+      trace(s);
+    } catch (const std::exception& error) {
+      fault(std::string("what is thrown is a ") + typeid(error).name() + ": " + error.what());
+    }
+    return findings_;
+  }
+
+ private:
+  void fault(const std::string& sentence) { findings_.faults.push_back(sentence); }
+
+  bool stands_in_text(std::string_view word) const {
+    const auto same = [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    };
+    return std::search(text_.begin(), text_.end(), word.begin(), word.end(), same) != text_.end();
+  }
+
+  void check_message(const std::string& message) {
+    if (message.empty()) fault("a message is empty");
+    for (const std::string_view word : internal_words)
+      if (message.find(word) != std::string::npos && !stands_in_text(word))
+        fault("a message says \"" + std::string(word) + "\": " + message);
+    std::string words;
+    for (const char c : message)
+      words += std::isalpha(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(c)) : ' ';
+    words = " " + words + " ";
+    const bool about_json = message.find("JSON has no NaN and no Infinity") != std::string::npos;
+    for (const std::string_view word : {"nan", "inf", "infinity"})
+      if (!about_json && words.find(" " + std::string(word) + " ") != std::string::npos &&
+          !stands_in_text(word))
+        fault("a message says \"" + std::string(word) + "\": " + message);
+  }
+
+  /// A pointer leads to what stands in the text; what is missing there has at least a place.
+  void check_pointer(const json& document, const std::string& pointer) {
+    if (pointer.empty()) return;
+    try {
+      const json::json_pointer place(pointer);
+      const auto above = place.parent_pointer();
+      if (!above.empty() && !document.contains(above)) fault("a pointer leads nowhere: " + pointer);
+    } catch (const json::exception&) {
+      fault("a pointer is none: " + pointer);
+    }
+  }
+
+  scene::Scene read() {
+    try {
+      std::istringstream in(text_);
+      scene::Scene s = scene::read(in);
+      findings_.reached = Reached::read;
+      return s;
+    } catch (const scene::SceneError& error) {
+      if (error.faults().empty()) fault("a scene is refused without a fault");
+      const json document = json::parse(text_, nullptr, false);
+      // Of keys that stand twice the document keeps one.
+      const bool certain =
+          !document.is_discarded() &&
+          std::none_of(error.faults().begin(), error.faults().end(), [](const scene::Fault& found) {
+            return found.message.find("again") != std::string::npos;
+          });
+      for (const scene::Fault& found : error.faults()) {
+        check_message(found.message);
+        if (certain) check_pointer(document, found.pointer);
+      }
+    }
+    return {};
+  }
+
+  void check_writing(const scene::Scene& s) {
+    const std::string written = scene::write(s);
+    std::istringstream in(written);
+    try {
+      const scene::Scene again = scene::read(in);
+      if (!(again == s)) fault("what is written reads as another scene:\n" + written);
+      if (scene::write(again) != written) fault("a scene changes when it is written twice:\n" + written);
+      if (scene::hash(again) != scene::hash(s)) fault("a scene that was written has another hash");
+    } catch (const scene::SceneError& error) {
+      fault(std::string("what is written cannot be read: ") + error.what() + "\n" + written);
+    }
+  }
+
+  /// The scene with a study of little work; false: it is too large.
+  static bool make_small(scene::Scene& s, scene::Study& study) {
+    if (s.dofs.size() > most_dofs || s.elements.size() > most_elements || s.excitation.size() > most_elements)
+      return false;
+    for (const scene::Part& force : s.excitation)
+      if (force.harmonic > highest_order) return false;
+    s.harmonics.order = std::min(s.harmonics.order, highest_order);
+    s.harmonics.samples = std::min(s.harmonics.samples, most_samples);
+    const bool has_one = !s.studies.empty();
+    study = has_one ? s.studies.front() : scene::Study{};
+    if (!has_one) {
+      study.from = 1, study.to = 10;
+    } else if (study.kind != scene::StudyKind::frf) {
+      study.from = study.frequency_from;
+      study.to = study.frequency_to > study.from ? study.frequency_to : 1.5 * study.from;
+    }
+    std::size_t combinations = 1;
+    for (const auto& [name, values] : study.for_each)
+      combinations = std::min<std::size_t>(combinations * values.size(), most_combinations + 1);
+    if (study.kind != scene::StudyKind::frf || combinations > most_combinations) study.for_each.clear();
+    study.kind = scene::StudyKind::frf;
+    study.name = "frf";
+    s.studies = {study};
+    return true;
+  }
+
+  void trace(scene::Scene s) {
+    scene::Study study;
+    if (!make_small(s, study)) return;
+    try {
+      scene::check(s);
+    } catch (const scene::SceneError&) {
+      return;  // the window of another kind of study does not suit this one
+    }
+    std::vector<observables::ResponseBranch> branches;
+    try {
+      long points = 0;
+      branches = observables::frequency_response(
+          s, study, [&](const observables::Progress&) { return ++points % most_points != 0; });
+    } catch (const std::runtime_error& error) {
+      return check_message(error.what());
+    }
+    findings_.reached = Reached::traced;
+    if (branches.empty()) fault("no branch");
+    for (const observables::ResponseBranch& branch : branches) check_branch(branch);
+    check_results(s, branches);
+  }
+
+  void check_branch(const observables::ResponseBranch& branch) {
+    check_message(branch.stop.message);
+    if (branch.stop.reason.empty()) fault("a branch ends without a reason");
+    if (branch.status == observables::Status::complete && branch.points.empty() &&
+        branch.stop.reason != "unbounded")
+      fault("a complete branch has no points: " + branch.stop.message);
+    for (const auto& point : branch.points) check_point(point);
+    for (const auto& event : branch.events) check_point(event.point);
+  }
+
+  void check_point(const observables::ResponsePoint& point) {
+    if (point.unbounded) return;
+    // The estimate has no value where a neglected harmonic meets an undamped resonance; it is flagged then.
+    const double estimate = point.truncation_flagged ? 0 : point.truncation_estimate;
+    for (const auto& [number, name] : {std::pair{point.omega, "frequency"},
+                                       {point.amplitude, "amplitude"},
+                                       {point.phase, "phase"},
+                                       {point.energy_friction, "energy of friction"},
+                                       {point.energy_viscous, "viscous energy"},
+                                       {point.energy_input, "energy put in"},
+                                       {estimate, "truncation estimate"}}) {
+      if (!std::isfinite(number)) return fault("a number of a point is not finite: " + std::string(name));
+    }
+    if (!(point.amplitude >= 0)) fault("an amplitude is negative");
+    const double energy = std::abs(point.energy_friction) + std::abs(point.energy_viscous);
+    const double least = std::min(point.energy_friction, point.energy_viscous);
+    if (least < -1e-9 * energy)
+      fault("an energy is negative: " + std::to_string(least / energy) + " of all at " +
+            std::to_string(point.omega) + " rad/s");
+    for (const auto& element : point.elements)
+      if (!(element.stick_percent >= 0 && element.stick_percent <= 100)) fault("a share of stick is none");
+  }
+
+  void check_results(const scene::Scene& s, const std::vector<observables::ResponseBranch>& branches) {
+    std::ostringstream document, table;
+    output::write_json(document, s, branches);
+    const json results = json::parse(document.str(), nullptr, false);
+    if (results.is_discarded()) return fault("the results are no JSON:\n" + document.str());
+    if (results["branches"].size() != branches.size()) fault("the results have other branches");
+    output::write_csv(table, s, branches);
+    if (!is_whole_table(table.str())) fault("the table is not whole:\n" + table.str().substr(0, 2000));
+  }
+
+  const std::string& text_;
+  Findings findings_;
+};
+
+}  // namespace
+
+Findings examine(const std::string& text) {
+  return Examination(text).run();
+}
+
+}  // namespace fuzz
