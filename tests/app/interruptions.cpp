@@ -53,4 +53,40 @@ const std::vector<Interruption>& interruptions() {
   return rows;
 }
 
+const std::vector<RandomInterruption>& random_interruptions() {
+  static const std::string paper = "al_sayed_2011/scene.json", duffing = "duffing_jenkins/scene.json";
+  static const std::vector<std::string> both{"a.json", "a.csv"};
+  static const std::vector<RandomInterruption> rows = {
+      {{"frf", "scene.json", "--harmonics", "15", "--json", "a.json", "--csv", "a.csv"}, paper, both},
+      {{"frf", "scene.json", "--harmonics", "15", "--json", "-"}, paper, {}},
+      {{"trace", "scene.json", "--harmonics", "31", "--over", "k.value", "--from", "15000", "--to", "20000",
+        "--frequency", "20", "--json", "a.json", "--csv", "a.csv"},
+       paper,
+       both},
+      {{"peaks", "scene.json", "--harmonics", "7", "--json", "a.json", "--csv", "a.csv"}, paper, both},
+      {{"folds", "scene.json", "--json", "a.json", "--csv", "a.csv"}, duffing, both},
+      {{"time", "scene.json", "--frequency", "20", "--method", "newmark", "--json", "a.json", "--csv",
+        "a.csv"},
+       paper,
+       both},
+      {{"optimize", "scene.json", "--harmonics", "7", "--json", "a.json", "--csv", "a.csv"}, paper, both},
+      {{"optimize", "scene.json", "--json", "a.json", "--csv", "a.csv"},
+       "levels/scene.json",
+       both,
+       R"({"harmonics": {"order": 5, "friction": "sampled", "samples": 64}, "studies": [{"name": "o",
+         "kind": "optimum", "over": ["damper.normal_load"], "bounds": [[0.5, 60]], "frequency": [15, 60],
+         "evaluations": 20}]})"},
+      {{"optimize", "scene.json", "--json", "a.json"}, "two_dampers/scene.json", {"a.json"}},
+      {{"run", "scene.json", "--harmonics", "5", "--out", "results"},
+       paper,
+       {"results/frf.csv", "results/frf.json", "results/frf.scene.json", "results/frf.dat", "results/frf.gp",
+        "results/peaks.csv", "results/peaks.json", "results/peaks.scene.json", "results/peaks.dat",
+        "results/peaks.gp", "results/best_load.csv", "results/best_load.json", "results/best_load.scene.json",
+        "results/best_load.dat", "results/best_load.gp", "results/best_load_responses.dat",
+        "results/best_load_responses.gp"}},
+      {{"check", "scene.json"}, paper, {}},
+  };
+  return rows;
+}
+
 }  // namespace app_test

@@ -9,7 +9,9 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 namespace app_test {
@@ -128,6 +130,35 @@ void Program::send(int signal) const {
   ::kill(pid_, signal);
 }
 
+bool Program::handles(int signal) const {
+  const std::string self = "/proc/" + std::to_string(::getpid()) + "/comm";
+  if (content("/proc/" + std::to_string(pid_) + "/comm") == content(self)) {
+    return false;  // still ours, with our own answers
+  }
+  std::istringstream status(content("/proc/" + std::to_string(pid_) + "/status"));
+  for (std::string word; status >> word;) {
+    if (word == "SigCgt:" && status >> word) {
+      return ((std::stoull(word, nullptr, 16) >> (signal - 1)) & 1) != 0;
+    }
+  }
+  return false;
+}
+
+bool Program::is_running() const {
+  siginfo_t state{};
+  return ::waitid(P_PID, static_cast<id_t>(pid_), &state, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         state.si_pid == 0;
+}
+
+double Program::processor_seconds() const {
+  clockid_t clock{};
+  timespec time{};
+  if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) {
+    return 0;
+  }
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 Ended Program::wait() {
   Ended result;
   if (terminal_ >= 0) {  // until its other end is closed
@@ -138,8 +169,12 @@ Ended Program::wait() {
     }
   }
   int status = 0;
-  ::waitpid(pid_, &status, 0);
+  rusage used{};
+  ::wait4(pid_, &status, 0, &used);
   ended_ = true;
+  for (const timeval& time : {used.ru_utime, used.ru_stime}) {
+    result.processor_seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  }
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   result.out = content(streams_ / "out");

@@ -33,6 +33,7 @@ struct Ended {
   int exit_code = -1;  // -1 where a signal ended it
   int signal = 0;
   std::string out, err;
+  double processor_seconds = 0;  // that it took in all
 };
 
 /// A running arcslip.
@@ -48,6 +49,10 @@ class Program {
   ~Program();
 
   void send(int signal) const;
+  /// Whether it has its own answer to the signal by now.
+  bool handles(int signal) const;
+  bool is_running() const;
+  double processor_seconds() const;
   /// Waits for its end.
   Ended wait();
 
