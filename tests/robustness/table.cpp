@@ -226,8 +226,8 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("random structures of 1 to 6 masses with friction, some with cubic springs, in all units, names, "
       "orders and directions",
       structures::number, 1, "structures:",
-      "400, of which 1 in 36 with exact friction loses or gains a small peak in one direction or another "
-      "order");
+      "150: of some 120 with exact friction 2 differ in a peak or an end; harmonic balance is the motion in "
+      "time");
 }
 
 void print_bad_scenes() {
