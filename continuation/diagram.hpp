@@ -58,7 +58,7 @@ struct Diagram {
   std::vector<Junction> branch_points;
   bool complete = true;  // every half-branch of the branch points found within the depth was followed, and
                          // the modes that passed zero on the way are those of these branch points
-  std::string message;  // what is missing, and why
+  std::string message;   // what is missing, and why
 };
 
 /// `start.direction` is that of the first branch. branch_point_monitor() is added to the monitors where it

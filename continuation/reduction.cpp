@@ -74,6 +74,7 @@ bool Reduction::factorize() try {
   // It is taken together with a column of W, which changes the unknowns beta by a multiple of dp.
   apply(at_->jacobian(), generic(n_, 1, 3.0).col(0).normalized(), rhs_.head(n_));
   shift_ = std::max(rhs_.head(n_).norm(), F_p_.norm());
+  magnitude_ = W_.col(0).cwiseAbs().dot(rhs_.head(n_).cwiseAbs() + F_p_.cwiseAbs()) + 0.1 * shift_;
   if (shift_ == 0) shift_ = 1;
   if (W_.col(0).dot(F_p_) < 0) shift_ = -shift_;
   borders_.columns.col(0) = F_p_ + shift_ * W_.col(0);

@@ -4,7 +4,6 @@
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/problem.hpp>
 
-#include <cmath>
 #include <memory>
 
 namespace arcslip::continuation {
@@ -25,7 +24,9 @@ class Reduction {
   const Matrix& gradient() const { return G_; }    // G, m x (m+1)
   const Vector& scales() const { return scale_; }  // of x
   double size() const { return x_.cwiseQuotient(scale_).norm(); }
-  double magnitude() const { return std::abs(shift_); }  // of A in a generic direction
+  double magnitude() const {
+    return magnitude_;
+  }  // of |w_1| . |A x| in a generic direction x, and a tenth of |A x|
 
   /// Moves along z to the place where F + W beta = 0; returns beta, m. Not finite where F cannot be
   /// evaluated.
@@ -53,7 +54,7 @@ class Reduction {
   Borders borders_;
   Vector scale_, x_, F_p_, rhs_;
   Matrix C_, V_, W_, G_;
-  double shift_ = 0;
+  double shift_ = 0, magnitude_ = 0;
 };
 
 }  // namespace arcslip::continuation

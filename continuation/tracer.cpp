@@ -1,6 +1,7 @@
 #include <arcslip/continuation/tracer.hpp>
 
 #include <arcslip/continuation/closing.hpp>
+#include <arcslip/continuation/isolation.hpp>
 #include <arcslip/continuation/jacobian_check.hpp>
 #include <arcslip/continuation/limits.hpp>
 #include <arcslip/continuation/monitor_calls.hpp>
@@ -49,10 +50,12 @@ bool Tracer::step() try {
                  "the branch gets no further: " + s_.jacobian_doubt);
     const double smallest = options_.step.smallest * (1 + main_->norm_u(s_.here.v));
     if (s_.step < smallest)
-      return end(evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, s_.step, smallest,
-                 evaluated_ ? "the step fell below its smallest size after rejections" + doubt(s_.here.v)
-                            : "the problem could not be evaluated ahead, however short the step" +
-                                  because(failure_));
+      return end(
+          evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, s_.step, smallest,
+          evaluated_
+              ? "the step fell below its smallest size after rejections" + doubt(s_.here.v) +
+                    doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver)
+              : "the problem could not be evaluated ahead, however short the step" + because(failure_));
     switch (attempt()) {
       case Attempt::accepted:
         return !s_.ended;

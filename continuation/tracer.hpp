@@ -65,6 +65,7 @@ class Tracer {
 
   void make_tools();
   bool begin();
+  std::string singular_start(bool has_tangent) const;
   Attempt refuse(Rejected why, double value, double limit, Attempt as = Attempt::rejected);
   void log_rejection();
   void suspect(const Vector& v);

@@ -1,5 +1,6 @@
 // What becomes of the events of a step: their order, and branch points that could not be located.
 
+#include <arcslip/continuation/isolation.hpp>
 #include <arcslip/continuation/multiple_point.hpp>
 #include <arcslip/continuation/text.hpp>
 #include <arcslip/continuation/tracer.hpp>
@@ -43,6 +44,12 @@ std::optional<Tracer::Attempt> Tracer::look_for_crossing(double length) {
   if (crossing_) return {};
   if (apart && turned) return refuse(Rejected::another_branch, 0, 0);
   if (apart) return refuse(Rejected::branch_points, modes, 1, Attempt::unresolved);
+  const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
+  if (!doubt.empty() && next_.piece == s_.here.piece) {
+    end(StopReason::step_too_small, s_.step, branch_point_step * (1 + main_->norm_u(s_.here.v)),
+        "the direction of the branch changes however short the step" + doubt);
+    return Attempt::ended;
+  }
   crossing_ = unlocated_branch_point(s_.here, next_);
   return {};
 }

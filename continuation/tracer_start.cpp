@@ -1,6 +1,7 @@
 // How a trace begins: from a start, or from where another one was saved.
 
 #include <arcslip/continuation/inner_problem.hpp>
+#include <arcslip/continuation/isolation.hpp>
 #include <arcslip/continuation/jacobian_check.hpp>
 #include <arcslip/continuation/start_check.hpp>
 #include <arcslip/continuation/text.hpp>
@@ -80,6 +81,12 @@ State Tracer::save() const {
   return state;
 }
 
+// To go on a message that the linearization at the start is singular.
+std::string Tracer::singular_start(bool has_tangent) const {
+  const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
+  return !doubt.empty() || has_tangent ? doubt : remedy;
+}
+
 bool Tracer::begin() {
   s_.begun = true;
   const bool given = s_.here.tangent.size() != 0;
@@ -88,8 +95,8 @@ bool Tracer::begin() {
   const Correction correction = main_->correct(s_.here.v, row_, false);
   if (correction.singular)
     return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
-               "the linearization at the start is singular" +
-                   (main_->failure().empty() ? given ? "" : remedy : because(main_->failure())));
+               "the linearization at the start is singular" + because(main_->failure()) +
+                   (main_->failure().empty() ? singular_start(given) : ""));
   if (!correction.converged && correction.evaluated) {
     std::string doubts = doubt(s_.here.v);
     if (doubts.empty() && correction.linear && !given) doubts = std::string("; it converges slowly") + remedy;
@@ -103,9 +110,8 @@ bool Tracer::begin() {
   if (!settle(*main_, s_.here)) {
     const std::string& failure = main_->failure();
     return end(failure.empty() ? StopReason::start_failed : StopReason::not_evaluated, 0, 0,
-               failure.empty()
-                   ? std::string("the linearization at the start is singular") + (given ? "" : remedy)
-                   : "the problem could not be evaluated at the start: " + failure);
+               failure.empty() ? "the linearization at the start is singular" + singular_start(given)
+                               : "the problem could not be evaluated at the start: " + failure);
   }
   if (!given && s_.direction < 0) s_.here.reverse();
   s_.branch.linear_solver = main_->factors().name();

@@ -58,10 +58,8 @@ TEST_CASE("start_failed: no solution near the start is said, and there are no po
 TEST_CASE("start_failed: a singular start is said") {
   const Branch branch = trace(scalar([](In u, In, Out F) { F[0] = 0 * u[0]; }), at(0.5, 0), window(0, 1));
   CHECK(branch.stop.reason == StopReason::start_failed);
-  CHECK(
-      branch.stop.message ==
-      "the linearization at the start is singular: on a fold or a branch point, p tells no way to go, and a "
-      "start needs a tangent (Start::tangent)");
+  CHECK(branch.stop.message.starts_with(
+      "the linearization at the start is singular; the solutions here are not"));
   CHECK(branch.points.empty());
 }
 
