@@ -353,9 +353,8 @@ TEST_CASE("where there is no peak in the window, the study says so") {
 TEST_CASE("a study of peaks ends with the callback, and no other curve is begun") {
   scene::Study study = over_load(0.1, 10);
   study.for_each = {{"c.value", {0.1, 0.2}}};
-  int calls = 0;
   const auto branches = observables::resonance_peaks(
-      scenes::paper(1), study, [&](const observables::Progress&) { return ++calls < 5; });
+      scenes::paper(1), study, [](const observables::Progress& progress) { return progress.points < 5; });
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::stopped);
   CHECK(branches[0].stop.reason == "user");
