@@ -113,7 +113,8 @@ bool PeakAmplitude::holds(std::size_t peak, const Vector& x) {
   Follower& follower = *followers_[peak];
   if (of.kind == PeakKind::resonance) {
     const auto second = continuation::cusp_monitor().value;
-    return second({x, x, x, 0, follower.at(), follower.factors(), omega}) < 0;
+    continuation::Scratch none;
+    return second({x, x, x, 0, follower.at(), follower.factors(), omega, none}) < 0;
   }
   hbm::CornerSides sides(problem_, *of.corner, observables::amplitude_quantity(problem_));
   return sides.slopes(x, follower.parameters()).is_maximum();

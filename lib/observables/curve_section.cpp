@@ -55,7 +55,8 @@ bool CurveSection::linearize() {
 ResponsePoint CurveSection::observe(In x, In p, HeldBy held) {
   move_to(x, p, Needs::jacobian);
   linearize();
-  return observer_.observe({u_, p_, tangent_, 0, *evaluator_, *solver_, p_[model::frequency]}, held);
+  continuation::Scratch none;
+  return observer_.observe({u_, p_, tangent_, 0, *evaluator_, *solver_, p_[model::frequency], none}, held);
 }
 
 ResponsePoint CurveSection::observe(const Accepted& now, HeldBy held) {
