@@ -149,8 +149,10 @@ void Search::minimize_once() {
   options.tolerances = options_.tolerances;
   if (algorithm_.global)  // equal values are not the end: dampers that stick leave them
     options.tolerances.f_relative = options.tolerances.f_absolute = 0;
-  options.local = options_.local;
-  options.population = options_.population;
+  if (algorithm_.name == asked_.name) {  // others go on without
+    options.local = options_.local;
+    options.population = options_.population;
+  }
   options.seed = options_.seed;
   const int known = algorithm_.global ? 0 : 1;  // a local search begins where the cases stand
   options.evaluations = std::max(1, options_.evaluations - static_cast<int>(count()) + known);

@@ -70,8 +70,8 @@ inline observables::ResponsePoint response_at(scene::Scene s, double frequency) 
   scene::Study study;
   study.from = frequency;
   study.to = 1.001 * frequency;
-  const auto branches =
-      observables::frequency_response(s, study, [](const observables::Progress&) { return false; });
+  const auto branches = observables::frequency_response(
+      s, study, [](const observables::Progress& progress) { return progress.points < 1; });
   if (branches.front().points.empty()) throw std::runtime_error(branches.front().stop.message);
   return branches.front().points.front();
 }

@@ -24,7 +24,8 @@ ResponseBranch beginning_at(const scene::Scene& s, double frequency) {
   scene::Study study;
   study.from = frequency;
   study.to = 1.001 * frequency;
-  return observables::frequency_response(s, study, [](const observables::Progress&) { return false; })
+  return observables::frequency_response(
+             s, study, [](const observables::Progress& progress) { return progress.points < 1; })
       .front();
 }
 
