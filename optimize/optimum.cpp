@@ -194,7 +194,7 @@ Search::Ends Search::ends(bool smooth) {
     trials_.call_best();
     return Ends::vanishes;
   }
-  if (!smooth && is_settled() && refinements_ > 0) return Ends::settles;
+  if (refinements_ > 0 && !smooth && is_settled()) return Ends::settles;
   return idle_ == most_idle ? Ends::idles : Ends::no;
 }
 
