@@ -194,7 +194,8 @@ Search::Ends Search::ends(bool smooth) {
     trials_.call_best();
     return Ends::vanishes;
   }
-  if (refinements_ > 0 && !smooth && is_settled()) return Ends::settles;
+  const bool settled = (limited_ || refinements_ > 0) && !smooth && is_settled();
+  if (settled && refinements_ > 0) return Ends::settles;
   return idle_ == most_idle ? Ends::idles : Ends::no;
 }
 
