@@ -100,7 +100,7 @@ class Doubt {
     at_p_[free_] = p_[free_] + h * d[n_];
     if (at_p_[free_] < parameter().lower || at_p_[free_] > parameter().upper) return false;
     return beside_->move_to(at_u_, at_p_, Needs::residual) == Evaluated::ok &&
-           beside_->residual().allFinite() && beside_->piece() == piece_;
+           beside_->residual().size() == n_ && beside_->residual().allFinite() && beside_->piece() == piece_;
   }
 
   // F_d_, and bend_: how much the differences to the two sides differ. False: not within the piece.
