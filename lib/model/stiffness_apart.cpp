@@ -1,5 +1,6 @@
 #include <arcslip/model/stiffness_apart.hpp>
 
+#include <cmath>
 #include <sstream>
 
 namespace arcslip::model {
@@ -23,8 +24,12 @@ std::string stiffness_apart(const Model& model, const continuation::Vector& p) {
   std::ostringstream text;
   text.precision(4);
   const auto name = [&](int k) { return model.parameters[static_cast<std::size_t>(k)].name; };
-  text << name(stiffest) << " = " << p[stiffest] << " N/m is " << p[stiffest] / p[softest] << " times "
-       << name(softest) << " = " << p[softest]
+  text << name(stiffest) << " = " << p[stiffest] << " N/m is ";
+  if (const double ratio = p[stiffest] / p[softest]; std::isfinite(ratio))
+    text << ratio;
+  else
+    text << "more than 1e308";
+  text << " times " << name(softest) << " = " << p[softest]
        << " N/m, farther apart than double precision can follow; make " << name(stiffest) << " smaller";
   return text.str();
 }
