@@ -28,9 +28,9 @@ constexpr int most_points = 30, most_combinations = 4, highest_order = 5, most_s
 constexpr std::size_t most_dofs = 8, most_elements = 8;
 
 // What an engineer has never heard of.
-constexpr std::string_view internal_words[] = {"step.",      "options.", "std::",   "basic_string",
-                                               "json.excep", "vector::", "Eigen",   "_M_",
-                                               "nullptr",    "iterator", "callback"};
+constexpr std::string_view internal_words[] = {"step.",      "options.", "std::",    "basic_string",
+                                               "json.excep", "vector::", "Eigen",    "_M_",
+                                               "nullptr",    "iterator", "callback", "Jacobian"};
 
 /// The examination of one text.
 class Examination {
