@@ -16,10 +16,9 @@
 // e. The residual is that of J itself, so that E leaves no trace. Iterative solvers, with e their tolerance,
 // take some sweeps more.
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/refinement.hpp>
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <cstdint>
@@ -51,7 +50,7 @@ class BlockElimination final : public LinearSolver {
     for (Eigen::Index i = 0; i < m; ++i)
       if (!plain_->solve(borders_.columns.col(i), V_.col(i)) || !V_.col(i).allFinite()) return false;
     S_.noalias() = borders_.corner - borders_.rows.transpose() * V_;
-    if (m > 0) lu_.compute(S_);
+    if (m > 0) lu_.factorize(S_);
     return ready_ = S_.allFinite() && take_sign();
   }
 
@@ -74,7 +73,7 @@ class BlockElimination final : public LinearSolver {
     if (V_.rows() == n && V_.cols() == m) return;
     V_.resize(n, m);
     S_.resize(m, m);
-    lu_ = Eigen::PartialPivLU<Matrix>(m);
+    lu_ = LU<double>(m);
     refinement_.resize(n + m);
     row_sums_.resize(n + m);
     column_sums_.resize(n + m);
@@ -85,9 +84,9 @@ class BlockElimination final : public LinearSolver {
   bool take_sign() {
     sign_of_S_ = 1;
     if (borders_.width() == 0) return true;
-    const auto pivots = lu_.matrixLU().diagonal();
-    bool odd = lu_.permutationP().determinant() < 0;
-    for (const double pivot : pivots) {
+    bool odd = lu_.permutation_sign() < 0;
+    for (Eigen::Index i = 0; i < S_.rows(); ++i) {
+      const double pivot = lu_.pivot(i);
       if (pivot == 0 || !std::isfinite(pivot)) return false;
       odd ^= pivot < 0;
     }
@@ -101,7 +100,7 @@ class BlockElimination final : public LinearSolver {
     if (!plain_->solve(b.head(n), w_)) return false;
     if (m > 0) {
       y_.noalias() = b.tail(m) - borders_.rows.transpose() * w_;
-      z.tail(m) = lu_.solve(y_);
+      lu_.solve(y_, z.tail(m));
     }
     z.head(n).noalias() = w_ - V_ * z.tail(m);
     return true;
@@ -111,7 +110,7 @@ class BlockElimination final : public LinearSolver {
     const Eigen::Index n = w_.size(), m = y_.size();
     if (m > 0) {
       y_.noalias() = b.tail(m) - V_.transpose() * b.head(n);
-      z.tail(m) = lu_.transpose().solve(y_);
+      lu_.solve_transposed(y_, z.tail(m));
     }
     w_.noalias() = b.head(n) - borders_.rows * z.tail(m);
     return plain_->solve_transposed(w_, z.head(n));
@@ -188,7 +187,7 @@ class BlockElimination final : public LinearSolver {
   Jacobian J_;
   Borders borders_{0, 0};
   Matrix V_, S_;
-  Eigen::PartialPivLU<Matrix> lu_{0};
+  LU<double> lu_;
   mutable Refinement refinement_;
   mutable Vector w_, y_;
   Vector row_sums_, column_sums_;

@@ -1,8 +1,7 @@
 #include <arcslip/continuation/branch_point.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/inner_problem.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -145,16 +144,16 @@ std::optional<BranchPointLocation> locate_branch_point(std::shared_ptr<const Pro
 std::optional<BranchPoint> describe_branch_point(const Problem& problem, int along,
                                                  const BranchPointLocation& at, const Vector& tangent) {
   if (!at.branches_cross()) return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> form(Eigen::Matrix2d(at.null_space.form));
-  const double negative = form.eigenvalues()[0], positive = form.eigenvalues()[1];
+  const SymmetricModes form = symmetric_modes(at.null_space.form);
+  const double negative = form.values[0], positive = form.values[1];
   const double larger = std::max(positive, -negative), smaller = std::min(positive, -negative);
   if (!(smaller > smallest_share * larger)) return {};
   const double parameter_scale = problem.parameters()[static_cast<std::size_t>(along)].change();
 
   BranchPoint point;
   for (const double sign : {1.0, -1.0}) {
-    const Eigen::Vector2d y = std::sqrt(positive) * form.eigenvectors().col(0) +
-                              sign * std::sqrt(-negative) * form.eigenvectors().col(1);
+    const Eigen::Vector2d y = std::sqrt(positive) * form.V.col(0) +
+                              sign * std::sqrt(-negative) * form.V.col(1);
     Vector t = at.null_space.right * y;
     t /= std::sqrt(product(problem, parameter_scale, t, t));
     if (product(problem, parameter_scale, t, tangent) < 0) t = -t;

@@ -1,9 +1,8 @@
 #include <arcslip/continuation/branch_point_curve.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/inner_problem.hpp>
 #include <arcslip/continuation/neighbours.hpp>
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <exception>
@@ -266,7 +265,7 @@ class BranchPointSolver final : public LinearSolver {
         S_.col(2 + j).tail(m) += borders.corner.col(j - 1);
     }
     if (!S_.allFinite()) return false;
-    small_.compute(S_);
+    small_.factorize(S_);
     determinant_ = small_.determinant();
     return determinant_ != 0 && std::isfinite(determinant_);
   }
@@ -280,7 +279,8 @@ class BranchPointSolver final : public LinearSolver {
     rhs_.segment(1, 2) = x.segment(n, 2) - dg_;
     rhs_.tail(m) = x.tail(m);
     rhs_.tail(m).noalias() -= rows_.topRows(n + 1).transpose() * y_.head(n + 1);
-    small_x_ = small_.solve(rhs_);
+    small_x_.resize(rhs_.size());
+    small_.solve(rhs_, small_x_);
     x.head(n + 1) = y_.head(n + 1);
     x.head(n + 1).noalias() += V_ * small_x_.head(2);
     x.head(n + 1).noalias() -= X_ * small_x_.tail(1 + m);
@@ -297,7 +297,7 @@ class BranchPointSolver final : public LinearSolver {
   const BranchPointEvaluator* at_ = nullptr;
   std::shared_ptr<LinearSolver> M_;
   Matrix V_, rows_, X_, S_;
-  Eigen::PartialPivLU<Matrix> small_;
+  LU<double> small_;
   double determinant_ = 1;
   mutable Vector y_, dg_, rhs_, small_x_;
 };

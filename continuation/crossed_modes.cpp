@@ -1,7 +1,6 @@
 #include <arcslip/continuation/crossed_modes.hpp>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <arcslip/continuation/dense_algebra.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -129,21 +128,21 @@ std::optional<CrossedModes> ModeCounter::between(const Place& from, const Place&
   result.at_zero = !basis();  // B_1 is singular to the last bit
   if (result.at_zero || Q_.cols() == 0) return result;
   const Matrix middle = Q_.transpose() * Y_;
-  const Eigen::EigenSolver<Matrix> modes(middle);
-  if (modes.info() != Eigen::Success) return {};
-  result.at_zero = modes.eigenvalues().cwiseAbs().maxCoeff() > 1 / zero;
+  const Modes modes = continuation::modes(middle);
+  if (modes.values.size() == 0) return {};
+  result.at_zero = modes.values.cwiseAbs().maxCoeff() > 1 / zero;
   if (result.at_zero) return result;
   if (!evaluate(from.v, from.piece) || !multiply(Q_, Y_)) return {};
   const Matrix first = Q_.transpose() * Y_;
-  if (modes.eigenvalues().cwiseAbs().minCoeff() < zero)  // the middle is such a place
-    result.count = negative(first.eigenvalues());
+  if (modes.values.cwiseAbs().minCoeff() < zero)  // the middle is such a place
+    result.count = negative(eigenvalues(first));
   else
-    result.count = negative(modes.eigenvalues()) + negative(middle.partialPivLu().solve(first).eigenvalues());
+    result.count = negative(modes.values) + negative(eigenvalues(solve(middle, first)));
   if (result.count > 0) return result;
 
-  const Eigen::MatrixXcd at_first = modes.eigenvectors().partialPivLu().solve(first * modes.eigenvectors());
+  const Eigen::MatrixXcd at_first = solve_complex(modes.V, first * modes.V);
   for (Eigen::Index i = 0; i < middle.cols(); ++i) {
-    const auto m = modes.eigenvalues()[i], a = at_first(i, i);
+    const auto m = modes.values[i], a = at_first(i, i);
     if (m.imag() != 0 || !(a.real() > 0)) continue;
     const double bend = 4 * std::abs(m.real() - 0.5 * (a.real() + 1));
     if (pair_safety * bend > 1 + a.real() + 2 * std::sqrt(a.real())) result.told = false;

@@ -1,6 +1,6 @@
 #include <arcslip/continuation/hopf.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <arcslip/continuation/dense_algebra.hpp>
 
 #include <algorithm>
 #include <complex>
@@ -47,17 +47,16 @@ class Spectrum {
     to_dense(jacobian, J_);
     if (!eigenvalues_.empty() && J_ == at_) return;
     at_ = J_;
-    solver_.compute(at_, false);
-    if (solver_.info() != Eigen::Success) throw std::runtime_error(not_computed);
-    const auto& all = solver_.eigenvalues();
+    const auto all = continuation::eigenvalues(at_);
+    if (all.size() < at_.rows()) throw std::runtime_error(not_computed);
     eigenvalues_.assign(all.begin(), all.end());
     std::stable_sort(eigenvalues_.begin(), eigenvalues_.end(),
                      [](const auto& x, const auto& y) { return x.real() > y.real(); });
   }
 
   EventData with_vector(const std::vector<double>& frequencies, std::size_t rank, const Vector& scales) {
-    const Eigen::EigenSolver<Matrix> solver(J_);
-    const auto& all = solver.eigenvalues();
+    const Modes modes = continuation::modes(J_);
+    const auto& all = modes.values;
     // The pairs nearest to the axis, as many as cross together, in the order of their frequencies.
     std::vector<Eigen::Index> pairs;
     for (Eigen::Index i = 0; i < all.size(); ++i)
@@ -70,7 +69,7 @@ class Spectrum {
     std::stable_sort(pairs.begin(), pairs.end(),
                      [&](Eigen::Index i, Eigen::Index j) { return all[i].imag() < all[j].imag(); });
     const Eigen::Index chosen = pairs[rank];
-    Eigen::VectorXcd z = solver.eigenvectors().col(chosen).cwiseQuotient(scales.cast<std::complex<double>>());
+    Eigen::VectorXcd z = modes.V.col(chosen).cwiseQuotient(scales.cast<std::complex<double>>());
     z /= z.norm();
     // By the phase that makes sum z_i^2 = |a|^2 - |b|^2 + 2i a . b real and not negative.
     z *= std::polar(1.0, -0.5 * std::arg(z.cwiseProduct(z).sum()));
@@ -81,7 +80,6 @@ class Spectrum {
   }
 
   Matrix J_, at_;
-  Eigen::EigenSolver<Matrix> solver_;
   std::vector<std::complex<double>> eigenvalues_;
 };
 

@@ -1,11 +1,9 @@
 #include <arcslip/continuation/hopf_curve.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/hopf.hpp>
 #include <arcslip/continuation/inner_problem.hpp>
 #include <arcslip/continuation/neighbours.hpp>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -30,9 +28,7 @@ class Pair {
  public:
   // The nearest to +- i sqrt(kappa). False where the eigenvalues cannot be computed.
   bool find(const Matrix& J, double kappa) {
-    eigen_.compute(J, false);
-    if (eigen_.info() != Eigen::Success) return false;
-    const auto& mu = eigen_.eigenvalues();
+    const Eigen::VectorXcd mu = eigenvalues(J);
     const Complex root = std::sqrt(Complex(-kappa));
     double nearest = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < mu.size(); ++i)
@@ -47,32 +43,18 @@ class Pair {
     return std::isfinite(nearest);
   }
 
-  // V, W and adj(R) of the pair that was found. With Q P = H T, H orthogonal, T upper triangular with rows of
-  // zeros last: these rows of H^T span W, and V solves T P^T V = 0.
+  // V, W and adj(R) of the pair that was found: the null spaces of P.
   bool span(const Matrix& J) {
-    const Eigen::Index n = J.rows();
-    Q_.noalias() = J * J;
-    Q_ -= sum * J;
-    Q_.diagonal().array() += product;
-    qr_.compute(Q_);
-    kernel_.setZero(n, 2);
-    kernel_.bottomRows(2).setIdentity();
-    if (n > 2) {
-      auto above = kernel_.topRows(n - 2);
-      above = -qr_.matrixQR().topRightCorner(n - 2, 2);
-      qr_.matrixQR().topLeftCorner(n - 2, n - 2).triangularView<Eigen::Upper>().solveInPlace(above);
-    }
-    V = qr_.colsPermutation() * kernel_;
-    kernel_.setZero();
-    kernel_.bottomRows(2).setIdentity();
-    qr_.householderQ().applyThisOnTheLeft(kernel_, row_);
-    Eigen::Matrix2d product_of_both;
-    product_of_both.noalias() = V.transpose() * kernel_;
-    const Eigen::Matrix2d to_unit = product_of_both.inverse();
-    W.noalias() = kernel_ * to_unit;
-    kernel_.noalias() = J * V;
+    P_.noalias() = J * J;
+    P_ -= sum * J;
+    P_.diagonal().array() += product;
+    null_spaces(P_, 2, of_P_);
+    V = of_P_.right;
+    const Eigen::Matrix2d to_unit = Eigen::Matrix2d(V.transpose() * of_P_.left).inverse();
+    W.noalias() = of_P_.left * to_unit;
+    JV_.noalias() = J * V;
     adjugate = sum * Eigen::Matrix2d::Identity();
-    adjugate.noalias() -= W.transpose() * kernel_;
+    adjugate.noalias() -= W.transpose() * JV_;
     return V.allFinite() && W.allFinite();
   }
 
@@ -81,10 +63,8 @@ class Pair {
   Eigen::Matrix2d adjugate;
 
  private:
-  Eigen::EigenSolver<Matrix> eigen_;
-  Eigen::ColPivHouseholderQR<Matrix> qr_;
-  Matrix Q_, kernel_;
-  Eigen::RowVectorXd row_;
+  Matrix P_, JV_;
+  NullSpaces of_P_;
 };
 
 class HopfEvaluator final : public Evaluator {

@@ -1,10 +1,7 @@
 #include <arcslip/continuation/multiple_point.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/reduction.hpp>
-
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <array>
@@ -107,8 +104,8 @@ class Forms {
       even.row(i) = (plus + minus).transpose() / (2 * r * r);
       odd.row(i) = (plus - minus).transpose() / (2 * r * r * r);
     }
-    Q_ = A2.colPivHouseholderQr().solve(even);
-    K_ = A3.colPivHouseholderQr().solve(odd);
+    Q_ = least_squares(A2, even).X;
+    K_ = least_squares(A3, odd).X;
     size_ = Q_.norm() + r * K_.norm();
     return Q_.allFinite() && K_.allFinite() && size_ > 0;
   }
@@ -143,7 +140,7 @@ std::optional<std::vector<Vector>> zeros(const Forms& forms, Eigen::Index k, dou
     for (int step = 0; step < newton_steps && !reached; ++step) {
       g << forms.value(y, r), 0;
       reached = g.norm() <= zero * forms.size();
-      const Vector dy = forms.gradient(y, r).partialPivLu().solve(g);
+      const Vector dy = solve(forms.gradient(y, r), g);
       if (!dy.allFinite()) break;
       y -= dy / std::max(1.0, 2 * dy.norm());
       y.normalize();
@@ -152,7 +149,7 @@ std::optional<std::vector<Vector>> zeros(const Forms& forms, Eigen::Index k, dou
     if (std::any_of(found.begin(), found.end(),
                     [&](const Vector& other) { return (y - other).norm() < same_zero * std::max(1e-2, r); }))
       continue;
-    const auto values = forms.gradient(y, r).jacobiSvd().singularValues();
+    const auto values = singular_values(forms.gradient(y, r)).values;
     if (values[k - 1] < isolated * r * values[0]) return {};
     found.push_back(std::move(y));
     if (found.size() > 200) return {};
@@ -168,7 +165,7 @@ bool correct(Reduction& reduction, const Forms& forms, double r, Vector& y, Vect
   for (int step = 0; step < newton_steps; ++step) {
     g << reduction.beta(r * y, place) / (r * r), 0;
     if (!g.allFinite()) return false;
-    const Vector dy = forms.gradient(y, r).partialPivLu().solve(g);
+    const Vector dy = solve(forms.gradient(y, r), g);
     const double now = dy.norm();
     if (!(now < 0.5) || (step > 1 && now > before)) return step > 1 && before < 1e-6;
     y = (y - dy).normalized();
@@ -223,10 +220,9 @@ std::optional<MultiplePoint> locate_multiple_point(const Problem& problem, const
   for (int step = 0; step < iterations && !done; ++step) {
     if (!reduction.move_to(x)) return {};
     if (!reduction.settle().allFinite() || !reduction.move_to(reduction.x()) || !reduction.form(H)) return {};
-    Eigen::ColPivHouseholderQR<Matrix> qr(H);
-    qr.setThreshold(smallest_share);
-    if (qr.rank() < m + 1) return {};
-    const Vector y = qr.solve(stacked());
+    const LeastSquares found = least_squares(H, stacked(), smallest_share);
+    if (found.rank < m + 1) return {};
+    const Vector y = found.X;
     x = reduction.x() + reduction.right() * y;
     if (!((x - guess).cwiseQuotient(reduction.scales()).norm() <= reach)) return {};
     done = y.norm() <= converged * (1 + reduction.size());

@@ -1,8 +1,7 @@
 #include <arcslip/continuation/reduction.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/neighbours.hpp>
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -30,11 +29,6 @@ Matrix generic(Eigen::Index rows, Eigen::Index columns, double phase) {
   return result;
 }
 
-Matrix orthonormal(const Matrix& columns) {
-  const Eigen::HouseholderQR<Matrix> qr(columns);
-  return qr.householderQ() * Matrix::Identity(columns.rows(), columns.cols());
-}
-
 }  // namespace
 
 Reduction::Reduction(const Problem& problem, const Vector& p, int along, int rank_loss,
@@ -53,10 +47,10 @@ Reduction::Reduction(const Problem& problem, const Vector& p, int along, int ran
       rhs_(n_ + 1 + m_),
       C_(n_ + 1, m_ + 1),
       V_(n_ + 1, m_ + 1),
-      W_(orthonormal(generic(n_, m_, 1.0))),
+      W_(orthonormal_columns(generic(n_, m_, 1.0))),
       G_(m_, m_ + 1) {
   scale_ << problem.scales(), problem.parameters()[static_cast<std::size_t>(along)].scale;
-  C_ = scale_.cwiseInverse().asDiagonal() * orthonormal(generic(n_ + 1, m_ + 1, 0.5));
+  C_ = scale_.cwiseInverse().asDiagonal() * orthonormal_columns(generic(n_ + 1, m_ + 1, 0.5));
 }
 
 bool Reduction::evaluate(const Vector& x, Needs needs) try {
@@ -123,8 +117,8 @@ bool Reduction::move_to(const Vector& x) {
     if (!factorize() || !null_spaces()) return false;
     Matrix left;
     if (!left_vectors(left)) return false;
-    W_ = orthonormal(left);
-    C_ = scale_.cwiseInverse().asDiagonal() * orthonormal(scale_.cwiseInverse().asDiagonal() * V_);
+    W_ = orthonormal_columns(left);
+    C_ = scale_.cwiseInverse().asDiagonal() * orthonormal_columns(scale_.cwiseInverse().asDiagonal() * V_);
   }
   return factorize() && null_spaces();
 }

@@ -1,9 +1,8 @@
 #include <arcslip/continuation/stationary.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/inner_problem.hpp>
 #include <arcslip/continuation/neighbours.hpp>
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <exception>
@@ -228,7 +227,7 @@ class StationarySolver final : public LinearSolver {
       S_.col(1 + j).tail(m).noalias() -= rows_.transpose() * y_;
     }
     if (!S_.allFinite()) return false;
-    small_.compute(S_);
+    small_.factorize(S_);
     determinant_ = small_.determinant();
     return determinant_ != 0 && std::isfinite(determinant_);
   }
@@ -240,7 +239,8 @@ class StationarySolver final : public LinearSolver {
     rhs_[0] = x[n] - dG(y_);
     rhs_.tail(m) = x.tail(m);
     rhs_.tail(m).noalias() -= rows_.transpose() * y_;
-    small_x_ = small_.solve(rhs_);
+    small_x_.resize(rhs_.size());
+    small_.solve(rhs_, small_x_);
     x.head(n + 1) = y_ + small_x_[0] * t_;
     x.head(n + 1).noalias() -= X_ * small_x_.tail(m);
     x.tail(m) = small_x_.tail(m);
@@ -263,7 +263,7 @@ class StationarySolver final : public LinearSolver {
   Vector t_, G_x_;
   bool has_gradient_ = false;
   Matrix rows_, X_, S_;
-  Eigen::PartialPivLU<Matrix> small_;
+  LU<double> small_;
   double determinant_ = 1;
   mutable Vector y_, rhs_, small_x_;
 };

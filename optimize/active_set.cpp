@@ -1,6 +1,6 @@
 #include <arcslip/optimize/active_set.hpp>
 
-#include <Eigen/LU>
+#include <arcslip/continuation/dense_algebra.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ std::optional<std::size_t> leaves(const Inequality& what, const OptimalityEvalua
   Matrix B(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
     B.col(i) = column(all[static_cast<std::size_t>(i)].of, at, count - 1);
-  const Vector change = -B.fullPivLu().solve(column(what, at, count - 1));
+  const Vector change = -continuation::solve_any(B, column(what, at, count - 1));
   std::optional<std::size_t> first;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double rate = change[static_cast<Eigen::Index>(i)];

@@ -1,10 +1,9 @@
 #include <arcslip/optimize/certificate.hpp>
 
 #include <arcslip/continuation/deflation.hpp>
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/optimize/design_space.hpp>
 #include <arcslip/optimize/multipliers.hpp>
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +79,9 @@ class Certifier {
     result_.curvature = H;
     const bool inside =
         std::all_of(result_.at_bound.begin(), result_.at_bound.end(), [](int bound) { return bound == 0; });
-    if (!inside || !result_.limits.empty() || result_.curvature.llt().info() != Eigen::Success) return;
-    const Vector step = -result_.curvature.llt().solve(gradient_);
+    continuation::Cholesky cholesky;
+    if (!inside || !result_.limits.empty() || !cholesky.factorize(result_.curvature)) return;
+    const Vector step = -cholesky.solve(gradient_);
     result_.to_minimum.assign(step.begin(), step.end());
   }
 

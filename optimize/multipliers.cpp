@@ -1,8 +1,7 @@
 #include <arcslip/optimize/multipliers.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/optimize/scaled_parameter.hpp>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +49,7 @@ Eigen::VectorXd minimum_of(const Eigen::MatrixXd& G, const std::vector<std::size
     A(i, k + row[g]) = A(k + row[g], i) = 1;
     b[k + row[g]] = shares[g];
   }
-  const Eigen::VectorXd x = A.fullPivLu().solve(b);
+  const Eigen::VectorXd x = continuation::solve_any(A, b);
   for (Eigen::Index i = 0; i < k; ++i) weights[columns[static_cast<std::size_t>(i)]] = x[i];
   return weights;
 }

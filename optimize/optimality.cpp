@@ -1,7 +1,6 @@
 #include <arcslip/optimize/optimality.hpp>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <arcslip/continuation/dense_algebra.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -158,15 +157,8 @@ bool OptimalityEvaluator::is_minimum() const {
   // A single gradient vanishes at the optimum; of several, differences span what is not free.
   const Matrix D = G.rightCols(active_ - 1).colwise() - G.col(0);
   Matrix N = Matrix::Identity(free_, free_);
-  if (D.cols() > 0) {
-    Eigen::ColPivHouseholderQR<Matrix> qr(D);
-    qr.setThreshold(same_direction);
-    const Matrix Q = qr.householderQ();
-    N = Q.rightCols(free_ - qr.rank());
-  }
-  if (N.cols() == 0) return true;
-  const Eigen::SelfAdjointEigenSolver<Matrix> of(N.transpose() * W * N);
-  return of.eigenvalues()[0] > 0;
+  if (D.cols() > 0) N = continuation::orthogonal_complement(D, same_direction);
+  return N.cols() == 0 || continuation::symmetric_eigenvalues(N.transpose() * W * N)[0] > 0;
 }
 
 namespace {

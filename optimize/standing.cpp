@@ -1,8 +1,7 @@
 #include <arcslip/optimize/standing.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/optimize/multipliers.hpp>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -44,16 +43,18 @@ void Standing::take(const OptimalityEvaluator& at) {
 }
 
 bool Standing::take_tangent(const OptimalityEvaluator& at, const Vector& row) {
-  const Eigen::FullPivLU<Matrix> lu(bordered(at, row).topRows(row.size() - 1));
-  if (lu.dimensionOfKernel() != 1) return false;
-  tangent = lu.kernel().col(0).normalized();
+  const Matrix along = continuation::kernel(bordered(at, row).topRows(row.size() - 1));
+  if (along.cols() != 1) return false;
+  tangent = along.col(0).normalized();
   if (row.dot(tangent) < 0) tangent = -tangent;
   orient(at);
   return true;
 }
 
 void Standing::orient(const OptimalityEvaluator& at) {
-  orientation = bordered(at, tangent).determinant() > 0 ? 1 : -1;
+  continuation::LU<double> lu;
+  lu.factorize(bordered(at, tangent));
+  orientation = lu.determinant() > 0 ? 1 : -1;
 }
 
 void Standing::turn_back() {
@@ -68,7 +69,7 @@ bool Standing::move(OptimalityEvaluator& at) const {
 bool Standing::correct(OptimalityEvaluator& at) {
   for (int k = 0; k < most_corrections; ++k) {
     if (!move(at)) return false;
-    const Vector dz = std::get<Matrix>(at.jacobian()).fullPivLu().solve(at.residual());
+    const Vector dz = continuation::solve_any(std::get<Matrix>(at.jacobian()), at.residual());
     if (!dz.allFinite() || dz.cwiseAbs().maxCoeff() > largest_correction) return false;
     z -= dz;
     if (dz.norm() <= corrected * (1 + z.norm())) return move(at);

@@ -1,8 +1,6 @@
 #include <arcslip/hbm/coordinates.hpp>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <arcslip/continuation/dense_algebra.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -71,11 +69,9 @@ Directions stiff_between_elements(const Directions& stiff, const Independent& el
     all.add(d);
     if (elements.spans(d)) found.push_back(d);
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> angles(all.orthonormal().transpose() * elements.orthonormal(),
-                                                 Eigen::ComputeFullV);
-  for (Eigen::Index i = 0; i < angles.singularValues().size(); ++i)
-    if (angles.singularValues()[i] > 1 - independent)
-      found.push_back(elements.orthonormal() * angles.matrixV().col(i));
+  const auto angles = continuation::singular_values(all.orthonormal().transpose() * elements.orthonormal());
+  for (Eigen::Index i = 0; i < angles.values.size(); ++i)
+    if (angles.values[i] > 1 - independent) found.push_back(elements.orthonormal() * angles.V.col(i));
   return found;
 }
 
@@ -99,12 +95,9 @@ Coordinates coordinates(const model::Model& model) {
   const Eigen::MatrixXd& B = chosen.chosen();
   // B^T x = (unknowns, elongations): x = B (B^T B)^-1 (unknowns, elongations) + (null space of B^T) * the
   // rest.
-  c.P.leftCols(B.cols()) = B * (B.transpose() * B).inverse();
-  if (B.cols() < model.dofs) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(B);
-    const Eigen::MatrixXd Q = qr.householderQ();
-    c.P.rightCols(model.dofs - B.cols()) = Q.rightCols(model.dofs - B.cols());
-  }
+  c.P.leftCols(B.cols()) = B * continuation::solve(B.transpose() * B, Eigen::MatrixXd::Identity(B.cols(), B.cols()));
+  if (B.cols() < model.dofs)
+    c.P.rightCols(model.dofs - B.cols()) = continuation::orthogonal_complement(B);
   return c;
 }
 

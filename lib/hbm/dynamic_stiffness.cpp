@@ -151,12 +151,10 @@ bool DynamicStiffness::move_to(In p) {
       W = rhs_;
       if (!eliminate(Zll_, W)) return false;
     } else {
-      lu_.compute(Zll_);
+      lu_.factorize(Zll_);
       for (Eigen::Index k = 0; k < l_; ++k)
-        if (!(std::abs(lu_.matrixLU()(k, k)) > pole * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
-      W.noalias() = lu_.permutationP() * rhs_;
-      lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(W);
-      lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(W);
+        if (!(std::abs(lu_.pivot(k)) > pole * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
+      lu_.solve_columns(rhs_, W);
     }
     for (Eigen::Index j = 0; j < r_; ++j)
       for (Eigen::Index i = 0; i <= j; ++i) {  // Z is symmetric
@@ -262,11 +260,11 @@ void DynamicStiffness::solve(Out x) const {
   for (int h = 0; h < harmonics_.cosines(); ++h) {
     gather(x, h, q_);
     Z = Z_[static_cast<std::size_t>(h)];
-    const Vectorc solution = Z.partialPivLu().solve(q_);
+    const Matrixc solution = continuation::solve_complex(Z, q_);
     const int n = harmonics_.cosine_order(h);
     for (int i = 0; i < r_; ++i) {
-      x[i * c + h] = solution[i].real();
-      if (n > 0) x[i * c + harmonics_.sine_index(n)] = -solution[i].imag();
+      x[i * c + h] = solution(i, 0).real();
+      if (n > 0) x[i * c + harmonics_.sine_index(n)] = -solution(i, 0).imag();
     }
   }
 }

@@ -7,9 +7,8 @@
 // - Z_lq q). Every parameter derivative is that of the full equation at the full motion, v, projected: v_q -
 // Z_ql Z_ll^-1 v_l.
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/hbm/coordinates.hpp>
-
-#include <Eigen/LU>
 
 #include <complex>
 #include <utility>
@@ -88,7 +87,7 @@ class DynamicStiffness {
   std::vector<Matrixc> Z_;  // per harmonic, r x r
   std::vector<Vectorc> f_;  // r
   std::vector<Matrixc> W_;  // l x (r + 2): Z_ll^-1 [Z_lq, f_l, response_l]
-  Eigen::PartialPivLU<Matrixc> lu_;
+  continuation::LU<Complex> lu_;
   Matrixc Zll_, rhs_;
   mutable Vectorc q_, y_, v_, full_f_;
 };

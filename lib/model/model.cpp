@@ -1,9 +1,8 @@
 #include <arcslip/model/model.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/jenkins.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -136,10 +135,10 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
   for (int i = 0; i < model.dofs; ++i)
     if (size[i] == 0) return i;
   const Eigen::VectorXd scale = size.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scale.asDiagonal() * K * scale.asDiagonal());
+  const auto modes = continuation::symmetric_modes(scale.asDiagonal() * K * scale.asDiagonal());
   Eigen::Index softest = 0, dof = 0;
-  if (modes.eigenvalues().cwiseAbs().minCoeff(&softest) > held) return {};
-  (scale.asDiagonal() * modes.eigenvectors().col(softest)).cwiseAbs().maxCoeff(&dof);
+  if (modes.values.cwiseAbs().minCoeff(&softest) > held) return {};
+  (scale.asDiagonal() * modes.V.col(softest)).cwiseAbs().maxCoeff(&dof);
   return static_cast<int>(dof);
 }
 

@@ -1,9 +1,8 @@
 #include <arcslip/observables/truncation.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/neighbours.hpp>
 #include <arcslip/hbm/slip_corner.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -49,12 +48,11 @@ double highest_natural_frequency(const model::Model& model, const Vector& p,
   // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift >
   // 0.
   const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(M, K + shift * M,
-                                                                         Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) return 0;
-  const double largest = solver.eigenvalues().maxCoeff();
+  const Vector all = continuation::symmetric_eigenvalues(M, K + shift * M);
+  if (all.size() == 0) return 0;
+  const double largest = all.maxCoeff();
   double highest = 0;
-  for (double mu : solver.eigenvalues())
+  for (double mu : all)
     if (mu > 1e-12 * largest) highest = std::max(highest, 1 / mu - shift);
   return std::sqrt(highest);
 }

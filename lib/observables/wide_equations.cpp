@@ -33,7 +33,8 @@ WideEquations::WideEquations(const hbm::HbmProblem& problem, const elements::Har
   const int side = 2 * problem.coordinates().unknowns;
   block_.resize(side, side);
   harmonic_.resize(side);
-  lus_.assign(orders_.size(), Eigen::PartialPivLU<Eigen::MatrixXd>(side));
+  harmonic_residual_.resize(side);
+  for (std::size_t k = 0; k < orders_.size(); ++k) lus_.emplace_back(side);
 }
 
 bool WideEquations::move_to(In u, In p) {
@@ -52,7 +53,7 @@ void WideEquations::factorize(int q) {
     const int place[2] = {wide_.cosine_index(orders_[k]), wide_.sine_index(orders_[k])};
     for (int j = 0; j < 2 * r; ++j)
       for (int i = 0; i < 2 * r; ++i) block_(i, j) = J(i / 2 * c + place[i % 2], j / 2 * c + place[j % 2]);
-    lus_[k].compute(block_);
+    lus_[k].factorize(block_);
   }
   evaluator_->parameter_derivative(q, F_q_);
 }
@@ -90,8 +91,8 @@ double WideEquations::solve(const continuation::LinearSolver& kept, const Vector
     sweep_.setZero();
     for (std::size_t k = 0; k < orders_.size(); ++k) {
       const int place[2] = {wide_.cosine_index(orders_[k]), wide_.sine_index(orders_[k])};
-      for (int i = 0; i < 2 * unknowns; ++i) harmonic_[i] = -rest_[i / 2 * c + place[i % 2]];
-      harmonic_ = lus_[k].solve(harmonic_);
+      for (int i = 0; i < 2 * unknowns; ++i) harmonic_residual_[i] = -rest_[i / 2 * c + place[i % 2]];
+      lus_[k].solve(harmonic_residual_, harmonic_);
       for (int i = 0; i < 2 * unknowns; ++i) sweep_[i / 2 * c + place[i % 2]] = harmonic_[i];
     }
     const double neglected = sweep_.norm();

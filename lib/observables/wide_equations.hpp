@@ -11,10 +11,9 @@
 // dq) with factors of the bordered matrix of order N, which the branch has. Two sweeps; how much less the
 // second one changes tells whether they converge.
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/hbm/problem.hpp>
-
-#include <Eigen/LU>
 
 #include <vector>
 
@@ -66,10 +65,10 @@ class WideEquations {
   elements::Harmonics kept_, wide_;
   hbm::HbmProblem problem_;
   std::unique_ptr<hbm::HbmEvaluator> evaluator_;
-  std::vector<int> orders_;                                // neglected, n > N
-  std::vector<Eigen::PartialPivLU<Eigen::MatrixXd>> lus_;  // of their blocks, 2 r x 2 r
+  std::vector<int> orders_;                    // neglected, n > N
+  std::vector<continuation::LU<double>> lus_;  // of their blocks, 2 r x 2 r
   Eigen::MatrixXd block_;
-  continuation::Vector u_, F_q_, rest_, sweep_, part_, kept_part_, harmonic_;
+  continuation::Vector u_, F_q_, rest_, sweep_, part_, kept_part_, harmonic_, harmonic_residual_;
 };
 
 }  // namespace arcslip::observables

@@ -1,5 +1,7 @@
 #include <arcslip/time/implicit_elements.hpp>
 
+#include <arcslip/continuation/dense_algebra.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,7 +33,7 @@ ImplicitElements::ImplicitElements(std::vector<Element> elements, int dofs) : el
   }
   size_of_D_ = D_.cwiseAbs();
   J_.resize(dofs, dofs);
-  lu_ = Eigen::PartialPivLU<Matrix>(dofs);
+  lu_ = continuation::LU<double>(dofs);
   for (Vector* v : {&factored_, &q_, &force_, &stiffness_, &new_force_, &tangent_, &dq_}) v->setZero(count);
   for (Vector* v : {&z_, &slip_}) v->setZero(sliders);
   for (Vector* v : {&b_, &residual_, &size_, &step_, &trial_}) v->setZero(dofs);
@@ -106,11 +108,11 @@ bool ImplicitElements::factorize() {
     for (Eigen::Index j = 0; j < J_.cols(); ++j)
       if (D_(j, e) != 0) J_.col(j) += tangent_[e] * D_(j, e) * D_.col(e);
   }
-  lu_.compute(J_);
+  lu_.factorize(J_);
   factored_ = tangent_;
   has_factors_ = true;
   for (Eigen::Index i = 0; i < J_.cols(); ++i) {
-    const double pivot = std::abs(lu_.matrixLU()(i, i));
+    const double pivot = std::abs(lu_.pivot(i));
     const double column = J_.col(i).cwiseAbs().maxCoeff();
     if (pivot <= eps * static_cast<double>(J_.cols()) * column) has_factors_ = false;
   }
@@ -162,7 +164,7 @@ Solved ImplicitElements::solve(const Vector& b, Vector& y) {
     }
     last = size;
     if (!factorize()) return Solved::singular;
-    step_ = lu_.solve(residual_);
+    lu_.solve(residual_, step_);
     if (!step_.allFinite()) return Solved::not_finite;
     const double slope = -residual_.dot(step_);
     y += (slope < 0 ? search(y, slope) : 1.0) * step_;
@@ -207,7 +209,7 @@ void ImplicitElements::differentiate(const Matrix& dx, Matrix& dz, Matrix& db) {
   }
   db.noalias() -= D_ * df_;
   factorize();
-  df_ = lu_.solve(db);
+  lu_.solve_columns(db, df_);
   db = df_;
   for (Eigen::Index e = 0; e < q_.size(); ++e)
     if (slides(static_cast<std::size_t>(e)))

@@ -12,9 +12,8 @@
 // along each Newton step for where the slope of that function vanishes. The factors of the tangent are kept
 // as long as the t_e stay the same, and so, with Jenkins elements alone, while the contact state does.
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
-
-#include <Eigen/LU>
 
 #include <vector>
 
@@ -71,7 +70,7 @@ class ImplicitElements {
 
   std::vector<Element> elements_;
   Matrix D_, size_of_D_, A_, size_of_A_, J_;
-  Eigen::PartialPivLU<Matrix> lu_;
+  continuation::LU<double> lu_;
   Vector factored_;  // the t_e that lu_ is of
   bool has_factors_ = false;
   Vector q_, z_, force_, stiffness_;        // at the beginning; df/dq of elements that stick

@@ -2,8 +2,6 @@
 
 #include <arcslip/time/event_driven.hpp>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -28,21 +26,16 @@ void require_mass(const EquationOfMotion& equation) {
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal[i] > 0)) fail(i);
   const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix> modes(scale.asDiagonal() * equation.M * scale.asDiagonal());
-  if (modes.eigenvalues()[0] > massless) return;
+  const auto modes = continuation::symmetric_modes(scale.asDiagonal() * equation.M * scale.asDiagonal());
+  if (modes.values[0] > massless) return;
   Eigen::Index i = 0;
-  (scale.asDiagonal() * modes.eigenvectors().col(0)).cwiseAbs().maxCoeff(&i);
+  (scale.asDiagonal() * modes.V.col(0)).cwiseAbs().maxCoeff(&i);
   fail(i);
 }
 
 // Largest |eigenvalue| of A over M.
-double largest_over(const Eigen::LLT<Matrix>& mass, const Matrix& A) {
-  const Matrix half = mass.matrixL().solve(A);
-  const Matrix whole = mass.matrixL().solve(half.transpose());
-  return Eigen::SelfAdjointEigenSolver<Matrix>(whole, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .cwiseAbs()
-      .maxCoeff();
+double largest_over(const continuation::Cholesky& mass, const Matrix& A) {
+  return continuation::symmetric_eigenvalues(mass.reduced(A)).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -50,7 +43,7 @@ double largest_over(const Eigen::LLT<Matrix>& mass, const Matrix& A) {
 LinearMotion::LinearMotion(const EquationOfMotion& equation) : equation_(equation) {
   require_mass(equation);
   const int n = equation.dofs();
-  mass_.compute(equation.M);
+  mass_.factorize(equation.M);
   stiffness_ = mass_.solve(equation.K);
   damping_ = mass_.solve(equation.C);
   Matrix stuck = equation.K;
@@ -96,7 +89,7 @@ void LinearMotion::expand_force(double t, double h) {
     }
   }
   acceleration_ = force_;
-  mass_.solveInPlace(acceleration_);
+  mass_.solve_in_place(acceleration_);
 }
 
 void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g) {

@@ -11,9 +11,8 @@
 //
 // Several columns run together: the first is the motion, the others, without the force, its variations.
 
+#include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
-
-#include <Eigen/Cholesky>
 
 #include <array>
 #include <vector>
@@ -57,7 +56,7 @@ class LinearMotion {
   void expand_force(double t, double h);
 
   const EquationOfMotion& equation_;
-  Eigen::LLT<Matrix> mass_;
+  continuation::Cholesky mass_;
   Matrix stiffness_, damping_;     // M^-1 K', M^-1 C
   std::vector<Vector> over_mass_;  // M^-1 d of each element
   std::vector<char> stuck_;

@@ -1,7 +1,6 @@
 #include <arcslip/time/newmark.hpp>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <arcslip/continuation/dense_algebra.hpp>
 
 #include <cmath>
 #include <stdexcept>
@@ -17,14 +16,12 @@ constexpr double negligible = 1e-13;  // a mass or damping, relative to those of
 Matrix null_space(const Matrix& S) {
   Vector scale = S.diagonal();
   for (double& s : scale) s = s > 0 ? 1 / std::sqrt(s) : 1;
-  const Matrix scaled = scale.asDiagonal() * S * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> modes(scaled);
+  const auto modes = continuation::symmetric_modes(scale.asDiagonal() * S * scale.asDiagonal());
   Eigen::Index count = 0;
-  while (count < S.rows() && modes.eigenvalues()[count] <= negligible * static_cast<double>(S.rows()))
+  while (count < S.rows() && modes.values[count] <= negligible * static_cast<double>(S.rows()))
     ++count;
   if (count == 0) return Matrix(S.rows(), 0);
-  const Matrix basis = scale.asDiagonal() * modes.eigenvectors().leftCols(count);
-  return Eigen::HouseholderQR<Matrix>(basis).householderQ() * Matrix::Identity(S.rows(), count);
+  return continuation::orthonormal_columns(scale.asDiagonal() * modes.V.leftCols(count));
 }
 
 }  // namespace
@@ -91,7 +88,7 @@ Solved Newmark::place_massless() {
   const Matrix damping = massless_.transpose() * equation_.C * massless_;
   const Vector lacking = massless_.transpose() * (force_ - equation_.C * state_.v - equation_.K * state_.x -
                                                   elements_.directions() * elements_.force());
-  state_.v += massless_ * damping.completeOrthogonalDecomposition().solve(lacking);
+  state_.v += massless_ * continuation::shortest_least_squares(damping, lacking).X;
   return Solved::yes;
 }
 

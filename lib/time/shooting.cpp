@@ -1,8 +1,6 @@
 #include <arcslip/time/shooting.hpp>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <arcslip/continuation/dense_algebra.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -95,9 +93,8 @@ class Shooting {
     const Vector defect = defect_.cwiseQuotient(scale_);
     const double smallest = singular * std::max(1.0, (Matrix::Identity(J.rows(), J.cols()) - J).norm());
     const double largest = J.colwise().norm().maxCoeff();
-    Eigen::CompleteOrthogonalDecomposition<Matrix> qr;
-    qr.setThreshold(largest > smallest ? smallest / largest : 1.0);
-    const Vector step = qr.compute(J).solve(defect);
+    const double threshold = largest > smallest ? smallest / largest : 1.0;
+    const Vector step = continuation::shortest_least_squares(J, defect, threshold).X;
     unexplained_ = (J * step - defect).norm();
     return step.cwiseProduct(scale_);
   }
@@ -152,7 +149,7 @@ class Shooting {
       if (std::none_of(result_.map.resting.begin(), result_.map.resting.end(),
                        [&](const RestingSlider& slider) { return 2 * n_ + slider.slider == i; }))
         kept.push_back(i);
-    const Eigen::VectorXcd values = Eigen::EigenSolver<Matrix>(M(kept, kept), false).eigenvalues();
+    const Eigen::VectorXcd values = continuation::eigenvalues(M(kept, kept));
     result_.multipliers.assign(values.begin(), values.end());
     std::sort(result_.multipliers.begin(), result_.multipliers.end(),
               [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
