@@ -20,8 +20,8 @@ constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, round
 constexpr double smallest_step = 1e-2;          // of the largest at the low end of the window
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
 
-// The Jacobian is none of a scene's user: where it fails its check, F is rounding there, as with stiffnesses
-// that lie too far apart.
+}  // namespace
+
 void speak_of_scene(const model::Model& model, const Vector& p, continuation::Stop& stop) {
   using continuation::StopReason;
   if (const auto doubt = stop.message.find("; the Jacobian"); doubt != std::string::npos)
@@ -30,8 +30,6 @@ void speak_of_scene(const model::Model& model, const Vector& p, continuation::St
   if (const auto apart = model::stiffness_apart(model, p); !ended && !apart.empty())
     stop.message += "; " + apart;
 }
-
-}  // namespace
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on) {

@@ -37,6 +37,10 @@ using GoOn = std::function<bool()>;
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on = {});
 
+/// For the user of a scene, to whom the Jacobian is nothing: where it fails its check, F is rounding there, as
+/// with stiffnesses that lie too far apart. p: of the branch that ended.
+void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Stop& stop);
+
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
 

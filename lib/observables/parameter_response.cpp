@@ -39,7 +39,7 @@ std::string text(double value) {
 
 // Where a spring is cubic, several responses may stand at one frequency: those at which a frequency branch
 // through a wide window passes omega.
-std::vector<Vector> other_responses(const OverParameter& way, double omega) {
+std::vector<Vector> other_responses(const OverParameter& way, double omega, const GoOn& go_on) {
   const auto& model = *way.model;
   const bool cubic = std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
     return element.law == model::Law::cubic_spring &&
@@ -48,7 +48,7 @@ std::vector<Vector> other_responses(const OverParameter& way, double omega) {
   std::vector<Vector> found;
   if (!cubic) return found;
   const FrequencyWindow window{omega / search_ratio, omega * search_ratio};
-  const auto swept = frequency_branch(way.model, window, window.lower);
+  const auto swept = frequency_branch(way.model, window, window.lower, {}, 1, Steps::curve, go_on);
   const Vector p = hbm::parameters_at(*swept.problem, omega);
   const auto& points = swept.branch.points;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -78,9 +78,12 @@ class Traces {
   std::vector<ResponseBranch> run() {
     if (const auto growth = unbounded_resonance(way_.model, omega_); growth.unbounded)
       return {failed("no response is bounded", growth.message)};
-    const FirstResponse first = first_response(way_.model, omega_, omega_);
+    const GoOn ask = [this] { return go_on(); };
+    const FirstResponse first = first_response(way_.model, omega_, omega_, ask);
+    if (stopped_) return {stopped()};
     if (!first.u) return {failed("no periodic response was found", first.failure)};
-    std::vector<Vector> starts = other_responses(way_, omega_);
+    std::vector<Vector> starts = other_responses(way_, omega_, ask);
+    if (stopped_) return {stopped()};
     starts.insert(starts.begin(), *first.u);
     std::vector<Vector> ends;
     std::vector<ResponseBranch> branches;
@@ -104,6 +107,20 @@ class Traces {
   }
 
  private:
+  // Tells, and asks: between points, too, with the numbers of the last one.
+  bool go_on() {
+    if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
+    return !stopped_;
+  }
+
+  // Before the first point.
+  ResponseBranch stopped() const {
+    ResponseBranch result = described(*way_.model, set_, way_.name);
+    result.status = Status::stopped;
+    result.stop = {name(StopReason::user), way_.from, way_.to, "stopped by the caller"};
+    return result;
+  }
+
   ResponseBranch failed(const std::string& what, const std::string& why) const {
     ResponseBranch result = described(*way_.model, set_, way_.name);
     result.status = Status::failed;
@@ -132,16 +149,20 @@ class Traces {
       result.points.push_back(std::move(point));
       progress_.points = static_cast<long>(result.points.size());
       progress_.share_done = way_.share(now.parameter);
-      return !report_ || report_(progress_);
+      return go_on();
     };
+    const Vector p = hbm::parameters_at(*problem, omega_);
+    auto options = way_.options();
+    options.go_on = [this] { return go_on(); };
     auto branch = continuation::trace(
-        problem, {u, hbm::parameters_at(*problem, omega_), way_.index, way_.direction()}, way_.options(),
+        problem, {u, p, way_.index, way_.direction()}, options,
         {extreme_monitor("maximum", Crossing::falling, observer),
          extreme_monitor("minimum", Crossing::rising, observer), continuation::fold_monitor()},
         record);
     for (std::size_t i = at.size(); i-- > 0;)
       if (result.events[i].kind != "fold" && !departs(course, at[i], result.events[i].point.amplitude))
         result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
+    speak_of_scene(*way_.model, p, branch.stop);
     finish(result, branch);
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
@@ -173,6 +194,7 @@ class Traces {
   const Setting& set_;
   const ProgressCallback& report_;
   Progress progress_;
+  bool stopped_ = false;
 };
 
 }  // namespace

@@ -1,35 +1,18 @@
 #include "lib/hbm/random_scenes.hpp"
 
+#include "random.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <string>
 
 namespace random_scenes {
 
 using namespace arcslip;
+using test_random::Random;
 
 namespace {
-
-// The distributions of the standard library differ from one to the other; its generators do not.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-
-  double between(double lower, double upper) {
-    return lower + (upper - lower) * std::ldexp(static_cast<double>(bits_() >> 11), -53);
-  }
-  double logarithmic(double lower, double upper) {
-    return std::exp(between(std::log(lower), std::log(upper)));
-  }
-  int count(int lower, int upper) {
-    return lower + static_cast<int>(bits_() % static_cast<std::uint64_t>(upper - lower + 1));
-  }
-
- private:
-  std::mt19937_64 bits_;
-};
 
 // Mass i relative to the one before it in the chain, or to the ground.
 scene::Direction tie(int i, bool to_ground) {

@@ -154,6 +154,49 @@ TEST_CASE("a branch over a parameter ends with the callback, and no other is beg
   CHECK(branches[0].points.size() == 5);
 }
 
+TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each") {
+  scene::Scene s = scenes::paper(7);
+  s.elements.push_back({"h", &scene::cubic_spring_type, {{0, 1.0}}, {1e9}});
+  const auto study = over("damper.normal_load", 20, 1, 100);
+  long asked = 0, before_points = 0;
+  observables::parameter_response(s, study, [&](const observables::Progress& now) {
+    ++asked;
+    if (now.points == 0) ++before_points;
+    return true;
+  });
+  CHECK(before_points > 100);  // the first response, and the branch over the frequency to the others
+  for (const long last : {1L, 10L, before_points / 2, before_points, (before_points + asked) / 2}) {
+    long here = 0;
+    const auto branches = observables::parameter_response(
+        s, study, [&](const observables::Progress&) { return ++here < last; });
+    CAPTURE(last);
+    CHECK(here == last);  // never asked again
+    REQUIRE(branches.size() == 1);
+    CHECK(branches[0].status == observables::Status::stopped);
+    CHECK(branches[0].stop.reason == "user");
+    CHECK(branches[0].points.empty() == (last < before_points));
+  }
+}
+
+TEST_CASE("no study speaks of a Jacobian to the user of a scene") {
+  scene::Scene s = scenes::paper(7, 3);
+  scene::set(s, "damper.stiffness", 1e32);
+  auto study = over("damper.normal_load", 20, 1, 100);
+  for (const auto& branch : observables::parameter_response(s, study)) {
+    CAPTURE(branch.stop.message);
+    CHECK(branch.stop.message.find("Jacobian") == std::string::npos);
+    CHECK(branch.stop.message.find("make damper.stiffness smaller") != std::string::npos);
+  }
+  study.kind = scene::StudyKind::peaks;
+  study.frequency_from = 18;
+  study.frequency_to = 22;
+  for (const auto& branch : observables::resonance_peaks(s, study)) {
+    CAPTURE(branch.stop.message);
+    CHECK(branch.stop.message.find("Jacobian") == std::string::npos);
+    CHECK(branch.stop.message.find("make damper.stiffness smaller") != std::string::npos);
+  }
+}
+
 TEST_CASE("where the resonance is unbounded at the fixed frequency, a branch says so instead of a start") {
   scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
