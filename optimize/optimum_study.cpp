@@ -207,9 +207,6 @@ std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene:
   for (std::size_t k = 0; k < all.size() && teller.go_on; ++k) {
     scene::Scene with = scene;
     for (const auto& [name, value] : all[k]) scene::set(with, name, value);
-    if (!results.empty() && results.back().status == observables::Status::complete)
-      for (std::size_t i = 0; i < study.design.size(); ++i)
-        scene::set(with, study.design[i].name, results.back().optimum.design[i]);
     OptimumResult result;
     result.set = all[k];
     result.problem = problem_of(study);

@@ -44,7 +44,7 @@ struct OptimumResult {
 /// The scene in a case of a problem, with what scatters in it.
 scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of);
 
-/// One for each combination of the study's for_each lists, each from the optimum of the one before. progress:
+/// One for each combination of the study's for_each lists, each as if it stood alone. progress:
 /// asked all the time, in all phases (`phase`), with the number of evaluations (`points`) and the least
 /// amplitude (`best`) so far; false stops. Throws as optimum() does.
 std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,

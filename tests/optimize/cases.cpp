@@ -289,6 +289,28 @@ TEST_CASE("cases that make no sense are told") {
                     "the direct way takes no cases, and nothing that scatters");
 }
 
+TEST_CASE("the optimum of one combination depends on no other, to the last bit") {
+  scene::Study study;
+  study.kind = scene::StudyKind::optimum;
+  study.design = {{"damper.normal_load", 0.1, 100}};
+  study.frequency_from = 18;
+  study.frequency_to = 22;
+  const scene::Scene s = scenes::paper(3);
+  const auto of = [&](const std::vector<double>& forces) {
+    study.for_each = {{"force.cosine", forces}};
+    return optimize::optimum_study(s, study);
+  };
+  const auto rising = of({1, 3}), falling = of({3, 1}), alone = of({3});
+  REQUIRE(rising.size() == 2);
+  REQUIRE(falling.size() == 2);
+  for (const auto* other : {&falling[0], &alone[0]}) {
+    CHECK(other->optimum.design == rising[1].optimum.design);
+    CHECK(other->optimum.amplitude == rising[1].optimum.amplitude);
+    CHECK(other->optimum.evaluations.size() == rising[1].optimum.evaluations.size());
+  }
+  CHECK(falling[1].optimum.design == rising[0].optimum.design);
+}
+
 TEST_CASE("the optimal load grows in proportion to the excitation, and not where a spring hardens") {
   scene::Study study;
   study.kind = scene::StudyKind::optimum;
