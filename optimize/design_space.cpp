@@ -1,5 +1,6 @@
 #include <arcslip/optimize/design_space.hpp>
 
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/optimize/text.hpp>
 
 #include <algorithm>
@@ -138,20 +139,24 @@ double DesignSpace::slope(std::size_t k, double value) const {
 }
 
 PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const {
-  using Point = observables::ResponsePoint;
-  if (name == "frequency") return [unit = to_unit_](const Point& point) { return unit * point.omega; };
-  if (name == "energy_friction") return [](const Point& point) { return point.energy_friction; };
-  if (name == "energy_viscous") return [](const Point& point) { return point.energy_viscous; };
-  std::vector<std::string> known = {"frequency", "energy_friction", "energy_viscous"};
-  for (std::size_t e = 0; e < model_->elements.size(); ++e) {
-    const auto& element = model_->elements[e];
-    if (element.law != model::Law::jenkins) continue;
-    if (name == element.name + ".stick_percent")
-      return [e](const Point& point) { return point.elements[e].stick_percent; };
-    if (name == element.name + ".energy") return [e](const Point& point) { return point.elements[e].energy; };
-    known.push_back(element.name + ".stick_percent");
-    known.push_back(element.name + ".energy");
+  using observables::ElementQuantity, observables::ResponseQuantity;
+  std::vector<std::string> known;
+  const auto is_wanted = [&](const std::string& path) { return known.emplace_back(path) == name; };
+  for (const ResponseQuantity& each : observables::response_quantities()) {
+    const auto* get = std::get_if<ResponseQuantity::Number>(&each.get);
+    if (!get || each.has || !is_wanted(std::string(each.path))) continue;
+    return [get = *get, unit = each.unit == observables::frequency_unit ? to_unit_ : 1](
+               const observables::ResponsePoint& point) { return unit * get(point); };
   }
+  for (std::size_t e = 0; e < model_->elements.size(); ++e)
+    for (const std::string_view path : {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping"}) {
+      const auto& element = model_->elements[e];
+      const bool is_of_friction = path == "stick_percent" || path == "energy";
+      if ((is_of_friction && element.law != model::Law::jenkins) || !is_wanted(element.name + "." + std::string(path)))
+        continue;
+      return [e, get = std::get<ElementQuantity::Number>(observables::element_quantity(path).get)](
+                 const observables::ResponsePoint& point) { return get(point.elements[e]); };
+    }
   std::string list;
   for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
   const std::string near = scene::nearest(name, known);

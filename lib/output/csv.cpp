@@ -1,16 +1,17 @@
 #include <arcslip/output/csv.hpp>
 
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/output/csv_text.hpp>
 #include <arcslip/output/event_places.hpp>
 #include <arcslip/output/friction_elements.hpp>
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace arcslip::output {
@@ -41,27 +42,57 @@ Columns columns_of(std::span<const ResponseBranch> branches) {
   return columns;
 }
 
-constexpr std::array<const char*, 4> of_friction_elements = {
-    "theta_0 (rad)", "theta_star (rad)", "equivalent_stiffness (N/m)", "equivalent_damping (N s/m)"};
+/// A quantity and what its column is called.
+struct Column {
+  std::string_view path, name;
+};
+
+constexpr Column of_response[] = {{"frequency", "frequency"}, {"amplitude", "amplitude"}, {"phase", "phase"}};
+constexpr Column of_response_behind_stick[] = {
+    {"truncation_estimate", "truncation_estimate"},
+    {"truncation_flagged", "truncation_flagged"},
+    {"energy_friction", "energy_friction"},
+    {"energy_viscous", "energy_viscous"},
+    {"energy_total", "energy_total"},
+    {"energy_input", "energy_input"},
+    {"friction_percent", "friction"},
+    {"force_per_displacement.in_phase.total", "force_in_phase"},
+    {"force_per_displacement.out_of_phase.total", "force_out_of_phase"}};
+constexpr Column stick = {"stick_percent", "stick"};
+constexpr Column of_friction_element[] = {{"theta_0", "theta_0"},
+                                          {"theta_star", "theta_star"},
+                                          {"equivalent_stiffness", "equivalent_stiffness"},
+                                          {"equivalent_damping", "equivalent_damping"}};
+
+std::string title(const scene::Scene& scene, const Column& column) {
+  const std::string_view unit = observables::response_quantity(column.path).unit;
+  return with_unit(column.name,
+                   unit == observables::frequency_unit ? scene::unit_name(scene.frequency_unit) : unit);
+}
+
+std::string title(const std::string& prefix, const Column& column) {
+  return prefix + with_unit(column.name, observables::element_quantity(column.path).unit);
+}
 
 std::vector<std::string> header(const scene::Scene& scene, const Columns& columns) {
   std::vector<std::string> cells(columns.study ? 1 : 0, "study");
   for (const std::string& name : columns.parameters) {
     cells.push_back(with_unit(name, parameter_unit(scene, name)));
   }
-  cells.insert(cells.end(),
-               {"branch", "event", with_unit("frequency", scene::unit_name(scene.frequency_unit)),
-                "amplitude (m)", "phase (rad)"});
-  for (const std::string& name : columns.friction) {
-    cells.push_back(columns.friction.size() == 1 ? "stick (%)" : name + ".stick (%)");
+  cells.insert(cells.end(), {"branch", "event"});
+  for (const Column& column : of_response) {
+    cells.push_back(title(scene, column));
   }
-  cells.insert(cells.end(), {"truncation_estimate (m)", "truncation_flagged", "energy_friction (J)",
-                             "energy_viscous (J)", "energy_total (J)", "energy_input (J)", "friction (%)",
-                             "force_in_phase (N/m)", "force_out_of_phase (N/m)"});
+  const auto prefix = [&](const std::string& name) { return columns.friction.size() == 1 ? "" : name + "."; };
   for (const std::string& name : columns.friction) {
-    const std::string of = columns.friction.size() == 1 ? "" : name + ".";
-    for (const char* quantity : of_friction_elements) {
-      cells.push_back(of + quantity);
+    cells.push_back(title(prefix(name), stick));
+  }
+  for (const Column& column : of_response_behind_stick) {
+    cells.push_back(title(scene, column));
+  }
+  for (const std::string& name : columns.friction) {
+    for (const Column& column : of_friction_element) {
+      cells.push_back(title(prefix(name), column));
     }
   }
   return cells;
@@ -89,6 +120,15 @@ double parameter(const ResponseBranch& branch, const ResponsePoint& point, const
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+std::string cell(const scene::Scene& scene, const Column& column, const ResponsePoint& point) {
+  const auto& quantity = observables::response_quantity(column.path);
+  if (const auto* flag = std::get_if<observables::ResponseQuantity::Flag>(&quantity.get)) {
+    return (*flag)(point) ? "yes" : "no";
+  }
+  const double value = number(quantity, point);
+  return csv_number(quantity.unit == observables::frequency_unit ? in_scene_unit(scene, value) : value);
+}
+
 std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, const ResponseBranch& branch,
                              std::size_t branch_number, const std::string& event, const ResponsePoint& point,
                              std::size_t count) {
@@ -98,29 +138,24 @@ std::vector<std::string> row(const scene::Scene& scene, const Columns& columns, 
   }
   cells.push_back(std::to_string(branch_number));
   cells.push_back(csv_text(event));
-  cells.push_back(csv_number(in_scene_unit(scene, point.omega)));
   if (point.unbounded) {  // nothing but its place is known
-    cells.emplace_back("inf");
+    cells.insert(cells.end(), {cell(scene, of_response[0], point), "inf"});
     cells.resize(count);
     return cells;
   }
-  cells.push_back(csv_number(point.amplitude));
-  cells.push_back(csv_number(point.phase));
+  for (const Column& column : of_response) {
+    cells.push_back(cell(scene, column, point));
+  }
   for (const std::string& name : columns.friction) {
     cells.push_back(csv_number(stick_percent(point, name)));
   }
-  cells.push_back(csv_number(point.truncation_estimate));
-  cells.emplace_back(point.truncation_flagged ? "yes" : "no");
-  cells.push_back(csv_number(point.energy_friction));
-  const observables::PhaseParts force = point.forces.total();
-  for (const double value : {point.energy_viscous, point.energy_total(), point.energy_input,
-                             point.friction_percent(), force.in_phase, force.out_of_phase}) {
-    cells.push_back(csv_number(value));
+  for (const Column& column : of_response_behind_stick) {
+    cells.push_back(cell(scene, column, point));
   }
   for (const std::string& name : columns.friction) {
     const observables::ElementResponse of = element(point, name);
-    for (const double value : {of.theta_0, of.theta_star, of.equivalent_stiffness, of.equivalent_damping}) {
-      cells.push_back(csv_number(value));
+    for (const Column& column : of_friction_element) {
+      cells.push_back(csv_number(number(observables::element_quantity(column.path), of)));
     }
   }
   return cells;

@@ -1,0 +1,217 @@
+#include <arcslip/observables/quantities.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace arcslip::observables {
+namespace {
+
+using Point = ResponsePoint;
+using Element = ElementResponse;
+
+template <double Point::* member>
+double value(const Point& point) {
+  return point.*member;
+}
+
+// Has no value where the amplitude is unbounded.
+template <double Point::* member>
+double bounded(const Point& point) {
+  return point.unbounded ? no_value : point.*member;
+}
+
+template <double ForceComponents::* member>
+double force(const Point& point) {
+  return point.forces.*member;
+}
+
+template <PhaseParts ForceComponents::* member, double PhaseParts::* part>
+double force(const Point& point) {
+  return point.forces.*member.*part;
+}
+
+template <double PhaseParts::* part>
+double total_force(const Point& point) {
+  return point.forces.total().*part;
+}
+
+template <double MotionMaxima::* member>
+double largest(const Point& point) {
+  return point.maxima.*member;
+}
+
+template <double PhaseParts::* part>
+double largest_force(const Point& point) {
+  return point.maxima.force_per_displacement.*part;
+}
+
+template <double Element::* member>
+double element(const Element& element) {
+  return element.*member;
+}
+
+template <std::vector<double> Element::* member>
+const std::vector<double>& angles(const Element& element) {
+  return element.*member;
+}
+
+template <double PhaseParts::* part>
+double fundamental(const Element& element) {
+  return element.fundamental.*part;
+}
+
+template <double ForceMaxima::* member>
+double largest_of(const Element& element) {
+  return element.maxima.*member;
+}
+
+bool is_unbounded(const Point& point) {
+  return point.unbounded;
+}
+
+bool is_bounded(const Point& point) {
+  return !point.unbounded;
+}
+
+bool has_maxima(const Point& point) {
+  return !std::isnan(point.maxima.velocity);
+}
+
+bool has_force_maxima(const Point& point) {
+  return has_maxima(point) && !std::isnan(point.maxima.force_per_displacement.in_phase);
+}
+
+bool is_friction(const Element& element) {
+  return element.has_stick;
+}
+
+bool has_element_maxima(const Element& element) {
+  return !std::isnan(element.maxima.force);
+}
+
+bool has_nonlinear_spring(const Point& point) {
+  return is_bounded(point) && !std::all_of(point.elements.begin(), point.elements.end(), is_friction);
+}
+
+bool has_one_friction_element(const Point& point) {
+  return std::count_if(point.elements.begin(), point.elements.end(), is_friction) == 1;
+}
+
+double stick_of_one(const Point& point) {
+  return std::find_if(point.elements.begin(), point.elements.end(), is_friction)->stick_percent;
+}
+
+using F = ForceComponents;
+using P = PhaseParts;
+
+constexpr ResponseQuantity of_response[] = {
+    {"omega", "rad/s", "of the excitation", value<&Point::omega>},
+    {"frequency", frequency_unit, "of the excitation", value<&Point::omega>},
+    {"amplitude", "m",
+     "largest absolute displacement of the response over the period; null where it is unbounded, with all that "
+     "depends on it",
+     bounded<&Point::amplitude>},
+    {"unbounded", "", "only where it is true: the amplitude grows without bound", is_unbounded, is_unbounded},
+    {"phase", "rad", "lag of the response's fundamental behind the force", bounded<&Point::phase>},
+    {"truncation_estimate", "m",
+     "what the neglected harmonics would add: to the amplitude at this frequency (or value of the parameter), at "
+     "an event to the amplitude of the event, which may move",
+     bounded<&Point::truncation_estimate>},
+    {"truncation_flagged", "", "the estimate may be too low",
+     [](const Point& point) { return point.truncation_flagged; }},
+    {"energy_friction", "J", "dissipated in a period by friction elements", bounded<&Point::energy_friction>},
+    {"energy_viscous", "J", "dissipated in a period by dampers", bounded<&Point::energy_viscous>},
+    {"energy_total", "J", "their sum",
+     [](const Point& point) { return point.unbounded ? no_value : point.energy_total(); }},
+    {"energy_input", "J", "work of the excitation in a period, which equals it", bounded<&Point::energy_input>},
+    {"friction_percent", "%", "share of friction in `energy_total`",
+     [](const Point& point) { return point.unbounded ? no_value : point.friction_percent(); }},
+    {"stick_percent", "%", "share of the period in stick, where there is exactly one friction element",
+     stick_of_one, has_one_friction_element},
+    {"force_per_displacement.in_phase.total", "N/m",
+     "F_p/x: forces of the fundamental along the motion, per unit displacement of the response",
+     total_force<&P::in_phase>, is_bounded},
+    {"force_per_displacement.in_phase.inertia", "N/m", "part of it", force<&F::inertia>, is_bounded},
+    {"force_per_displacement.in_phase.spring", "N/m", "part of it", force<&F::spring>, is_bounded},
+    {"force_per_displacement.in_phase.contact", "N/m", "part of it, of the friction elements",
+     force<&F::contact, &P::in_phase>, is_bounded},
+    {"force_per_displacement.in_phase.nonlinear_spring", "N/m", "part of it, where there is such a spring",
+     force<&F::nonlinear_spring, &P::in_phase>, has_nonlinear_spring},
+    {"force_per_displacement.in_phase.excitation", "N/m", "what the excitation has in phase; equals `total`",
+     force<&F::excitation, &P::in_phase>, is_bounded},
+    {"force_per_displacement.out_of_phase.total", "N/m", "F_o/x: the same, a quarter period ahead",
+     total_force<&P::out_of_phase>, is_bounded},
+    {"force_per_displacement.out_of_phase.viscous", "N/m", "part of it", force<&F::viscous>, is_bounded},
+    {"force_per_displacement.out_of_phase.contact", "N/m", "part of it, of the friction elements",
+     force<&F::contact, &P::out_of_phase>, is_bounded},
+    {"force_per_displacement.out_of_phase.nonlinear_spring", "N/m",
+     "part of it, where there is such a spring", force<&F::nonlinear_spring, &P::out_of_phase>,
+     has_nonlinear_spring},
+    {"force_per_displacement.out_of_phase.excitation", "N/m", "what the excitation has ahead; equals `total`",
+     force<&F::excitation, &P::out_of_phase>, is_bounded},
+    {"maxima.velocity", "m/s", "at events, and on curves of peaks and folds: the largest of the response",
+     largest<&MotionMaxima::velocity>, has_maxima},
+    {"maxima.acceleration", "m/s²", "likewise", largest<&MotionMaxima::acceleration>, has_maxima},
+    {"maxima.in_phase", "N/m",
+     "likewise, for one mass with one friction element alone: the F_p/x of Al Sayed et al. (2011) by maxima "
+     "over the period",
+     largest_force<&P::in_phase>, has_force_maxima},
+    {"maxima.out_of_phase", "N/m", "likewise, their F_o/x", largest_force<&P::out_of_phase>,
+     has_force_maxima},
+};
+
+constexpr ElementQuantity of_element[] = {
+    {"stick_percent", "%", "friction elements: share of the period in stick",
+     element<&Element::stick_percent>, is_friction},
+    {"slip_angles", "rad", "friction elements: where slip begins", angles<&Element::slip_angles>,
+     is_friction},
+    {"reversal_angles", "rad", "friction elements: where slip ends", angles<&Element::reversal_angles>,
+     is_friction},
+    {"energy", "J", "friction elements: dissipated in a period", element<&Element::energy>},
+    {"theta_0", "rad",
+     "friction elements with one stick and one slip phase in each half period: largest displacement of the "
+     "element",
+     element<&Element::theta_0>, is_friction},
+    {"theta_star", "rad", "likewise: the slip onset after it", element<&Element::theta_star>, is_friction},
+    {"in_phase", "N", "fundamental of the force, in phase with that of the element's displacement",
+     fundamental<&P::in_phase>},
+    {"out_of_phase", "N", "likewise, a quarter period ahead", fundamental<&P::out_of_phase>},
+    {"equivalent_stiffness", "N/m", "`in_phase` over the displacement",
+     element<&Element::equivalent_stiffness>},
+    {"equivalent_damping", "N s/m", "`out_of_phase` over the velocity",
+     element<&Element::equivalent_damping>},
+    {"maxima.force", "N",
+     "friction elements, where the response has maxima: of the force as a series of the harmonics kept",
+     largest_of<&ForceMaxima::force>, has_element_maxima},
+    {"maxima.cosine", "N", "likewise, of its cosine terms", largest_of<&ForceMaxima::cosine>,
+     has_element_maxima},
+    {"maxima.sine", "N", "likewise, of its sine terms", largest_of<&ForceMaxima::sine>, has_element_maxima},
+};
+
+template <class List>
+const auto& at(const List& list, std::string_view path) {
+  const auto found = std::find_if(std::begin(list), std::end(list), [&](const auto& each) { return each.path == path; });
+  if (found == std::end(list)) throw std::invalid_argument("no quantity \"" + std::string(path) + "\"");
+  return *found;
+}
+
+}  // namespace
+
+std::span<const ResponseQuantity> response_quantities() {
+  return of_response;
+}
+
+std::span<const ElementQuantity> element_quantities() {
+  return of_element;
+}
+
+const ResponseQuantity& response_quantity(std::string_view path) {
+  return at(of_response, path);
+}
+
+const ElementQuantity& element_quantity(std::string_view path) {
+  return at(of_element, path);
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,48 @@
+#pragma once
+// Everything that is read off a response, each quantity once: its path, unit, meaning and getter. The keys of
+// JSON, the columns of tables and figures, the limits of the optimiser and docs/results.md come from here.
+
+#include <arcslip/observables/response.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace arcslip::observables {
+
+/// The unit of a quantity that is given in the scene's unit of frequency; its getter gives rad/s.
+inline constexpr std::string_view frequency_unit = "scene";
+
+/// A quantity of a response (Of = ResponsePoint) or of one of its elements (Of = ElementResponse).
+template <class Of>
+struct Quantity {
+  using Number = double (*)(const Of&);  // no_value where it is not defined
+  using Flag = bool (*)(const Of&);
+  using List = const std::vector<double>& (*)(const Of&);
+
+  std::string_view path;     // keys, joined by points: "force_per_displacement.in_phase.total"
+  std::string_view unit;     // "m", "J"; "" of a flag
+  std::string_view meaning;  // one line of Markdown
+  std::variant<Number, Flag, List> get;
+  Flag has = nullptr;  // whether the response has it at all; null: each has
+};
+
+using ResponseQuantity = Quantity<ResponsePoint>;
+using ElementQuantity = Quantity<ElementResponse>;
+
+std::span<const ResponseQuantity> response_quantities();
+std::span<const ElementQuantity> element_quantities();
+
+/// The quantity at `path`, which is there.
+const ResponseQuantity& response_quantity(std::string_view path);
+const ElementQuantity& element_quantity(std::string_view path);
+
+/// A number of a response; no_value where the response does not have it.
+template <class Of>
+double number(const Quantity<Of>& quantity, const Of& of) {
+  return quantity.has && !quantity.has(of) ? no_value : std::get<0>(quantity.get)(of);
+}
+
+}  // namespace arcslip::observables

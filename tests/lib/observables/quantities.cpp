@@ -1,0 +1,118 @@
+// The table of quantities: what it says is what is written, limited and documented.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/quantities.hpp>
+#include <arcslip/output/json.hpp>
+#include <arcslip/scene/words.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+using namespace arcslip;
+using observables::Quantity;
+
+namespace {
+
+template <class Of>
+std::string rows(std::span<const Quantity<Of>> all) {
+  std::string text;
+  for (const auto& each : all) {
+    const auto unit = each.unit == observables::frequency_unit ? "the scene's" : each.unit;
+    text.append("| `").append(each.path).append("` | ").append(unit).append(" | ").append(each.meaning) +=
+        " |\n";
+  }
+  return text;
+}
+
+template <class Of>
+std::set<std::string> paths(std::span<const Quantity<Of>> all) {
+  std::set<std::string> found;
+  for (const auto& each : all) found.insert(std::string(each.path));
+  return found;
+}
+
+// Of all that is no object.
+void add_paths(const nlohmann::json& json, const std::string& prefix, std::set<std::string>& found) {
+  for (const auto& [key, value] : json.items())
+    if (value.is_object())
+      add_paths(value, prefix + key + ".", found);
+    else
+      found.insert(prefix + key);
+}
+
+}  // namespace
+
+TEST_CASE("the documentation of results has the rows of the table of quantities") {
+  std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/results.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const auto& wanted :
+       {rows(observables::response_quantities()), rows(observables::element_quantities())}) {
+    INFO("the table is to be:\n" << wanted);
+    CHECK(text.str().find(wanted) != std::string::npos);
+  }
+}
+
+TEST_CASE("JSON has the quantities of the table, with their values, and no others") {
+  auto wanted = paths(observables::response_quantities());
+  const auto of_element = paths(observables::element_quantities());
+  CHECK(wanted.size() == observables::response_quantities().size());
+  CHECK(of_element.size() == observables::element_quantities().size());
+
+  std::set<std::string> found, found_of_elements;
+  for (const bool with_spring : {false, true}) {
+    scene::Scene s = scenes::paper(5, 3);
+    if (with_spring) s.elements.push_back({"h", &scene::cubic_spring_type, s.elements[0].direction, {1e6}, 1});
+    const auto branches = observables::frequency_response(s, s.studies[0]);
+    std::stringstream text;
+    output::write_json(text, s, branches);
+    const auto branch = nlohmann::json::parse(text.str())["branches"][0];
+    REQUIRE(branch["events"].size() == branches[0].events.size());
+    REQUIRE_FALSE(branch["events"].empty());
+    for (std::size_t i = 0; i < branches[0].events.size(); ++i) {
+      auto json = branch["events"][i];
+      const auto& point = branches[0].events[i].point;
+      for (const auto& each : observables::response_quantities()) {
+        const auto* get = std::get_if<observables::ResponseQuantity::Number>(&each.get);
+        std::string pointer = "/" + std::string(each.path);
+        std::replace(pointer.begin(), pointer.end(), '.', '/');
+        CAPTURE(pointer);
+        if (each.has && !each.has(point))
+          CHECK_FALSE(json.contains(nlohmann::json::json_pointer(pointer)));
+        else if (get && each.unit != observables::frequency_unit)
+          CHECK(json[nlohmann::json::json_pointer(pointer)] == (*get)(point));
+      }
+      for (const auto& element : json["elements"]) add_paths(element, "", found_of_elements);
+      for (const char* other : {"elements", "kind", "nonsmooth", "located"}) json.erase(other);
+      add_paths(json, "", found);
+    }
+  }
+  wanted.erase("unbounded");
+  CHECK(found == wanted);
+  CHECK(found_of_elements == of_element);
+}
+
+TEST_CASE("the parameter of a study has no name by which points have a quantity") {
+  for (const auto& each : observables::response_quantities()) {
+    const std::string_view top = each.path.substr(0, each.path.find('.'));
+    if (top == "frequency") continue;  // which no parameter of a scene is called
+    CAPTURE(std::string(top));
+    CHECK(std::count(scene::detail::result_names.begin(), scene::detail::result_names.end(), top) == 1);
+  }
+}
+
+TEST_CASE("a path that is none is refused") {
+  CHECK_THROWS_WITH(observables::response_quantity("amplitud"), "no quantity \"amplitud\"");
+  CHECK(observables::response_quantity("maxima.velocity").unit == "m/s");
+  CHECK(observables::element_quantity("energy").unit == "J");
+}
