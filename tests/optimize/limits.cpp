@@ -149,3 +149,21 @@ TEST_CASE("two loads with a limit on their sum: no pair on the limit is better, 
       }
   }
 }
+
+TEST_CASE("equivalent stiffness can be limited from both sides, and the optimum comes to the limit") {
+  const scene::Scene s = scenes::paper(7, 3);
+  optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 18, 22};
+  const auto free = optimize::optimum(s, problem);
+  REQUIRE(free.status == observables::Status::complete);
+  const double stiffness = free.point.elements[0].equivalent_stiffness;
+  for (const double factor : {0.8, 1.25}) {
+    problem.limits = {{"damper.equivalent_stiffness"}};
+    (factor < 1 ? problem.limits[0].at_most : problem.limits[0].at_least) = factor * stiffness;
+    const auto found = optimize::optimum(s, problem);
+    CAPTURE(factor, found.stop.message);
+    CHECK(found.status == observables::Status::complete);
+    CHECK(found.feasible);
+    CHECK(found.amplitude > free.amplitude);
+    CHECK(std::abs(found.point.elements[0].equivalent_stiffness / (factor * stiffness) - 1) < 1e-6);
+  }
+}
