@@ -71,10 +71,7 @@ class Rows {
     members.key("elements");
     JsonMembers elements(row_);
     for (std::size_t e = 0; e < point.elements.size(); ++e) {
-      if (e == names_.size()) {  // they are the same at every point
-        names_.push_back(text(point.elements[e].name));
-      }
-      elements.escaped_key(names_[e]);
+      elements.escaped_key(escaped(e, point.elements[e].name));
       JsonMembers element(row_);
       element.quantities(observables::element_quantities(), point.elements[e], unit_);
       element.end();
@@ -86,10 +83,24 @@ class Rows {
     }
   }
 
+  // The elements are the same at nearly every point.
+  const std::string& escaped(std::size_t e, const std::string& name) {
+    if (names_.size() <= e) {
+      names_.resize(e + 1);
+    }
+    if (names_[e].plain != name || names_[e].escaped.empty()) {
+      names_[e] = {name, text(name)};
+    }
+    return names_[e].escaped;
+  }
+
+  struct Name {
+    std::string plain, escaped;
+  };
   const JsonOptions& options_;
   double unit_;
   std::string over_, row_;
-  std::vector<std::string> names_;  // of the elements, escaped
+  std::vector<Name> names_;  // of the elements
 };
 
 Json solver(const observables::SolverSummary& summary) {
