@@ -5,6 +5,8 @@
 #include <arcslip/continuation/inner_problem.hpp>
 #include <arcslip/continuation/neighbours.hpp>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
