@@ -147,20 +147,30 @@ Matrix kernel(const Matrix& A) {
   return lu.kernel();
 }
 
+struct NullSpaces::Decomposition {
+  Eigen::ColPivHouseholderQR<Matrix> of;
+  Eigen::RowVectorXd row;
+};
+
+NullSpaces::NullSpaces() : qr_(std::make_unique<Decomposition>()) {}
+NullSpaces::~NullSpaces() = default;
+
 // With A P = Q R, R upper triangular with k rows of zeros last: the last k columns of Q span `left`, and
 // `right` solves R P^T right = 0.
-void null_spaces(const Matrix& A, Eigen::Index k, NullSpaces& of_A) {
+void NullSpaces::compute(const Matrix& A, Eigen::Index k) {
   const Eigen::Index n = A.rows();
-  const Eigen::ColPivHouseholderQR<Matrix> qr(A);
-  Matrix columns = Matrix::Zero(n, k);
-  columns.bottomRows(k).setIdentity();
-  of_A.left = qr.householderQ() * columns;
+  auto& qr = qr_->of;
+  qr.compute(A);
+  columns_.setZero(n, k);
+  columns_.bottomRows(k).setIdentity();
+  left_ = columns_;
+  qr.householderQ().applyThisOnTheLeft(left_, qr_->row);
   if (n > k) {
-    auto above = columns.topRows(n - k);
+    auto above = columns_.topRows(n - k);
     above = -qr.matrixQR().topRightCorner(n - k, k);
     qr.matrixQR().topLeftCorner(n - k, n - k).triangularView<Eigen::Upper>().solveInPlace(above);
   }
-  of_A.right = qr.colsPermutation() * columns;
+  right_ = qr.colsPermutation() * columns_;
 }
 
 SingularValues singular_values(const Matrix& A) {
@@ -191,8 +201,23 @@ Modes modes(const Matrix& A) {
 }
 
 Eigen::VectorXcd eigenvalues(const Matrix& A) {
-  const Eigen::EigenSolver<Matrix> of(A, false);
-  return of.info() == Eigen::Success ? of.eigenvalues() : Eigen::VectorXcd();
+  Eigenvalues of;
+  return of.compute(A) ? of.values() : Eigen::VectorXcd();
+}
+
+struct Eigenvalues::Decomposition {
+  Eigen::EigenSolver<Matrix> of;
+};
+
+Eigenvalues::Eigenvalues() : of_(std::make_unique<Decomposition>()) {}
+Eigenvalues::~Eigenvalues() = default;
+
+bool Eigenvalues::compute(const Matrix& A) {
+  return of_->of.compute(A, false).info() == Eigen::Success;
+}
+
+const Eigen::VectorXcd& Eigenvalues::values() const {
+  return of_->of.eigenvalues();
 }
 
 }  // namespace arcslip::continuation

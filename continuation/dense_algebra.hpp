@@ -80,11 +80,21 @@ Matrix orthogonal_complement(const Matrix& A);
 Matrix orthogonal_complement(const Matrix& A, double threshold);
 /// Columns that span A x = 0, by LU with full pivoting.
 Matrix kernel(const Matrix& A);
-/// A right = 0 and A^T left = 0 of an n x n matrix whose rank is n - k.
-struct NullSpaces {
-  Matrix right, left;  // n x k
+/// A right = 0 and A^T left = 0 of an n x n matrix whose rank is n - k; both n x k. Nothing allocates after the
+/// first matrix of a size.
+class NullSpaces {
+ public:
+  NullSpaces();
+  ~NullSpaces();
+  void compute(const Matrix& A, Eigen::Index k);
+  const Matrix& right() const { return right_; }
+  const Matrix& left() const { return left_; }
+
+ private:
+  struct Decomposition;
+  std::unique_ptr<Decomposition> qr_;
+  Matrix right_, left_, columns_;
 };
-void null_spaces(const Matrix& A, Eigen::Index k, NullSpaces& of_A);
 
 /// A = U diag(values) V^T with falling values; U is not computed.
 struct SingularValues {
@@ -110,5 +120,19 @@ struct Modes {
 };
 Modes modes(const Matrix& A);
 Eigen::VectorXcd eigenvalues(const Matrix& A);
+
+/// The same for matrices of one size; nothing allocates after the first.
+class Eigenvalues {
+ public:
+  Eigenvalues();
+  ~Eigenvalues();
+  /// False: not converged.
+  bool compute(const Matrix& A);
+  const Eigen::VectorXcd& values() const;
+
+ private:
+  struct Decomposition;
+  std::unique_ptr<Decomposition> of_;
+};
 
 }  // namespace arcslip::continuation

@@ -47,8 +47,8 @@ class Spectrum {
     to_dense(jacobian, J_);
     if (!eigenvalues_.empty() && J_ == at_) return;
     at_ = J_;
-    const auto all = continuation::eigenvalues(at_);
-    if (all.size() < at_.rows()) throw std::runtime_error(not_computed);
+    if (!solver_.compute(at_)) throw std::runtime_error(not_computed);
+    const auto& all = solver_.values();
     eigenvalues_.assign(all.begin(), all.end());
     std::stable_sort(eigenvalues_.begin(), eigenvalues_.end(),
                      [](const auto& x, const auto& y) { return x.real() > y.real(); });
@@ -80,6 +80,7 @@ class Spectrum {
   }
 
   Matrix J_, at_;
+  Eigenvalues solver_;
   std::vector<std::complex<double>> eigenvalues_;
 };
 

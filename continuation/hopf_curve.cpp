@@ -30,7 +30,8 @@ class Pair {
  public:
   // The nearest to +- i sqrt(kappa). False where the eigenvalues cannot be computed.
   bool find(const Matrix& J, double kappa) {
-    const Eigen::VectorXcd mu = eigenvalues(J);
+    if (!eigenvalues_.compute(J)) return false;
+    const Eigen::VectorXcd& mu = eigenvalues_.values();
     const Complex root = std::sqrt(Complex(-kappa));
     double nearest = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < mu.size(); ++i)
@@ -50,10 +51,10 @@ class Pair {
     P_.noalias() = J * J;
     P_ -= sum * J;
     P_.diagonal().array() += product;
-    null_spaces(P_, 2, of_P_);
-    V = of_P_.right;
-    const Eigen::Matrix2d to_unit = Eigen::Matrix2d(V.transpose() * of_P_.left).inverse();
-    W.noalias() = of_P_.left * to_unit;
+    of_P_.compute(P_, 2);
+    V = of_P_.right();
+    const Eigen::Matrix2d to_unit = Eigen::Matrix2d(V.transpose() * of_P_.left()).inverse();
+    W.noalias() = of_P_.left() * to_unit;
     JV_.noalias() = J * V;
     adjugate = sum * Eigen::Matrix2d::Identity();
     adjugate.noalias() -= W.transpose() * JV_;
@@ -67,6 +68,7 @@ class Pair {
  private:
   Matrix P_, JV_;
   NullSpaces of_P_;
+  Eigenvalues eigenvalues_;
 };
 
 class HopfEvaluator final : public Evaluator {
