@@ -169,6 +169,15 @@ bool Corrector::piece(std::uint64_t& piece) {
   }
 }
 
+std::optional<std::uint64_t> Corrector::piece_of_residual() const {
+  try {
+    return evaluator_->piece();
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return {};
+  }
+}
+
 // To the smallest of all corrections: dv - <dv, t> t.
 void Corrector::project(Vector& dv) {
   if (tangent(tangent_)) dv -= dot(dv, tangent_) * tangent_;
@@ -246,7 +255,8 @@ double Corrector::distance_from_branch(const Vector& v) {
 
 Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, CorrectorKind kind) {
   Correction result;
-  double before = 0;  // size of the correction that led to v
+  double before = 0;                          // size of the correction that led to v
+  std::optional<std::uint64_t> piece_before;  // of F, where that began, if it was small
   if (keep_factors && options_.chord && problem_.cheap_residual()) {
     if (!chord(v, result) && !result.evaluated) return result;
     before = result.last;
@@ -267,7 +277,11 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
     if (result.contraction == 0 && before > 0) result.contraction = now / before;
     if (k == 0 && before > 0) memory_.contraction = std::max(now / before, 1e-4);
     result.last = now;
-    const bool stagnates = before > 0 && now > 0.5 * before && now <= options_.rounding_level;
+    // At a kink corrections do not shrink either: to and fro between two pieces, where there is no solution.
+    std::optional<std::uint64_t> piece;
+    if (now > options_.tolerance && now <= options_.rounding_level) piece = piece_of_residual();
+    const bool stagnates = piece && piece == piece_before && now > 0.5 * before;
+    piece_before = piece;
     if (now <= options_.tolerance || stagnates) {
       v += dv_;
       p_[free_] = v[v.size() - 1];

@@ -21,6 +21,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace arcslip::continuation {
@@ -111,6 +112,7 @@ class Corrector {
   void back_substitute(Vector& x) const;  // x = B^-1 x; not finite where the linear solver throws
   bool chord(Vector& v, Correction& result);
   void project(Vector& dv);
+  std::optional<std::uint64_t> piece_of_residual() const;
 
   const Problem& problem_;
   NewtonOptions options_;

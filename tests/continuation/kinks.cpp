@@ -2,6 +2,8 @@
 
 #include "continuation/problems.hpp"
 
+#include <arcslip/continuation/corrector.hpp>
+
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -229,4 +231,25 @@ TEST_CASE("a kink on a curved branch is located with few factorizations, at the 
     CHECK(with.counts.factorizations - without.counts.factorizations <= 12);
     CHECK(with.counts.residuals - without.counts.residuals <= 120);
   }
+}
+
+TEST_CASE("corrections to and fro across a kink are no rounding: there is no solution") {
+  const double gap = 2e-8;  // |u_2| + gap = 0 has none, however near zero it comes
+  const auto problem =
+      from_functions({.size = 2,
+                      .parameters = {parameter("p", 0)},
+                      .residual =
+                          [=](In u, In p, Out F) {
+                            F[0] = u[0] - 1 - p[0];
+                            F[1] = std::abs(u[1]) + gap;
+                          },
+                      .jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J << 1, 0, 0, u[1] < 0 ? -1 : 1; },
+                      .derivative = [](In, In, int, Out dF) { dF << -1, 0; },
+                      .piece = [](In u, In) { return u[1] < 0 ? 1 : 2; }});
+  Counts counts;
+  Corrector corrector(*problem, Vector::Zero(1), 0, {}, counts);
+  Vector v{{1.0, 1e-9, 0.0}};
+  const Correction correction = corrector.correct(v, Vector{{0.0, 0.0, 1.0}}, false);
+  CHECK(correction.last < NewtonOptions{}.rounding_level);
+  CHECK_FALSE(correction.converged);
 }
