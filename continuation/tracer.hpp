@@ -78,6 +78,7 @@ class Tracer {
 
   Attempt attempt();
   bool corner();
+  bool step_beyond_corner();
   const Place& last_section() const { return corners_.empty() ? s_.here : corners_.back().beyond; }
   Attempt take(double length, double next_ds, bool kink, const Correction& correction);
   std::optional<Exit> exit(bool kink);
@@ -121,12 +122,12 @@ class Tracer {
   std::unique_ptr<EventLocator> events_;
   std::unique_ptr<ModeCounter> modes_;  // where branch points are wanted
   Place next_;
-  Rejection rejection_;          // the last one
-  std::size_t unresolved_ = 0;   // the monitor whose quantity it was
-  bool evaluated_ = true;        // the last rejection came from the corrector, not from the problem
-  double curve_error_ = 0;       // of the curve along the last step, over that allowed
-  double chord_error_ = 0;       // of the monitored quantities in the last step, over that allowed
-  std::vector<Corner> corners_;  // in the step that is tried, in order
+  Rejection rejection_;               // the last one
+  std::size_t unresolved_ = 0;        // the monitor whose quantity it was
+  bool evaluated_ = true;             // the last rejection came from the corrector, not from the problem
+  double curve_error_ = 0;            // of the curve along the last step, over that allowed
+  double chord_error_ = 0;            // of the monitored quantities in the last step, over that allowed
+  std::vector<Corner> corners_;       // in the step that is tried, in order
   std::optional<Place> terminal_;
   std::optional<LocatedEvent> crossing_;  // the branch point in the step that is tried
   std::string failure_;                   // of the last rejection

@@ -7,9 +7,15 @@
 #include <utility>
 
 namespace arcslip::continuation {
+namespace {
+
+constexpr int most_corners = 3;  // one after the other
+
+}  // namespace
 
 // Where the branch turns by any angle at a kink just ahead: goes to the kink, looks beyond it, and steps
-// along the tangent there, whose direction the sign of the determinant tells.
+// along the tangent there, whose direction the sign of the determinant tells. Where that step fails, the
+// piece beyond the kink may end at once, as where two elements begin to slip together: then on to its end.
 bool Tracer::corner() {
   crossing_.reset();
   corners_.clear();
@@ -17,11 +23,22 @@ bool Tracer::corner() {
   v_ = s_.here.v + s_.step * s_.here.tangent;
   std::uint64_t ahead = 0;
   if (!main_->move_to(v_) || !main_->piece(ahead) || ahead == s_.here.piece) return false;
-  auto found = events_->corner(s_.here, s_.step, s_.here.tangent);
-  if (!found) return false;
-  corners_.push_back(std::move(*found));
-  const Place kink = corners_.front().before;
-  const Vector beyond = corners_.front().beyond.tangent;
+  const Place* from = &s_.here;
+  for (int k = 0; k < most_corners; ++k) {
+    auto found = events_->corner(*from, s_.step, from->tangent);
+    if (!found) return false;
+    corners_.push_back(std::move(*found));
+    if (step_beyond_corner()) return true;
+    corners_.resize(static_cast<std::size_t>(k) + 1);
+    from = &corners_.back().beyond;
+  }
+  return false;
+}
+
+// From the last corner along the tangent beyond it.
+bool Tracer::step_beyond_corner() {
+  const Place kink = corners_.back().before;
+  const Vector beyond = corners_.back().beyond.tangent;
   next_.v = kink.v + s_.step * beyond;
   main_->border_row(beyond, row_);
   const Correction correction = main_->correct(next_.v, row_, false);
@@ -33,7 +50,7 @@ bool Tracer::corner() {
       angle_between(main_->dot(v_, beyond) / length) > options_.step.largest_angle)
     return false;
   next_.arclength = kink.arclength + length;
-  auto more = events_->corners(corners_.front().beyond, next_);
+  auto more = events_->corners(corners_.back().beyond, next_);
   corners_.insert(corners_.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
   const double whole = next_.arclength - s_.here.arclength;
   return measure(next_) && resolved(whole) && take(whole, s_.step, true, correction) != Attempt::rejected;

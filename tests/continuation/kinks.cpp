@@ -233,6 +233,23 @@ TEST_CASE("a kink on a curved branch is located with few factorizations, at the 
   }
 }
 
+TEST_CASE("a corner is passed where the piece just beyond it ends at once") {
+  // As where one element turns at 0 and another one at d: a step along the tangent between them leads
+  // nowhere.
+  for (double d : {1e-10, 1e-11, 1e-12})
+    for (double back : {-3.0, -20.0})
+      for (double from : {-0.9137, -0.8513, -0.7331}) {
+        const Branch branch = trace(polygon({1, 0.9, back}, {0, d}), {Vector{{from}}, Vector{{from}}, 0, 1},
+                                    window(-1, 1), {fold_monitor()});
+        CAPTURE(d, back, from, branch.points.size(), branch.stop.message);
+        CHECK(branch.stop.reason == StopReason::boundary);
+        CHECK(branch.points.back().parameter == -1);
+        REQUIRE(branch.events.size() == 1);
+        CHECK(std::abs(branch.events[0].point.u[0] - d) < 1e-9);
+        CHECK(branch.counts.rejected_steps < 40);
+      }
+}
+
 TEST_CASE("corrections to and fro across a kink are no rounding: there is no solution") {
   const double gap = 2e-8;  // |u_2| + gap = 0 has none, however near zero it comes
   const auto problem =
