@@ -50,6 +50,9 @@ class EventLocator {
   /// step as it is. From `from` on, as many as are found.
   std::vector<Corner> corners(const Place& from, const Place& to);
 
+  /// Where within a smooth section a quantity goes over from one of several to another, in order.
+  std::vector<Corner> divisions(const Place& from, const Place& to);
+
   /// The events that have become certain with this section, in the order of arclength. `after` is left to the
   /// caller.
   std::vector<LocatedEvent> between(const Place& from, const Place& to);
@@ -85,6 +88,7 @@ class EventLocator {
                                              BranchPoint&& branches);
   LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
   LocatedEvent kink_event(const Monitor& monitor, const Corner& corner) const;
+  std::optional<Corner> division(const Place& from, double length);
   bool look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards, Place& beyond);
   bool is_event(std::size_t monitor, const LocatedEvent& found);
   void describe(std::size_t monitor, LocatedEvent& found);

@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/branch_point.hpp>
 #include <arcslip/continuation/event_locator.hpp>
+#include <arcslip/continuation/monitor_calls.hpp>
 #include <arcslip/continuation/multiple_point.hpp>
 
 #include <algorithm>
@@ -191,6 +192,50 @@ std::vector<Corner> EventLocator::corners(const Place& from, const Place& to) {
     const double length = std::sqrt(probe().dot(way, way));
     if (!(length > 0)) break;
     auto next = corner(*side, length, way);
+    if (!next) break;
+    found.push_back(std::move(*next));
+    side = &found.back().beyond;
+  }
+  return found;
+}
+
+std::optional<Corner> EventLocator::division(const Place& from, double length) {
+  Corrector& probe = this->probe();
+  Place at = from;
+  const auto part = [&](const Vector& v) {
+    at.v = v;
+    return part_of(monitors_, accepted(probe, at));
+  };
+  Corner found;
+  Correction correction;
+  const auto is_inside = [&](const Vector& v) { return part(v) == from.part; };
+  if (!locate_kink(probe, from, length, found.before, correction, is_inside)) return std::nullopt;
+  const auto measured = [&](Place& place) {
+    if (!probe.linearize(place.v, probe.border_row(from.tangent)) || !settle(probe, place)) return false;
+    if (probe.dot(place.tangent, from.tangent) < 0) place.reverse();
+    evaluate(monitors_, probe, place);
+    return true;
+  };
+  if (!measured(found.before)) return std::nullopt;
+  for (const double share : just_beyond) {
+    Place& beyond = found.beyond = found.before;
+    beyond.v += share * length * found.before.tangent;
+    if (!probe.correct(beyond.v, probe.border_row(found.before.tangent), false).converged ||
+        !measured(beyond))
+      return std::nullopt;
+    beyond.arclength += share * length;
+    if (beyond.piece == from.piece && beyond.part != from.part) return found;
+  }
+  return std::nullopt;
+}
+
+std::vector<Corner> EventLocator::divisions(const Place& from, const Place& to) {
+  std::vector<Corner> found;
+  const Place* side = &from;
+  for (int k = 0; k < most_kinks && side->piece == to.piece && side->part != to.part; ++k) {
+    const double length = continuation::distance(probe(), side->v, to.v);
+    if (!(length > 0)) break;
+    auto next = division(*side, length);
     if (!next) break;
     found.push_back(std::move(*next));
     side = &found.back().beyond;

@@ -6,6 +6,7 @@
 #include <arcslip/continuation/problem.hpp>
 #include <arcslip/continuation/scratch.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -67,6 +68,10 @@ struct Monitor {
   /// Where value() is the slope of quantity(): steps are divided at their kinks, so that a zero there is told
   /// by the slopes on both sides. False: they are taken as they are, as where kinks are many and small.
   bool divides_at_kinks = true;
+
+  /// Where quantity() is the largest of several smooth ones: which of them it is. Steps are divided where it
+  /// changes, as at kinks of F. Asked for beside the branch as well, where the tangent is another place's.
+  std::function<std::uint64_t(const Accepted&)> part = {};
 
   /// Whether a zero of value() at a branch point is an event of this monitor as well. False: of dp/ds.
   bool at_branch_points = true;

@@ -3,9 +3,11 @@
 
 #include <arcslip/continuation/monitor.hpp>
 
+#include <cstdint>
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace arcslip::continuation {
 
@@ -29,5 +31,8 @@ inline double value_of(const Monitor& monitor, const Accepted& now) {
 inline double quantity_of(const Monitor& monitor, const Accepted& now) {
   return monitor.quantity ? call(monitor.quantity, monitor, now) : 0;
 }
+/// Of all monitors whose quantities are made of several smooth ones: which of them they are. 0: there are
+/// none.
+std::uint64_t part_of(const std::vector<Monitor>& monitors, const Accepted& now);
 
 }  // namespace arcslip::continuation

@@ -22,7 +22,8 @@ bool settle(Corrector& at, Place& place) {
   return at.piece(place.piece);
 }
 
-bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last) {
+bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last,
+                 const Inside& is_inside) {
   const Vector row = with.border_row(from.tangent);
   const double finest = finest_kink * length;
   // Along from.tangent: of `kink`, which is in the piece of `from`, and of what is not.
@@ -40,10 +41,13 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
     else  // the branch turns away: across its own tangent there is no prediction
       v = kink.v + (x - lower) * from.tangent;
   };
+  const auto inside_at = [&] {
+    std::uint64_t piece = 0;
+    return with.piece(piece) && piece == from.piece && (!is_inside || is_inside(v));
+  };
   const auto predicted_inside = [&](double x) {
     predict(x);
-    std::uint64_t piece = 0;
-    return with.move_to(v) && with.piece(piece) && piece == from.piece;
+    return with.move_to(v) && inside_at();
   };
   for (int k = 0; k < most_kink_corrections && upper - lower > finest; ++k) {
     double inside = lower, outside = std::min(upper, lower + ahead);
@@ -64,8 +68,7 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
     const double aim = bisected ? 0.5 * (lower + upper) : inside - margin * (inside - lower);
     predict(aim);
     const Correction at = with.correct(v, row, factors_fit);
-    std::uint64_t piece = 0;
-    factors_fit = at.converged && with.piece(piece) && piece == from.piece;
+    factors_fit = at.converged && inside_at();
     if (!factors_fit) {
       upper = aim;
       ahead = upper - lower;
@@ -100,6 +103,7 @@ void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place)
     place.monitors[m] = value_of(monitors[m], now);
     place.quantities[m] = quantity_of(monitors[m], now);
   }
+  place.part = part_of(monitors, now);
 }
 
 Point point(const Place& place, const Correction& correction) {

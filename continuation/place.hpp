@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -19,6 +20,7 @@ struct Place {
   int orientation = 1;  // sign of det [J F_p; t^T]: the same on both sides of a kink
   std::uint64_t piece = 0;
   std::vector<double> monitors, quantities;  // as many as monitors
+  std::uint64_t part = 0;                    // which of several smooth ones the quantities are
 
   void reverse() {
     tangent = -tangent;
@@ -35,16 +37,21 @@ struct Corner {
 /// row: row . t > 0. False where the tangent is not finite, or the piece not told.
 bool settle(Corrector& at, Place& place);
 
+/// Whether the corrector's place, v, is still in the smooth piece, or part, that is followed.
+using Inside = std::function<bool(const Vector& v)>;
+
 /// Where the smooth piece of `from` ends along its tangent, within [0, length]: the kink, seen from this
 /// side. The end of the piece is bisected on the tangent, which costs residuals alone, and corrected onto the
 /// branch, again from there: what is left of the way shrinks with its square. `last` is the correction that
-/// led there. False where there is no tangent on the way.
-bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last);
+/// led there. False where there is no tangent on the way. is_inside: none, or what ends in place of the
+/// piece.
+bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last,
+                 const Inside& is_inside = {});
 
 /// What monitors and observers see of a place. The corrector's factors are those of its last linearization.
 Accepted accepted(Corrector& at, const Place& place);
 
-/// Fills place.monitors and place.quantities.
+/// Fills place.monitors, place.quantities and place.part.
 void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place);
 
 /// What the branch keeps of a place.

@@ -155,6 +155,7 @@ void fields(Visit&& visit, auto& x) {
     visit("v", x.v), visit("tangent", x.tangent), visit("arclength", x.arclength);
     visit("orientation", x.orientation), visit("piece", x.piece), visit("monitors", x.monitors);
     visit("quantities", x.quantities);
+    if (visit.holds("part")) visit("part", x.part);  // states of earlier versions have none
   } else if constexpr (is<T, LocatedEvent>) {
     visit("event", x.event), visit("place", x.place), visit("quantity", x.quantity);
     visit("rounding", x.rounding);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -103,6 +104,21 @@ bool Tracer::measure(Place& place) {
   return true;
 }
 
+// Into sections along which each quantity is one smooth one, where it is the largest of several.
+void Tracer::divide() {
+  std::vector<Corner> all;
+  const Place* from = &s_.here;
+  for (std::size_t k = 0; k <= corners_.size(); ++k) {
+    const Place& to = k < corners_.size() ? corners_[k].before : next_;
+    auto found = events_->divisions(*from, to);
+    all.insert(all.end(), std::move_iterator(found.begin()), std::move_iterator(found.end()));
+    if (k == corners_.size()) break;
+    from = &corners_[k].beyond;
+    all.push_back(corners_[k]);
+  }
+  corners_ = std::move(all);
+}
+
 Tracer::Attempt Tracer::attempt() {
   crossing_.reset();
   corners_.clear();
@@ -146,6 +162,7 @@ Tracer::Attempt Tracer::attempt() {
     next_.arclength = s_.here.arclength + length;
   }
   if (!measure(next_)) return refuse(Rejected::singular, 0, 0);
+  divide();
   if (next_.piece == s_.here.piece) curve_error_ = curve_error(length);
   if (curve_error_ > 1) return refuse(Rejected::curve, curve_error_, 1, Attempt::unresolved);
   if (!resolved(length)) return refuse(Rejected::quantity, 0, 0, Attempt::unresolved);

@@ -86,6 +86,7 @@ class Tracer {
   bool went_back(const Place& next) const;
   std::optional<Attempt> look_for_crossing(double length);
   bool measure(Place& place);
+  void divide();
   bool stretch_is_short(double share) const;
   void begin_stretch(double length);
   bool resolved(double length);

@@ -53,7 +53,9 @@ bool Tracer::step_beyond_corner() {
   auto more = events_->corners(corners_.back().beyond, next_);
   corners_.insert(corners_.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
   const double whole = next_.arclength - s_.here.arclength;
-  return measure(next_) && resolved(whole) && take(whole, s_.step, true, correction) != Attempt::rejected;
+  if (!measure(next_)) return false;
+  divide();
+  return resolved(whole) && take(whole, s_.step, true, correction) != Attempt::rejected;
 }
 
 }  // namespace arcslip::continuation

@@ -1,18 +1,26 @@
 #include <arcslip/observables/amplitude.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcslip::observables {
+namespace {
+
+constexpr double same_height = 1e-13;
+
+}  // namespace
 
 Extreme Amplitude::of(elements::In x) {
   Extreme extreme;
   if (!harmonics_.odd) extreme = {std::abs(x[0]), 0, x[0] < 0 ? -1.0 : 1.0};
   const auto& turns = reversals_.find(x);
-  if (!turns.empty()) extreme.amplitude = -1;
-  for (const auto& turn : turns)
-    if (std::abs(turn.x) > extreme.amplitude)
-      extreme = {std::abs(turn.x), turn.theta, turn.x < 0 ? -1.0 : 1.0};
-  return extreme;
+  if (turns.empty()) return extreme;
+  double highest = 0;
+  for (const auto& turn : turns) highest = std::max(highest, std::abs(turn.x));
+  std::size_t first = 0;
+  while (std::abs(turns[first].x) < (1 - same_height) * highest) ++first;
+  const auto& turn = turns[first];
+  return {std::abs(turn.x), turn.theta, turn.x < 0 ? -1.0 : 1.0, first};
 }
 
 double amplitude_change(const elements::Harmonics& harmonics, const Extreme& extreme, elements::In dx) {

@@ -3,16 +3,18 @@
 // sample.
 //
 // With the extreme at theta_hat, x'(theta_hat) = 0, so that dA/dx_coefficients = sign phi(theta_hat)
-// (envelope theorem), wherever the largest reversal is unique.
+// (envelope theorem), wherever the largest reversal is unique. Of several that are as high but for rounding,
+// as a motion of a shorter period than the force's has them, the first stands for all.
 
 #include <arcslip/elements/reversals.hpp>
 
 namespace arcslip::observables {
 
 struct Extreme {
-  double amplitude = 0;  // |x(theta)|, m
-  double theta = 0;      // rad
-  double sign = 1;       // of x there
+  double amplitude = 0;      // |x(theta)|, m
+  double theta = 0;          // rad
+  double sign = 1;           // of x there
+  std::size_t reversal = 0;  // which one it is, in the order of theta
 };
 
 class Amplitude {

@@ -122,6 +122,10 @@ continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
       [observer](const continuation::Accepted&) { return observer->last_amplitude(); }};
   // Sampled friction has a kink wherever a sample begins or ceases to slip.
   monitor.divides_at_kinks = observer->problem().model().settings.friction == scene::Friction::exact;
+  if (monitor.divides_at_kinks)
+    monitor.part = [observer](const continuation::Accepted& now) {
+      return std::uint64_t{observer->extreme(evaluator_of(now), now.u).reversal};
+    };
   return monitor;
 }
 

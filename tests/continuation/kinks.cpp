@@ -270,3 +270,35 @@ TEST_CASE("corrections to and fro across a kink are no rounding: there is no sol
   CHECK(correction.last < NewtonOptions{}.rounding_level);
   CHECK_FALSE(correction.converged);
 }
+
+TEST_CASE(
+    "a maximum just beyond where a quantity goes over from one to another is found, wherever points lie") {
+  // q is the larger of -4 p and 2 d p - p^2: a minimum at 0, where they cross, and a maximum at d.
+  const auto line = from_functions({.size = 1,
+                                    .parameters = {parameter("p", 0)},
+                                    .residual = [](In u, In p, Out F) { F[0] = u[0] - p[0]; },
+                                    .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+                                    .derivative = [](In, In, int, Out dF) { dF[0] = -1; }});
+  for (double d : {3e-3, 1e-3, 1e-4, 1e-5})
+    for (int k = 0; k < 40; ++k)
+      for (int direction : {1, -1}) {
+        const auto second = [=](double p) { return p > 0 && p < 2 * d + 4; };
+        const auto slope = [=](const Accepted& now) {
+          const double p = now.parameter;
+          return (second(p) ? 2 * (d - p) : -4.0) * now.tangent[1];
+        };
+        const auto q = [=](const Accepted& now) {
+          const double p = now.parameter;
+          return second(p) ? 2 * d * p - p * p : -4 * p;
+        };
+        Monitor maximum{"maximum", slope, Crossing::falling, q};
+        maximum.part = [=](const Accepted& now) { return second(now.parameter) ? 1 : 0; };
+        const double from = direction * (-0.9 + 5e-4 * k);
+        const Branch branch =
+            trace(line, {Vector{{from}}, Vector{{from}}, 0, direction}, window(-1, 1), {maximum});
+        CAPTURE(d, from, branch.points.size());
+        REQUIRE(branch.events.size() == 1);
+        CHECK_FALSE(branch.events[0].nonsmooth);
+        CHECK(std::abs(branch.events[0].point.parameter - d) < 1e-12);
+      }
+}
