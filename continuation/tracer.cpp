@@ -163,8 +163,10 @@ Tracer::Attempt Tracer::attempt() {
   }
   if (!measure(next_)) return refuse(Rejected::singular, 0, 0);
   divide();
+  other_piece_between_ = false;
   if (next_.piece == s_.here.piece) curve_error_ = curve_error(length);
   if (curve_error_ > 1) return refuse(Rejected::curve, curve_error_, 1, Attempt::unresolved);
+  if (hides_a_piece(length)) return refuse(Rejected::curve, curve_error_, 1, Attempt::unresolved);
   if (!resolved(length)) return refuse(Rejected::quantity, 0, 0, Attempt::unresolved);
   const double next_ds = kink ? s_.turn.step * kink_step : choose_step(turn, correction);
   return take(length, next_ds, kink, correction);

@@ -162,7 +162,17 @@ double Tracer::curve_error(double length) {
   if (!(allowed > 0)) return 0;
   hermite(s_.here.v, s_.here.tangent, next_.v, next_.tangent, length, 0.5, v_);
   const double error = main_->distance_from_branch(v_) / allowed;
+  std::uint64_t piece = 0;
+  other_piece_between_ = main_->piece(piece) && piece != next_.piece;
   return std::isfinite(error) ? error : 1 / shrinkage;
+}
+
+// Whether two kinks lie in the step, of which its ends tell nothing: then it is shortened, though not without
+// end, as the cubic may touch another piece where the branch does not.
+bool Tracer::hides_a_piece(double length) {
+  if (!other_piece_between_ || stretch_is_short(unresolved_share)) return false;
+  begin_stretch(length);
+  return true;
 }
 
 double Tracer::choose_step(double angle, const Correction& correction) const {

@@ -92,22 +92,30 @@ bool same_ends(const invariances::Response& one, const invariances::Response& ot
          same(one.points.back(), other.points.back());
 }
 
+void check_variants(const scene::Scene& s, std::uint64_t seed) {
+  CAPTURE(seed, s.elements.size());
+  const auto as_it_is = invariances::response(s);
+  for (const auto& variant : variants(s, seed)) {
+    CAPTURE(variant.name);
+    const auto response = invariances::response(variant);
+    if (variant.backwards && !same_ends(as_it_is, response)) continue;
+    CHECK(invariances::difference(as_it_is, response, tolerance) == "");
+  }
+}
+
 }  // namespace
 
 TEST_CASE("random structures have the same events in all units, names, orders and directions") {
   const structures::Seeds seeds = structures::seeds();
-  for (std::uint64_t seed = seeds.first; seed < seeds.end; ++seed) {
-    const scene::Scene s = structure(seed);
-    if (is_sampled(s)) continue;
-    CAPTURE(seed, s.elements.size());
-    const auto as_it_is = invariances::response(s);
-    for (const auto& variant : variants(s, seed)) {
-      CAPTURE(variant.name);
-      const auto response = invariances::response(variant);
-      if (variant.backwards && !same_ends(as_it_is, response)) continue;
-      CHECK(invariances::difference(as_it_is, response, tolerance) == "");
-    }
-  }
+  for (std::uint64_t seed = seeds.first; seed < seeds.end; ++seed)
+    if (const scene::Scene s = structure(seed); !is_sampled(s)) check_variants(s, seed);
+}
+
+// A corner beyond which a piece ends at once; peaks just beyond where another reversal becomes the highest;
+// resonances, and pairs of kinks, that are narrower than a step.
+TEST_CASE("the hardest of the random structures have the same events in all units, names and orders") {
+  for (const std::uint64_t seed : {77, 127, 378, 464, 489, 641, 673, 771, 942, 945, 1008})
+    check_variants(structure(seed), seed);
 }
 
 // Sampled friction has a kink at every change of a sample, and peaks between them that a step passes or not.
