@@ -150,9 +150,9 @@ Tracer::Attempt Tracer::attempt() {
   } else if (const auto refused = look_for_crossing(length)) {
     return *refused;
   }
-  // The tangent may turn towards the parameter within the step.
+  // The tangent may turn towards the parameter within the step, or at a kink.
   const double moved = std::abs(next_.v[n_] - s_.here.v[n_]);
-  if (!kink && moved > parameter_overrun * largest_parameter_step())
+  if (moved > parameter_overrun * largest_parameter_step())
     return refuse(Rejected::parameter_step, moved, largest_parameter_step(), Attempt::unresolved);
   next_.arclength = s_.here.arclength + length;
   corners_ = events_->corners(s_.here, next_);

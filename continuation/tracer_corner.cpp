@@ -39,7 +39,8 @@ bool Tracer::corner() {
 bool Tracer::step_beyond_corner() {
   const Place kink = corners_.back().before;
   const Vector beyond = corners_.back().beyond.tangent;
-  next_.v = kink.v + s_.step * beyond;
+  const double along = std::abs(beyond[n_]), most = largest_parameter_step();
+  next_.v = kink.v + (along * s_.step > most ? most / along : s_.step) * beyond;
   main_->border_row(beyond, row_);
   const Correction correction = main_->correct(next_.v, row_, false);
   if (!correction.converged || !settle(*main_, next_)) return false;

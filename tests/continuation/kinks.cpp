@@ -250,6 +250,19 @@ TEST_CASE("a corner is passed where the piece just beyond it ends at once") {
       }
 }
 
+TEST_CASE("the parameter moves no further beyond a kink than in any other step") {
+  // Where it hardly moves before the kink, steps are long.
+  for (double above : {10.0, 100.0})
+    for (double from : {-5.0, -4.7, -4.3}) {
+      const Branch branch = trace(polygon({1e-3, above}, {0}), {Vector{{from}}, Vector{{1e-3 * from}}, 0, 1},
+                                  window(-1, 1), {fold_monitor()});
+      CAPTURE(above, from);
+      CHECK(branch.stop.reason == StopReason::boundary);
+      for (std::size_t k = 1; k < branch.points.size(); ++k)
+        CHECK(branch.points[k].parameter - branch.points[k - 1].parameter < 1.6 * 0.02);
+    }
+}
+
 TEST_CASE("corrections to and fro across a kink are no rounding: there is no solution") {
   const double gap = 2e-8;  // |u_2| + gap = 0 has none, however near zero it comes
   const auto problem =
