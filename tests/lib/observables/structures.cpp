@@ -79,7 +79,7 @@ void check_energies(const observables::ResponseBranch& branch) {
     if (!point.unbounded && !(defect <= worst)) worst = defect, at = point.omega;
   }
   CAPTURE(at);
-  CHECK(worst < 1e-6);
+  CHECK(worst < 1e-8);
 }
 
 /// Beside cubic springs there may be several responses at an end of the window; a trace from there is then
