@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace arcslip::elements {
+namespace {
+
+constexpr double same_motion = 1e-8;  // of the largest coefficient
+
+}  // namespace
 
 Values series_values(const Harmonics& h, In u, double theta) {
   double c = std::cos(theta), s = std::sin(theta);
@@ -55,6 +60,18 @@ double series_bound(const Harmonics& h, In u, int power) {
     bound += weight * std::sqrt(a[j] * a[j] + b[j] * b[j]);
   }
   return bound;
+}
+
+bool is_image(const Harmonics& h, In u, double turn, double sign) {
+  const double same = same_motion * u.cwiseAbs().maxCoeff();
+  if (!h.odd && sign < 0 && std::abs(u[0]) > same) return false;
+  for (int j = 0; j < h.sines(); ++j) {
+    const int n = h.sine_order(j);
+    const double a = u[h.cosine_index(n)], b = u[h.sine_index(n)];
+    const double c = std::cos(n * turn), s = std::sin(n * turn);
+    if (std::hypot(c * a + s * b - sign * a, c * b - s * a - sign * b) > same) return false;
+  }
+  return true;
 }
 
 }  // namespace arcslip::elements

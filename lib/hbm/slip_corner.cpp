@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace arcslip::hbm {
 namespace {
@@ -12,9 +13,11 @@ namespace {
 using continuation::Evaluated;
 using continuation::Needs;
 
-constexpr double beside = 1e-11;     // of mu F_n: so far from h = 0 the sides are looked at
-constexpr int polishing = 20;        // steps of Newton's method, to a reversal
-constexpr double same_place = 1e-9;  // rad: a reversal at the end of a phase
+constexpr double beside = 1e-11;       // of the size of h: so far from h = 0 the sides are looked at
+constexpr double no_harmonic = 1e-11;  // of the largest coefficient: what is less is rounding
+constexpr int polishing = 20;          // steps of Newton's method, to a reversal
+constexpr double same_place = 1e-9;    // rad: a reversal at the end of a phase
+constexpr double next_to_be = 1e-3;  // of the range of the motion: reversals next to be the highest or lowest
 constexpr double same_angle = 0.3;   // rad: farther off, it is another reversal
 
 // The motion of one element, from the unknowns.
@@ -42,6 +45,10 @@ class Motion {
 
   double stiffness(In p) const { return p[parameters_[0]]; }
   double limit(In p) const { return p[parameters_[1]] * p[parameters_[2]]; }
+  // Of forces at the last motion.
+  double size(In p) const {
+    return std::min(limit(p), stiffness(p) * elements::series_bound(harmonics_, w_, 0));
+  }
   const Harmonics& harmonics() const { return harmonics_; }
 
   // g += factor dw(theta)/du, or that of w'.
@@ -104,6 +111,48 @@ bool polish(const Motion& motion, double sign, double& theta) {
     if (std::abs(step) <= 1e-14) break;
   }
   return true;
+}
+
+// The same corner, or an image of it by a symmetry of the element's motion w.
+bool is_listed(const std::vector<SlipCorner>& all, const SlipCorner& corner, const Harmonics& harmonics,
+               In w) {
+  return std::any_of(all.begin(), all.end(), [&](const SlipCorner& other) {
+    const double sign = other.slip_sign * corner.slip_sign, turn = corner.anchor - other.anchor;
+    const double apart = corner.reversal - other.reversal - turn;
+    return other.element == corner.element && other.anchor_sign * corner.anchor_sign == sign &&
+           std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= same_place &&
+           elements::is_image(harmonics, w, turn, sign);
+  });
+}
+
+// Of full stick: from the lowest reversal to the highest and, where there is a mean, from one that is the
+// highest or lowest to one that is next to be. Several may be next to be these.
+template <class Add>
+void add_of_stick(const Motion& motion, const std::vector<elements::Reversal>& turns, double highest,
+                  double lowest, int element, Add&& add) {
+  const double near = next_to_be * (highest - lowest);
+  std::vector<double> tops, bottoms;
+  for (const auto& turn : turns) {
+    if (motion.harmonics().odd) {
+      const bool is_top = turn.x > 0;
+      if (std::abs(turn.x) >= highest - near)
+        tops.push_back(is_top ? turn.theta : turn.theta + std::numbers::pi);
+    } else if (turn.x >= highest - near) {
+      tops.push_back(turn.theta);
+    } else if (turn.x <= lowest + near) {
+      bottoms.push_back(turn.theta);
+    }
+  }
+  if (motion.harmonics().odd) {
+    for (const double top : tops) add({element, top - std::numbers::pi, top, -1, 1});
+    return;
+  }
+  for (std::size_t i = 0; i < tops.size(); ++i) {
+    for (const double bottom : bottoms) add({element, bottom, tops[i], -1, 1});
+    for (std::size_t j = 0; j < i; ++j) add({element, tops[j], tops[i], 1, 1});
+  }
+  for (std::size_t i = 0; i < bottoms.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) add({element, bottoms[j], bottoms[i], -1, -1});
 }
 
 class SlipCornerEvaluator final : public continuation::Evaluator {
@@ -202,6 +251,12 @@ std::optional<double> slip_excess(const HbmProblem& problem, SlipCorner& corner,
   return motion.excess(corner, p);
 }
 
+double slip_excess_size(const HbmProblem& problem, const SlipCorner& corner, In u, In p) {
+  Motion motion(problem, corner.element);
+  motion.of(u);
+  return motion.size(p);
+}
+
 double slip_limit(const HbmProblem& problem, int element, In p) {
   const auto& parameters = problem.model().elements[static_cast<std::size_t>(element)].parameters;
   return p[parameters[1]] * p[parameters[2]];
@@ -210,6 +265,23 @@ double slip_limit(const HbmProblem& problem, int element, In p) {
 void slip_excess_gradient(const HbmProblem& problem, const SlipCorner& corner, In p, Out dh) {
   dh.setZero();
   Motion(problem, corner.element).add_excess_gradient(corner, p, dh);
+}
+
+void slip_excess_direction(const HbmProblem& problem, const SlipCorner& corner, In u, In p, Out d) {
+  slip_excess_gradient(problem, corner, p, d);
+  const Harmonics& harmonics = problem.harmonics();
+  const Eigen::Index c = harmonics.size(), coordinates = u.size() / c;
+  const Eigen::Map<const Eigen::MatrixXd> motion(u.data(), c, coordinates);
+  Eigen::Map<Eigen::MatrixXd> along(d.data(), c, coordinates);
+  const double none = no_harmonic * u.cwiseAbs().maxCoeff();
+  const auto has = [&](Eigen::Index k) { return motion.row(k).cwiseAbs().maxCoeff() > none; };
+  if (!harmonics.odd && !has(0)) along.row(0).setZero();
+  for (int j = 0; j < harmonics.sines(); ++j) {
+    const int n = harmonics.sine_order(j), cosine = harmonics.cosine_index(n), sine = harmonics.sine_index(n);
+    if (has(cosine) || has(sine)) continue;
+    along.row(cosine).setZero();
+    along.row(sine).setZero();
+  }
 }
 
 double slip_excess_derivative(const HbmProblem& problem, const SlipCorner& corner, In u, In p, int k) {
@@ -228,7 +300,10 @@ std::vector<SlipCorner> slip_corners_near(const HbmProblem& problem, In u, In p,
     const double limit = motion.limit(p);
     if (!(limit > 0)) continue;
     const auto add = [&](const SlipCorner& corner) {
-      if (std::abs(motion.excess(corner, p)) <= tolerance * limit) near.push_back(corner);
+      const double size = corner.anchor_sign == corner.slip_sign ? motion.size(p) : limit;
+      if (std::abs(motion.excess(corner, p)) <= tolerance * size &&
+          !is_listed(near, corner, motion.harmonics(), w))
+        near.push_back(corner);
     };
     elements::FrictionPhases phases(motion.harmonics());
     elements::Reversals reversals(motion.harmonics());
@@ -236,8 +311,9 @@ std::vector<SlipCorner> slip_corners_near(const HbmProblem& problem, In u, In p,
     const auto& turns = reversals.find(w);
     if (turns.empty()) continue;
     if (all.empty()) {
-      const double top = phases.highest().theta, bottom = phases.lowest().theta;
-      add({e, bottom, top, -1, 1});
+      const auto &highest = phases.highest(), &lowest = phases.lowest();
+      add({e, lowest.theta, highest.theta, -1, 1});
+      add_of_stick(motion, turns, highest.x, lowest.x, e, add);
       continue;
     }
     for (const auto& phase : all) {
@@ -282,7 +358,7 @@ CornerSlopes CornerSides::slopes(In x, In p) {
   CornerSlopes slopes{none, none, 0};
   corner_.anchor = x[n + 1];
   corner_.reversal = x[n + 2];
-  slip_excess_gradient(*problem_, corner_, p_, dh_);
+  slip_excess_direction(*problem_, corner_, u_, p_, dh_);
   slopes.slip = slope(1, slopes.direction);
   slopes.stick = slope(-1, slopes.direction);
   return slopes;
@@ -293,7 +369,7 @@ CornerSlopes CornerSides::slopes(In x, In p) {
 double CornerSides::slope(double side, int& direction) {
   const Eigen::Index n = problem_->size();
   const double none = std::numeric_limits<double>::quiet_NaN();
-  beside_ = u_ + side * beside * slip_limit(*problem_, corner_.element, p_) / dh_.squaredNorm() * dh_;
+  beside_ = u_ + side * beside * slip_excess_size(*problem_, corner_, u_, p_) / dh_.squaredNorm() * dh_;
   if (evaluator_->move_to(beside_, p_, Needs::jacobian) != Evaluated::ok) return none;
   evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
   border_.rows.col(0) = dh_;

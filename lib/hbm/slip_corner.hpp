@@ -7,9 +7,10 @@
 //   w'(theta_r) = 0.
 //
 // h < 0: no slip phase there, h > 0: a short one. From full stick, theta_a is where w is least and theta_r
-// where it is largest: h = k_d (max w - min w)/2 - mu F_n. J jumps by rank one across h = 0, along grad h, so
-// that a branch has two tangents there, and a peak or a fold may sit at the corner while another parameter
-// changes.
+// where it is largest: h = k_d (max w - min w)/2 - mu F_n. Of an element that sticks, sigma = sigma_a is the
+// corner where another reversal becomes the highest or the lowest, and the mean of its force is told by that.
+// J jumps by rank one across h = 0, along grad h, so that a branch has two tangents there, and a peak or a
+// fold may sit at the corner while another parameter changes.
 
 #include <arcslip/continuation/stationary.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -35,8 +36,15 @@ std::optional<double> slip_excess(const HbmProblem& problem, SlipCorner& corner,
 /// mu F_n of an element, N.
 double slip_limit(const HbmProblem& problem, int element, In p);
 
+/// What h is measured by, N: mu F_n or, where the motion takes less, k_d |w|.
+double slip_excess_size(const HbmProblem& problem, const SlipCorner& corner, In u, In p);
+
 /// dh/du, n.
 void slip_excess_gradient(const HbmProblem& problem, const SlipCorner& corner, In p, Out dh);
+/// The same within the harmonics that the motion u has: a motion of a shorter period than the force's, or
+/// whose half periods mirror each other, comes to the images of a corner together with it, and stays such a
+/// motion on both sides of them.
+void slip_excess_direction(const HbmProblem& problem, const SlipCorner& corner, In u, In p, Out d);
 /// dh/dp_k.
 double slip_excess_derivative(const HbmProblem& problem, const SlipCorner& corner, In u, In p, int k);
 

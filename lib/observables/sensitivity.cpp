@@ -159,7 +159,7 @@ bool Sensitivity::second_derivatives(const continuation::Matrix& tangents,
 // From a corner to a place beside it, where the element sticks; w and g are those of that side.
 bool Sensitivity::stick_side() {
   const auto& dh = border_.rows.col(0);
-  u_ -= inside_stick * hbm::slip_limit(*problem_, corner_->element, p_) / dh.squaredNorm() * dh;
+  u_ -= inside_stick * hbm::slip_excess_size(*problem_, *corner_, u_, p_) / dh.squaredNorm() * dh;
   if (evaluator_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return false;
   evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
   Vector unused(static_cast<Eigen::Index>(parameters_.size()));

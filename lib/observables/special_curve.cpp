@@ -3,9 +3,6 @@
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
-#include <arcslip/continuation/corrector.hpp>
-#include <arcslip/elements/reversals.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,12 +21,6 @@ constexpr const char* window_event = "window";
 constexpr const char* fold_event = "fold";
 constexpr const char* stick_event = "stick";  // the slope vanishes on this side of a corner
 constexpr const char* slip_event = "slip";
-constexpr double near_corner = 1e-3;  // relative: where a corner is looked for
-constexpr double besides[] = {1e-6, 1e-5, 1e-4,
-                              1e-3};  // of the parameter: from one part of the curve to the next
-constexpr double least_change =
-    1e-12;                         // of the parameter, from a corner to the smooth part that begins there
-constexpr double as_large = 1e-4;  // relative: one of two extremes that change places
 constexpr int most_parts = 64;
 
 // n: where the frequency stands among the unknowns.
@@ -113,8 +104,9 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     if (!passes) break;
     Place place{end.x, end.over, end.direction, at.corner};
     if (place.corner) place.corner = at_angles(*place.corner, last.u);
-    const auto next = leaves ? from_corner(place, by == slip_event) : to_corner(place);
-    if (!next && !leaves && kind_.maximum && is_surpassed(place)) end.vanishes = true;
+    auto next = leaves ? leave_corner(place, by == slip_event) : to_corner(place);
+    if (!next && kind_.maximum && is_surpassed(place)) end.vanishes = true;
+    if (!next && !end.vanishes) next = seen_beyond(place);
     if (!next) break;
     result_.events.push_back({arclength_, {"corner", true, true, result_.points.back().point}});
     if (next->direction != place.direction) result_.turns.push_back(arclength_);
@@ -198,22 +190,6 @@ Vector SpecialCurveTracer::parameters(const Vector& x, double over) const {
   return p;
 }
 
-// The solution near (x, over) in the plane row . ((x, over)' - (x, over)) = 0, no farther off than `reach`,
-// relative.
-std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem& problem, const Vector& x,
-                                                    double over, const Vector& row, double reach) const {
-  continuation::Counts counts;
-  continuation::Corrector corrector(problem, parameters(x, over), way_.index, {}, counts);
-  const Eigen::Index n = x.size();
-  Vector v(n + 1), scales(n + 1);
-  v << x, over;
-  scales << problem.scales(), over;
-  const Vector guess = v;
-  if (!corrector.correct(v, row, false).converged) return {};
-  if ((v - guess).cwiseQuotient(scales).norm() > reach * (1 + guess.cwiseQuotient(scales).norm())) return {};
-  return v;
-}
-
 Vector SpecialCurveTracer::with_angles(const Vector& x, const hbm::SlipCorner& corner) {
   Vector all(x.size() + 2);
   all << x, corner.anchor, corner.reversal;
@@ -224,79 +200,6 @@ hbm::SlipCorner SpecialCurveTracer::at_angles(hbm::SlipCorner corner, const Vect
   corner.anchor = all[all.size() - 2];
   corner.reversal = all[all.size() - 1];
   return corner;
-}
-
-// The corner beside a place, and which way it is special. On one side of it the slope is near zero; where the
-// corner is special neither before nor behind the place where that changes its sign, the special point ends.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Place& at) {
-  const Eigen::Index n = problem_->size();
-  for (const auto& corner :
-       hbm::slip_corners_near(*problem_, at.x.head(n), parameters(at.x, at.over), near_corner)) {
-    const auto points = hbm::slip_corner_points(problem_, corner);
-    hbm::CornerSides sides(problem_, corner, kind_.quantity);
-    for (const double beside : besides) {
-      std::vector<hbm::CornerSlopes> found;
-      for (const int direction : {at.direction, -at.direction}) {
-        const double over = at.over * (1 + direction * beside);
-        if (!inside(over)) continue;
-        const auto v =
-            corrected(*points, with_angles(at.x, corner), over, Vector::Unit(n + 4, n + 3), near_corner);
-        if (!v) continue;
-        const Vector all = v->head(n + 3);
-        found.push_back(sides.slopes(all, parameters(all, over)));
-        if (kind_.maximum ? found.back().is_maximum() : found.back().is_extreme())
-          return Place{all.head(n + 1), over, direction, at_angles(corner, all)};
-      }
-      if (found.size() == 2 && (found[0].stick * found[1].stick < 0) != (found[0].slip * found[1].slip < 0)) {
-        result_.end.vanishes = true;
-        return {};
-      }
-    }
-  }
-  return {};
-}
-
-// Whether the displacement has two largest values in the period, at different instants. The largest of two
-// functions of the frequency has a kink upwards where they cross: there is no peak, and one that comes to it
-// ends, surpassed by the other.
-bool SpecialCurveTracer::is_surpassed(const Place& at) const {
-  const auto& harmonics = problem_->harmonics();
-  const auto evaluator = problem_->hbm_evaluator();
-  const auto u = at.x.head(problem_->size());
-  if (evaluator->move_to(u, parameters(at.x, at.over), continuation::Needs::residual) !=
-      continuation::Evaluated::ok)
-    return false;
-  Vector motion(harmonics.size());
-  evaluator->stiffness().response(u, evaluator->force_factor(), motion);
-  double largest = 0, second = 0;
-  elements::Reversals reversals(harmonics);
-  for (const auto& turn : reversals.find(motion)) {
-    second = std::max(second, std::min(largest, std::abs(turn.x)));
-    largest = std::max(largest, std::abs(turn.x));
-  }
-  return second > (1 - as_large) * largest;
-}
-
-// The smooth curve that begins where the slope vanishes on one side of a corner. There h is given, not the
-// parameter, which may change with h by any power.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const Place& at, bool slip) const {
-  const Eigen::Index n = problem_->size();
-  const Vector p = parameters(at.x, at.over);
-  Vector dh(n), guess = at.x, row = Vector::Zero(n + 2);
-  hbm::slip_excess_gradient(*problem_, *at.corner, p, dh);
-  row.head(n) = dh;
-  row[n + 1] = hbm::slip_excess_derivative(*problem_, *at.corner, at.x.head(n), p, way_.index);
-  row /= row.norm();
-  dh *= (slip ? 1 : -1) * hbm::slip_limit(*problem_, at.corner->element, p) / dh.squaredNorm();
-  for (const double beside : besides) {
-    guess.head(n) = at.x.head(n) + beside * dh;
-    const auto v = corrected(*smooth_, guess, at.over, row, near_corner);
-    if (!v) continue;
-    const double over = (*v)[n + 1];
-    if (inside(over) && std::abs(over - at.over) > least_change * at.over)
-      return Place{v->head(n + 1), over, over > at.over ? 1 : -1, {}};
-  }
-  return {};
 }
 
 }  // namespace arcslip::observables

@@ -106,7 +106,18 @@ class SpecialCurveTracer {
   void end_at(std::size_t count, bool closed);
   bool is_repeated(const SpecialCurve::EventAt& event) const;
   std::optional<Place> to_corner(const Place& at);
+  struct Beside {
+    Place place;
+    hbm::CornerSlopes slopes;
+  };
+  std::optional<Beside> corner_beside(const Place& at, const hbm::SlipCorner& corner, int direction,
+                                      double beside) const;
+  bool is_special(const hbm::CornerSlopes& slopes) const;
+  std::optional<Place> leave_corner(const Place& at, bool slip);
+  std::optional<Place> to_crossing_corner(const Place& at);
   std::optional<Place> from_corner(const Place& at, bool slip) const;
+  std::optional<Place> seen_beyond(const Place& at);
+  std::optional<continuation::Vector> at_depth(const Place& at, double depth, double reach) const;
   bool is_surpassed(const Place& at) const;
   std::optional<continuation::Vector> corrected(const continuation::Problem& problem,
                                                 const continuation::Vector& x, double over,

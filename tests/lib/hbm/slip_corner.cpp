@@ -122,3 +122,32 @@ TEST_CASE("a motion without the reversals of a corner has no excess there") {
   corner.reversal += 1.5;
   CHECK_FALSE(hbm::slip_excess(problem, corner, stuck, p));
 }
+
+TEST_CASE("beside a corner of a motion of half the period its image begins to slip with it") {
+  const auto model = std::make_shared<const model::Model>(model::build(scenes::chain(4, true)));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  const auto& harmonics = problem.harmonics();
+  const Vector p = hbm::parameters_at(problem, 0.8);
+  std::srand(7);
+  Vector u = 2 * Vector::Random(problem.size()), dh(problem.size()), d(problem.size());
+  Eigen::Map<Eigen::MatrixXd> motion(u.data(), harmonics.size(), u.size() / harmonics.size());
+  for (const int n : {1, 3}) {
+    motion.row(harmonics.cosine_index(n)).setZero();
+    motion.row(harmonics.sine_index(n)).setZero();
+  }
+  const auto corners = hbm::slip_corners_near(problem, u, p, 1e3);
+  REQUIRE_FALSE(corners.empty());
+  for (const hbm::SlipCorner& corner : corners) {
+    hbm::SlipCorner image = corner;
+    image.anchor += std::numbers::pi;
+    image.reversal += std::numbers::pi;
+    hbm::slip_excess_gradient(problem, corner, p, dh);
+    hbm::slip_excess_direction(problem, corner, u, p, d);
+    CHECK(std::abs(d.dot(dh) - d.squaredNorm()) < 1e-14 * d.squaredNorm());
+    hbm::slip_excess_gradient(problem, image, p, dh);
+    CHECK(std::abs(d.dot(dh) - d.squaredNorm()) < 1e-14 * d.squaredNorm());
+  }
+  CHECK(elements::is_image(harmonics, motion.col(0), std::numbers::pi, 1));
+  CHECK_FALSE(elements::is_image(harmonics, motion.col(0), std::numbers::pi, -1));
+  CHECK_FALSE(elements::is_image(harmonics, motion.col(0), 1, 1));
+}

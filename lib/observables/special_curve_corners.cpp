@@ -1,0 +1,228 @@
+// Where a curve of special points comes to a corner of the branches, leaves it, or comes to another one.
+
+#include <arcslip/observables/special_curve.hpp>
+
+#include <arcslip/continuation/corrector.hpp>
+#include <arcslip/elements/reversals.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::Vector;
+
+constexpr double near_corner = 1e-3;  // relative: where a corner is looked for
+constexpr double at_corner = 1e-6;    // of mu F_n: where two corners meet
+constexpr double besides[] = {1e-6, 1e-5, 1e-4,
+                              1e-3};  // of the parameter: from one part of the curve to the next
+constexpr double least_change =
+    1e-12;                           // of the parameter, from a corner to the smooth part that begins there
+constexpr double zero_slope = 1e-6;  // of the slope on the other side of a corner
+constexpr double as_large = 1e-4;    // relative: one of two extremes that change places
+constexpr int most_steps = 20;       // of Newton's method, to a given depth of slip
+constexpr double same_depth = 1e-6;  // relative
+constexpr double seen_besides[] = {1e-5, 1e-4, 1e-3};  // of the parameter: where responses are looked at
+constexpr double in_sight = 1e-2;                      // of the frequency
+constexpr double root_reach = 3;  // of the root of that depth, which the parameter may change with
+
+}  // namespace
+
+// The solution near (x, over) in the plane row . ((x, over)' - (x, over)) = 0, no farther off than `reach`,
+// relative.
+std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem& problem, const Vector& x,
+                                                    double over, const Vector& row, double reach) const {
+  continuation::Counts counts;
+  continuation::Corrector corrector(problem, parameters(x, over), way_.index, {}, counts);
+  const Eigen::Index n = x.size();
+  Vector v(n + 1), scales(n + 1);
+  v << x, over;
+  scales << problem.scales(), over;
+  const Vector guess = v;
+  if (!corrector.correct(v, row, false).converged) return {};
+  if ((v - guess).cwiseQuotient(scales).norm() > reach * (1 + guess.cwiseQuotient(scales).norm())) return {};
+  return v;
+}
+
+// The corner a little along the parameter, and the slopes on its sides.
+std::optional<SpecialCurveTracer::Beside> SpecialCurveTracer::corner_beside(const Place& at,
+                                                                            const hbm::SlipCorner& corner,
+                                                                            int direction,
+                                                                            double beside) const {
+  const Eigen::Index n = problem_->size();
+  const double over = at.over * (1 + direction * beside);
+  if (!inside(over)) return {};
+  const auto v = corrected(*hbm::slip_corner_points(problem_, corner), with_angles(at.x, corner), over,
+                           Vector::Unit(n + 4, n + 3), near_corner);
+  if (!v) return {};
+  const Vector all = v->head(n + 3);
+  hbm::CornerSides sides(problem_, corner, kind_.quantity);
+  return Beside{{all.head(n + 1), over, direction, at_angles(corner, all)},
+                sides.slopes(all, parameters(all, over))};
+}
+
+bool SpecialCurveTracer::is_special(const hbm::CornerSlopes& slopes) const {
+  return kind_.maximum ? slopes.is_maximum() : slopes.is_extreme();
+}
+
+// The corner beside a place, and which way it is special. On one side of it the slope is near zero; where the
+// corner is special neither before nor behind the place where that changes its sign, the special point ends.
+std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Place& at) {
+  for (const auto& corner :
+       hbm::slip_corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), near_corner))
+    for (const double beside : besides) {
+      std::vector<hbm::CornerSlopes> found;
+      for (const int direction : {at.direction, -at.direction}) {
+        const auto there = corner_beside(at, corner, direction, beside);
+        if (!there) continue;
+        if (is_special(there->slopes)) return there->place;
+        found.push_back(there->slopes);
+      }
+      if (found.size() == 2 && (found[0].stick * found[1].stick < 0) != (found[0].slip * found[1].slip < 0)) {
+        result_.end.vanishes = true;
+        return {};
+      }
+    }
+  return {};
+}
+
+// What goes on from a corner where the slope on one side changes its sign: where it vanishes, a smooth curve
+// begins on that side. Where it jumps, another corner crosses this one.
+std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::leave_corner(const Place& at, bool slip) {
+  hbm::CornerSides sides(problem_, *at.corner, kind_.quantity);
+  const auto slopes = sides.slopes(with_angles(at.x, *at.corner), parameters(at.x, at.over));
+  const double changes = slip ? slopes.slip : slopes.stick, other = slip ? slopes.stick : slopes.slip;
+  return std::abs(changes) <= zero_slope * std::abs(other) ? from_corner(at, slip) : to_crossing_corner(at);
+}
+
+// Where two corners cross, they change places along the frequency, and another slope lies between them than
+// before. The special point goes on at one of them, or, where it is at neither, has met the other one.
+std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_crossing_corner(const Place& at) {
+  const auto crossing =
+      hbm::slip_corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), at_corner);
+  bool found = false;
+  for (const auto& corner : crossing)
+    for (const double beside : besides)
+      if (const auto there = corner_beside(at, corner, at.direction, beside)) {
+        if (is_special(there->slopes)) return there->place;
+        found = true;
+      }
+  result_.end.vanishes = found && crossing.size() > 1;
+  return {};
+}
+
+// What responses on both sides of a place show: the special point goes on from that of the response beyond
+// it, or, where that has one less, has met its counterpart there. So a curve passes kinks of any kind, such
+// as where a reversal is born while an element slips, beside which slopes change with the root of the
+// distance.
+std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::seen_beyond(const Place& at) {
+  const Eigen::Index n = problem_->size();
+  for (const double beside : seen_besides) {
+    const auto seen = [&](int direction) {
+      std::vector<SpecialPoint> near;
+      const double over = at.over * (1 + direction * beside);
+      if (!inside(over)) return near;
+      const auto response = special_points(way_, over, window_, kind_.event, go_on_);
+      if (!response.failure.empty() || !response.unbounded.empty()) return near;
+      for (const SpecialPoint& point : response.points)
+        if (std::abs(point.x[n] / at.x[n] - 1) < in_sight) near.push_back(point);
+      return near;
+    };
+    const auto distance = [&](const SpecialPoint& point) {
+      return (point.x.head(n) - at.x.head(n)).norm() / at.x.head(n).norm() +
+             std::abs(point.x[n] / at.x[n] - 1);
+    };
+    const auto nearest = [&](const std::vector<SpecialPoint>& points) {
+      return std::min_element(points.begin(), points.end(),
+                              [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    };
+    const auto reaches = [&](const SpecialPoint& point) {
+      return distance(point) < root_reach * std::sqrt(beside);
+    };
+    const auto before = seen(-at.direction), beyond = seen(at.direction);
+    if (before.empty() || !reaches(*nearest(before))) continue;
+    if (beyond.size() + 1 == before.size()) {
+      result_.end.vanishes = true;
+      return {};
+    }
+    if (beyond.size() != before.size() || !reaches(*nearest(beyond))) continue;
+    const SpecialPoint& next = *nearest(beyond);
+    const Place place{next.x, next.over, at.direction, {}};
+    return next.nonsmooth ? to_corner(place) : place;
+  }
+  return {};
+}
+
+// Whether the displacement has two largest values in the period, at different instants. The largest of two
+// functions of the frequency has a kink upwards where they cross: there is no peak, and one that comes to it
+// ends, surpassed by the other. Extremes that a symmetry of the motion makes equal do not cross.
+bool SpecialCurveTracer::is_surpassed(const Place& at) const {
+  const auto& harmonics = problem_->harmonics();
+  const auto evaluator = problem_->hbm_evaluator();
+  const auto u = at.x.head(problem_->size());
+  if (evaluator->move_to(u, parameters(at.x, at.over), continuation::Needs::residual) !=
+      continuation::Evaluated::ok)
+    return false;
+  Vector motion(harmonics.size());
+  evaluator->stiffness().response(u, evaluator->force_factor(), motion);
+  elements::Reversals reversals(harmonics);
+  const auto& turns = reversals.find(motion);
+  const auto largest = std::max_element(
+      turns.begin(), turns.end(), [](const auto& a, const auto& b) { return std::abs(a.x) < std::abs(b.x); });
+  return std::any_of(turns.begin(), turns.end(), [&](const auto& turn) {
+    return std::abs(turn.x) > (1 - as_large) * std::abs(largest->x) &&
+           !elements::is_image(harmonics, motion, turn.theta - largest->theta,
+                               turn.x * largest->x < 0 ? -1 : 1);
+  });
+}
+
+// The smooth curve that begins where the slope vanishes on one side of a corner. There h is given, not the
+// parameter, which may change with h by any power: with its root where h grows from slip, so that h is no
+// linear function of the way.
+std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const Place& at, bool slip) const {
+  const Eigen::Index n = problem_->size();
+  const double size = hbm::slip_excess_size(*problem_, *at.corner, at.x.head(n), parameters(at.x, at.over));
+  for (const double beside : besides) {
+    const auto v =
+        at_depth(at, (slip ? beside : -beside) * size, near_corner + root_reach * std::sqrt(beside));
+    if (!v) continue;
+    const double over = (*v)[n + 1];
+    if (inside(over) && std::abs(over - at.over) > least_change * at.over)
+      return Place{v->head(n + 1), over, over > at.over ? 1 : -1, {}};
+  }
+  return {};
+}
+
+// The special point of the smooth branches where a corner has a given h, no farther off than `reach`,
+// relative: Newton's method for the three, with h moved to its value before each step.
+std::optional<Vector> SpecialCurveTracer::at_depth(const Place& at, double depth, double reach) const {
+  const Eigen::Index n = problem_->size();
+  continuation::NewtonOptions one_step;
+  one_step.iterations = 1;
+  continuation::Counts counts;
+  continuation::Corrector corrector(*smooth_, parameters(at.x, at.over), way_.index, one_step, counts);
+  hbm::SlipCorner corner = *at.corner;
+  Vector v(n + 2), scales(n + 2), d(n), row = Vector::Zero(n + 2);
+  v << at.x, at.over;
+  scales << smooth_->scales(), at.over;
+  const Vector begin = v;
+  for (int k = 0; k < most_steps; ++k) {
+    const Vector p = parameters(v.head(n + 1), v[n + 1]);
+    const auto h = hbm::slip_excess(*problem_, corner, v.head(n), p);
+    if (!h || !((v - begin).cwiseQuotient(scales).norm() <= reach * (1 + begin.cwiseQuotient(scales).norm())))
+      return {};
+    hbm::slip_excess_direction(*problem_, corner, v.head(n), p, d);
+    v.head(n) += (depth - *h) / d.squaredNorm() * d;
+    hbm::slip_excess_gradient(*problem_, corner, p, d);
+    row.head(n) = d;
+    row[n + 1] = hbm::slip_excess_derivative(*problem_, corner, v.head(n), p, way_.index);
+    row /= row.norm();
+    if (corrector.correct(v, row, false).converged && std::abs(depth - *h) <= same_depth * std::abs(depth))
+      return v;
+  }
+  return {};
+}
+
+}  // namespace arcslip::observables
