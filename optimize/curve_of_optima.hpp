@@ -71,6 +71,8 @@ class CurveOfOptima {
   void note_turn(double before, const OptimumPoint& at);
   // The way in which the inequality that has changed holds more and more.
   void orient(const Inequality& watched);
+  // A free parameter on which no active peak depends.
+  std::optional<std::size_t> without_influence();
   // The response where the curve stands.
   void verify();
   void set_safe();

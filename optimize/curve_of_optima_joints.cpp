@@ -93,6 +93,12 @@ void CurveOfOptima::orient(const Inequality& watched) {
     if (known) slack[side] = at.slack(watched);
   }
   if (!known || slack[0] == slack[1] || !go(0)) {
+    if (const auto flat = without_influence())
+      return static_cast<void>(
+          end(Status::stopped, "flat",
+              text("at ", place(here_.sigma), ": from there on the highest peak does not depend on ",
+                   problem_.over[*flat].name,
+                   ", of which a range of values is as good: no single optimum is left")));
     end(Status::stopped, "no_exchange",
         "at " + place(here_.sigma) +
             ": the active peaks and bounds change, and there is no single optimum beyond");
@@ -100,6 +106,20 @@ void CurveOfOptima::orient(const Inequality& watched) {
   }
   if (slack[1] < slack[0]) here_.turn_back();
   here_.take(at);
+}
+
+std::optional<std::size_t> CurveOfOptima::without_influence() {
+  const PeakState& state = peaks_.state();
+  for (std::size_t k = 0; k < size(); ++k) {
+    const auto has_influence = [&](std::size_t i) {
+      const Peak& peak = state.peaks[i];
+      return std::abs(peak.gradient[static_cast<Eigen::Index>(k)] * scaled_[k].slope(state.design[k])) >
+             no_influence * peak.amplitude;
+    };
+    const auto& active = here_.active.peaks;
+    if (here_.active.held[k] == 0 && std::none_of(active.begin(), active.end(), has_influence)) return k;
+  }
+  return {};
 }
 
 void CurveOfOptima::verify() {

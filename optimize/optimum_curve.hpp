@@ -70,6 +70,7 @@ struct OptimumCurve {
   ///   other_peak   a response has a higher peak than those that are followed
   ///   lost_peak    an active peak vanished, or sits at a kink of another kind, or the optimum jumps there
   ///   turned_back  the curve left the range at its lower end, beyond a turning point
+  ///   flat         the highest peak ceases to depend on a parameter of the design
   ///   no_exchange  no active set goes on where the last one ends
   ///   no_progress  active sets follow one another at one place
   ///   unbounded    a resonance grows without bound

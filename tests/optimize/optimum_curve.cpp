@@ -441,3 +441,32 @@ TEST_CASE("result files tell every point of the curve and every event") {
   CHECK((figures.images.size() == 6 || !figures.problem.empty()));
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("a curve of optima ends, and says so, where the highest peak ceases to depend on the design") {
+  const scene::Scene s = two_dampers(2);
+  const auto curve = optimum_curve(s, {{{"d1.normal_load", 0.05, 50}}, 8, 45}, {"d1.stiffness", 200, 8000});
+  CHECK(curve.status == observables::Status::stopped);
+  INFO(curve.stop.message);
+  CHECK(curve.stop.reason == "flat");
+  CHECK(curve.stop.message.find("does not depend on d1.normal_load") != std::string::npos);
+  REQUIRE_FALSE(curve.points.empty());
+  const OptimumPoint& last = curve.points.back();
+  // Beyond, two loads give the same largest amplitude, at the resonance at which d1 sticks.
+  const auto highest = [&](double load) {
+    scene::Scene beyond = s;
+    scene::set(beyond, "d1.stiffness", 1.1 * last.along);
+    scene::set(beyond, "d1.normal_load", load);
+    scene::Study frf;
+    frf.from = 8;
+    frf.to = 45;
+    observables::ResponsePoint most;
+    const auto branches = observables::frequency_response(beyond, frf);
+    for (const auto& event : branches.front().events)
+      if (event.kind == "peak" && event.point.amplitude > most.amplitude) most = event.point;
+    return most;
+  };
+  const auto one = highest(1.05 * last.design[0]), other = highest(1.15 * last.design[0]);
+  REQUIRE_FALSE(one.elements.empty());
+  CHECK(one.elements[0].stick_percent == 100);
+  CHECK(reference::error(one.amplitude, other.amplitude) < 1e-10);
+}

@@ -147,7 +147,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("beyond full stick, where the load moves nothing, a curve of peaks takes large steps: 16 decades") {
+TEST_CASE(
+    "beyond full stick, where the load moves nothing, a curve of peaks takes large steps over 16 decades") {
   const scene::Scene s = scenes::paper(9);
   scene::Study study = peaks_over(s, "damper.normal_load", 0.01, 145887082697502.3);
   study.frequency_from = 18;
