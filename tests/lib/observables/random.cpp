@@ -184,7 +184,7 @@ TEST_CASE(
   }
   CAPTURE(curves, failed);
   CHECK(failed <=
-        curves / 50);  // they were one in seven where corners that cross, or of a mean, were not passed
+        curves / 50);  // they were one in eight where corners that cross, or of a mean, were not passed
 }
 
 TEST_CASE("random structures: a response has the peaks that a trace with a tenth of its steps finds") {
