@@ -101,8 +101,9 @@ void Formulation::add_limits(Problem& problem, std::size_t n) {
                                          std::fill(g.begin(), g.end(), 0.0);
                                          if (cases_.state(c).unbounded) return 1.0;
                                          const auto at = peak(c, k);
-                                         return at ? limit(each, c, *at, g.first(std::min(n, g.size())))
-                                                   : -1.0;
+                                         return at && is_limited(c, *at)
+                                                    ? limit(each, c, *at, g.first(std::min(n, g.size())))
+                                                    : -1.0;
                                        }});
 }
 
@@ -113,7 +114,8 @@ double Formulation::margin() {
     const PeakState& state = cases_.state(c);
     if (state.unbounded || state.peaks.empty()) return std::max(margin, 1.0);
     for (const Limited& each : limits_)
-      for (std::size_t i = 0; i < state.peaks.size(); ++i) margin = std::max(margin, limit(each, c, i, {}));
+      for (std::size_t i = 0; i < state.peaks.size(); ++i)
+        if (is_limited(c, i)) margin = std::max(margin, limit(each, c, i, {}));
   }
   return margin;
 }
@@ -129,6 +131,7 @@ std::vector<ActiveLimit> Formulation::active() {
   for (const Limited& each : limits_)
     for (std::size_t c = 0; c < cases_.size(); ++c)
       for (std::size_t i = 0; i < cases_.state(c).peaks.size(); ++i) {
+        if (!is_limited(c, i)) continue;
         const double value = limit(each, c, i, {});
         if (value < -as_active) continue;
         Vector gradient(static_cast<Eigen::Index>(design.size()));
@@ -148,7 +151,14 @@ double Formulation::level(std::size_t c, std::size_t peak, std::span<double> gra
   return std::log(cases_.weight(c) * of.amplitude / reference_);
 }
 
-// ln of the amplitude over that from which a peak is watched; infinity at peaks that are, whatever it is.
+// Limits are those of peaks: an end of the window is none where the response rises inwards. Where it ceases to,
+// a peak comes to the end, with the same observables.
+bool Formulation::is_limited(std::size_t c, std::size_t peak) const {
+  return !cases_.state(c).peaks[peak].rises_inwards();
+}
+
+// ln of the amplitude over that from which a limit holds at a peak; infinity at peaks where it does, whatever
+// it is.
 double Formulation::height(std::size_t c, std::size_t peak) const {
   const PeakState& state = cases_.state(c);
   const Peak& of = state.peaks[peak];

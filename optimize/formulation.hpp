@@ -46,6 +46,7 @@ class Formulation {
   };
 
   double level(std::size_t c, std::size_t peak, std::span<double> gradient) const;
+  bool is_limited(std::size_t c, std::size_t peak) const;
   double height(std::size_t c, std::size_t peak) const;
   double limit(const Limited& each, std::size_t c, std::size_t peak, std::span<double> gradient);
   std::optional<std::size_t> peak(std::size_t c, std::size_t constraint);

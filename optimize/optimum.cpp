@@ -214,7 +214,8 @@ bool Search::is_settled() {
 void Search::take_candidate() {
   if (candidate_.design.empty() || !is_stationary(candidate_.left)) return;
   cases().at(candidate_.design);
-  if (cases().value() <= (1 + as_good_within_limits) * best().value) trials_.call_best();
+  if (cases().value() <= (1 + as_good_within_limits) * best().value && trials_.formulation().excess() == 0)
+    trials_.call_best();
 }
 
 bool Search::gradient_vanishes() {
@@ -254,13 +255,19 @@ bool Search::verify() {
       note(trials_.where(c) + "the response at " + space().text(start_) +
            " ends within the window: " + state.message);
   const double now = cases().value();
-  const Formulation& formulation = trials_.formulation();
+  Formulation& formulation = trials_.formulation();
+  const double exceeded = formulation.excess();
+  const bool higher = !(std::abs(now / seen - 1) <= seen_before);
+  const bool beyond = exceeded > best().excess + limit_tolerance;
   const bool changed =
       formulation.epigraph() ? responses > round_responses_ : formulation.wants_epigraph(algorithm_);
-  if (!(std::abs(now / seen - 1) > seen_before)) return changed && gained && !ended_;
+  if (!higher && !beyond) return changed && gained && !ended_;
   came_up_ = true;
-  note(text("at ", space().text(start_), " a peak of ", now,
-            " m came up beside those that were followed, the highest of which has ", seen, " m"));
+  note(text("at ", space().text(start_), " a peak ",
+            higher ? text("of ", now, " m came up beside those that were followed, the highest of which has ",
+                          seen, " m")
+                   : text("at which a limit is exceeded by ", exceeded,
+                          " came up beside those that were followed")));
   trials_.call_best();
   if (++times_came_up_ > 1) retreat();
   return !ended_;
@@ -268,21 +275,26 @@ bool Search::verify() {
 
 // Where following loses a peak again and again, the response changes from one design to the next by more than
 // it can see, and so may the amplitude jump: from here on each design has a response of its own. What was
-// tried before is lower in part; of that, what is so in a response, too.
+// tried before is better in part; of that, what is so in a response, too.
 void Search::retreat() {
   trials_.trace_all();
-  std::vector<Evaluation> tried = trials_.evaluations();
-  std::sort(tried.begin(), tried.end(),
-            [](const Evaluation& a, const Evaluation& b) { return a.amplitude < b.amplitude; });
+  std::vector<std::tuple<double, double, std::vector<double>>> tried;  // excess, V, design
+  for (std::size_t i = 0; i < count(); ++i)
+    tried.emplace_back(trials_.excesses()[i], trials_.evaluations()[i].amplitude,
+                       trials_.evaluations()[i].design);
+  std::erase_if(tried, [](const auto& each) { return std::isnan(std::get<1>(each)); });
+  std::sort(tried.begin(), tried.end());
   std::vector<std::vector<double>> looked_at{best().design};
-  for (const Evaluation& each : tried) {
-    if (!(each.amplitude < best().value) || looked_at.size() > most_retreats) break;
+  for (const auto& [excess, value, design] : tried) {
+    if (!(std::tie(excess, value) < std::tie(best().excess, best().value)) ||
+        looked_at.size() > most_retreats)
+      break;
     const bool known = std::any_of(looked_at.begin(), looked_at.end(), [&](const std::vector<double>& other) {
-      return space().distance(each.design, other) < far_enough;
+      return space().distance(design, other) < far_enough;
     });
     if (known) continue;
-    looked_at.push_back(each.design);
-    trials_.evaluate(each.design, true);
+    looked_at.push_back(design);
+    trials_.evaluate(design, true);
   }
   start_ = best().design;
 }
@@ -290,7 +302,8 @@ void Search::retreat() {
 void Search::stop_at_higher_peak() {
   result_.status = Status::stopped;
   result_.stop.reason = "other_peak";
-  result_.stop.message = text("the response at the best design had a higher peak than was followed, in ",
+  result_.stop.message = text("the response at the best design had a higher peak than was followed, or one "
+                              "at which a limit is exceeded, in ",
                               most_rounds, " rounds and ", count(), " evaluations");
   ended_ = true;
 }

@@ -15,8 +15,9 @@
 // The response is traced anew where a peak cannot be followed, because it vanishes, splits, leaves the window
 // or comes to a corner; at every design where there is a kink; where a parameter has changed by a factor of e
 // since the last response; and where a peak is expected to have come up, by its slopes there. Peaks below
-// three quarters of the highest, and kinks below nine tenths of it, are not watched: what grows above the
-// others otherwise than expected is seen at the next response, as at the end of a search.
+// a share of the highest, three quarters if not told otherwise, and kinks below nine tenths of it, are not
+// watched: what grows above the others otherwise than expected is seen at the next response, as at the end of
+// a search.
 
 #include <arcslip/observables/curve_section.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
@@ -60,6 +61,10 @@ struct Peak {
 /// Of the highest amplitude: lower peaks are not watched.
 inline constexpr double watched_share = 0.75;
 
+/// The same where there are limits on observables, which hold at peaks above watched_share: a peak is watched
+/// before it is as high as that, so that its limits come in where they are not yet exceeded.
+inline constexpr double watched_below_limits = 0.6;
+
 /// The peaks at one design.
 struct PeakState {
   std::vector<double> design;      // values of the parameters
@@ -86,9 +91,11 @@ class Follower;
 class PeakAmplitude {
  public:
   /// over: indices of parameters of the model. go_on: asked at each step of each response; where it says
-  /// false at() and trace() throw Interrupted, and this is of no more use.
+  /// false at() and trace() throw Interrupted, and this is of no more use. watched: the share of the highest
+  /// amplitude from which peaks are watched.
   PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
-                const observables::FrequencyWindow& window, observables::GoOn go_on = {});
+                const observables::FrequencyWindow& window, observables::GoOn go_on = {},
+                double watched = watched_share);
   ~PeakAmplitude();
 
   /// At a design, by following the peaks of the last one. The reference holds until the next call.
@@ -155,6 +162,7 @@ class PeakAmplitude {
   std::vector<int> over_;
   observables::FrequencyWindow window_;
   observables::GoOn go_on_;
+  double watched_;
   PeakState state_;
   std::vector<double> traced_;    // the design of the last response
   std::vector<LowerPeak> lower_;  // the peaks there that are not watched

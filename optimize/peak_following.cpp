@@ -12,7 +12,7 @@
 namespace arcslip::optimize {
 namespace {
 
-constexpr double risen = 0.9;         // of the highest amplitude: so high a lower peak is expected
+constexpr double risen = 1.2;         // times the share that is watched: so high a lower peak is expected
 constexpr double longest_step = 0.5;  // relative change of a parameter in one step
 constexpr double farthest = 1;     // relative change since the last response: beyond, peaks may have come up
 constexpr int most_attempts = 12;  // of Newton's method from one design to the next
@@ -48,7 +48,7 @@ bool PeakAmplitude::came_up() const {
     for (std::size_t k = 0; k < traced_.size(); ++k)
       level += peak.gradient[static_cast<Eigen::Index>(k)] / peak.amplitude * traced_[k] *
                way(traced_[k], state_.design[k]);
-    return peak.amplitude * std::exp(level) > risen * state_.amplitude();
+    return peak.amplitude * std::exp(level) > risen * watched_ * state_.amplitude();
   });
 }
 

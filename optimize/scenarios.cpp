@@ -115,7 +115,8 @@ std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario, observ
       scene::set(scene, problem_.scatter[k].name, scenario.scatter[k]);
     model = std::make_shared<const model::Model>(model::build(scene));
   }
-  return std::make_unique<PeakAmplitude>(model, space_.parameters(), window_, std::move(go_on));
+  return std::make_unique<PeakAmplitude>(model, space_.parameters(), window_, std::move(go_on),
+                                         problem_.limits.empty() ? watched_share : watched_below_limits);
 }
 
 CaseResult Scenarios::result(const Scenario& scenario) const {

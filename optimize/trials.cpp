@@ -48,12 +48,10 @@ void Trials::evaluate(std::span<const double> design, bool trace) {
     cases_.trace(design);
   const double value = cases_.value();
   evaluations_.push_back({{design.begin(), design.end()}, value});
+  excesses_.push_back(std::numeric_limits<double>::infinity());
   if (std::isnan(value)) return;
-  const double excess = formulation_.excess();
-  if (excess < best_.excess || (excess == best_.excess && value < best_.value)) {
-    best_.excess = excess;
-    call_best();
-  }
+  const double excess = excesses_.back() = formulation_.excess();
+  if (excess < best_.excess || (excess == best_.excess && value < best_.value)) call_best();
   tell();
 }
 
@@ -114,6 +112,7 @@ std::vector<Scenario> Trials::worse_scatter() {
 void Trials::call_best() {
   best_.design = cases_.state(0).design;
   best_.value = cases_.value();
+  best_.excess = formulation_.excess();
   best_.cases.clear();
   for (std::size_t c = 0; c < cases_.size(); ++c)
     best_.cases.push_back({cases_.state(c), cases_.peaks(c).problem()});

@@ -52,7 +52,7 @@ class Trials {
 
   const Best& best() const { return best_; }
   /// Where the cases stand, when rounding has made another design look better, or new responses have another
-  /// V there.
+  /// V there, or a peak at which a limit is exceeded.
   void call_best();
 
   Watch& watch() { return watch_; }
@@ -66,6 +66,8 @@ class Trials {
   Cases& cases() { return cases_; }
   Formulation& formulation() { return formulation_; }
   std::vector<Evaluation>& evaluations() { return evaluations_; }
+  /// By how much a limit was exceeded in each of them; infinity where there was no response.
+  const std::vector<double>& excesses() const { return excesses_; }
   /// Others of the same search, which are told of as well.
   std::vector<Evaluation>& elsewhere() { return elsewhere_; }
 
@@ -81,6 +83,7 @@ class Trials {
   std::vector<Scenario> all_;  // of the cases
   Formulation formulation_;
   std::vector<Evaluation> evaluations_, elsewhere_;
+  std::vector<double> excesses_;
   Best best_;
   bool far_apart_, trace_all_ = false;
 };

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "optimize/random_limits.hpp"
 
 #include <arcslip/optimize/optimum.hpp>
 
@@ -119,6 +120,40 @@ TEST_CASE("a search that comes from beyond a limit ends on it, where no load wit
     CHECK_FALSE(range.lower_is_limit);
     CHECK(highest(s, problem, {range.lower}) == Approx((1 + range.share) * found.amplitude).epsilon(1e-6));
   }
+}
+
+TEST_CASE("a limit on the frequency holds at the peak, not at an end of the window below it") {
+  const scene::Scene s = scenes::paper(5);
+  optimize::OptimumProblem problem{{{"damper.normal_load", 0.5, 500}}, 18, 22};
+  const auto free = optimize::optimum(s, problem, {.certificate = false});
+  REQUIRE(free.status == observables::Status::complete);
+  const double frequency = free.point.omega / scenes::hertz;
+  for (const double share : {0.999, 1.001}) {  // the end of the window is nearly as high as the peak
+    optimize::OptimumProblem limited = problem;
+    scene::ObservableLimit limit{.observable = "frequency"};
+    if (share < 1) {
+      limited.frequency_from = share * share * frequency;
+      limit.at_least = share * frequency;
+    } else {
+      limited.frequency_to = share * share * frequency;
+      limit.at_most = share * frequency;
+    }
+    limited.limits.push_back(limit);
+    const auto found = optimize::optimum(s, limited, {.certificate = false});
+    CAPTURE(share, found.stop.message);
+    REQUIRE(found.status == observables::Status::complete);
+    CHECK(found.amplitude == Approx(free.amplitude).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a peak that comes up during a search, at which a limit is exceeded, is within no limit") {
+  const auto search = random_limits::make(35);
+  const auto found =
+      optimize::optimum(search.scene, search.problem,
+                        {.algorithm = "LD_MMA", .certificate = false, .elsewhere = false});
+  CAPTURE(found.stop.message);
+  REQUIRE(found.feasible);
+  CHECK(random_limits::excess(search, found.design) <= 1e-6);
 }
 
 TEST_CASE("two loads with a limit on their sum: no pair on the limit is better, however loose it is") {

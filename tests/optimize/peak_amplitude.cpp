@@ -148,6 +148,27 @@ TEST_CASE("observables change along a followed peak as they do between responses
   }
 }
 
+TEST_CASE("what is asked at a design moves nothing that is followed from there") {
+  const scene::Scene s = scenes::chain(5, false);
+  const std::vector<std::string> over = {"d1.normal_load", "d2.normal_load"};
+  Design design;
+  for (const auto& name : over) design.push_back(scene::value(s, name));
+  PeakAmplitude asked = peaks_over(s, over, 0.3, 3), silent = peaks_over(s, over, 0.3, 3);
+  asked.trace(design);
+  silent.trace(design);
+  for (int k = 0; k < 10; ++k) {
+    for (double& value : design) value *= 1.01;
+    const auto &state = asked.at(design), &same = silent.at(design);
+    REQUIRE(state.peaks.size() == same.peaks.size());
+    for (std::size_t i = 0; i < state.peaks.size(); ++i) {
+      CHECK(state.peaks[i].x == same.peaks[i].x);
+      CHECK(asked.hessian(i).allFinite());
+      CHECK(std::isfinite(asked.change(i, 0, [](const auto& point) { return point.energy_friction; })));
+    }
+  }
+  CHECK(asked.work().responses == silent.work().responses);
+}
+
 TEST_CASE("random structures: peaks that are followed are those of a new response") {
   int compared = 0, missed = 0, followed = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

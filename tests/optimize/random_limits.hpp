@@ -3,6 +3,7 @@
 
 #include "lib/hbm/random_scenes.hpp"
 
+#include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/optimum.hpp>
 
 #include <algorithm>
@@ -107,6 +108,44 @@ inline Search make(std::uint64_t seed) {
     }
   }
   return search;
+}
+
+/// By how much a limit is exceeded at a design, relative, in a frequency response of its own: at its peaks and
+/// at the ends of the window, where it falls from them inwards, that are three quarters as high as the highest.
+inline double excess(const Search& search, const std::vector<double>& design) {
+  scene::Scene there = search.scene;
+  for (std::size_t k = 0; k < design.size(); ++k) scene::set(there, search.problem.over[k].name, design[k]);
+  scene::Study study;
+  study.from = search.problem.frequency_from;
+  study.to = search.problem.frequency_to;
+  std::vector<observables::ResponsePoint> peaks;
+  for (const auto& branch : observables::frequency_response(there, study)) {
+    for (const auto& event : branch.events)
+      if (event.kind == "peak") peaks.push_back(event.point);
+    const auto& points = branch.points;
+    if (points.size() < 2) continue;
+    if (points[0].amplitude > points[1].amplitude) peaks.push_back(points[0]);
+    if (points.back().amplitude > points[points.size() - 2].amplitude) peaks.push_back(points.back());
+  }
+  double highest = 0, excess = -std::numeric_limits<double>::infinity();
+  for (const auto& peak : peaks) highest = std::max(highest, peak.amplitude);
+  const auto take = [&](double value, double at_least, double at_most) {
+    if (std::isfinite(at_most)) excess = std::max(excess, (value - at_most) / std::abs(at_most));
+    if (std::isfinite(at_least)) excess = std::max(excess, (at_least - value) / std::abs(at_least));
+  };
+  for (const auto& peak : peaks)
+    for (const auto& limit : search.problem.limits)
+      if (peak.amplitude > 0.75 * (1 + 1e-7) * highest)
+        take(limit.observable == "frequency"         ? peak.omega / scene::to_rad_per_s(there.frequency_unit)
+             : limit.observable == "energy_friction" ? peak.energy_friction
+                                                     : peak.elements[0].stick_percent,
+             limit.at_least, limit.at_most);
+  for (const auto& limit : search.problem.linear_limits) {
+    double sum = 0;
+    for (const auto& [name, weight] : limit.weights) sum += weight * scene::value(there, name);
+    take(sum, limit.at_least, limit.at_most);
+  }
+  return excess;
 }
 
 /// The lowest of what other algorithms come to, and of designs over the bounds, where all limits hold.
