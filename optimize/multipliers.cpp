@@ -150,7 +150,8 @@ Balance balance(const Cases& cases, std::span<const double> lower, std::span<con
   Eigen::MatrixXd G(n, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) G.col(static_cast<Eigen::Index>(i)) = columns[i];
   const Eigen::VectorXd m = least_combination(G, group, shares);
-  result.stationarity = (G * m).norm();
+  result.left = G * m;
+  result.stationarity = result.left.norm();
   result.complementarity = m.dot(Eigen::VectorXd::Map(slack.data(), m.size()));
   Eigen::Index next = 0;
   for (ActivePeak& peak : result.active) peak.multiplier = m[next++];

@@ -27,7 +27,8 @@ struct ActivePeak {
 struct Balance {
   std::vector<ActivePeak> active;
   std::vector<ActiveLimit> limits;  // with their multipliers
-  double stationarity = 0;          // the norm that is left
+  Vector left{};                    // the sum of the gradients: V falls the other way, to first order
+  double stationarity = 0;          // its norm
   double complementarity = 0;       // sum of m_ck ln(V_g / (w_c A_ck)) + sum of n_i (-c_i)
   std::vector<int> at_bound;        // of each parameter: -1 lower, 1 upper, 0 inside
   bool smooth = true;               // one active peak in each group, and none at a kink

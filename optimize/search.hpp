@@ -71,7 +71,9 @@ class Search {
   // What an algorithm calls converged may be no minimum: one that came from outside the limits may have gone
   // to a lower design there, and its best is then only the last that kept them. Others go on from it.
   bool refine(const Balance& left);
-  std::string jump();
+  // Where the amplitude would fall farther, but a little beyond it is much higher, or a peak is there at which a
+  // limit is exceeded by much: no conditions hold there. Empty: neither.
+  std::string jump(const Balance& left);
   // Other starts, once, where the search came to no design that keeps the limits.
   bool find_feasible();
   // With limits a minimum is often one of several. From the lowest of designs over all the bounds, too, and

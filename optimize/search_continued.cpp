@@ -19,6 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_restarts = 5;
 constexpr double gain = 1e-7;                  // relative, that is worth going on from another design
 constexpr double beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
+constexpr double limit_jumps = 2e-3;           // of a limit, relative
 constexpr double active = 1e-6;                // relative: as high as the highest case
 constexpr std::size_t most_starts = 4;         // elsewhere
 constexpr double apart = 0.1;  // of the range of a variable: designs that are worth two searches
@@ -92,25 +93,22 @@ bool Search::refine(const Balance& left) {
   result_.stop.message = text("no algorithm came to a minimum: d ln A / d ln p left is ", left.stationarity,
                               " (at most ", most_stationarity, "), complementarity ", left.complementarity,
                               " (at most ", most_complementarity, ")", after()) +
-                         jump();
+                         jump(left);
   return false;
 }
 
-// Where the amplitude would fall farther, but a little beyond it is much higher: no conditions hold there.
-std::string Search::jump() {
-  if (!stand_at_best()) return "";
-  Vector slope = cases().gradient();
-  for (Eigen::Index k = 0; k < slope.size(); ++k)
-    slope[k] *= space().slope(static_cast<std::size_t>(k), best().design[static_cast<std::size_t>(k)]);
-  if (!(slope.norm() > 0)) return "";
+std::string Search::jump(const Balance& left) {
   std::vector<double> y = space().scaled(best().design);
   for (std::size_t k = 0; k < y.size(); ++k)
-    y[k] -= beyond * slope[static_cast<Eigen::Index>(k)] / slope.norm();
+    y[k] -= beyond * left.left[static_cast<Eigen::Index>(k)] / left.stationarity;
   const std::vector<double> design = space().design(y);
   cases().trace(design);
-  if (!(cases().value() > (1 + jumps) * best().value)) return "";
-  return text("; a little beyond, at ", space().text(design), ", the amplitude jumps to ", cases().value(),
-              " m");
+  const std::string there = "; a little beyond, at " + space().text(design) + ", ";
+  if (cases().value() > (1 + jumps) * best().value)
+    return there + text("the amplitude jumps to ", cases().value(), " m");
+  if (const double exceeded = trials_.formulation().excess(); exceeded > limit_jumps)
+    return there + text("a peak comes up at which a limit is exceeded by ", exceeded);
+  return "";
 }
 
 bool Search::find_feasible() {

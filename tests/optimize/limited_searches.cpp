@@ -28,3 +28,15 @@ TEST_CASE("random searches with limits: none is complete where another way comes
   }
   CHECK(complete >= searches / 2);
 }
+
+TEST_CASE("where the best design is at the edge of designs with another peak, beyond a limit, the end says so") {
+  const auto search = random_limits::make(16);
+  const auto found =
+      optimize::optimum(search.scene, search.problem, {.certificate = false, .elsewhere = false});
+  CAPTURE(found.stop.message);
+  REQUIRE(found.feasible);
+  CHECK(random_limits::excess(search, found.design) <= 1e-6);
+  CHECK(found.stop.reason == "not_stationary");
+  const std::string beyond = "a peak comes up at which a limit is exceeded by 0.00380";
+  CHECK(found.stop.message.find(beyond) != std::string::npos);
+}
