@@ -14,7 +14,6 @@ namespace {
 
 using continuation::StopReason;
 
-constexpr double watched_kink = 0.9;    // of the highest, where a peak cannot be followed at all
 constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
 constexpr double at_limit = 1e-6;       // of mu F_n: a peak nearer to a stick limit sits at its corner
 constexpr double small_difference = 1e-6;
@@ -44,7 +43,7 @@ double PeakState::amplitude() const {
 
 PeakAmplitude::PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
                              const observables::FrequencyWindow& window, observables::GoOn go_on,
-                             double watched)
+                             Watched watched)
     : model_(std::move(model)),
       over_(std::move(over)),
       window_(window),
@@ -183,7 +182,7 @@ void PeakAmplitude::watch() {
   double most = 0;
   for (const Peak& peak : peaks) most = std::max(most, peak.amplitude);
   const auto below = [&](const Peak& peak) {
-    return peak.amplitude < (peak.kind == PeakKind::kink ? watched_kink : watched_) * most;
+    return peak.amplitude < (peak.kind == PeakKind::kink ? watched_.kinks : watched_.peaks) * most;
   };
   lower_.clear();
   for (const Peak& peak : peaks)

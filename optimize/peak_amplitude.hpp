@@ -15,9 +15,8 @@
 // The response is traced anew where a peak cannot be followed, because it vanishes, splits, leaves the window
 // or comes to a corner; at every design where there is a kink; where a parameter has changed by a factor of e
 // since the last response; and where a peak is expected to have come up, by its slopes there. Peaks below
-// a share of the highest, three quarters if not told otherwise, and kinks below nine tenths of it, are not
-// watched: what grows above the others otherwise than expected is seen at the next response, as at the end of
-// a search.
+// a share of the highest (Watched) are not watched: what grows above the others otherwise than expected is
+// seen at the next response, as at the end of a search.
 
 #include <arcslip/observables/curve_section.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
@@ -58,12 +57,17 @@ struct Peak {
   }
 };
 
-/// Of the highest amplitude: lower peaks are not watched.
+/// Of the highest amplitude: limits on observables hold at peaks that are at least so high.
 inline constexpr double watched_share = 0.75;
 
-/// The same where there are limits on observables, which hold at peaks above watched_share: a peak is watched
-/// before it is as high as that, so that its limits come in where they are not yet exceeded.
-inline constexpr double watched_below_limits = 0.6;
+/// Of the highest amplitude: lower peaks are not watched. Kinks cannot be followed at all.
+struct Watched {
+  double peaks = watched_share, kinks = 0.9;
+};
+
+/// Where there are limits on observables. A peak is watched before it is as high as those at which they hold:
+/// so they come in where they are not yet exceeded.
+inline constexpr Watched watched_for_limits{0.6, watched_share};
 
 /// The peaks at one design.
 struct PeakState {
@@ -91,11 +95,10 @@ class Follower;
 class PeakAmplitude {
  public:
   /// over: indices of parameters of the model. go_on: asked at each step of each response; where it says
-  /// false at() and trace() throw Interrupted, and this is of no more use. watched: the share of the highest
-  /// amplitude from which peaks are watched.
+  /// false at() and trace() throw Interrupted, and this is of no more use.
   PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
                 const observables::FrequencyWindow& window, observables::GoOn go_on = {},
-                double watched = watched_share);
+                Watched watched = {});
   ~PeakAmplitude();
 
   /// At a design, by following the peaks of the last one. The reference holds until the next call.
@@ -162,7 +165,7 @@ class PeakAmplitude {
   std::vector<int> over_;
   observables::FrequencyWindow window_;
   observables::GoOn go_on_;
-  double watched_;
+  Watched watched_;
   PeakState state_;
   std::vector<double> traced_;    // the design of the last response
   std::vector<LowerPeak> lower_;  // the peaks there that are not watched

@@ -48,7 +48,7 @@ bool PeakAmplitude::came_up() const {
     for (std::size_t k = 0; k < traced_.size(); ++k)
       level += peak.gradient[static_cast<Eigen::Index>(k)] / peak.amplitude * traced_[k] *
                way(traced_[k], state_.design[k]);
-    return peak.amplitude * std::exp(level) > risen * watched_ * state_.amplitude();
+    return peak.amplitude * std::exp(level) > risen * watched_.peaks * state_.amplitude();
   });
 }
 
