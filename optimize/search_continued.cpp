@@ -132,11 +132,16 @@ bool Search::look_elsewhere() {
   trials_.begin("the search elsewhere");
   std::vector<std::string> ignored;
   std::vector<std::pair<std::vector<double>, std::string>> beginnings;
+  const std::vector<double> here = best().design;
+  double least = (1 - gain) * best().value;
   for (std::vector<double>& design : lowest_elsewhere())
     beginnings.emplace_back(std::move(design), asked_.name);
   for (const char* other : {"LN_COBYLA", "LD_MMA"}) beginnings.emplace_back(space().start(ignored), other);
-  double least = (1 - gain) * best().value;
   std::vector<double> lower;
+  if (best().value < least) {
+    least = best().value;
+    lower = best().design;
+  }
   for (const auto& [design, by] : beginnings) {
     if (interrupted()) break;
     scene::Scene there = scene_;
@@ -168,10 +173,10 @@ bool Search::look_elsewhere() {
     lower = found.design;
   }
   if (lower.empty() || watch_.stopped()) return false;
-  const std::string left = space().text(best().design);
   trials_.evaluate(lower, true);
   if (!std::isfinite(cases().value())) return false;
-  note("the search came to " + left + ", and went on from the lower " + space().text(lower) + " elsewhere");
+  note("the search came to " + space().text(here) + ", and went on from the lower " + space().text(lower) +
+       " elsewhere");
   stood_ = {best().value, {result_.status, result_.stop}};
   go_from(lower);  // a limit that is active may be exceeded there, by rounding
   return true;
@@ -179,6 +184,7 @@ bool Search::look_elsewhere() {
 
 std::vector<std::vector<double>> Search::lowest_elsewhere() {
   std::vector<Evaluation> found;
+  std::vector<std::vector<double>> chosen{best().design};  // which the lowest of them may come to be
   for (int k = 0; k < space().samples() && static_cast<int>(count()) < options_.evaluations; ++k) {
     if (!watch_.go_on()) return {};
     const std::vector<double> design = space().sample(k);
@@ -188,7 +194,6 @@ std::vector<std::vector<double>> Search::lowest_elsewhere() {
   }
   std::sort(found.begin(), found.end(),
             [](const Evaluation& a, const Evaluation& b) { return a.amplitude < b.amplitude; });
-  std::vector<std::vector<double>> chosen{best().design};
   for (const Evaluation& each : found) {
     const bool near = std::any_of(chosen.begin(), chosen.end(), [&](const std::vector<double>& other) {
       return space().distance(each.design, other) < apart;

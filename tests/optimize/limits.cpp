@@ -156,6 +156,15 @@ TEST_CASE("a peak that comes up during a search, at which a limit is exceeded, i
   CHECK(random_limits::excess(search, found.design) <= 1e-6);
 }
 
+TEST_CASE("a search with limits goes on from the lowest design over the bounds, and does not end there") {
+  const auto search = random_limits::make(75);  // sticks where it begins; the limit leaves loads below 0.03 N
+  const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
+  CAPTURE(found.stop.message);
+  REQUIRE(found.status == observables::Status::complete);
+  CHECK(std::abs(random_limits::excess(search, found.design)) <= 1e-6);
+  CHECK(found.amplitude < random_limits::grid(search, 75, 40).amplitude);
+}
+
 TEST_CASE("two loads with a limit on their sum: no pair on the limit is better, however loose it is") {
   const scene::Scene s = two_loads();
   const double a = 29.767989444184423, b = 99999.99999999999;
