@@ -23,6 +23,7 @@ constexpr double limit_jumps = 2e-3;           // of a limit, relative
 constexpr double active = 1e-6;                // relative: as high as the highest case
 constexpr std::size_t most_starts = 4;         // elsewhere
 constexpr double apart = 0.1;  // of the range of a variable: designs that are worth two searches
+constexpr double same_level = 1e-9;  // of amplitudes, relative: both are where nothing slips at the peak
 
 // Go on where another algorithm ended at no minimum. CCSAQ descends from the feasible side by conservative
 // approximations (Svanberg 2002), slowly at the end; SLSQP is quick from near by.
@@ -108,6 +109,8 @@ std::string Search::jump(const Balance& left) {
     return there + text("the amplitude jumps to ", cases().value(), " m");
   if (const double exceeded = trials_.formulation().excess(); exceeded > limit_jumps)
     return there + text("a peak comes up at which a limit is exceeded by ", exceeded);
+  if (cases().value() > best().value)
+    return there + "the amplitude has risen against its gradient, since another one holds there";
   return "";
 }
 
@@ -184,7 +187,7 @@ bool Search::look_elsewhere() {
 
 std::vector<std::vector<double>> Search::lowest_elsewhere() {
   std::vector<Evaluation> found;
-  std::vector<std::vector<double>> chosen{best().design};  // which the lowest of them may come to be
+  std::vector<Evaluation> chosen{{best().design, best().value}};  // before one of them is that
   for (int k = 0; k < space().samples() && static_cast<int>(count()) < options_.evaluations; ++k) {
     if (!watch_.go_on()) return {};
     const std::vector<double> design = space().sample(k);
@@ -195,13 +198,15 @@ std::vector<std::vector<double>> Search::lowest_elsewhere() {
   std::sort(found.begin(), found.end(),
             [](const Evaluation& a, const Evaluation& b) { return a.amplitude < b.amplitude; });
   for (const Evaluation& each : found) {
-    const bool near = std::any_of(chosen.begin(), chosen.end(), [&](const std::vector<double>& other) {
-      return space().distance(each.design, other) < apart;
+    const bool near = std::any_of(chosen.begin(), chosen.end(), [&](const Evaluation& other) {
+      return space().distance(each.design, other.design) < apart ||
+             std::abs(each.amplitude / other.amplitude - 1) < same_level;
     });
-    if (!near && chosen.size() <= most_starts) chosen.push_back(each.design);
+    if (!near && chosen.size() <= most_starts) chosen.push_back(each);
   }
-  chosen.erase(chosen.begin());
-  return chosen;
+  std::vector<std::vector<double>> designs;
+  for (std::size_t i = 1; i < chosen.size(); ++i) designs.push_back(chosen[i].design);
+  return designs;
 }
 
 bool Search::passed_lower() {
