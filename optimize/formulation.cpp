@@ -151,8 +151,8 @@ double Formulation::level(std::size_t c, std::size_t peak, std::span<double> gra
   return std::log(cases_.weight(c) * of.amplitude / reference_);
 }
 
-// Limits are those of peaks: an end of the window is none where the response rises inwards. Where it ceases to,
-// a peak comes to the end, with the same observables.
+// Limits are those of peaks: an end of the window is none where the response rises inwards. Where it ceases
+// to, a peak comes to the end, with the same observables.
 bool Formulation::is_limited(std::size_t c, std::size_t peak) const {
   return !cases_.state(c).peaks[peak].rises_inwards();
 }

@@ -302,9 +302,10 @@ void Search::retreat() {
 void Search::stop_at_higher_peak() {
   result_.status = Status::stopped;
   result_.stop.reason = "other_peak";
-  result_.stop.message = text("the response at the best design had a higher peak than was followed, or one "
-                              "at which a limit is exceeded, in ",
-                              most_rounds, " rounds and ", count(), " evaluations");
+  result_.stop.message = text(
+      "the response at the best design had a higher peak than was followed, or one "
+      "at which a limit is exceeded, in ",
+      most_rounds, " rounds and ", count(), " evaluations");
   ended_ = true;
 }
 

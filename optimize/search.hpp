@@ -71,10 +71,10 @@ class Search {
   // What an algorithm calls converged may be no minimum: one that came from outside the limits may have gone
   // to a lower design there, and its best is then only the last that kept them. Others go on from it.
   bool refine(const Balance& left);
-  // Where the amplitude would fall farther, but a little beyond it is much higher, or a peak is there at which a
-  // limit is exceeded by much: no conditions hold there. Or it has risen, as beside an end of the window where
-  // two extremes of the motion are equally high: it is a minimum perhaps, but of gradients that are not all
-  // known. Empty: none of these.
+  // Where the amplitude would fall farther, but a little beyond it is much higher, or a peak is there at
+  // which a limit is exceeded by much: no conditions hold there. Or it has risen, as beside an end of the
+  // window where two extremes of the motion are equally high: it is a minimum perhaps, but of gradients that
+  // are not all known. Empty: none of these.
   std::string jump(const Balance& left);
   // Other starts, once, where the search came to no design that keeps the limits.
   bool find_feasible();
@@ -84,8 +84,8 @@ class Search {
   // A lower design on the way to the end of a tolerance range.
   bool passed_lower();
   void go_from(const std::vector<double>& design);
-  // The lowest of some designs over all the bounds that keep the limits, and are apart, also in amplitude: where
-  // nothing slips at the peak, all searches are the same.
+  // The lowest of some designs over all the bounds that keep the limits, and are apart, also in amplitude:
+  // where nothing slips at the peak, all searches are the same.
   std::vector<std::vector<double>> lowest_elsewhere();
   // What is known of the best design. A certificate of another one is dropped.
   void describe();

@@ -22,7 +22,7 @@ constexpr double beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
 constexpr double limit_jumps = 2e-3;           // of a limit, relative
 constexpr double active = 1e-6;                // relative: as high as the highest case
 constexpr std::size_t most_starts = 4;         // elsewhere
-constexpr double apart = 0.1;  // of the range of a variable: designs that are worth two searches
+constexpr double apart = 0.1;        // of the range of a variable: designs that are worth two searches
 constexpr double same_level = 1e-9;  // of amplitudes, relative: both are where nothing slips at the peak
 
 // Go on where another algorithm ended at no minimum. CCSAQ descends from the feasible side by conservative

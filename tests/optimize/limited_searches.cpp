@@ -29,7 +29,7 @@ TEST_CASE("random searches with limits: none is complete where another way comes
   CHECK(complete >= searches / 2);
 }
 
-TEST_CASE("where the best design is at the edge of designs with another peak, beyond a limit, the end says so") {
+TEST_CASE("where the best design is beside others with one more peak, beyond a limit, the end says so") {
   const auto search = random_limits::make(16);
   const auto found =
       optimize::optimum(search.scene, search.problem, {.certificate = false, .elsewhere = false});

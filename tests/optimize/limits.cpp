@@ -148,9 +148,8 @@ TEST_CASE("a limit on the frequency holds at the peak, not at an end of the wind
 
 TEST_CASE("a peak that comes up during a search, at which a limit is exceeded, is within no limit") {
   const auto search = random_limits::make(35);
-  const auto found =
-      optimize::optimum(search.scene, search.problem,
-                        {.algorithm = "LD_MMA", .certificate = false, .elsewhere = false});
+  const auto found = optimize::optimum(search.scene, search.problem,
+                                       {.algorithm = "LD_MMA", .certificate = false, .elsewhere = false});
   CAPTURE(found.stop.message);
   REQUIRE(found.feasible);
   CHECK(random_limits::excess(search, found.design) <= 1e-6);

@@ -110,8 +110,9 @@ inline Search make(std::uint64_t seed) {
   return search;
 }
 
-/// By how much a limit is exceeded at a design, relative, in a frequency response of its own: at its peaks and
-/// at the ends of the window, where it falls from them inwards, that are three quarters as high as the highest.
+/// By how much a limit is exceeded at a design, relative, in a frequency response of its own: at its peaks
+/// and at the ends of the window, where it falls from them inwards, that are three quarters as high as the
+/// highest.
 inline double excess(const Search& search, const std::vector<double>& design) {
   scene::Scene there = search.scene;
   for (std::size_t k = 0; k < design.size(); ++k) scene::set(there, search.problem.over[k].name, design[k]);
