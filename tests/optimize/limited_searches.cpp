@@ -2,13 +2,13 @@
 
 #include "catch.hpp"
 
+#include "optimize/limited_searches.hpp"
 #include "optimize/random_limits.hpp"
-#include "volume.hpp"
 
 using namespace arcslip;
 
 TEST_CASE("random searches with limits: none is complete where another way comes to a lower design") {
-  const std::uint64_t searches = Volume{"ARCSLIP_SEARCHES", 12, 1000}.count();
+  const std::uint64_t searches = limited_searches::number.count();
   std::uint64_t complete = 0;
   for (std::uint64_t seed = 0; seed < searches; ++seed) {
     const auto search = random_limits::make(seed);

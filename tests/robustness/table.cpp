@@ -7,6 +7,7 @@
 #include "fuzz/mutation.hpp"
 #include "lib/observables/extremes.hpp"
 #include "lib/observables/structures.hpp"
+#include "optimize/limited_searches.hpp"
 #include "lib/scene/bad_scenes.hpp"
 
 #include <arcslip/scene/visible.hpp>
@@ -224,6 +225,12 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("signals at random moments, of SIGINT and SIGTERM", app_test::random_moments,
       app_test::random_interruptions().size(), "a signal at any moment",
       "660: all whole, none silent, none left over");
+  row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, beside other "
+      "algorithms and designs over the bounds",
+      limited_searches::number, 1, "random searches with limits",
+      "85 of the first 98: 66 complete, none of them above another way by more than 1e-7, all limits kept in "
+      "responses of their own; 17 for which no way has a design within the limits; 2 stopped, where a limit "
+      "jumps as peaks merge, below every other way");
   row("random structures of 1 to 6 masses with friction, some with cubic springs, in all units, names, "
       "orders and directions",
       structures::number, 1, "structures:",
