@@ -20,16 +20,24 @@ constexpr double curve_tolerance = 1e-4;           // no resonance narrower than
 constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
 constexpr double smallest_step = 1e-2;          // of the largest at the low end of the window
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
+constexpr double rejected_in_rounding = 0.5;    // steps, over points: where the branch lies in its rounding
 
 }  // namespace
 
-void speak_of_scene(const model::Model& model, const Vector& p, continuation::Stop& stop) {
+std::string doubt_of_rounding(const model::Model& model, const Vector& p, const continuation::Branch& branch) {
   using continuation::StopReason;
-  if (const auto doubt = stop.message.find("; the Jacobian"); doubt != std::string::npos)
-    stop.message.erase(doubt);
-  const bool ended = stop.reason == StopReason::boundary || stop.reason == StopReason::user;
-  if (const auto apart = model::stiffness_apart(model, p); !ended && !apart.empty())
-    stop.message += "; " + apart;
+  const bool in_rounding = static_cast<double>(branch.counts.rejected_steps) >
+                           rejected_in_rounding * static_cast<double>(branch.counts.points);
+  if (branch.stop.reason == StopReason::user || (branch.stop.reason == StopReason::boundary && !in_rounding))
+    return {};
+  const std::string apart = model::stiffness_apart(model, p);
+  return apart.empty() ? "" : "; " + apart;
+}
+
+void speak_of_scene(const model::Model& model, const Vector& p, continuation::Branch& branch) {
+  std::string& message = branch.stop.message;
+  if (const auto doubt = message.find("; the Jacobian"); doubt != std::string::npos) message.erase(doubt);
+  message += doubt_of_rounding(model, p, branch);
 }
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
@@ -100,7 +108,7 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   FrequencyBranch traced{problem,
                          continuation::trace(problem, {*first.u, p, model::frequency, direction}, options,
                                              {peak_monitor(observer), continuation::fold_monitor()}, each)};
-  speak_of_scene(*model, p, traced.branch.stop);
+  speak_of_scene(*model, p, traced.branch);
   return traced;
 }
 

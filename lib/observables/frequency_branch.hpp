@@ -37,9 +37,14 @@ using GoOn = std::function<bool()>;
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on = {});
 
-/// For the user of a scene, to whom the Jacobian is nothing: where it fails its check, F is rounding there, as
-/// with stiffnesses that lie too far apart. p: of the branch that ended.
-void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Stop& stop);
+/// "; ..." with the stiffnesses that lie too far apart where a branch ended for it, or was followed to its end in
+/// its rounding, with as many steps rejected as made. Empty: no doubt. p: of the branch.
+std::string doubt_of_rounding(const model::Model& model, const continuation::Vector& p,
+                              const continuation::Branch& branch);
+
+/// For the user of a scene, to whom the Jacobian is nothing: where it fails its check, F is rounding there, and
+/// the message has that doubt in its place.
+void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Branch& branch);
 
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;

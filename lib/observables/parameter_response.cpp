@@ -162,21 +162,21 @@ class Traces {
     for (std::size_t i = at.size(); i-- > 0;)
       if (result.events[i].kind != "fold" && !departs(course, at[i], result.events[i].point.amplitude))
         result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
-    speak_of_scene(*way_.model, p, branch.stop);
-    finish(result, branch);
+    speak_of_scene(*way_.model, p, branch);
+    finish(result, branch, doubt_of_rounding(*way_.model, p, branch));
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return branch;
   }
 
-  void finish(ResponseBranch& result, const continuation::Branch& branch) const {
+  void finish(ResponseBranch& result, const continuation::Branch& branch, const std::string& doubt) const {
     result.status = status_of(branch.stop.reason);
     result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
     if (branch.stop.reason != StopReason::boundary) return;
     result.stop.limit = way_.to;
     if (branch.stop.value == way_.to) {
-      result.stop.message = "reached the end of the range at " + way_.name + " = " + text(way_.to);
+      result.stop.message = "reached the end of the range at " + way_.name + " = " + text(way_.to) + doubt;
       return;
     }
     result.status = Status::stopped;

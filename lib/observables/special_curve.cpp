@@ -173,7 +173,7 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
                           {corner ? with_angles(from.x, *from.corner) : from.x, parameters(from.x, from.over),
                            way_.index, from.direction},
                           options, std::move(monitors), record);
-  speak_of_scene(problem_->model(), parameters(from.x, from.over), branch.stop);
+  speak_of_scene(problem_->model(), parameters(from.x, from.over), branch);
   if (!branch.points.empty()) {  // what was seen beyond a terminal event is none of it
     arclength_ = begin + branch.points.back().arclength;
     const auto beyond = [&](const auto& each) { return each.arclength > arclength_; };
