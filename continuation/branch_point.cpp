@@ -152,8 +152,8 @@ std::optional<BranchPoint> describe_branch_point(const Problem& problem, int alo
 
   BranchPoint point;
   for (const double sign : {1.0, -1.0}) {
-    const Eigen::Vector2d y = std::sqrt(positive) * form.V.col(0) +
-                              sign * std::sqrt(-negative) * form.V.col(1);
+    const Eigen::Vector2d y =
+        std::sqrt(positive) * form.V.col(0) + sign * std::sqrt(-negative) * form.V.col(1);
     Vector t = at.null_space.right * y;
     t /= std::sqrt(product(problem, parameter_scale, t, t));
     if (product(problem, parameter_scale, t, tangent) < 0) t = -t;

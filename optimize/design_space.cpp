@@ -149,10 +149,12 @@ PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const
                const observables::ResponsePoint& point) { return unit * get(point); };
   }
   for (std::size_t e = 0; e < model_->elements.size(); ++e)
-    for (const std::string_view path : {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping"}) {
+    for (const std::string_view path :
+         {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping"}) {
       const auto& element = model_->elements[e];
       const bool is_of_friction = path == "stick_percent" || path == "energy";
-      if ((is_of_friction && element.law != model::Law::jenkins) || !is_wanted(element.name + "." + std::string(path)))
+      if ((is_of_friction && element.law != model::Law::jenkins) ||
+          !is_wanted(element.name + "." + std::string(path)))
         continue;
       return [e, get = std::get<ElementQuantity::Number>(observables::element_quantity(path).get)](
                  const observables::ResponsePoint& point) { return get(point.elements[e]); };

@@ -95,9 +95,9 @@ Coordinates coordinates(const model::Model& model) {
   const Eigen::MatrixXd& B = chosen.chosen();
   // B^T x = (unknowns, elongations): x = B (B^T B)^-1 (unknowns, elongations) + (null space of B^T) * the
   // rest.
-  c.P.leftCols(B.cols()) = B * continuation::solve(B.transpose() * B, Eigen::MatrixXd::Identity(B.cols(), B.cols()));
-  if (B.cols() < model.dofs)
-    c.P.rightCols(model.dofs - B.cols()) = continuation::orthogonal_complement(B);
+  c.P.leftCols(B.cols()) =
+      B * continuation::solve(B.transpose() * B, Eigen::MatrixXd::Identity(B.cols(), B.cols()));
+  if (B.cols() < model.dofs) c.P.rightCols(model.dofs - B.cols()) = continuation::orthogonal_complement(B);
   return c;
 }
 

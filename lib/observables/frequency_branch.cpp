@@ -24,7 +24,8 @@ constexpr double rejected_in_rounding = 0.5;    // steps, over points: where the
 
 }  // namespace
 
-std::string doubt_of_rounding(const model::Model& model, const Vector& p, const continuation::Branch& branch) {
+std::string doubt_of_rounding(const model::Model& model, const Vector& p,
+                              const continuation::Branch& branch) {
   using continuation::StopReason;
   const bool in_rounding = static_cast<double>(branch.counts.rejected_steps) >
                            rejected_in_rounding * static_cast<double>(branch.counts.points);

@@ -10,58 +10,58 @@ namespace {
 using Point = ResponsePoint;
 using Element = ElementResponse;
 
-template <double Point::* member>
+template <double Point::*member>
 double value(const Point& point) {
   return point.*member;
 }
 
 // Has no value where the amplitude is unbounded.
-template <double Point::* member>
+template <double Point::*member>
 double bounded(const Point& point) {
   return point.unbounded ? no_value : point.*member;
 }
 
-template <double ForceComponents::* member>
+template <double ForceComponents::*member>
 double force(const Point& point) {
   return point.forces.*member;
 }
 
-template <PhaseParts ForceComponents::* member, double PhaseParts::* part>
+template <PhaseParts ForceComponents::*member, double PhaseParts::*part>
 double force(const Point& point) {
   return point.forces.*member.*part;
 }
 
-template <double PhaseParts::* part>
+template <double PhaseParts::*part>
 double total_force(const Point& point) {
   return point.forces.total().*part;
 }
 
-template <double MotionMaxima::* member>
+template <double MotionMaxima::*member>
 double largest(const Point& point) {
   return point.maxima.*member;
 }
 
-template <double PhaseParts::* part>
+template <double PhaseParts::*part>
 double largest_force(const Point& point) {
   return point.maxima.force_per_displacement.*part;
 }
 
-template <double Element::* member>
+template <double Element::*member>
 double element(const Element& element) {
   return element.*member;
 }
 
-template <std::vector<double> Element::* member>
+template <std::vector<double> Element::*member>
 const std::vector<double>& angles(const Element& element) {
   return element.*member;
 }
 
-template <double PhaseParts::* part>
+template <double PhaseParts::*part>
 double fundamental(const Element& element) {
   return element.fundamental.*part;
 }
 
-template <double ForceMaxima::* member>
+template <double ForceMaxima::*member>
 double largest_of(const Element& element) {
   return element.maxima.*member;
 }
@@ -109,13 +109,15 @@ constexpr ResponseQuantity of_response[] = {
     {"omega", "rad/s", "of the excitation", value<&Point::omega>},
     {"frequency", frequency_unit, "of the excitation", value<&Point::omega>},
     {"amplitude", "m",
-     "largest absolute displacement of the response over the period; null where it is unbounded, with all that "
+     "largest absolute displacement of the response over the period; null where it is unbounded, with all "
+     "that "
      "depends on it",
      bounded<&Point::amplitude>},
     {"unbounded", "", "only where it is true: the amplitude grows without bound", is_unbounded, is_unbounded},
     {"phase", "rad", "lag of the response's fundamental behind the force", bounded<&Point::phase>},
     {"truncation_estimate", "m",
-     "what the neglected harmonics would add: to the amplitude at this frequency (or value of the parameter), at "
+     "what the neglected harmonics would add: to the amplitude at this frequency (or value of the "
+     "parameter), at "
      "an event to the amplitude of the event, which may move",
      bounded<&Point::truncation_estimate>},
     {"truncation_flagged", "", "the estimate may be too low",
@@ -124,7 +126,8 @@ constexpr ResponseQuantity of_response[] = {
     {"energy_viscous", "J", "dissipated in a period by dampers", bounded<&Point::energy_viscous>},
     {"energy_total", "J", "their sum",
      [](const Point& point) { return point.unbounded ? no_value : point.energy_total(); }},
-    {"energy_input", "J", "work of the excitation in a period, which equals it", bounded<&Point::energy_input>},
+    {"energy_input", "J", "work of the excitation in a period, which equals it",
+     bounded<&Point::energy_input>},
     {"friction_percent", "%", "share of friction in `energy_total`",
      [](const Point& point) { return point.unbounded ? no_value : point.friction_percent(); }},
     {"stick_percent", "%", "share of the period in stick, where there is exactly one friction element",
@@ -191,7 +194,8 @@ constexpr ElementQuantity of_element[] = {
 
 template <class List>
 const auto& at(const List& list, std::string_view path) {
-  const auto found = std::find_if(std::begin(list), std::end(list), [&](const auto& each) { return each.path == path; });
+  const auto found =
+      std::find_if(std::begin(list), std::end(list), [&](const auto& each) { return each.path == path; });
   if (found == std::end(list)) throw std::invalid_argument("no quantity \"" + std::string(path) + "\"");
   return *found;
 }

@@ -222,8 +222,8 @@ class InTime {
   }
 
   std::optional<State> from_harmonic_balance() {
-    const FirstResponse first = first_response(model_, motion_.omega, motion_.omega,
-                                               [this] { return go_on(progress_.points); });
+    const FirstResponse first =
+        first_response(model_, motion_.omega, motion_.omega, [this] { return go_on(progress_.points); });
     if (!first.u) return std::nullopt;
     const auto p = hbm::parameters_at(*first.problem, motion_.omega);
     State state = time::state_of(*first.problem, *first.u, p);

@@ -18,8 +18,7 @@ Matrix null_space(const Matrix& S) {
   for (double& s : scale) s = s > 0 ? 1 / std::sqrt(s) : 1;
   const auto modes = continuation::symmetric_modes(scale.asDiagonal() * S * scale.asDiagonal());
   Eigen::Index count = 0;
-  while (count < S.rows() && modes.values[count] <= negligible * static_cast<double>(S.rows()))
-    ++count;
+  while (count < S.rows() && modes.values[count] <= negligible * static_cast<double>(S.rows())) ++count;
   if (count == 0) return Matrix(S.rows(), 0);
   return continuation::orthonormal_columns(scale.asDiagonal() * modes.V.leftCols(count));
 }

@@ -16,7 +16,8 @@ constexpr double rounding = 1e-13;
 
 Matrix numbers(Index rows, Index columns, double phase = 0) {
   return Matrix::NullaryExpr(rows, columns, [&](Index i, Index j) {
-    return std::sin(1.3 * static_cast<double>(i * i) + 2.1 * static_cast<double>(j) + 0.7 * static_cast<double>(i * j) + phase);
+    return std::sin(1.3 * static_cast<double>(i * i) + 2.1 * static_cast<double>(j) +
+                    0.7 * static_cast<double>(i * j) + phase);
   });
 }
 

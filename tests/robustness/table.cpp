@@ -7,8 +7,8 @@
 #include "fuzz/mutation.hpp"
 #include "lib/observables/extremes.hpp"
 #include "lib/observables/structures.hpp"
-#include "optimize/limited_searches.hpp"
 #include "lib/scene/bad_scenes.hpp"
+#include "optimize/limited_searches.hpp"
 
 #include <arcslip/scene/visible.hpp>
 
@@ -225,7 +225,8 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("signals at random moments, of SIGINT and SIGTERM", app_test::random_moments,
       app_test::random_interruptions().size(), "a signal at any moment",
       "660: all whole, none silent, none left over");
-  row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, beside other "
+  row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, beside "
+      "other "
       "algorithms and designs over the bounds",
       limited_searches::number, 1, "random searches with limits",
       "85 of the first 98: 66 complete, none of them above another way by more than 1e-7, all limits kept in "

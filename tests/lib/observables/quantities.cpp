@@ -72,7 +72,8 @@ TEST_CASE("JSON has the quantities of the table, with their values, and no other
   std::set<std::string> found, found_of_elements;
   for (const bool with_spring : {false, true}) {
     scene::Scene s = scenes::paper(5, 3);
-    if (with_spring) s.elements.push_back({"h", &scene::cubic_spring_type, s.elements[0].direction, {1e6}, 1});
+    if (with_spring)
+      s.elements.push_back({"h", &scene::cubic_spring_type, s.elements[0].direction, {1e6}, 1});
     const auto branches = observables::frequency_response(s, s.studies[0]);
     std::stringstream text;
     output::write_json(text, s, branches);
