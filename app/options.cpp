@@ -3,7 +3,7 @@
 #include "option_values.hpp"
 
 #include <arcslip/output/units.hpp>
-#include <arcslip/output/version.hpp>
+#include <arcslip/results/version.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/visible.hpp>
 
@@ -209,7 +209,7 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   Texts texts;
   CLI::App app("Responses of vibrating structures with friction and other nonlinear elements.", "arcslip");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "arcslip " + std::string(output::version()), "print the version");
+  app.set_version_flag("--version", "arcslip " + std::string(results::version()), "print the version");
   app.set_help_flag("--help,-h", "print this help");
   app.get_formatter()->label("SUBCOMMAND", "VERB SCENE");
   app.footer(std::string(exit_codes) + "\narcslip VERB --help tells the options of a verb.");

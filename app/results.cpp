@@ -5,7 +5,9 @@
 #include "options.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
+#include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/visible.hpp>
+#include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
 #include <array>
@@ -133,7 +135,9 @@ std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene
     }
   };
   write(".scene.json", [&](std::ostream& out) { out << scene::write(scene); });
-  write(".json", [&](std::ostream& out) { write_json(out, scene, {&result, 1}, coefficients); });
+  results::Results of_study{studies::header(scene), {}, {}};
+  add(scene, result, coefficients, of_study);
+  write(".json", [&](std::ostream& out) { results::write_json(out, of_study); });
   write(".csv", [&](std::ostream& out) { write_csv(out, scene, result); });
   writing.attempt([&] {
     const output::Figures figures = write_figures(scene, kind, result, files.folder, files.name, interrupted);

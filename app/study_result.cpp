@@ -6,10 +6,12 @@
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/optimize/optimum_output.hpp>
+#include <arcslip/optimize/optimum_results.hpp>
 #include <arcslip/output/csv.hpp>
-#include <arcslip/output/json.hpp>
 #include <arcslip/output/motion.hpp>
 #include <arcslip/output/units.hpp>
+#include <arcslip/studies/branches.hpp>
+#include <arcslip/studies/motions.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -32,32 +34,12 @@ const char* noun(const Motion& /*of*/) {
   return "motion";
 }
 
-output::JsonSection section(const scene::Scene& scene, std::span<const Motion> motions,
-                            bool /*coefficients*/) {
-  return output::json_section(scene, motions);
-}
-
-output::JsonSection section(const scene::Scene& scene, std::span<const ResponseBranch> branches,
-                            bool coefficients) {
-  return output::json_section(scene, branches, {coefficients});
-}
-
 const char* noun(const OptimumResult& /*of*/) {
   return "search";
 }
 
-output::JsonSection section(const scene::Scene& scene, std::span<const OptimumResult> results,
-                            bool /*coefficients*/) {
-  return optimize::json_section(scene, results);
-}
-
 const char* noun(const OptimumCurveResult& /*of*/) {
   return "curve";
-}
-
-output::JsonSection section(const scene::Scene& scene, std::span<const OptimumCurveResult> results,
-                            bool /*coefficients*/) {
-  return optimize::json_section(scene, results);
 }
 
 template <class Item>
@@ -176,13 +158,18 @@ void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult
   std::visit([&](const auto& items) { write_table(out, scene, std::span(items)); }, result);
 }
 
-void write_json(std::ostream& out, const scene::Scene& scene, std::span<const StudyResult> results,
-                bool coefficients) {
-  std::vector<output::JsonSection> sections;
-  for (const StudyResult& result : results) {
-    std::visit([&](const auto& items) { sections.push_back(section(scene, items, coefficients)); }, result);
-  }
-  output::write_document(out, scene, sections);
+void add(const scene::Scene& scene, const StudyResult& result, bool coefficients, results::Results& all) {
+  std::visit(
+      [&](const auto& items) {
+        using Item = typename std::decay_t<decltype(items)>::value_type;
+        if constexpr (std::is_same_v<Item, ResponseBranch>)
+          studies::add(scene, items, {coefficients}, all);
+        else if constexpr (std::is_same_v<Item, Motion>)
+          studies::add(scene, items, all);
+        else
+          optimize::add(scene, items, all);
+      },
+      result);
 }
 
 void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& result) {

@@ -1,17 +1,17 @@
 #pragma once
 // What a study gives, and all that the command does with it. A kind of results is one alternative of the
-// variant, with a function of its own for each of these (section, write_csv, write_figures, write_table,
-// noun, end) and the members study, kind and set; the rest knows no kinds.
+// variant, with a function of its own for each of these (add, write_csv, write_figures, write_table, noun,
+// end) and the members study, kind and set; the rest knows no kinds.
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/motion.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/output/figures.hpp>
+#include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <iosfwd>
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -38,9 +38,8 @@ std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult
 /// Aligned columns for people.
 void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
 
-/// One object; coefficients: with the harmonics of the responses.
-void write_json(std::ostream& out, const scene::Scene& scene, std::span<const StudyResult> results,
-                bool coefficients);
+/// Puts what a study gave to all results of a run; coefficients: with the harmonics of the responses.
+void add(const scene::Scene& scene, const StudyResult& result, bool coefficients, results::Results& all);
 
 void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
 

@@ -9,8 +9,10 @@
 #include "study_result.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/visible.hpp>
+#include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -127,6 +129,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   Writing writing;
   ExitCode code = ExitCode::done;
   std::vector<StudyResult> all;
+  results::Results results{studies::header(scene), {}, {}};
   std::string places;
   std::ostringstream tables;
   for (std::size_t i = 0; i < studies.size(); ++i) {
@@ -149,16 +152,18 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
     }
     write_table(tables, scene, result);
+    add(scene, result, options.coefficients, results);
     append(std::move(result), all);
   }
   if (all.empty()) {  // nothing was begun
     all.push_back(no_result(studies.front()));
+    add(scene, all.front(), options.coefficients, results);
   }
 
   StandardOutput screen;
   using Output = std::pair<std::string, std::function<void(std::ostream&)>>;
   std::vector<Output> outputs{
-      {options.json, [&](std::ostream& out) { write_json(out, scene, all, options.coefficients); }},
+      {options.json, [&](std::ostream& out) { results::write_json(out, results); }},
       {options.csv, [&](std::ostream& out) { write_csv(out, scene, all.front()); }}};
   std::stable_partition(outputs.begin(), outputs.end(),
                         [](const Output& each) { return !may_wait(each.first); });

@@ -2,7 +2,6 @@
 
 #include <arcslip/output/csv_text.hpp>
 #include <arcslip/output/draw_figures.hpp>
-#include <arcslip/output/json_text.hpp>
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
@@ -10,8 +9,6 @@
 
 namespace arcslip::optimize {
 namespace {
-
-using output::detail::Json;
 
 constexpr double decade = 10;
 
@@ -23,66 +20,6 @@ const observables::ElementResponse* friction_of(const observables::ResponsePoint
     if (element.has_stick) only = &element;
   }
   return only;
-}
-
-Json point_of(const scene::Scene& scene, const OptimumCurveResult& result, const OptimumPoint& at) {
-  Json json = {{result.curve.along, at.along}};
-  for (std::size_t k = 0; k < at.design.size(); ++k) json[result.problem.over[k].name] = at.design[k];
-  json["amplitude"] = at.amplitude;
-  json["frequency"] = output::in_scene_unit(scene, at.response.omega);
-  json["omega"] = at.response.omega;
-  if (const auto* element = friction_of(at.response)) json["stick_percent"] = element->stick_percent;
-  json["energy_friction"] = at.response.energy_friction;
-  Json& peaks = json["peaks"] = Json::array();
-  for (const OptimumPeak& peak : at.peaks)
-    peaks.push_back({{"kind", name(peak.kind)},
-                     {"frequency", output::in_scene_unit(scene, peak.omega)},
-                     {"omega", peak.omega},
-                     {"weight", peak.weight}});
-  Json& bounds = json["at_bound"] = Json::object();
-  for (std::size_t k = 0; k < at.at_bound.size(); ++k)
-    bounds[result.problem.over[k].name] = at.at_bound[k] < 0   ? "lower"
-                                          : at.at_bound[k] > 0 ? "upper"
-                                                               : "inside";
-  json["minimum"] = at.minimum;
-  return json;
-}
-
-Json event_of(const scene::Scene& scene, const OptimumCurveResult& result, const OptimumEvent& event) {
-  Json json = {{"kind", event.kind}};
-  if (!event.parameter.empty()) json["parameter"] = event.parameter;
-  if (event.omega > 0) {
-    json["frequency"] = output::in_scene_unit(scene, event.omega);
-    json["omega"] = event.omega;
-  }
-  json["nonsmooth"] = event.nonsmooth;
-  json["after"] = event.after;
-  json["point"] = point_of(scene, result, event.point);
-  return json;
-}
-
-Json json_of(const scene::Scene& scene, const OptimumCurveResult& result) {
-  const OptimumCurve& curve = result.curve;
-  Json json = Json::object();
-  if (!result.study.empty()) json["study"] = result.study;
-  if (!result.kind.empty()) json["kind"] = result.kind;
-  json["status"] = observables::name(curve.status);
-  json["stop"] = output::detail::stop(curve.stop);
-  json["set"] = output::detail::named_values(result.set);
-  json["along"] = curve.along;
-  Json& points = json["points"] = Json::array();
-  for (const OptimumPoint& at : curve.points) points.push_back(point_of(scene, result, at));
-  Json& events = json["events"] = Json::array();
-  for (const OptimumEvent& event : curve.events) events.push_back(event_of(scene, result, event));
-  json["notes"] = curve.notes;
-  json["pieces"] = curve.work.pieces;
-  json["evaluations"] = curve.work.evaluations;
-  json["hessians"] = curve.work.hessians;
-  json["responses"] = curve.work.peaks.responses;
-  json["followed"] = curve.work.peaks.followed;
-  json["factorizations"] = curve.work.peaks.factorizations;
-  json["seconds"] = curve.work.seconds;
-  return json;
 }
 
 // As a branch over s, for the figures.
@@ -128,13 +65,6 @@ output::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResult
 }
 
 }  // namespace
-
-output::JsonSection json_section(const scene::Scene& scene, std::span<const OptimumCurveResult> results) {
-  return {"arcslip-optimum-curves-1", "optimum_curves", [&scene, results](std::ostream& out) {
-            output::detail::write_list(
-                out, results, [&](const OptimumCurveResult& result) { return json_of(scene, result); });
-          }};
-}
 
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumCurveResult> results) {
   using output::detail::csv_number;

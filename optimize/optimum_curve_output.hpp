@@ -1,9 +1,8 @@
 #pragma once
-// Curves of optima as JSON (format "arcslip-optimum-curves-1"), CSV and figures.
+// Curves of optima as CSV and figures.
 
 #include <arcslip/optimize/optimum_curve.hpp>
 #include <arcslip/output/figures.hpp>
-#include <arcslip/output/json_document.hpp>
 
 #include <iosfwd>
 #include <span>
@@ -19,19 +18,6 @@ struct OptimumCurveResult {
   OptimumProblem problem;
   OptimumCurve curve;
 };
-
-/// The key "optimum_curves" of a document: a list of
-///   {"study", "kind", "status", "stop", "set", "along": the name of s,
-///    "points": [{s and each parameter by its name, "amplitude" (m), "frequency" (scene's unit), "omega"
-///                (rad/s), "stick_percent" where there is one friction element, "energy_friction" (J),
-///                "peaks": [{"kind", "frequency", "omega", "weight"}, ...],
-///                "at_bound": {each parameter: "lower", "inside", "upper"}, "minimum"}, ...],
-///    "events": [{"kind", "parameter", "frequency", "omega" where they have one, "nonsmooth", "after": index
-///    of
-///                the point before it, "point"}, ...],
-///    "notes", "pieces", "evaluations", "hessians", "responses", "followed", "factorizations", "seconds"}
-/// Refers to its arguments.
-output::JsonSection json_section(const scene::Scene& scene, std::span<const OptimumCurveResult> results);
 
 /// A row for each point and each event, named by its kind, in the order of the curve.
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumCurveResult> results);

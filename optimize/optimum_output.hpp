@@ -1,34 +1,14 @@
 #pragma once
-// Optima as JSON (format "arcslip-optimum-1"), CSV and figures.
+// Optima as CSV and figures.
 
 #include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/output/figures.hpp>
-#include <arcslip/output/json_document.hpp>
 
 #include <iosfwd>
 #include <span>
 #include <string>
 
 namespace arcslip::optimize {
-
-/// The key "optima" of a document: a list of
-///   {"study", "kind", "status", "stop", "set",
-///    "criterion", "cases": [{"set", "scatter", "of", "response", "weight", "amplitude" (m), "frequency",
-///                            "omega", "stick_percent", "energy_friction", "elements", "active",
-///                            "multiplier"}, ...], "scatter_rounds",
-///    "optimum": {each parameter by its name, "amplitude" (m), "frequency" (scene's unit), "omega" (rad/s),
-///                "stick_percent" where there is one friction element, "energy_friction" (J), "feasible"},
-///    "algorithm", "epigraph", "evaluations", "responses", "followed", "factorizations", "seconds", "notes",
-///    "certificate": {"gradient", "stationarity", "to_minimum", "curvature", "ranges", "peaks", "limits",
-///    "at_bound",
-///                    "others", "others_lower"},
-///    "direct": {the parameter, "amplitude", "frequency", "omega", "difference": {"design", "amplitude"}},
-///    "course": [{each parameter, "amplitude"}, ...]}
-/// and, where there is exactly one, its "optimum", "algorithm", "evaluations" and "stop" beside them.
-/// "optimum" is null where there is none, "certificate" and "direct" are left out, and so is all of cases
-/// where the problem has none. Numbers that are not
-/// finite are null. Refers to its arguments.
-output::JsonSection json_section(const scene::Scene& scene, std::span<const OptimumResult> results);
 
 /// A row for each evaluation, one, "case 1" and so on, for each case, and one, "optimum", for the result.
 void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumResult> results);

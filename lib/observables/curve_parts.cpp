@@ -82,12 +82,14 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
     double peaks = 0, others = 0;  // arclengths
     const SpecialCurve::At* before = nullptr;
     ResponseBranch part = described(*way_.model, set_, way_.name);
+    std::vector<double> at_points, at_events;  // arclengths
     for (const auto& at : curve.points) {
       if (!(at.arclength >= begin && at.arclength < end)) continue;
       const double length = before ? at.arclength - before->arclength : 0;
       (at.second <= 0 ? peaks : others) += length;
       before = &at;
       part.points.push_back(at.point);
+      at_points.push_back(at.arclength);
     }
     if (part.points.empty() || (peaks_ && others > peaks)) continue;
     for (const auto& each : curve.events) {
@@ -95,8 +97,19 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
       const bool extreme = each.event.kind == "minimum" || each.event.kind == "maximum";
       if (extreme && !departs(course, each.arclength, each.event.point.amplitude)) continue;
       part.events.push_back(each.event);
-      if (peaks_ && each.arclength == begin) part.points.insert(part.points.begin(), each.event.point);
-      if (peaks_ && each.arclength == end) part.points.push_back(each.event.point);
+      if (peaks_ && each.arclength == begin) {
+        part.points.insert(part.points.begin(), each.event.point);
+        at_points.insert(at_points.begin(), begin);
+      }
+      if (peaks_ && each.arclength == end) {
+        part.points.push_back(each.event.point);
+        at_points.push_back(end);
+      }
+      at_events.push_back(each.arclength);
+    }
+    for (std::size_t i = 0; i < at_events.size(); ++i) {
+      const auto beyond = std::upper_bound(at_points.begin(), at_points.end(), at_events[i]);
+      part.events[i].after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(beyond - at_points.begin(), 1)) - 1;
     }
     if (is_one_place(part) && curve.points.size() > part.points.size()) continue;
     finish(part, curve, begin == -HUGE_VAL, end == HUGE_VAL);

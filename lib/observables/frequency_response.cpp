@@ -55,7 +55,7 @@ class Sweep {
                             const continuation::Event* event) {
       if (event) {
         result.events.push_back(
-            {event->monitor, event->nonsmooth, event->located, observer.observe(now, held_by(*event))});
+            {event->monitor, event->nonsmooth, event->located, observer.observe(now, held_by(*event)), event->after});
         return true;
       }
       const double omega = now.p[model::frequency];
@@ -137,6 +137,7 @@ class Sweep {
     peak.kind = "peak";
     peak.point.omega = omega;
     peak.point.unbounded = true;
+    peak.after = result.points.empty() ? 0 : result.points.size() - 1;
     result.events.push_back(std::move(peak));
     far_side_ = beyond_pole(course, upper_ - lower_);
   }

@@ -98,6 +98,22 @@ bool has_one_friction_element(const Point& point) {
   return std::count_if(point.elements.begin(), point.elements.end(), is_friction) == 1;
 }
 
+bool is_friction_part(const scene::Part& part) {
+  return part.type == &scene::jenkins_type;
+}
+
+bool one_friction_part(const scene::Scene& scene) {
+  return std::count_if(scene.elements.begin(), scene.elements.end(), is_friction_part) == 1;
+}
+
+bool any_nonlinear_spring(const scene::Scene& scene) {
+  return !std::all_of(scene.elements.begin(), scene.elements.end(), is_friction_part);
+}
+
+bool one_mass_and_friction_part(const scene::Scene& scene) {
+  return scene.dofs.size() == 1 && scene.elements.size() == 1 && one_friction_part(scene);
+}
+
 double stick_of_one(const Point& point) {
   return std::find_if(point.elements.begin(), point.elements.end(), is_friction)->stick_percent;
 }
@@ -131,7 +147,7 @@ constexpr ResponseQuantity of_response[] = {
     {"friction_percent", "%", "share of friction in `energy_total`",
      [](const Point& point) { return point.unbounded ? no_value : point.friction_percent(); }},
     {"stick_percent", "%", "share of the period in stick, where there is exactly one friction element",
-     stick_of_one, has_one_friction_element},
+     stick_of_one, has_one_friction_element, one_friction_part},
     {"force_per_displacement.in_phase.total", "N/m",
      "F_p/x: forces of the fundamental along the motion, per unit displacement of the response",
      total_force<&P::in_phase>, is_bounded},
@@ -140,7 +156,7 @@ constexpr ResponseQuantity of_response[] = {
     {"force_per_displacement.in_phase.contact", "N/m", "part of it, of the friction elements",
      force<&F::contact, &P::in_phase>, is_bounded},
     {"force_per_displacement.in_phase.nonlinear_spring", "N/m", "part of it, where there is such a spring",
-     force<&F::nonlinear_spring, &P::in_phase>, has_nonlinear_spring},
+     force<&F::nonlinear_spring, &P::in_phase>, has_nonlinear_spring, any_nonlinear_spring},
     {"force_per_displacement.in_phase.excitation", "N/m", "what the excitation has in phase; equals `total`",
      force<&F::excitation, &P::in_phase>, is_bounded},
     {"force_per_displacement.out_of_phase.total", "N/m", "F_o/x: the same, a quarter period ahead",
@@ -150,7 +166,7 @@ constexpr ResponseQuantity of_response[] = {
      force<&F::contact, &P::out_of_phase>, is_bounded},
     {"force_per_displacement.out_of_phase.nonlinear_spring", "N/m",
      "part of it, where there is such a spring", force<&F::nonlinear_spring, &P::out_of_phase>,
-     has_nonlinear_spring},
+     has_nonlinear_spring, any_nonlinear_spring},
     {"force_per_displacement.out_of_phase.excitation", "N/m", "what the excitation has ahead; equals `total`",
      force<&F::excitation, &P::out_of_phase>, is_bounded},
     {"maxima.velocity", "m/s", "at events, and on curves of peaks and folds: the largest of the response",
@@ -159,24 +175,24 @@ constexpr ResponseQuantity of_response[] = {
     {"maxima.in_phase", "N/m",
      "likewise, for one mass with one friction element alone: the F_p/x of Al Sayed et al. (2011) by maxima "
      "over the period",
-     largest_force<&P::in_phase>, has_force_maxima},
+     largest_force<&P::in_phase>, has_force_maxima, one_mass_and_friction_part},
     {"maxima.out_of_phase", "N/m", "likewise, their F_o/x", largest_force<&P::out_of_phase>,
-     has_force_maxima},
+     has_force_maxima, one_mass_and_friction_part},
 };
 
 constexpr ElementQuantity of_element[] = {
     {"stick_percent", "%", "friction elements: share of the period in stick",
-     element<&Element::stick_percent>, is_friction},
+     element<&Element::stick_percent>, is_friction, is_friction_part},
     {"slip_angles", "rad", "friction elements: where slip begins", angles<&Element::slip_angles>,
-     is_friction},
+     is_friction, is_friction_part},
     {"reversal_angles", "rad", "friction elements: where slip ends", angles<&Element::reversal_angles>,
-     is_friction},
+     is_friction, is_friction_part},
     {"energy", "J", "friction elements: dissipated in a period", element<&Element::energy>},
     {"theta_0", "rad",
      "friction elements with one stick and one slip phase in each half period: largest displacement of the "
      "element",
-     element<&Element::theta_0>, is_friction},
-    {"theta_star", "rad", "likewise: the slip onset after it", element<&Element::theta_star>, is_friction},
+     element<&Element::theta_0>, is_friction, is_friction_part},
+    {"theta_star", "rad", "likewise: the slip onset after it", element<&Element::theta_star>, is_friction, is_friction_part},
     {"in_phase", "N", "fundamental of the force, in phase with that of the element's displacement",
      fundamental<&P::in_phase>},
     {"out_of_phase", "N", "likewise, a quarter period ahead", fundamental<&P::out_of_phase>},
@@ -186,10 +202,10 @@ constexpr ElementQuantity of_element[] = {
      element<&Element::equivalent_damping>},
     {"maxima.force", "N",
      "friction elements, where the response has maxima: of the force as a series of the harmonics kept",
-     largest_of<&ForceMaxima::force>, has_element_maxima},
+     largest_of<&ForceMaxima::force>, has_element_maxima, is_friction_part},
     {"maxima.cosine", "N", "likewise, of its cosine terms", largest_of<&ForceMaxima::cosine>,
-     has_element_maxima},
-    {"maxima.sine", "N", "likewise, of its sine terms", largest_of<&ForceMaxima::sine>, has_element_maxima},
+     has_element_maxima, is_friction_part},
+    {"maxima.sine", "N", "likewise, of its sine terms", largest_of<&ForceMaxima::sine>, has_element_maxima, is_friction_part},
 };
 
 template <class List>

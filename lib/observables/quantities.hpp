@@ -3,10 +3,12 @@
 // JSON, the columns of tables and figures, the limits of the optimiser and docs/results.md come from here.
 
 #include <arcslip/observables/response.hpp>
+#include <arcslip/scene/scene.hpp>
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -21,12 +23,14 @@ struct Quantity {
   using Number = double (*)(const Of&);  // no_value where it is not defined
   using Flag = bool (*)(const Of&);
   using List = const std::vector<double>& (*)(const Of&);
+  using Origin = std::conditional_t<std::is_same_v<Of, ResponsePoint>, scene::Scene, scene::Part>;
 
   std::string_view path;     // keys, joined by points: "force_per_displacement.in_phase.total"
   std::string_view unit;     // "m", "J"; "" of a flag
   std::string_view meaning;  // one line of Markdown
   std::variant<Number, Flag, List> get;
   Flag has = nullptr;  // whether the response has it at all; null: each has
+  bool (*in)(const Origin&) = nullptr;  // whether any response of the scene, of the element, may; null: any
 };
 
 using ResponseQuantity = Quantity<ResponsePoint>;

@@ -1,6 +1,7 @@
 #pragma once
 // What an engineer reads off a branch of periodic responses, as plain data.
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <utility>
@@ -101,6 +102,7 @@ struct ResponseEvent {
   bool nonsmooth = false;  // at a kink of the branch
   bool located = true;     // false: the corrector failed at it; the point is the nearest one of the branch
   ResponsePoint point;
+  std::size_t after = 0;  // index of the point of the branch before it
 };
 
 struct Stop {

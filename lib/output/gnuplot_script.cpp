@@ -5,7 +5,7 @@
 #include <arcslip/output/gnuplot_axes.hpp>
 #include <arcslip/output/gnuplot_style.hpp>
 #include <arcslip/output/units.hpp>
-#include <arcslip/output/version.hpp>
+#include <arcslip/results/version.hpp>
 
 #include <algorithm>
 #include <array>
@@ -281,7 +281,7 @@ std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::st
 
 void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::string& name,
                           const std::vector<GnuplotFigure>& figures) {
-  out << "# Made by arcslip " << version() << ". Draws the figures again: gnuplot -d " << name << ".gp\n"
+  out << "# Made by arcslip " << results::version() << ". Draws the figures again: gnuplot -d " << name << ".gp\n"
       << "if (!exists('suffix')) suffix = ''\n"
       << "data = '" << name << ".dat'\n"
       << "set encoding utf8\n"

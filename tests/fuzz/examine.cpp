@@ -4,8 +4,9 @@
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/output/csv.hpp>
-#include <arcslip/output/json.hpp>
+#include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/branches.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -206,7 +207,7 @@ class Examination {
 
   void check_results(const scene::Scene& s, const std::vector<observables::ResponseBranch>& branches) {
     std::ostringstream document, table;
-    output::write_json(document, s, branches);
+    results::write_json(document, studies::results_of(s, branches));
     const json results = json::parse(document.str(), nullptr, false);
     if (results.is_discarded()) return fault("the results are no JSON:\n" + document.str());
     if (results["branches"].size() != branches.size()) fault("the results have other branches");

@@ -7,6 +7,11 @@
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/optimize/optimum_curve_output.hpp>
+#include <arcslip/optimize/optimum_results.hpp>
+#include <arcslip/results/json_writer.hpp>
+#include <arcslip/studies/columns.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -399,8 +404,9 @@ TEST_CASE("result files tell every point of the curve and every event") {
   result.curve = optimum_curve(s, result.problem, {"force.cosine", 1, 8});
   const std::vector<OptimumCurveResult> results = {result};
   std::ostringstream text;
-  const auto section = json_section(s, results);
-  output::write_document(text, s, {&section, 1});
+  results::Results all{studies::header(s), {}, {}};
+  add(s, results, all);
+  results::write_json(text, all);
   const auto document = nlohmann::json::parse(text.str());
   CHECK(document["format"] == "arcslip-optimum-curves-1");
   const auto& curve = document["optimum_curves"][0];

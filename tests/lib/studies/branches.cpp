@@ -1,8 +1,9 @@
 #include "catch.hpp"
 #include "lib/output/support.hpp"
 
-#include <arcslip/output/json.hpp>
-#include <arcslip/output/version.hpp>
+#include <arcslip/results/json_writer.hpp>
+#include <arcslip/results/version.hpp>
+#include <arcslip/studies/branches.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -16,10 +17,19 @@ using Json = nlohmann::json;
 namespace {
 
 Json written(const scene::Scene& scene, const std::vector<observables::ResponseBranch>& branches,
-             const output::JsonOptions& options = {}) {
+             const studies::BranchOptions& options = {}) {
   std::ostringstream text;
-  output::write_json(text, scene, branches, options);
+  results::write_json(text, studies::results_of(scene, branches, options));
   return Json::parse(text.str());
+}
+
+scene::Scene with_element(const std::string& name, const scene::PartType& type) {
+  scene::Scene scene = support::scene();
+  scene.elements.push_back(scene.elements.front());
+  scene.elements.back().name = name;
+  scene.elements.back().type = &type;
+  scene.elements.back().values.resize(type.fields.size());
+  return scene;
 }
 
 }  // namespace
@@ -28,7 +38,7 @@ TEST_CASE("JSON carries the format, the program, the scene and its hash") {
   const scene::Scene scene = support::scene("A \"title\"\nin two lines");
   const Json json = written(scene, {});
   CHECK(json["format"] == "arcslip-branches-1");
-  CHECK(json["program"] == "arcslip " + std::string(output::version()));
+  CHECK(json["program"] == "arcslip " + std::string(results::version()));
   CHECK(json["scene_hash"] == scene::hash(scene));
   CHECK(json["title"] == "A \"title\"\nin two lines");
   CHECK(json["frequency_unit"] == "Hz");
@@ -104,20 +114,6 @@ TEST_CASE("a branch in JSON tells its study, where it knows it") {
   CHECK(json["kind"] == "frf");
 }
 
-TEST_CASE("results of several kinds stand in one document by their own keys") {
-  const scene::Scene scene = support::scene();
-  const auto number = [](int n) { return [n](std::ostream& out) { out << n; }; };
-  std::ostringstream text;
-  output::write_document(
-      text, scene,
-      std::vector<output::JsonSection>{{"one-1", "one", number(1)}, {"two-1", "two", number(2)}});
-  const Json json = Json::parse(text.str());
-  CHECK(json["format"] == "arcslip-results-1");
-  CHECK(json["scene_hash"] == scene::hash(scene));
-  CHECK(json["one"] == 1);
-  CHECK(json["two"] == 2);
-}
-
 TEST_CASE("the status of a branch is written by its name") {
   auto branch = support::branch();
   branch.status = observables::Status::stopped;
@@ -161,7 +157,7 @@ TEST_CASE("with a nonlinear spring its part of the forces is written, and no ang
   auto branch = support::branch();
   branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
   branch.points[0].forces.nonlinear_spring = {7, 0};
-  const Json json = written(support::scene(), {branch})["branches"][0]["points"][0];
+  const Json json = written(with_element("spring", scene::cubic_spring_type), {branch})["branches"][0]["points"][0];
   CHECK(json["force_per_displacement"]["in_phase"]["nonlinear_spring"] == 7.0);
   CHECK(json["elements"]["spring"]["equivalent_stiffness"].is_null());
   CHECK_FALSE(json["elements"]["spring"].contains("theta_0"));
@@ -194,13 +190,21 @@ TEST_CASE("what is not finite never reaches JSON") {
 TEST_CASE("stick_percent stands at the top of a point only with exactly one friction element") {
   auto branch = support::branch();
   branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
-  branch.points[1].elements.push_back({"second", true, 10, {}, {}, 0});
   branch.points[2].elements.clear();
-  const Json points = written(support::scene(), {branch})["branches"][0]["points"];
+  const Json points =
+      written(with_element("spring", scene::cubic_spring_type), {branch})["branches"][0]["points"];
   CHECK(points[0].contains("stick_percent"));
   CHECK_FALSE(points[0]["elements"]["spring"].contains("stick_percent"));
-  CHECK_FALSE(points[1].contains("stick_percent"));
-  CHECK(points[1]["elements"]["second"]["stick_percent"] == 10.0);
   CHECK_FALSE(points[2].contains("stick_percent"));
   CHECK(points[2]["elements"] == Json::object());
+  branch.points[1].elements.push_back({"second", true, 10, {}, {}, 0});
+  const Json two = written(with_element("second", scene::jenkins_type), {branch})["branches"][0]["points"][1];
+  CHECK_FALSE(two.contains("stick_percent"));
+  CHECK(two["elements"]["second"]["stick_percent"] == 10.0);
+}
+
+TEST_CASE("an event says after which point of its branch it comes") {
+  auto branch = support::branch();
+  branch.events[0].after = 2;
+  CHECK(written(support::scene(), {branch})["branches"][0]["events"][0]["after"] == 2);
 }

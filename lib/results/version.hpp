@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-namespace arcslip::output {
+namespace arcslip::results {
 
 /// The project's version, "0.1.0".
 std::string_view version();
 
-}  // namespace arcslip::output
+}  // namespace arcslip::results

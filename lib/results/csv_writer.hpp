@@ -1,0 +1,69 @@
+#pragma once
+// Results as comma-separated values (RFC 4180), a file for each table and one for what is known of each
+// result as a whole, format "arcslip-csv-2".
+//
+// Columns: "study"; the parameters that tell results of a study apart; the number of the result, from 1, by
+// the noun of its schema; then those of the table: a column's path joined by points, without "elements",
+// and its unit, "damper.stick_percent (%)". No value is an empty cell, a flag true or false, a list or an
+// object its JSON.
+
+#include <arcslip/results/result.hpp>
+
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace arcslip::results {
+
+/// Writes the tables of one key, as they come. Results whose schema has no such table are left out.
+class CsvWriter : public Sink {
+ public:
+  CsvWriter(std::ostream& out, std::string table);
+
+  void begin(const Header& header, std::span<const Schema> schemas) override;
+  void curve(const Head& head, std::size_t schema) override;
+  void rows(std::size_t table, const Rows& rows) override;
+  void end(const End& /*end*/) override {}
+  void finish() override {}
+
+ private:
+  std::ostream& out_;
+  std::string key_;
+  std::vector<Schema> schemas_;
+  std::vector<std::string> set_, columns_;  // titles
+  std::size_t schema_ = 0;                  // of the result that is open
+  std::map<std::string, long> count_;       // results so far, by noun
+  std::map<std::string, std::string> head_; // what the result sets, by titles
+  std::string first_;                       // cells of each row of the result
+};
+
+/// Writes a row for each result: status, reason and message of its end, and all facts that are numbers, flags
+/// or texts, by the keys that lead to them. Keeps the rows until all are there.
+class CsvSummary : public Sink {
+ public:
+  explicit CsvSummary(std::ostream& out);
+
+  void begin(const Header& header, std::span<const Schema> schemas) override;
+  void curve(const Head& head, std::size_t schema) override;
+  void rows(std::size_t /*table*/, const Rows& /*rows*/) override {}
+  void end(const End& end) override;
+  void finish() override;
+
+ private:
+  using Row = std::map<std::string, std::string>;  // cells by titles
+
+  void put(const std::string& title, std::string cell);
+  void put(const std::string& prefix, const Object& facts);
+
+  std::ostream& out_;
+  std::vector<Schema> schemas_;
+  std::map<std::string, long> count_;
+  std::vector<std::string> titles_;  // in the order in which they came
+  std::vector<Row> rows_;
+};
+
+void write_csv(std::ostream& out, const Results& results, const std::string& table);
+void write_csv_summary(std::ostream& out, const Results& results);
+
+}  // namespace arcslip::results

@@ -1,0 +1,51 @@
+#pragma once
+// Results as JSON.
+
+#include <arcslip/results/result.hpp>
+
+#include <iosfwd>
+#include <memory>
+
+namespace arcslip::results {
+
+/// Writes one object: {"format", "program", "scene_hash", "title", "frequency_unit", LIST: [R, ...]}, and so
+/// for each list; its format is that of the schemas if all have one, else "arcslip-results-1". The results of
+/// a list come one after the other. Behind a list with one result stands what Schema::beside says of it. With
+///   R = {"study", "kind", facts of the head, "set", a key for each table, "status", "stop", facts of the end}
+/// where "study" and "kind" are left out where nobody said them. A table is a list of objects, a row a line,
+/// or an object of lists. Numbers are the shortest that read back exactly; what is not finite is null. Rows of
+/// the first table are written as they come, those of others are kept until the result ends.
+class JsonWriter : public Sink {
+ public:
+  explicit JsonWriter(std::ostream& out);
+  ~JsonWriter() override;
+
+  void begin(const Header& header, std::span<const Schema> schemas) override;
+  void curve(const Head& head, std::size_t schema) override;
+  void rows(std::size_t table, const Rows& rows) override;
+  void end(const End& end) override;
+  void finish() override;
+
+ private:
+  class TableText;
+  struct BesideText;
+
+  void open(const std::string& list);
+  void close();
+
+  std::ostream& out_;
+  std::vector<Schema> schemas_;
+  std::vector<std::string> written_;  // lists
+  std::string list_;                  // that is open; empty: none
+  std::size_t in_list_ = 0;           // results so far
+  const Schema* schema_ = nullptr;    // of the result that is open
+  std::vector<std::unique_ptr<TableText>> tables_;
+  std::string beside_;                // of the first result of a list
+};
+
+/// A value as JSON.
+std::string json(const Value& value);
+
+void write_json(std::ostream& out, const Results& results);
+
+}  // namespace arcslip::results

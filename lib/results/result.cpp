@@ -1,0 +1,51 @@
+#include <arcslip/results/result.hpp>
+
+#include <arcslip/results/table_of.hpp>
+
+#include <algorithm>
+
+namespace arcslip::results {
+
+std::string name(const Column& column) {
+  std::string all;
+  for (const std::string& key : column.path) all += (all.empty() ? "" : ".") + key;
+  return all;
+}
+
+Object object(std::span<const Column> columns, const Rows& rows, std::size_t row) {
+  Object all;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const Cells& cells = rows.columns[c];
+    if (!cells.absent.empty() && cells.absent[row]) continue;
+    Object* group = &all;
+    const std::vector<std::string>& path = columns[c].path;
+    for (std::size_t level = 0; level + 1 < path.size(); ++level) {
+      if (group->empty() || group->back().key != path[level]) group->push_back({path[level], Object()});
+      group = &group->back().value.members();
+    }
+    std::visit(
+        [&](const auto& list) {
+          using Cell = typename std::decay_t<decltype(list)>::value_type;
+          group->push_back({path.back(), Value(static_cast<Cell>(list[row])), columns[c].unit});
+        },
+        cells.of);
+  }
+  return all;
+}
+
+void replay(const Results& results, Sink& sink) {
+  sink.begin(results.header, results.schemas);
+  for (auto schema = results.schemas.begin(); schema != results.schemas.end(); ++schema) {
+    const auto in_list = [&](const Schema& other) { return other.list == schema->list; };
+    if (std::find_if(results.schemas.begin(), schema, in_list) != schema) continue;  // done with the first of them
+    for (const Result& result : results.results) {
+      if (!in_list(results.schemas[result.schema])) continue;
+      sink.curve(result.head, result.schema);
+      for (std::size_t t = 0; t < result.tables.size(); ++t) sink.rows(t, result.tables[t]);
+      sink.end(result.end);
+    }
+  }
+  sink.finish();
+}
+
+}  // namespace arcslip::results

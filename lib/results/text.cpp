@@ -1,0 +1,116 @@
+#include <arcslip/results/text.hpp>
+
+#include <cstddef>
+
+namespace arcslip::results {
+namespace {
+
+struct Character {
+  char32_t code = 0;
+  std::size_t size = 1;  // bytes
+  bool valid = true;     // false: a byte that is not UTF-8
+};
+
+// The character at the beginning of a text that is not empty (RFC 3629, but with surrogates).
+Character first_of(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) {
+    return {lead};
+  }
+  const std::size_t size = lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : lead < 0xf5 ? 4 : 0;
+  if (size == 0 || size > text.size()) {
+    return {lead, 1, false};
+  }
+  char32_t code = lead & (0xffu >> (size + 1));
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) {
+      return {lead, 1, false};
+    }
+    code = code << 6 | (byte(i) & 0x3fu);
+  }
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  if (code < least[size] || code > 0x10ffff) {
+    return {lead, 1, false};
+  }
+  return {code, size};
+}
+
+bool within(char32_t code, char32_t first, char32_t last) {
+  return code >= first && code <= last;
+}
+
+bool is_shown(char32_t code) {
+  const bool commands = code < 0x20 || within(code, 0x7f, 0x9f) || within(code, 0x2028, 0x2029);
+  const bool directs = code == 0x61c || within(code, 0x200e, 0x200f) || within(code, 0x202a, 0x202e) ||
+                       within(code, 0x2066, 0x2069);
+  const bool is_none = within(code, 0xd800, 0xdfff) || within(code, 0xfdd0, 0xfdef) || code == 0xfeff ||
+                       (code & 0xfffe) == 0xfffe;
+  return !commands && !directs && !is_none;
+}
+
+void add_escape(std::string_view prefix, char32_t code, int digits, std::string& out) {
+  out += prefix;
+  for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) {
+    out += "0123456789abcdef"[code >> shift & 15];
+  }
+}
+
+// A character, whose code is known, as it is or escaped.
+void add_visible(std::string_view character, char32_t code, std::string& out) {
+  if (is_shown(code)) {
+    out += character;
+  } else if (code < 0x10000) {
+    add_escape("\\u", code, 4, out);
+  } else {
+    add_escape("\\u", 0xd7c0 + (code >> 10), 4, out);
+    add_escape("\\u", 0xdc00 + (code & 0x3ff), 4, out);
+  }
+}
+
+std::string escaped(std::string_view text, bool keeps_lines) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    const Character next = first_of(text);
+    if (!next.valid) {
+      add_escape("\\x", next.code, 2, out);
+    } else if (keeps_lines && next.code == '\n') {
+      out += '\n';
+    } else {
+      add_visible(text.substr(0, next.size), next.code, out);
+    }
+    text.remove_prefix(next.size);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string visible(std::string_view text) {
+  return escaped(text, false);
+}
+
+std::string visible_lines(std::string_view text) {
+  return escaped(text, true);
+}
+
+std::string json_quoted(std::string_view text) {
+  constexpr std::string_view short_escapes = "\"\\\b\f\n\r\t", names = "\"\\bfnrt";
+  std::string out = "\"";
+  while (!text.empty()) {
+    const Character next = first_of(text);
+    if (!next.valid || within(next.code, 0xd800, 0xdfff)) {
+      out += "\xef\xbf\xbd";
+    } else if (const auto at = next.code < 0x80 ? short_escapes.find(static_cast<char>(next.code)) : short_escapes.npos;
+               at != short_escapes.npos) {
+      (out += '\\') += names[at];
+    } else {
+      add_visible(text.substr(0, next.size), next.code, out);
+    }
+    text.remove_prefix(next.size);
+  }
+  return out += '"';
+}
+
+}  // namespace arcslip::results

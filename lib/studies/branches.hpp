@@ -1,0 +1,24 @@
+#pragma once
+// Branches of responses as results, format "arcslip-branches-1": tables of points and of events.
+
+#include <arcslip/observables/response.hpp>
+#include <arcslip/results/result.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <span>
+
+namespace arcslip::studies {
+
+struct BranchOptions {
+  bool coefficients = false;  // also the harmonics of the response: a_n, b_n for each n of "harmonics"
+};
+
+/// docs/results.md tells all that there is.
+results::Results results_of(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
+                            const BranchOptions& options = {});
+
+/// Puts branches to results of the same scene.
+void add(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
+         const BranchOptions& options, results::Results& all);
+
+}  // namespace arcslip::studies

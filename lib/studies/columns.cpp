@@ -1,0 +1,111 @@
+#include <arcslip/studies/columns.hpp>
+
+#include <arcslip/observables/quantities.hpp>
+#include <arcslip/results/version.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace arcslip::studies {
+namespace {
+
+using observables::Quantity;
+using observables::ResponsePoint;
+
+std::vector<std::string> keys(std::string_view path) {
+  std::vector<std::string> all;
+  for (auto point = path.find('.'); point != std::string_view::npos; point = path.find('.')) {
+    all.emplace_back(path.substr(0, point));
+    path.remove_prefix(point + 1);
+  }
+  all.emplace_back(path);
+  return all;
+}
+
+/// Puts the quantities that things of this origin may have to a table of items, of each of which of(item) is
+/// one; null: the item has none.
+template <class Of, class Item, class OfItem>
+void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::Origin& origin,
+         const scene::Scene& scene, const Asked& asked, const std::vector<std::string>& prefix, OfItem of,
+         results::TableOf<Item>& table) {
+  for (const Quantity<Of>& quantity : quantities) {
+    if (quantity.in && !quantity.in(origin)) continue;
+    if ((!asked.maxima && quantity.path.starts_with("maxima.")) || (!asked.amplitude && quantity.path == "amplitude"))
+      continue;
+    std::vector<std::string> path = prefix;
+    for (std::string& key : keys(quantity.path)) path.push_back(std::move(key));
+    const bool is_frequency = quantity.unit == observables::frequency_unit;
+    const double unit = is_frequency ? scene::to_rad_per_s(scene.frequency_unit) : 1;
+    const std::string_view unit_name = is_frequency ? scene::unit_name(scene.frequency_unit) : quantity.unit;
+    std::visit(
+        [&](auto get) {
+          table.add(std::move(path), std::string(unit_name), std::string(quantity.meaning),
+                    [get, of, unit, has = quantity.has](const Item& item) {
+                      using Got = std::decay_t<decltype(get(std::declval<const Of&>()))>;
+                      const Of* from = of(item);
+                      if (!from || (has && !has(*from))) return std::optional<Got>();
+                      if constexpr (std::is_same_v<Got, double>)
+                        return std::optional<Got>(get(*from) / unit);
+                      else
+                        return std::optional<Got>(get(*from));
+                    });
+        },
+        quantity.get);
+  }
+}
+
+}  // namespace
+
+results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked& asked) {
+  results::TableOf<ResponsePoint> table;
+  if (!asked.over.empty())
+    table.add({asked.over}, unit_of(scene, asked.over), "the parameter, here",
+              [](const ResponsePoint& response) { return response.over; });
+  add(observables::response_quantities(), scene, scene, asked, {},
+      [](const ResponsePoint& response) { return &response; }, table);
+  for (std::size_t e = 0; e < scene.elements.size(); ++e)
+    add(observables::element_quantities(), scene.elements[e], scene, asked,
+        {"elements", scene.elements[e].name},
+        [e](const ResponsePoint& response) {
+          return e < response.elements.size() ? &response.elements[e] : nullptr;
+        },
+        table);
+  if (asked.coefficients)
+    table.add({"coefficients"}, "m", "a_n, b_n of the response for each of its harmonics",
+              [](const ResponsePoint& response) { return response.coefficients; });
+  return table;
+}
+
+std::string unit_of(const scene::Scene& scene, std::string_view parameter) {
+  const std::string_view unit = scene::parameter_fields(scene, parameter).front()->unit;
+  return std::string(unit == "-" ? "" : unit);
+}
+
+results::Object named(const scene::Scene& scene, const NamedValues& values) {
+  results::Object all;
+  for (const auto& [name, value] : values) all.push_back({name, value, unit_of(scene, name)});
+  return all;
+}
+
+void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<results::Column>& columns) {
+  for (const auto& [name, value] : set) {
+    const auto is_there = [&, &name = name](const results::Column& column) { return column.path.front() == name; };
+    if (std::none_of(columns.begin(), columns.end(), is_there))
+      columns.push_back({{name}, results::Type::number, unit_of(scene, name), "given by `for_each`"});
+  }
+}
+
+results::Header header(const scene::Scene& scene) {
+  return {"arcslip " + std::string(results::version()), scene::hash(scene), scene.title,
+          std::string(scene::unit_name(scene.frequency_unit))};
+}
+
+results::Object stop(const observables::Stop& stop) {
+  return {{"reason", stop.reason}, {"value", stop.value}, {"limit", stop.limit}, {"message", stop.message}};
+}
+
+}  // namespace arcslip::studies

@@ -1,0 +1,43 @@
+#pragma once
+// The quantities of responses (observables/quantities.hpp) as a table, and what else all results have. Units
+// are those of the scene.
+
+#include <arcslip/observables/response.hpp>
+#include <arcslip/results/table_of.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace arcslip::studies {
+
+/// What is asked of responses beside all that each has.
+struct Asked {
+  std::string over{};         // a parameter whose value at the response is a column of its own, the first
+  bool maxima = false;        // over the period
+  bool coefficients = false;  // the harmonics of the response
+  bool amplitude = true;      // false: what the response belongs to has its own
+};
+
+/// What can be read off responses of a scene, by element in an object "elements".
+results::TableOf<observables::ResponsePoint> responses(const scene::Scene& scene, const Asked& asked = {});
+
+/// Unit of a parameter of the scene as a column has it: "N", "" for a pure number. Throws
+/// scene::ParameterError.
+std::string unit_of(const scene::Scene& scene, std::string_view parameter);
+
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+/// Values of parameters of the scene by their names.
+results::Object named(const scene::Scene& scene, const NamedValues& values);
+
+/// The columns of these parameters, but for those that are there.
+void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<results::Column>& columns);
+
+results::Header header(const scene::Scene& scene);
+
+results::Object stop(const observables::Stop& stop);
+
+}  // namespace arcslip::studies

@@ -1,0 +1,104 @@
+#include <arcslip/studies/motions.hpp>
+
+#include <arcslip/results/table_of.hpp>
+#include <arcslip/studies/columns.hpp>
+
+#include <complex>
+#include <utility>
+
+namespace arcslip::studies {
+namespace {
+
+using observables::Motion;
+
+/// One instant of a history.
+struct Instant {
+  const time::History* history;
+  std::size_t i;
+};
+
+results::TableOf<Instant> history(const scene::Scene& scene) {
+  results::TableOf<Instant> table;
+  const auto add = [&](std::vector<std::string> path, const char* unit, const char* help, auto list_of) {
+    table.add(std::move(path), unit, help, [list_of](const Instant& at) {
+      const std::vector<double>* list = list_of(*at.history);
+      return list && at.i < list->size() ? std::optional((*list)[at.i]) : std::nullopt;
+    });
+  };
+  add({"time"}, "s", "from the beginning of the recorded periods", [](const auto& of) { return &of.time; });
+  add({"displacement"}, "m", "of the response", [](const auto& of) { return &of.displacement; });
+  add({"velocity"}, "m/s", "of the response", [](const auto& of) { return &of.velocity; });
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
+    const std::string& name = scene.elements[e].name;
+    const auto of_element = [&](const char* key, const char* unit, const char* help,
+                                std::vector<double> time::ElementHistory::*member) {
+      add({"elements", name, key}, unit, help, [e, member](const time::History& of) {
+        return e < of.elements.size() ? &(of.elements[e].*member) : nullptr;
+      });
+    };
+    of_element("displacement", "m", "of the element", &time::ElementHistory::displacement);
+    of_element("force", "N", "against the motion", &time::ElementHistory::force);
+    if (scene.elements[e].type == &scene::jenkins_type)
+      of_element("slider", "m", "friction elements: where the slider is", &time::ElementHistory::slider);
+  }
+  return table;
+}
+
+results::Object facts(const scene::Scene& scene, const Motion& motion) {
+  results::Value::List multipliers;
+  for (const std::complex<double>& multiplier : motion.multipliers)
+    multipliers.emplace_back(std::vector<double>{multiplier.real(), multiplier.imag()});
+  results::Object all{{"method", scene::method_name(motion.method)},
+                      {"integrator", motion.integrator},
+                      {"frequency", motion.omega / scene::to_rad_per_s(scene.frequency_unit),
+                       std::string(scene::unit_name(scene.frequency_unit))},
+                      {"omega", motion.omega, "rad/s"},
+                      {"steps", motion.steps},
+                      {"periods", motion.periods},
+                      {"period_change", motion.change},
+                      {"amplitude", motion.amplitude, "m"},
+                      {"energy_input", motion.energy.input, "J"},
+                      {"energy_friction", motion.energy.friction, "J"},
+                      {"energy_viscous", motion.energy.viscous, "J"},
+                      {"energy_stored", motion.energy.stored, "J"},
+                      {"energy_defect", motion.energy.defect(), "J"},
+                      {"multipliers", std::move(multipliers)}};
+  if (motion.stable) all.push_back({"stable", *motion.stable});
+  if (motion.elements.size() == 1) all.push_back({"stick_percent", motion.elements.front().stick_percent, "%"});
+  results::Object elements;
+  for (const observables::ElementMotion& element : motion.elements)
+    elements.push_back(
+        {element.name,
+         results::Object{{"stick_percent", element.stick_percent, "%"}, {"energy", element.energy, "J"}}});
+  all.push_back({"elements", std::move(elements)});
+  return all;
+}
+
+}  // namespace
+
+void add(const scene::Scene& scene, std::span<const Motion> motions, results::Results& all) {
+  const results::TableOf<Instant> table = history(scene);
+  for (const Motion& motion : motions) {
+    std::vector<Instant> instants;
+    for (std::size_t i = 0; i < motion.history.time.size(); ++i) instants.push_back({&motion.history, i});
+    all.results.push_back({.schema = all.schemas.size(),
+                           .head = {motion.study, motion.kind, named(scene, motion.set),
+                                    {{"parameters", named(scene, motion.parameters)}}},
+                           .tables = {table.rows(instants)},
+                           .end = {observables::name(motion.status), stop(motion.stop), facts(scene, motion)}});
+  }
+  results::Schema schema{.format = "arcslip-time-1",
+                         .list = "motions",
+                         .noun = "motion",
+                         .tables = {{"history", table.columns(), {"elements"}, true}}};
+  for (const Motion& motion : motions) add_columns(scene, motion.set, schema.set);
+  all.schemas.push_back(std::move(schema));
+}
+
+results::Results results_of(const scene::Scene& scene, std::span<const Motion> motions) {
+  results::Results all{header(scene), {}, {}};
+  add(scene, motions, all);
+  return all;
+}
+
+}  // namespace arcslip::studies

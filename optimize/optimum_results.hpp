@@ -1,0 +1,18 @@
+#pragma once
+// Optima and curves of optima as results, formats "arcslip-optimum-1" and "arcslip-optimum-curves-1": tables of
+// the designs that were looked at and of the cases; of the points of a curve and its events.
+
+#include <arcslip/optimize/optimum_curve_output.hpp>
+#include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/results/result.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <span>
+
+namespace arcslip::optimize {
+
+/// Puts optima to results of the same scene; docs/results.md tells all that there is.
+void add(const scene::Scene& scene, std::span<const OptimumResult> optima, results::Results& all);
+void add(const scene::Scene& scene, std::span<const OptimumCurveResult> curves, results::Results& all);
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,67 @@
+#include "catch.hpp"
+#include "lib/results/made_up.hpp"
+
+#include <arcslip/results/csv_writer.hpp>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace arcslip::results;
+
+namespace {
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(in, line);) {
+    REQUIRE(line.ends_with('\r'));
+    all.push_back(line.substr(0, line.size() - 1));
+  }
+  return all;
+}
+
+std::vector<std::string> written(const Results& results, const std::string& table) {
+  std::ostringstream text;
+  write_csv(text, results, table);
+  return lines(text.str());
+}
+
+std::vector<std::string> summary(const Results& results) {
+  std::ostringstream text;
+  write_csv_summary(text, results);
+  return lines(text.str());
+}
+
+}  // namespace
+
+TEST_CASE("a table as CSV has the study, what is set, the number of the result, and its columns with units") {
+  Results results = made_up::results();
+  results.schemas.pop_back();
+  results.results.pop_back();
+  CHECK(written(results, "rows") ==
+        std::vector<std::string>{"study,load (N),thing,x (m),i,yes,word,list,d.load (N),d.deep.er,last",
+                                 "first,2.5,1,0.1,1,true,\"'=a, \"\"b\"\"\",\"[1.0,0.5]\",3,3,0.2",
+                                 "first,2.5,1,-0,-2,false,,[],,,-0"});
+  CHECK(written(results, "marks").size() == 2);
+  CHECK(written(results, "none") == std::vector<std::string>{"study,load (N),thing"});
+}
+
+TEST_CASE("a table as CSV that several kinds have holds the columns of all") {
+  CHECK(written(made_up::results(), "rows")[3] == ",,,1,0.1,,,,,3,,");
+}
+
+TEST_CASE("a parameter that one study sets and another is over is one column") {
+  Results results = made_up::results();
+  results.schemas[1].tables[0].columns[0] = {{"load"}, Type::number, "N"};
+  const auto rows = written(results, "rows");
+  CHECK(rows[0] == "study,thing,other,x (m),i,yes,word,list,d.load (N),d.deep.er,last,load (N)");
+  CHECK(rows[2].ends_with(",2.5"));
+  CHECK(rows[3].ends_with(",0.1"));
+}
+
+TEST_CASE("the summary as CSV has a row for each result, with all facts that are not lists") {
+  CHECK(summary(made_up::results()) ==
+        std::vector<std::string>{"study,kind,load (N),thing,other,over,status,stop.reason,stop.value,best.x (m)",
+                                 "first,kind,2.5,1,,x,complete,end,1,1.5", ",,,,1,,failed,other,,"});
+}
