@@ -5,6 +5,7 @@
 #include "options.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
+#include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/visible.hpp>
 #include <arcslip/studies/columns.hpp>
@@ -25,7 +26,16 @@
 namespace arcslip::app {
 namespace {
 
-constexpr std::array<const char*, 5> file_extensions = {".scene.json", ".json", ".csv", ".dat", ".gp"};
+constexpr std::array<const char*, 4> file_extensions = {".scene.json", ".json", ".dat", ".gp"};
+constexpr std::array<const char*, 3> csv_parts = {"events", "cases", "summary"};  // beside the first table
+
+/// "a.events.csv" beside "a.csv".
+std::string beside(const std::string& file, const std::string& part) {
+  std::filesystem::path path(file);
+  const std::string extension = path.extension().string();
+  path.replace_extension();
+  return path.string() + "." + part + extension;
+}
 
 }  // namespace
 
@@ -71,9 +81,41 @@ ResultsFolder::~ResultsFolder() {
 }
 
 void add_places(const StudyFiles& files, const std::string& study, std::vector<Place>& places) {
+  const std::string what = "the results of the study \"" + study + '"';
   for (const char* extension : file_extensions) {
-    places.push_back({"the results of the study \"" + study + '"', files.path(extension)});
+    places.push_back({what, files.path(extension)});
   }
+  add_csv_places(what, files.path(".csv"), places);
+}
+
+bool may_wait(const std::string& place) {
+  std::error_code ignored;
+  return place == "-" || std::filesystem::is_other(place, ignored);
+}
+
+void add_csv_places(const std::string& what, const std::string& path, std::vector<Place>& places) {
+  if (path != "-") {
+    places.push_back({what, path});
+  }
+  for (const char* part : csv_parts) {
+    if (!may_wait(path)) {
+      places.push_back({what, beside(path, part)});
+    }
+  }
+}
+
+std::vector<File> csv_files(const std::string& path, const results::Results& results) {
+  std::vector<File> files;
+  for (const std::string& key : results::table_keys(results)) {
+    files.push_back({files.empty() ? path : beside(path, key),
+                     [&results, key](std::ostream& out) { results::write_csv(out, results, key); }});
+  }
+  files.push_back(
+      {beside(path, "summary"), [&results](std::ostream& out) { results::write_csv_summary(out, results); }});
+  if (may_wait(path)) {
+    files.resize(1);
+  }
+  return files;
 }
 
 void check_places(const std::vector<Place>& places, const std::string& scene_file) {
@@ -129,16 +171,26 @@ std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene
                                      scene::StudyKind kind, const StudyResult& result, bool coefficients,
                                      Writing& writing) {
   std::vector<std::string> paths;
-  const auto write = [&](const char* extension, const std::function<void(std::ostream&)>& writer) {
-    if (writing.file(files.path(extension), writer)) {
-      paths.push_back(files.path(extension));
+  const auto write = [&](const std::string& path, const std::function<void(std::ostream&)>& writer) {
+    if (writing.file(path, writer)) {
+      paths.push_back(path);
     }
   };
-  write(".scene.json", [&](std::ostream& out) { out << scene::write(scene); });
+  write(files.path(".scene.json"), [&](std::ostream& out) { out << scene::write(scene); });
   results::Results of_study{studies::header(scene), {}, {}};
   add(scene, result, coefficients, of_study);
-  write(".json", [&](std::ostream& out) { results::write_json(out, of_study); });
-  write(".csv", [&](std::ostream& out) { write_csv(out, scene, result); });
+  write(files.path(".json"), [&](std::ostream& out) { results::write_json(out, of_study); });
+  const std::vector<File> tables = csv_files(files.path(".csv"), of_study);
+  for (const File& table : tables) {
+    write(table.path, table.writer);
+  }
+  for (const char* part : csv_parts) {  // an earlier run's must not stand beside other data
+    const std::string path = beside(files.path(".csv"), part);
+    if (std::none_of(tables.begin(), tables.end(), [&](const File& table) { return table.path == path; })) {
+      std::error_code ignored;
+      std::filesystem::remove(path, ignored);
+    }
+  }
   writing.attempt([&] {
     const output::Figures figures = write_figures(scene, kind, result, files.folder, files.name, interrupted);
     paths.insert(paths.end(), figures.sources.begin(), figures.sources.end());

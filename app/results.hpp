@@ -15,7 +15,8 @@
 
 namespace arcslip::app {
 
-/// The files of one study in a folder: NAME.scene.json, NAME.json, NAME.csv and the figures.
+/// The files of one study in a folder: NAME.scene.json, NAME.json, NAME.csv with those beside it, and the
+/// figures.
 struct StudyFiles {
   std::string folder, name;
 
@@ -43,6 +44,23 @@ class ResultsFolder {
 struct Place {
   std::string what, path;
 };
+
+/// What writes a file, and where.
+struct File {
+  std::string path;
+  std::function<void(std::ostream&)> writer;
+};
+
+/// Results as CSV: the first of their tables in `path`; the others and the summary beside it, with the key of
+/// the table or "summary" before the ending of the name, but not where that is standard output ("-"), a pipe
+/// or a device. Refers to the results.
+std::vector<File> csv_files(const std::string& path, const results::Results& results);
+
+/// Where CSV of any results may go.
+void add_csv_places(const std::string& what, const std::string& path, std::vector<Place>& places);
+
+/// Whether a place may have to wait for a reader: standard output ("-"), a pipe, a device.
+bool may_wait(const std::string& place);
 
 /// All of a study that has files of its own.
 void add_places(const StudyFiles& files, const std::string& study, std::vector<Place>& places);

@@ -5,9 +5,8 @@
 
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/time_study.hpp>
-#include <arcslip/optimize/optimum_output.hpp>
+#include <arcslip/optimize/optimum_figures.hpp>
 #include <arcslip/optimize/optimum_results.hpp>
-#include <arcslip/output/csv.hpp>
 #include <arcslip/output/motion.hpp>
 #include <arcslip/output/units.hpp>
 #include <arcslip/studies/branches.hpp>
@@ -121,21 +120,6 @@ StudyResult compute(const scene::Scene& scene, const scene::Study& study,
   return result;
 }
 
-void append(StudyResult more, std::vector<StudyResult>& all) {
-  const auto same = std::find_if(all.begin(), all.end(),
-                                 [&](const StudyResult& result) { return result.index() == more.index(); });
-  if (same == all.end()) {
-    all.push_back(std::move(more));
-    return;
-  }
-  std::visit(
-      [&](auto& items) {
-        auto& added = std::get<std::remove_reference_t<decltype(items)>>(more);
-        std::move(added.begin(), added.end(), std::back_inserter(items));
-      },
-      *same);
-}
-
 std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult& result) {
   std::vector<std::string> sentences;
   const auto add = [&](const auto& items) {
@@ -168,15 +152,6 @@ void add(const scene::Scene& scene, const StudyResult& result, bool coefficients
           studies::add(scene, items, all);
         else
           optimize::add(scene, items, all);
-      },
-      result);
-}
-
-void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& result) {
-  std::visit(
-      [&](const auto& items) {
-        using output::write_csv;
-        write_csv(out, scene, items);
       },
       result);
 }

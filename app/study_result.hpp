@@ -1,7 +1,7 @@
 #pragma once
 // What a study gives, and all that the command does with it. A kind of results is one alternative of the
-// variant, with a function of its own for each of these (add, write_csv, write_figures, write_table, noun,
-// end) and the members study, kind and set; the rest knows no kinds.
+// variant, with a function of its own for each of these (add, write_figures, write_table, noun, end) and the
+// members study, kind and set; the rest knows no kinds.
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/motion.hpp>
@@ -29,9 +29,6 @@ StudyResult no_result(const scene::Study& study);
 StudyResult compute(const scene::Scene& scene, const scene::Study& study,
                     const observables::ProgressCallback& progress);
 
-/// Puts a result to those of its kind, or behind all others where there are none.
-void append(StudyResult more, std::vector<StudyResult>& all);
-
 /// For each part that ended early, which and why.
 std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult& result);
 
@@ -40,8 +37,6 @@ void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult
 
 /// Puts what a study gave to all results of a run; coefficients: with the harmonics of the responses.
 void add(const scene::Scene& scene, const StudyResult& result, bool coefficients, results::Results& all);
-
-void write_csv(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
 
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
                               const std::string& folder, const std::string& name,

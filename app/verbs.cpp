@@ -43,10 +43,11 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
       add_places(files[i], studies[i].name, places);
     }
   }
-  for (const auto& [option, file] : {std::pair{"--json", options.json}, std::pair{"--csv", options.csv}}) {
-    if (!file.empty() && file != "-") {
-      places.push_back({option, file});
-    }
+  if (!options.json.empty() && options.json != "-") {
+    places.push_back({"--json", options.json});
+  }
+  if (!options.csv.empty()) {
+    add_csv_places("--csv", options.csv, places);
   }
   check_places(places, options.scene);
   return folder;
@@ -112,12 +113,6 @@ StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study
   return result;
 }
 
-/// Files before what may have to wait for a reader: pipes, devices, standard output.
-bool may_wait(const std::string& place) {
-  std::error_code ignored;
-  return place == "-" || std::filesystem::is_other(place, ignored);
-}
-
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const Options& options) {
   check_one_table(options, studies);
@@ -128,7 +123,6 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   Interruption interruption;
   Writing writing;
   ExitCode code = ExitCode::done;
-  std::vector<StudyResult> all;
   results::Results results{studies::header(scene), {}, {}};
   std::string places;
   std::ostringstream tables;
@@ -153,24 +147,27 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
     }
     write_table(tables, scene, result);
     add(scene, result, options.coefficients, results);
-    append(std::move(result), all);
   }
-  if (all.empty()) {  // nothing was begun
-    all.push_back(no_result(studies.front()));
-    add(scene, all.front(), options.coefficients, results);
+  if (results.schemas.empty()) {  // nothing was begun
+    add(scene, no_result(studies.front()), options.coefficients, results);
   }
 
   StandardOutput screen;
-  using Output = std::pair<std::string, std::function<void(std::ostream&)>>;
-  std::vector<Output> outputs{
-      {options.json, [&](std::ostream& out) { results::write_json(out, results); }},
-      {options.csv, [&](std::ostream& out) { write_csv(out, scene, all.front()); }}};
+  std::vector<File> outputs;
+  if (!options.json.empty()) {
+    outputs.push_back({options.json, [&](std::ostream& out) { results::write_json(out, results); }});
+  }
+  if (!options.csv.empty()) {
+    std::vector<File> csv = csv_files(options.csv, results);
+    outputs.insert(outputs.end(), csv.begin(), csv.end());
+  }
+  // Files before what may have to wait for a reader.
   std::stable_partition(outputs.begin(), outputs.end(),
-                        [](const Output& each) { return !may_wait(each.first); });
+                        [](const File& each) { return !may_wait(each.path); });
   for (const auto& [place, writer] : outputs) {
     if (place == "-") {
       screen.write(writer);
-    } else if (!place.empty()) {
+    } else {
       writing.file(place, writer);
     }
   }

@@ -1,10 +1,9 @@
 #pragma once
-// Curves of optima as CSV and figures.
+// Curves of optima as a study gives them, and their figures.
 
 #include <arcslip/optimize/optimum_curve.hpp>
 #include <arcslip/output/figures.hpp>
 
-#include <iosfwd>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,9 +17,6 @@ struct OptimumCurveResult {
   OptimumProblem problem;
   OptimumCurve curve;
 };
-
-/// A row for each point and each event, named by its kind, in the order of the curve.
-void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumCurveResult> results);
 
 /// Over s, with a line for each result: each parameter of the design (NAME_PARAMETER), the amplitude
 /// (NAME_amplitude) and the stick share of each friction element (NAME_stick).

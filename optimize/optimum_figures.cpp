@@ -1,6 +1,6 @@
 // The figures of optima.
 #include <arcslip/optimize/case_label.hpp>
-#include <arcslip/optimize/optimum_output.hpp>
+#include <arcslip/optimize/optimum_figures.hpp>
 #include <arcslip/output/draw_figures.hpp>
 #include <arcslip/output/units.hpp>
 

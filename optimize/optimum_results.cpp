@@ -62,7 +62,8 @@ void add_design(const scene::Scene& scene, const OptimumProblem& problem, Get de
 
 TableOf<Evaluation> course(const scene::Scene& scene, const OptimumProblem& problem) {
   TableOf<Evaluation> table;
-  add_design(scene, problem, [](const Evaluation& at) -> const auto& { return at.design; }, table);
+  add_design(
+      scene, problem, [](const Evaluation& at) -> const auto& { return at.design; }, table);
   table.add({"amplitude"}, "m", "of the criterion; null: unbounded",
             [](const Evaluation& at) { return at.amplitude; });
   return table;
@@ -70,9 +71,11 @@ TableOf<Evaluation> course(const scene::Scene& scene, const OptimumProblem& prob
 
 TableOf<CaseResult> cases(const scene::Scene& scene, const OptimumProblem& problem) {
   TableOf<CaseResult> table;
-  table.add({"set"}, "", "what the case sets", [&scene](const CaseResult& at) { return studies::named(scene, at.set); });
+  table.add({"set"}, "", "what the case sets",
+            [&scene](const CaseResult& at) { return studies::named(scene, at.set); });
   if (!problem.scatter.empty()) {
-    table.add({"scatter"}, "", "values of what scatters", [&scene](const CaseResult& at) { return studies::named(scene, at.scatter); });
+    table.add({"scatter"}, "", "values of what scatters",
+              [&scene](const CaseResult& at) { return studies::named(scene, at.scatter); });
     table.add({"of"}, "", "which of the study's cases it belongs to, from 1",
               [](const CaseResult& at) { return at.of + 1; });
   }
@@ -85,7 +88,8 @@ TableOf<CaseResult> cases(const scene::Scene& scene, const OptimumProblem& probl
   table.add({"weight"}, "", "of its amplitude", [](const CaseResult& at) { return at.weight; });
   table.add({"active"}, "", "as high as the highest, within 1e-6 (mean: always)",
             [](const CaseResult& at) { return at.active; });
-  table.add({"multiplier"}, "", "share in the balance of gradients", [](const CaseResult& at) { return at.multiplier; });
+  table.add({"multiplier"}, "", "share in the balance of gradients",
+            [](const CaseResult& at) { return at.multiplier; });
   table.add({"amplitude"}, "m", "without the weight", [](const CaseResult& at) { return at.amplitude; });
   table.add(responses(scene), [](const CaseResult& at) { return &at.point; });
   return table;
@@ -111,7 +115,8 @@ Object range(const ToleranceRange& range) {
           {"upper_is_limit", range.upper_is_limit}};
 }
 
-Object certificate(const scene::Scene& scene, const OptimumProblem& problem, const Certificate& c, bool has_cases) {
+Object certificate(const scene::Scene& scene, const OptimumProblem& problem, const Certificate& c,
+                   bool has_cases) {
   const auto in_case = [&](Object object, std::size_t number) {
     if (has_cases) object.push_back({"case", number + 1});
     return object;
@@ -147,8 +152,9 @@ Object certificate(const scene::Scene& scene, const OptimumProblem& problem, con
                                 {"weight", peak.weight}},
                                peak.in_case));
   for (const ActiveLimit& limit : c.limits)
-    limits.emplace_back(in_case(
-        {{"limit", limit.limit}, {"multiplier", limit.multiplier}, {"by_height", limit.by_height}}, limit.in_case));
+    limits.emplace_back(
+        in_case({{"limit", limit.limit}, {"multiplier", limit.multiplier}, {"by_height", limit.by_height}},
+                limit.in_case));
   for (const OtherResponse& other : c.others)
     others.emplace_back(in_case({{"found_by", other.found_by},
                                  {"frequency", in_scene_unit(scene, other.omega)},
@@ -165,8 +171,9 @@ Object certificate(const scene::Scene& scene, const OptimumProblem& problem, con
 Object direct(const scene::Scene& scene, const OptimumResult& result) {
   const DirectOptimum& direct = result.direct;
   if (!direct.found) return {{"message", direct.message}};
-  Object all{{result.problem.over[0].name, direct.point.over,
-              studies::unit_of(scene, result.problem.over[0].name)}, {"amplitude", direct.point.amplitude, "m"}};
+  Object all{
+      {result.problem.over[0].name, direct.point.over, studies::unit_of(scene, result.problem.over[0].name)},
+      {"amplitude", direct.point.amplitude, "m"}};
   add_response(scene, direct.point, all);
   all.push_back({"difference", Object{{"design", result.difference_of_design()},
                                       {"amplitude", result.difference_of_amplitude()}}});
@@ -191,7 +198,8 @@ Object facts(const scene::Scene& scene, const OptimumResult& result) {
                          {"seconds", found.seconds, "s"},
                          {"notes", texts(found.notes)}});
   if (found.certificate)
-    all.push_back({"certificate", certificate(scene, result.problem, *found.certificate, result.has_cases())});
+    all.push_back(
+        {"certificate", certificate(scene, result.problem, *found.certificate, result.has_cases())});
   if (result.direct.found || !result.direct.message.empty()) all.push_back({"direct", direct(scene, result)});
   return all;
 }
@@ -199,8 +207,10 @@ Object facts(const scene::Scene& scene, const OptimumResult& result) {
 TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult& result) {
   TableOf<OptimumPoint> table;
   const std::string& along = result.curve.along;
-  table.add({along}, studies::unit_of(scene, along), "the parameter, here", [](const OptimumPoint& at) { return at.along; });
-  add_design(scene, result.problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
+  table.add({along}, studies::unit_of(scene, along), "the parameter, here",
+            [](const OptimumPoint& at) { return at.along; });
+  add_design(
+      scene, result.problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
   table.add({"amplitude"}, "m", "A_max", [](const OptimumPoint& at) { return at.amplitude; });
   table.add({"peaks"}, "", "those that are active", [&scene](const OptimumPoint& at) {
     Value::List peaks;
@@ -212,9 +222,10 @@ TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult
     return peaks;
   });
   for (std::size_t k = 0; k < result.problem.over.size(); ++k)
-    table.add({"at_bound", result.problem.over[k].name}, "", "`lower`, `inside`, `upper`", [k](const OptimumPoint& at) {
-      return std::string(at.at_bound[k] < 0 ? "lower" : at.at_bound[k] > 0 ? "upper" : "inside");
-    });
+    table.add({"at_bound", result.problem.over[k].name}, "", "`lower`, `inside`, `upper`",
+              [k](const OptimumPoint& at) {
+                return std::string(at.at_bound[k] < 0 ? "lower" : at.at_bound[k] > 0 ? "upper" : "inside");
+              });
   table.add({"minimum"}, "", "false: a saddle", [](const OptimumPoint& at) { return at.minimum; });
   table.add(responses(scene), [](const OptimumPoint& at) { return &at.response; });
   return table;
@@ -230,11 +241,14 @@ TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumCurveResult
     return event.parameter.empty() ? std::nullopt : std::optional(event.parameter);
   });
   table.add({"frequency"}, std::string(scene::unit_name(scene.frequency_unit)), "of the peak that changes",
-            [of_peak, &scene](const OptimumEvent& event) { return of_peak(event, in_scene_unit(scene, event.omega)); });
+            [of_peak, &scene](const OptimumEvent& event) {
+              return of_peak(event, in_scene_unit(scene, event.omega));
+            });
   table.add({"omega"}, "rad/s", "of the peak that changes",
             [of_peak](const OptimumEvent& event) { return of_peak(event, event.omega); });
   table.add({"nonsmooth"}, "", "at another event", [](const OptimumEvent& event) { return event.nonsmooth; });
-  table.add({"after"}, "", "index of the point before it", [](const OptimumEvent& event) { return event.after; });
+  table.add({"after"}, "", "index of the point before it",
+            [](const OptimumEvent& event) { return event.after; });
   table.add(points(scene, result), [](const OptimumEvent& event) { return &event.point; }, {"point"});
   return table;
 }
@@ -255,22 +269,26 @@ void add(const scene::Scene& scene, std::span<const OptimumResult> optima, resul
   // All of a study have the same columns.
   add_schema(optima.empty() ? OptimumResult() : optima.front());
   for (const OptimumResult& each : optima) {
-    results::Result result{.schema = all.schemas.size() - 1,
-                           .head = {each.study, each.kind, studies::named(scene, each.set)},
-                           .tables = {course(scene, each.problem).rows(each.optimum.evaluations)},
-                           .end = {observables::name(each.status), studies::stop(each.stop), facts(scene, each)}};
+    results::Result result{
+        .schema = all.schemas.size() - 1,
+        .head = {each.study, each.kind, studies::named(scene, each.set)},
+        .tables = {course(scene, each.problem).rows(each.optimum.evaluations)},
+        .end = {observables::name(each.status), studies::stop(each.stop), facts(scene, each)}};
     if (each.has_cases()) result.tables.push_back(cases(scene, each.problem).rows(each.optimum.cases));
     all.results.push_back(std::move(result));
   }
 }
 
 void add(const scene::Scene& scene, std::span<const OptimumCurveResult> curves, results::Results& all) {
-  const auto add_schema = [&](std::vector<results::Column> of_points, std::vector<results::Column> of_events) {
-    all.schemas.push_back({.format = "arcslip-optimum-curves-1",
-                           .list = "optimum_curves",
-                           .noun = "curve",
-                           .tables = {{"points", std::move(of_points), {"elements"}}, {"events", std::move(of_events)}}});
-    for (const OptimumCurveResult& each : curves) studies::add_columns(scene, each.set, all.schemas.back().set);
+  const auto add_schema = [&](std::vector<results::Column> of_points,
+                              std::vector<results::Column> of_events) {
+    all.schemas.push_back(
+        {.format = "arcslip-optimum-curves-1",
+         .list = "optimum_curves",
+         .noun = "curve",
+         .tables = {{"points", std::move(of_points), {"elements"}}, {"events", std::move(of_events)}}});
+    for (const OptimumCurveResult& each : curves)
+      studies::add_columns(scene, each.set, all.schemas.back().set);
   };
   if (curves.empty()) add_schema({}, {});
   for (const OptimumCurveResult& each : curves) {
@@ -278,18 +296,20 @@ void add(const scene::Scene& scene, std::span<const OptimumCurveResult> curves, 
     const auto event_table = events(scene, each);
     if (&each == &curves.front()) add_schema(point_table.columns(), event_table.columns());
     const OptimumCurve& curve = each.curve;
-    all.results.push_back({.schema = all.schemas.size() - 1,
-                           .head = {each.study, each.kind, studies::named(scene, each.set), {{"along", curve.along}}},
-                           .tables = {point_table.rows(curve.points), event_table.rows(curve.events)},
-                           .end = {observables::name(curve.status), studies::stop(curve.stop),
-                                   {{"notes", texts(curve.notes)},
-                                    {"pieces", curve.work.pieces},
-                                    {"evaluations", curve.work.evaluations},
-                                    {"hessians", curve.work.hessians},
-                                    {"responses", curve.work.peaks.responses},
-                                    {"followed", curve.work.peaks.followed},
-                                    {"factorizations", curve.work.peaks.factorizations},
-                                    {"seconds", curve.work.seconds, "s"}}}});
+    all.results.push_back(
+        {.schema = all.schemas.size() - 1,
+         .head = {each.study, each.kind, studies::named(scene, each.set), {{"along", curve.along}}},
+         .tables = {point_table.rows(curve.points), event_table.rows(curve.events)},
+         .end = {observables::name(curve.status),
+                 studies::stop(curve.stop),
+                 {{"notes", texts(curve.notes)},
+                  {"pieces", curve.work.pieces},
+                  {"evaluations", curve.work.evaluations},
+                  {"hessians", curve.work.hessians},
+                  {"responses", curve.work.peaks.responses},
+                  {"followed", curve.work.peaks.followed},
+                  {"factorizations", curve.work.peaks.factorizations},
+                  {"seconds", curve.work.seconds, "s"}}}});
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Optima and curves of optima as results, formats "arcslip-optimum-1" and "arcslip-optimum-curves-1": tables of
-// the designs that were looked at and of the cases; of the points of a curve and its events.
+// Optima and curves of optima as results, formats "arcslip-optimum-1" and "arcslip-optimum-curves-1": tables
+// of the designs that were looked at and of the cases; of the points of a curve and its events.
 
 #include <arcslip/optimize/optimum_curve_output.hpp>
 #include <arcslip/optimize/optimum_study.hpp>

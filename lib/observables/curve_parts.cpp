@@ -109,7 +109,8 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
     }
     for (std::size_t i = 0; i < at_events.size(); ++i) {
       const auto beyond = std::upper_bound(at_points.begin(), at_points.end(), at_events[i]);
-      part.events[i].after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(beyond - at_points.begin(), 1)) - 1;
+      part.events[i].after =
+          static_cast<std::size_t>(std::max<std::ptrdiff_t>(beyond - at_points.begin(), 1)) - 1;
     }
     if (is_one_place(part) && curve.points.size() > part.points.size()) continue;
     finish(part, curve, begin == -HUGE_VAL, end == HUGE_VAL);

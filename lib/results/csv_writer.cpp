@@ -21,10 +21,11 @@ std::string field(const std::string& text) {
   return quoted + '"';
 }
 
-/// A name or another text as a field. A spreadsheet takes what begins with =, +, - or @ for a formula: a ' goes
-/// before it. What is not to be shown is escaped.
+/// A name or another text as a field. A spreadsheet takes what begins with =, +, - or @ for a formula: a '
+/// goes before it. What is not to be shown is escaped.
 std::string text_field(const std::string& text) {
-  const bool is_formula = !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
+  const bool is_formula =
+      !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
   return field((is_formula ? "'" : "") + visible(text));
 }
 
@@ -104,7 +105,8 @@ void CsvWriter::curve(const Head& head, std::size_t schema) {
   schema_ = schema;
   first_ = text_field(head.study);
   head_.clear();
-  for (const Member& setting : head.set) head_.emplace(title({&setting.key, 1}, setting.unit), cell(setting.value));
+  for (const Member& setting : head.set)
+    head_.emplace(title({&setting.key, 1}, setting.unit), cell(setting.value));
   for (const std::string& name : set_) {
     const auto found = head_.find(name);
     first_ += "," + (found == head_.end() ? "" : found->second);
@@ -112,7 +114,8 @@ void CsvWriter::curve(const Head& head, std::size_t schema) {
   const long number = ++count_[schemas_[schema].noun];
   std::vector<std::string> nouns;
   for (const Schema& each : schemas_) add(each.noun, nouns);
-  for (const std::string& noun : nouns) first_ += "," + (noun == schemas_[schema].noun ? std::to_string(number) : "");
+  for (const std::string& noun : nouns)
+    first_ += "," + (noun == schemas_[schema].noun ? std::to_string(number) : "");
 }
 
 void CsvWriter::rows(std::size_t table, const Rows& rows) {
@@ -200,6 +203,13 @@ void CsvSummary::finish() {
     }
     out_ << "\r\n";
   }
+}
+
+std::vector<std::string> table_keys(const Results& results) {
+  std::vector<std::string> keys;
+  for (const Schema& schema : results.schemas)
+    for (const Table& table : schema.tables) add(table.key, keys);
+  return keys;
 }
 
 void write_csv(std::ostream& out, const Results& results, const std::string& table) {

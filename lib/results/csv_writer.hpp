@@ -31,11 +31,11 @@ class CsvWriter : public Sink {
   std::ostream& out_;
   std::string key_;
   std::vector<Schema> schemas_;
-  std::vector<std::string> set_, columns_;  // titles
-  std::size_t schema_ = 0;                  // of the result that is open
-  std::map<std::string, long> count_;       // results so far, by noun
-  std::map<std::string, std::string> head_; // what the result sets, by titles
-  std::string first_;                       // cells of each row of the result
+  std::vector<std::string> set_, columns_;   // titles
+  std::size_t schema_ = 0;                   // of the result that is open
+  std::map<std::string, long> count_;        // results so far, by noun
+  std::map<std::string, std::string> head_;  // what the result sets, by titles
+  std::string first_;                        // cells of each row of the result
 };
 
 /// Writes a row for each result: status, reason and message of its end, and all facts that are numbers, flags
@@ -62,6 +62,9 @@ class CsvSummary : public Sink {
   std::vector<std::string> titles_;  // in the order in which they came
   std::vector<Row> rows_;
 };
+
+/// Of all tables, each once.
+std::vector<std::string> table_keys(const Results& results);
 
 void write_csv(std::ostream& out, const Results& results, const std::string& table);
 void write_csv_summary(std::ostream& out, const Results& results);

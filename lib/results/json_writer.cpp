@@ -159,7 +159,9 @@ class JsonWriter::TableText {
   void add_row(const Rows& rows, std::size_t i) {
     text_ += std::exchange(separator_, ",\n");
     Members members(text_);
-    const auto has = [&](std::size_t c) { return rows.columns[c].absent.empty() || !rows.columns[c].absent[i]; };
+    const auto has = [&](std::size_t c) {
+      return rows.columns[c].absent.empty() || !rows.columns[c].absent[i];
+    };
     for (std::size_t c = 0; c < rows.columns.size(); ++c) {
       if (!has(c)) continue;
       members.key(paths_[c]);
@@ -212,9 +214,11 @@ void JsonWriter::begin(const Header& header, std::span<const Schema> schemas) {
   schemas_.assign(schemas.begin(), schemas.end());
   const bool one = std::all_of(schemas.begin(), schemas.end(),
                                [&](const Schema& schema) { return schema.list == schemas.front().list; });
-  out_ << "{\"format\": " << json_quoted(one && !schemas.empty() ? schemas.front().format : "arcslip-results-1")
+  out_ << "{\"format\": "
+       << json_quoted(one && !schemas.empty() ? schemas.front().format : "arcslip-results-1")
        << ",\n\"program\": " << json_quoted(header.program)
-       << ",\n\"scene_hash\": " << json_quoted(header.scene_hash) << ",\n\"title\": " << json_quoted(header.title)
+       << ",\n\"scene_hash\": " << json_quoted(header.scene_hash)
+       << ",\n\"title\": " << json_quoted(header.title)
        << ",\n\"frequency_unit\": " << json_quoted(header.frequency_unit);
 }
 

@@ -11,10 +11,11 @@ namespace arcslip::results {
 /// Writes one object: {"format", "program", "scene_hash", "title", "frequency_unit", LIST: [R, ...]}, and so
 /// for each list; its format is that of the schemas if all have one, else "arcslip-results-1". The results of
 /// a list come one after the other. Behind a list with one result stands what Schema::beside says of it. With
-///   R = {"study", "kind", facts of the head, "set", a key for each table, "status", "stop", facts of the end}
+///   R = {"study", "kind", facts of the head, "set", a key for each table, "status", "stop", facts of the
+///   end}
 /// where "study" and "kind" are left out where nobody said them. A table is a list of objects, a row a line,
-/// or an object of lists. Numbers are the shortest that read back exactly; what is not finite is null. Rows of
-/// the first table are written as they come, those of others are kept until the result ends.
+/// or an object of lists. Numbers are the shortest that read back exactly; what is not finite is null. Rows
+/// of the first table are written as they come, those of others are kept until the result ends.
 class JsonWriter : public Sink {
  public:
   explicit JsonWriter(std::ostream& out);
@@ -40,7 +41,7 @@ class JsonWriter : public Sink {
   std::size_t in_list_ = 0;           // results so far
   const Schema* schema_ = nullptr;    // of the result that is open
   std::vector<std::unique_ptr<TableText>> tables_;
-  std::string beside_;                // of the first result of a list
+  std::string beside_;  // of the first result of a list
 };
 
 /// A value as JSON.

@@ -37,7 +37,8 @@ void replay(const Results& results, Sink& sink) {
   sink.begin(results.header, results.schemas);
   for (auto schema = results.schemas.begin(); schema != results.schemas.end(); ++schema) {
     const auto in_list = [&](const Schema& other) { return other.list == schema->list; };
-    if (std::find_if(results.schemas.begin(), schema, in_list) != schema) continue;  // done with the first of them
+    if (std::find_if(results.schemas.begin(), schema, in_list) != schema)
+      continue;  // done with the first of them
     for (const Result& result : results.results) {
       if (!in_list(results.schemas[result.schema])) continue;
       sink.curve(result.head, result.schema);

@@ -46,8 +46,8 @@ struct Schema {
   std::string list;    // key of the list in which a document holds them: "branches"
   std::string noun;    // "branch"
   std::vector<Table> tables;
-  std::vector<Column> set{};  // of Head::set, in any of them
-  std::vector<std::string> beside{};      // keys of the one result of a document that stand beside its list, too
+  std::vector<Column> set{};          // of Head::set, in any of them
+  std::vector<std::string> beside{};  // keys of the one result of a document that stand beside its list, too
 };
 
 /// The cells of one column, each where the row has it; a number that is not finite is no value.

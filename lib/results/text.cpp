@@ -102,7 +102,8 @@ std::string json_quoted(std::string_view text) {
     const Character next = first_of(text);
     if (!next.valid || within(next.code, 0xd800, 0xdfff)) {
       out += "\xef\xbf\xbd";
-    } else if (const auto at = next.code < 0x80 ? short_escapes.find(static_cast<char>(next.code)) : short_escapes.npos;
+    } else if (const auto at =
+                   next.code < 0x80 ? short_escapes.find(static_cast<char>(next.code)) : short_escapes.npos;
                at != short_escapes.npos) {
       (out += '\\') += names[at];
     } else {

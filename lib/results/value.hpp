@@ -13,7 +13,8 @@ namespace arcslip::results {
 
 struct Member;
 
-/// Nothing, a flag, a whole number, a number, a text, a list of numbers, a list of values, or members by name.
+/// Nothing, a flag, a whole number, a number, a text, a list of numbers, a list of values, or members by
+/// name.
 class Value {
  public:
   using Numbers = std::vector<double>;

@@ -30,13 +30,15 @@ results::TableOf<ResponseEvent> events(const scene::Scene& scene, const Response
             [](const ResponseEvent& event) { return event.nonsmooth; });
   table.add({"located"}, "", "false: the nearest point in its place",
             [](const ResponseEvent& event) { return event.located; });
-  table.add({"after"}, "", "index of the point before it", [](const ResponseEvent& event) { return event.after; });
+  table.add({"after"}, "", "index of the point before it",
+            [](const ResponseEvent& event) { return event.after; });
   table.add(responses(scene, {branch.over, true, options.coefficients}),
             [](const ResponseEvent& event) { return &event.point; });
   return table;
 }
 
-results::Schema schema(const scene::Scene& scene, const ResponseBranch& branch, const BranchOptions& options) {
+results::Schema schema(const scene::Scene& scene, const ResponseBranch& branch,
+                       const BranchOptions& options) {
   return {.format = "arcslip-branches-1",
           .list = "branches",
           .noun = "branch",
@@ -45,14 +47,19 @@ results::Schema schema(const scene::Scene& scene, const ResponseBranch& branch, 
 }
 
 results::Object solver(const observables::SolverSummary& summary) {
-  return {{"linear_solver", summary.linear_solver}, {"unknowns", summary.unknowns},
-          {"points", summary.points},               {"rejected_steps", summary.rejected_steps},
-          {"residuals", summary.residuals},         {"jacobians", summary.jacobians},
-          {"factorizations", summary.factorizations}, {"solves", summary.solves},
+  return {{"linear_solver", summary.linear_solver},
+          {"unknowns", summary.unknowns},
+          {"points", summary.points},
+          {"rejected_steps", summary.rejected_steps},
+          {"residuals", summary.residuals},
+          {"jacobians", summary.jacobians},
+          {"factorizations", summary.factorizations},
+          {"solves", summary.solves},
           {"seconds", summary.seconds, "s"}};
 }
 
-results::Result result(const scene::Scene& scene, const ResponseBranch& branch, const BranchOptions& options) {
+results::Result result(const scene::Scene& scene, const ResponseBranch& branch,
+                       const BranchOptions& options) {
   results::Result result;
   result.head = {branch.study, branch.kind, named(scene, branch.set)};
   if (!branch.over.empty()) result.head.facts.push_back({"over", branch.over});

@@ -34,7 +34,8 @@ void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::
          results::TableOf<Item>& table) {
   for (const Quantity<Of>& quantity : quantities) {
     if (quantity.in && !quantity.in(origin)) continue;
-    if ((!asked.maxima && quantity.path.starts_with("maxima.")) || (!asked.amplitude && quantity.path == "amplitude"))
+    if ((!asked.maxima && quantity.path.starts_with("maxima.")) ||
+        (!asked.amplitude && quantity.path == "amplitude"))
       continue;
     std::vector<std::string> path = prefix;
     for (std::string& key : keys(quantity.path)) path.push_back(std::move(key));
@@ -65,10 +66,12 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
   if (!asked.over.empty())
     table.add({asked.over}, unit_of(scene, asked.over), "the parameter, here",
               [](const ResponsePoint& response) { return response.over; });
-  add(observables::response_quantities(), scene, scene, asked, {},
+  add(
+      observables::response_quantities(), scene, scene, asked, {},
       [](const ResponsePoint& response) { return &response; }, table);
   for (std::size_t e = 0; e < scene.elements.size(); ++e)
-    add(observables::element_quantities(), scene.elements[e], scene, asked,
+    add(
+        observables::element_quantities(), scene.elements[e], scene, asked,
         {"elements", scene.elements[e].name},
         [e](const ResponsePoint& response) {
           return e < response.elements.size() ? &response.elements[e] : nullptr;
@@ -93,7 +96,9 @@ results::Object named(const scene::Scene& scene, const NamedValues& values) {
 
 void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<results::Column>& columns) {
   for (const auto& [name, value] : set) {
-    const auto is_there = [&, &name = name](const results::Column& column) { return column.path.front() == name; };
+    const auto is_there = [&, &name = name](const results::Column& column) {
+      return column.path.front() == name;
+    };
     if (std::none_of(columns.begin(), columns.end(), is_there))
       columns.push_back({{name}, results::Type::number, unit_of(scene, name), "given by `for_each`"});
   }

@@ -64,12 +64,12 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
                       {"energy_defect", motion.energy.defect(), "J"},
                       {"multipliers", std::move(multipliers)}};
   if (motion.stable) all.push_back({"stable", *motion.stable});
-  if (motion.elements.size() == 1) all.push_back({"stick_percent", motion.elements.front().stick_percent, "%"});
+  if (motion.elements.size() == 1)
+    all.push_back({"stick_percent", motion.elements.front().stick_percent, "%"});
   results::Object elements;
   for (const observables::ElementMotion& element : motion.elements)
-    elements.push_back(
-        {element.name,
-         results::Object{{"stick_percent", element.stick_percent, "%"}, {"energy", element.energy, "J"}}});
+    elements.push_back({element.name, results::Object{{"stick_percent", element.stick_percent, "%"},
+                                                      {"energy", element.energy, "J"}}});
   all.push_back({"elements", std::move(elements)});
   return all;
 }
@@ -81,11 +81,14 @@ void add(const scene::Scene& scene, std::span<const Motion> motions, results::Re
   for (const Motion& motion : motions) {
     std::vector<Instant> instants;
     for (std::size_t i = 0; i < motion.history.time.size(); ++i) instants.push_back({&motion.history, i});
-    all.results.push_back({.schema = all.schemas.size(),
-                           .head = {motion.study, motion.kind, named(scene, motion.set),
-                                    {{"parameters", named(scene, motion.parameters)}}},
-                           .tables = {table.rows(instants)},
-                           .end = {observables::name(motion.status), stop(motion.stop), facts(scene, motion)}});
+    all.results.push_back(
+        {.schema = all.schemas.size(),
+         .head = {motion.study,
+                  motion.kind,
+                  named(scene, motion.set),
+                  {{"parameters", named(scene, motion.parameters)}}},
+         .tables = {table.rows(instants)},
+         .end = {observables::name(motion.status), stop(motion.stop), facts(scene, motion)}});
   }
   results::Schema schema{.format = "arcslip-time-1",
                          .list = "motions",

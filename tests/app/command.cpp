@@ -53,8 +53,9 @@ TEST_CASE("frf --csv - prints the table and nothing else") {
   const Ended ended = run(place, {"frf", "scene.json", "--harmonics", "1", "--csv", "-"});
   CHECK(ended.exit_code == 0);
   CHECK(ended.err.empty());
-  CHECK(ended.out.find("damper.normal_load (N),branch,event,frequency (Hz),amplitude (m)") == 0);
-  CHECK(ended.out.find("\r\n3,5,peak,") != std::string::npos);
+  CHECK(ended.out.find("study,damper.normal_load (N),branch,omega (rad/s),frequency (Hz),amplitude (m)") ==
+        0);
+  CHECK(ended.out.find("\r\nfrf,3,5,") != std::string::npos);
 }
 
 TEST_CASE("frf prints a table of peaks, and writes what it is asked to") {
@@ -67,7 +68,8 @@ TEST_CASE("frf prints a table of peaks, and writes what it is asked to") {
   CHECK(ended.out.find("frequency (Hz)") != std::string::npos);
   CHECK(ended.out.find(" peak  ") != std::string::npos);
   CHECK(ended.out.find("complete") != std::string::npos);
-  CHECK(place.files() == std::vector<std::string>{"a.csv", "a.json", "scene.json"});
+  CHECK(place.files() ==
+        std::vector<std::string>{"a.csv", "a.events.csv", "a.json", "a.summary.csv", "scene.json"});
   const Json branch = Json::parse(place.read("a.json"))["branches"][0];
   CHECK(branch["points"][0]["frequency"].get<double>() == Approx(19));
   CHECK(branch["harmonics"] == Json{1, 3, 5, 7});
@@ -93,7 +95,10 @@ TEST_CASE("peaks finds the load of the least peak, and prints it as a table or a
   CHECK(table.out.find(
             "damper.normal_load (N)    event  frequency (Hz)       A_max (m)  stick (%)    branch\n") == 0);
   CHECK(table.out.find(" minimum ") != std::string::npos);
-  CHECK(place.read("peaks.csv").find("damper.normal_load (N),branch,event,frequency (Hz)") == 0);
+  CHECK(place.read("peaks.csv").find("study,branch,damper.normal_load (N),omega (rad/s),frequency (Hz)") ==
+        0);
+  CHECK(place.read("peaks.events.csv").find("\r\npeaks,1,minimum,") != std::string::npos);
+  CHECK(place.read("peaks.summary.csv").find("\r\npeaks,peaks,1,damper.normal_load,") != std::string::npos);
 
   const Ended json = run(place, {"peaks", "scene.json", "--json", "-"});
   CHECK(json.exit_code == 0);
@@ -234,8 +239,8 @@ TEST_CASE("run writes every study into out/NAME and tells the places of the file
   CHECK(ended.exit_code == 0);
   CHECK(ended.err.empty());
   for (const std::string name : {"frf", "near_the_peak"}) {
-    for (const char* extension : {".scene.json", ".json", ".csv", ".dat", ".gp", "_amplitude.svg",
-                                  "_amplitude.png", "_stick.svg", "_stick.png"}) {
+    for (const char* extension : {".scene.json", ".json", ".csv", ".events.csv", ".summary.csv", ".dat",
+                                  ".gp", "_amplitude.svg", "_amplitude.png", "_stick.svg", "_stick.png"}) {
       const std::string path = "out/two/" + name + extension;
       CAPTURE(path);
       CHECK(std::filesystem::exists(place / path));
@@ -246,7 +251,7 @@ TEST_CASE("run writes every study into out/NAME and tells the places of the file
     CAPTURE(figure);
     CHECK(std::filesystem::exists(place / ("out/two/peaks" + std::string(figure) + ".svg")));
   }
-  CHECK(place.files().size() == 2 + 2 + 18 + 11 + 17);  // scenes, folders, results
+  CHECK(place.files().size() == 2 + 2 + 22 + 13 + 18);  // scenes, folders, results
   CHECK(Json::parse(place.read("out/two/frf.json"))["branches"].size() == 12);
 }
 
@@ -267,10 +272,10 @@ TEST_CASE("run tells of each branch in one file which study it is of") {
   CHECK(branches[12]["study"] == "peaks");
   CHECK(branches[12]["kind"] == "peaks");
   const std::string csv = place.read("a.csv");
-  CHECK(csv.find("study,damper.normal_load (N),branch,event,") == 0);
-  CHECK(csv.find("\r\nfrf,0.01,1,") != std::string::npos);
-  CHECK(csv.find("\r\npeaks,0.01,13,") != std::string::npos);
-  CHECK(place.read("results/peaks.csv").find("damper.normal_load (N),branch,") == 0);
+  CHECK(csv.find("study,branch,omega (rad/s),") == 0);
+  CHECK(csv.find("\r\nfrf,1,") != std::string::npos);
+  CHECK(csv.find("\r\npeaks,13,") != std::string::npos);
+  CHECK(place.read("results/peaks.csv").find("study,branch,damper.normal_load (N),") == 0);
 }
 
 TEST_CASE("without gnuplot run says so, writes the data all the same, and is done") {
@@ -282,6 +287,9 @@ TEST_CASE("without gnuplot run says so, writes the data all the same, and is don
   for (const std::string study : {"best_load", "frf", "peaks"})
     for (const char* extension : {".csv", ".dat", ".gp", ".json", ".scene.json"})
       expected.push_back("out/scene/" + study + extension);
+  for (const char* extension : {".events.csv", ".summary.csv"})
+    for (const std::string study : {"frf", "peaks"}) expected.push_back("out/scene/" + study + extension);
+  expected.push_back("out/scene/best_load.summary.csv");
   for (const char* extension : {".dat", ".gp"})
     expected.push_back("out/scene/best_load_responses" + std::string(extension));
   std::sort(expected.begin(), expected.end());

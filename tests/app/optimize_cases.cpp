@@ -97,8 +97,10 @@ TEST_CASE("the table and the CSV tell every case") {
     CHECK(ended.out.find(part) != std::string::npos);
   }
   CHECK(ended.out.find("A_max") == std::string::npos);
-  const std::string csv = place.read("a.csv");
-  for (const char* part : {"\r\n1,case 1,", "\r\n1,case 2,", "\r\n1,optimum,"})
+  const std::string csv = place.read("a.cases.csv");
+  CHECK(csv.find("study,optimum,set,response,weight,active,multiplier,amplitude (m),") == 0);
+  for (const char* part :
+       {R"(,1,"{""force.cosine"":1.0}",,1,true,)", R"(,1,"{""force.cosine"":2.0}",,0.5,true,)"})
     CHECK(csv.find(part) != std::string::npos);
 }
 
@@ -229,8 +231,9 @@ TEST_CASE("where the optimum along the force comes to a bound, the table, the CS
         Approx(6 / curve["points"][0]["damper.normal_load"].get<double>()).epsilon(1e-6));
   CHECK(curve["points"].back()["at_bound"]["damper.normal_load"] == "upper");
   const std::string csv = place.read("out/best_load.csv");
-  CHECK(csv.find("curve,what,force.cosine (N),damper.normal_load (N),amplitude (m),") == 0);
-  CHECK(csv.find("\r\n1,bound_reached,") != std::string::npos);
+  CHECK(csv.find("study,curve,force.cosine (N),damper.normal_load (N),amplitude (m),") == 0);
+  const std::string events = place.read("out/best_load.events.csv");
+  CHECK(events.find("\r\nbest load,1,bound_reached,damper.normal_load,") != std::string::npos);
   const std::string script = place.read("out/best_load.gp");
   for (const char* figure :
        {"best_load_damper.normal_load.svg", "best_load_amplitude.svg", "best_load_stick.svg"})

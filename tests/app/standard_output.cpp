@@ -26,7 +26,7 @@ TEST_CASE("a reader that goes away early leaves all files and an error, since it
   CHECK(place.read("out") == "{\"format\": ");
   CHECK(place.read("err").find("cannot write standard output: Broken pipe") != std::string::npos);
   CHECK(place.read("code") == "1\n");
-  CHECK(place.read("a.csv").find("\r\n3,5,peak,") != std::string::npos);
+  CHECK(place.read("a.events.csv").find("\r\nfrf,3,5,peak,") != std::string::npos);
 }
 
 TEST_CASE("two runs at once into one folder: the second one is told, and the first one's files are whole") {

@@ -28,7 +28,7 @@ TEST_CASE("time finds the exact periodic motion, and prints it as a table or as 
   CHECK(table.out.find("  method  frequency (Hz)") == 0);
   CHECK(table.out.find("A_max (m)  stick (%)  E_friction (J)  E_viscous (J)") != std::string::npos);
   CHECK(place.read("time.csv")
-            .find("motion,time (s),displacement (m),velocity (m/s),damper.displacement (m)") == 0);
+            .find("study,motion,time (s),displacement (m),velocity (m/s),damper.displacement (m)") == 0);
 
   const Ended ended = with({"--json", "-"});
   CHECK(ended.exit_code == 0);
@@ -128,7 +128,7 @@ TEST_CASE("run writes motions beside branches, each study into its files, and bo
   CHECK(json["motions"][1]["study"] == "loops");
   CHECK(json["motions"][1]["set"]["damper.normal_load"] == 3.0);
   CHECK(Json::parse(place.read("results/loops.json"))["format"] == "arcslip-time-1");
-  CHECK(place.read("results/loops.csv").find("damper.normal_load (N),motion,time (s)") == 0);
+  CHECK(place.read("results/loops.csv").find("study,damper.normal_load (N),motion,time (s)") == 0);
   CHECK(std::filesystem::exists(place / "results/loops.gp"));
   CHECK(
       run(place, {"run", "results/loops.scene.json", "--out", "again", "--quiet"}, {{"PATH", "/nonexistent"}})

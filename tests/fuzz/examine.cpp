@@ -3,7 +3,7 @@
 #include "csv_text.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/output/csv.hpp>
+#include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/branches.hpp>
@@ -206,13 +206,20 @@ class Examination {
   }
 
   void check_results(const scene::Scene& s, const std::vector<observables::ResponseBranch>& branches) {
-    std::ostringstream document, table;
-    results::write_json(document, studies::results_of(s, branches));
+    const results::Results all = studies::results_of(s, branches);
+    std::ostringstream document;
+    results::write_json(document, all);
     const json results = json::parse(document.str(), nullptr, false);
     if (results.is_discarded()) return fault("the results are no JSON:\n" + document.str());
     if (results["branches"].size() != branches.size()) fault("the results have other branches");
-    output::write_csv(table, s, branches);
-    if (!is_whole_table(table.str())) fault("the table is not whole:\n" + table.str().substr(0, 2000));
+    for (const char* key : {"points", "events", "summary"}) {
+      std::ostringstream table;
+      if (key == std::string_view("summary"))
+        results::write_csv_summary(table, all);
+      else
+        results::write_csv(table, all, key);
+      if (!is_whole_table(table.str())) fault("the table is not whole:\n" + table.str().substr(0, 2000));
+    }
   }
 
   const std::string& text_;

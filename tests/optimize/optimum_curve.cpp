@@ -8,6 +8,7 @@
 
 #include <arcslip/optimize/optimum_curve_output.hpp>
 #include <arcslip/optimize/optimum_results.hpp>
+#include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/columns.hpp>
 
@@ -425,17 +426,17 @@ TEST_CASE("result files tell every point of the curve and every event") {
   CHECK(curve["events"][0]["point"]["at_bound"]["damper.normal_load"] == "lower");
 
   std::ostringstream csv;
-  write_csv(csv, s, results);
+  results::write_csv(csv, all, "points");
   std::istringstream lines(csv.str());
   std::string line;
-  std::vector<std::string> all;
-  while (std::getline(lines, line)) all.push_back(line);
-  CHECK(all.size() == 1 + result.curve.points.size() + result.curve.events.size());
-  CHECK(all[0] ==
-        "curve,what,force.cosine (N),damper.normal_load (N),amplitude (m),frequency (Hz),stick (%),"
-        "active peaks,minimum\r");
-  CHECK(all[1].starts_with("1,point,1,5,"));
-  CHECK(contains(csv.str(), "1,bound_left,2.1"));
+  std::vector<std::string> rows;
+  while (std::getline(lines, line)) rows.push_back(line);
+  CHECK(rows.size() == 1 + result.curve.points.size());
+  CHECK(rows[0].starts_with("study,curve,force.cosine (N),damper.normal_load (N),amplitude (m),peaks,"));
+  CHECK(rows[1].starts_with("levels,1,1,5,"));
+  std::ostringstream events;
+  results::write_csv(events, all, "events");
+  CHECK(contains(events.str(), "\r\nlevels,1,bound_left,damper.normal_load,"));
 
   const auto folder = std::filesystem::temp_directory_path() / "arcslip_optimum_curve";
   std::filesystem::create_directories(folder);

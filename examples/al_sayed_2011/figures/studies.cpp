@@ -1,6 +1,5 @@
 #include "studies.hpp"
 
-#include <arcslip/output/event_places.hpp>
 #include <arcslip/output/units.hpp>
 
 #include <algorithm>
@@ -168,14 +167,13 @@ std::vector<double> row(const ResponsePoint& point, const std::vector<Column>& c
 }
 
 Block block(const std::string& label, const ResponseBranch& branch, const std::vector<Column>& columns) {
-  const auto before = output::points_before_events(branch);
   Block result{label, {}};
   const auto add = [&](const ResponsePoint& point) {
     if (!point.unbounded) result.rows.push_back(row(point, columns));
   };
   std::size_t event = 0;
   for (std::size_t i = 0; i <= branch.points.size(); ++i) {
-    for (; event < branch.events.size() && before[event] <= i; ++event) add(branch.events[event].point);
+    for (; event < branch.events.size() && branch.events[event].after < i; ++event) add(branch.events[event].point);
     if (i < branch.points.size()) add(branch.points[i]);
   }
   return result;

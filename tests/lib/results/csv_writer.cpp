@@ -62,6 +62,7 @@ TEST_CASE("a parameter that one study sets and another is over is one column") {
 
 TEST_CASE("the summary as CSV has a row for each result, with all facts that are not lists") {
   CHECK(summary(made_up::results()) ==
-        std::vector<std::string>{"study,kind,load (N),thing,other,over,status,stop.reason,stop.value,best.x (m)",
-                                 "first,kind,2.5,1,,x,complete,end,1,1.5", ",,,,1,,failed,other,,"});
+        std::vector<std::string>{
+            "study,kind,load (N),thing,other,over,status,stop.reason,stop.value,best.x (m)",
+            "first,kind,2.5,1,,x,complete,end,1,1.5", ",,,,1,,failed,other,,"});
 }

@@ -120,8 +120,8 @@ TEST_CASE("numbers in JSON read back exactly, and what is not finite is null") {
 }
 
 TEST_CASE("texts in JSON read back, and none commands a terminal") {
-  for (const std::string text : {"", "a \"b\" \\ / \b\f\n\r\t", "\x01\x1f\x7f", "\u00e9\u20ac\U0001f600", "\u009b31m",
-                                 "\u202e\ufffe\U0001ffff"}) {
+  for (const std::string text : {"", "a \"b\" \\ / \b\f\n\r\t", "\x01\x1f\x7f", "\u00e9\u20ac\U0001f600",
+                                 "\u009b31m", "\u202e\ufffe\U0001ffff"}) {
     const std::string quoted = json(text);
     CAPTURE(quoted);
     CHECK(Json::parse(quoted) == text);

@@ -36,22 +36,23 @@ inline TableOf<Item> table() {
 /// Results of two studies: things with two tables, and others that are written by columns.
 inline Results results() {
   Results all{{"program 1", "hash", "A \"title\"\n", "Hz"}, {}, {}};
-  all.schemas.push_back({.format = "things-1",
-                         .list = "things",
-                         .noun = "thing",
-                         .tables = {{"rows", table().columns(), {"elements"}},
-                                    {"marks", table().columns(), {"elements"}}},
-                         .set = {{{"load"}, Type::number, "N"}},
-                         .beside = {"best", "stop"}});
+  all.schemas.push_back(
+      {.format = "things-1",
+       .list = "things",
+       .noun = "thing",
+       .tables = {{"rows", table().columns(), {"elements"}}, {"marks", table().columns(), {"elements"}}},
+       .set = {{{"load"}, Type::number, "N"}},
+       .beside = {"best", "stop"}});
   all.schemas.push_back({.format = "others-1",
                          .list = "others",
                          .noun = "other",
                          .tables = {{"rows", {table().columns()[0], table().columns()[5]}, {}, true}}});
   const std::vector<Item> items{{0.1, 1, true, "=a, \"b\"", {1, 0.5}, 3.0}, {-0.0, -2, false, "", {}, {}}};
-  all.results.push_back({0,
-                         {"first", "kind", {{"load", 2.5, "N"}}, {{"over", "x"}}},
-                         {table().rows(items), table().rows(std::vector{items[1]})},
-                         {"complete", {{"reason", "end"}, {"value", 1.0}}, {{"best", Object{{"x", 1.5, "m"}}}}}});
+  all.results.push_back(
+      {0,
+       {"first", "kind", {{"load", 2.5, "N"}}, {{"over", "x"}}},
+       {table().rows(items), table().rows(std::vector{items[1]})},
+       {"complete", {{"reason", "end"}, {"value", 1.0}}, {{"best", Object{{"x", 1.5, "m"}}}}}});
   TableOf<Item> some;
   some.add({"x"}, "m", "", [](const Item& item) { return item.number; });
   some.add({"elements", "d", "load"}, "N", "", [](const Item& item) { return item.inner.value_or(7); });

@@ -1,6 +1,7 @@
 #include "catch.hpp"
 #include "lib/output/support.hpp"
 
+#include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/results/version.hpp>
 #include <arcslip/studies/branches.hpp>
@@ -21,6 +22,19 @@ Json written(const scene::Scene& scene, const std::vector<observables::ResponseB
   std::ostringstream text;
   results::write_json(text, studies::results_of(scene, branches, options));
   return Json::parse(text.str());
+}
+
+std::vector<std::string> rows(const scene::Scene& scene,
+                              const std::vector<observables::ResponseBranch>& branches,
+                              const std::string& table = "points") {
+  std::stringstream text;
+  results::write_csv(text, studies::results_of(scene, branches), table);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(text, line);) {
+    REQUIRE(line.ends_with('\r'));
+    all.push_back(line.substr(0, line.size() - 1));
+  }
+  return all;
 }
 
 scene::Scene with_element(const std::string& name, const scene::PartType& type) {
@@ -157,7 +171,8 @@ TEST_CASE("with a nonlinear spring its part of the forces is written, and no ang
   auto branch = support::branch();
   branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
   branch.points[0].forces.nonlinear_spring = {7, 0};
-  const Json json = written(with_element("spring", scene::cubic_spring_type), {branch})["branches"][0]["points"][0];
+  const Json json =
+      written(with_element("spring", scene::cubic_spring_type), {branch})["branches"][0]["points"][0];
   CHECK(json["force_per_displacement"]["in_phase"]["nonlinear_spring"] == 7.0);
   CHECK(json["elements"]["spring"]["equivalent_stiffness"].is_null());
   CHECK_FALSE(json["elements"]["spring"].contains("theta_0"));
@@ -207,4 +222,61 @@ TEST_CASE("an event says after which point of its branch it comes") {
   auto branch = support::branch();
   branch.events[0].after = 2;
   CHECK(written(support::scene(), {branch})["branches"][0]["events"][0]["after"] == 2);
+}
+
+TEST_CASE(
+    "a branch as CSV has a row for each point with its quantities and their units, and one for each event") {
+  const auto points = rows(support::scene(), {support::branch(3), support::branch(0.5)});
+  REQUIRE(points.size() == 1 + 2 * 5);
+  CHECK(points[0].starts_with(
+      "study,damper.normal_load (N),branch,omega (rad/s),frequency (Hz),amplitude (m),unbounded,"
+      "phase (rad),truncation_estimate (m),truncation_flagged,energy_friction (J),"));
+  CHECK(
+      points[0].ends_with(",damper.in_phase (N),damper.out_of_phase (N),damper.equivalent_stiffness (N/m),"
+                          "damper.equivalent_damping (N s/m)"));
+  CHECK(points[1].starts_with(",3,1,6.283185307179586,1,0.01,,0.5,1e-09,false,0.25,0.125,0.375,"));
+  CHECK(points[1].ends_with(",1,0.6,10,0.75"));
+  CHECK(points[6].starts_with(",0.5,2,6.283185307179586,"));
+  const auto events = rows(support::scene(), {support::branch(3)}, "events");
+  REQUIRE(events.size() == 2);
+  CHECK(events[0].starts_with(
+      "study,damper.normal_load (N),branch,kind,nonsmooth,located,after,omega (rad/s),"));
+  CHECK(events[1].starts_with(",3,1,peak,false,true,0,"));
+  CHECK(rows(support::scene(), {}).size() == 1);
+}
+
+TEST_CASE("the parameter that a branch is over is the first column of its table, with its unit") {
+  auto branch = support::peaks();
+  branch.set = {{"c.value", 0.5}};
+  const auto points = rows(support::scene(), {branch});
+  CHECK(points.at(0).starts_with("study,c.value (N s/m),branch,damper.normal_load (N),omega (rad/s),"));
+  CHECK(points.at(2).starts_with(",0.5,1,1,"));
+}
+
+TEST_CASE("a response over the frequency and one over a parameter share that parameter's column") {
+  auto second = support::peaks();
+  second.study = "the peaks";
+  const auto points = rows(support::scene(), {support::branch(3), second});
+  CHECK(points.at(0).find("damper.normal_load (N)") == points.at(0).rfind("damper.normal_load (N)"));
+  CHECK(points.at(0).ends_with(",damper.normal_load (N)"));
+  CHECK(points.at(1).ends_with(",3"));
+  CHECK(points.at(6).starts_with("the peaks,2,9."));
+  CHECK(points.at(6).ends_with(",0.1"));
+}
+
+TEST_CASE("an unbounded peak in CSV has its frequency, and says so") {
+  auto branch = support::branch();
+  branch.events[0].point.unbounded = true;
+  branch.events[0].point.elements.clear();
+  const std::string row = rows(support::scene(), {branch}, "events").at(1);
+  CHECK(row.starts_with(",3,1,peak,false,true,0,9."));
+  CHECK(row.find(",1.5,,true,,,") != std::string::npos);
+}
+
+TEST_CASE("names with commas and quotes are quoted in CSV") {
+  auto scene = support::scene();
+  scene.elements[0].name = "a \"b\", c";
+  auto branch = support::branch();
+  branch.set = {{"a \"b\", c.normal_load", 3}};
+  CHECK(rows(scene, {branch})[0].starts_with("study,\"a \"\"b\"\", c.normal_load (N)\",branch,"));
 }

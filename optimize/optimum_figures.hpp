@@ -1,17 +1,13 @@
 #pragma once
-// Optima as CSV and figures.
+// Figures of optima.
 
 #include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/output/figures.hpp>
 
-#include <iosfwd>
 #include <span>
 #include <string>
 
 namespace arcslip::optimize {
-
-/// A row for each evaluation, one, "case 1" and so on, for each case, and one, "optimum", for the result.
-void write_csv(std::ostream& out, const scene::Scene& scene, std::span<const OptimumResult> results);
 
 /// Of one parameter: the resonance peaks over its bounds with the least one marked, and the ranges in
 /// which the amplitude is within 1 % and 5 % of it shaded (NAME_amplitude, NAME_frequency; unshaded
