@@ -8,7 +8,6 @@
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/visible.hpp>
-#include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
 #include <array>
@@ -168,8 +167,8 @@ ExitCode Writing::code(ExitCode otherwise) const {
 }
 
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     scene::StudyKind kind, const StudyResult& result, bool coefficients,
-                                     Writing& writing) {
+                                     scene::StudyKind kind, const StudyResult& result,
+                                     const results::Results& results, Writing& writing) {
   std::vector<std::string> paths;
   const auto write = [&](const std::string& path, const std::function<void(std::ostream&)>& writer) {
     if (writing.file(path, writer)) {
@@ -177,10 +176,8 @@ std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene
     }
   };
   write(files.path(".scene.json"), [&](std::ostream& out) { out << scene::write(scene); });
-  results::Results of_study{studies::header(scene), {}, {}};
-  add(scene, result, coefficients, of_study);
-  write(files.path(".json"), [&](std::ostream& out) { results::write_json(out, of_study); });
-  const std::vector<File> tables = csv_files(files.path(".csv"), of_study);
+  write(files.path(".json"), [&](std::ostream& out) { results::write_json(out, results); });
+  const std::vector<File> tables = csv_files(files.path(".csv"), results);
   for (const File& table : tables) {
     write(table.path, table.writer);
   }

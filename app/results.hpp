@@ -83,10 +83,10 @@ class Writing {
   bool failed_ = false, stopped_ = false;
 };
 
-/// Writes the files and figures of a study of this kind. Returns the paths of what is there; tells on
-/// standard error what is missing, and why.
+/// Writes the files and figures of a study of this kind; results: those of `result`. Returns the paths of
+/// what is there; tells on standard error what is missing, and why.
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     scene::StudyKind kind, const StudyResult& result, bool coefficients,
-                                     Writing& writing);
+                                     scene::StudyKind kind, const StudyResult& result,
+                                     const results::Results& results, Writing& writing);
 
 }  // namespace arcslip::app

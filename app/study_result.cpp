@@ -142,16 +142,16 @@ void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult
   std::visit([&](const auto& items) { write_table(out, scene, std::span(items)); }, result);
 }
 
-void add(const scene::Scene& scene, const StudyResult& result, bool coefficients, results::Results& all) {
-  std::visit(
+results::Results results_of(const scene::Scene& scene, const StudyResult& result, bool coefficients) {
+  return std::visit(
       [&](const auto& items) {
         using Item = typename std::decay_t<decltype(items)>::value_type;
         if constexpr (std::is_same_v<Item, ResponseBranch>)
-          studies::add(scene, items, {coefficients}, all);
+          return studies::results_of(scene, items, {coefficients});
         else if constexpr (std::is_same_v<Item, Motion>)
-          studies::add(scene, items, all);
+          return studies::results_of(scene, items);
         else
-          optimize::add(scene, items, all);
+          return optimize::results_of(scene, items);
       },
       result);
 }

@@ -1,7 +1,7 @@
 #pragma once
 // What a study gives, and all that the command does with it. A kind of results is one alternative of the
-// variant, with a function of its own for each of these (add, write_figures, write_table, noun, end) and the
-// members study, kind and set; the rest knows no kinds.
+// variant, with a function of its own for each of these (results_of, write_figures, write_table, noun, end)
+// and the members study, kind and set; the rest knows no kinds.
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/motion.hpp>
@@ -35,8 +35,8 @@ std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult
 /// Aligned columns for people.
 void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
 
-/// Puts what a study gave to all results of a run; coefficients: with the harmonics of the responses.
-void add(const scene::Scene& scene, const StudyResult& result, bool coefficients, results::Results& all);
+/// coefficients: with the harmonics of the responses.
+results::Results results_of(const scene::Scene& scene, const StudyResult& result, bool coefficients);
 
 output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
                               const std::string& folder, const std::string& name,

@@ -123,6 +123,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   Interruption interruption;
   Writing writing;
   ExitCode code = ExitCode::done;
+  const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
   results::Results results{studies::header(scene), {}, {}};
   std::string places;
   std::ostringstream tables;
@@ -136,20 +137,23 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       code = ExitCode::stopped_early;
       tell(sentence);
     }
-    if (!options.out.empty()) {
-      for (const std::string& path :
-           write_study(files[i], scene, studies[i].kind, result, options.coefficients, writing)) {
-        places += scene::visible(path) + "\n";
+    if (has_files) {
+      results::Results of_study = results_of(scene, result, options.coefficients);
+      if (!options.out.empty()) {
+        for (const std::string& path :
+             write_study(files[i], scene, studies[i].kind, result, of_study, writing)) {
+          places += scene::visible(path) + "\n";
+        }
       }
+      append(std::move(of_study), results);
     }
     if (studies.size() > 1) {
       tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
     }
     write_table(tables, scene, result);
-    add(scene, result, options.coefficients, results);
   }
   if (results.schemas.empty()) {  // nothing was begun
-    add(scene, no_result(studies.front()), options.coefficients, results);
+    append(results_of(scene, no_result(studies.front()), options.coefficients), results);
   }
 
   StandardOutput screen;

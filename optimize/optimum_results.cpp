@@ -255,51 +255,48 @@ TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumCurveResult
 
 }  // namespace
 
-void add(const scene::Scene& scene, std::span<const OptimumResult> optima, results::Results& all) {
-  const auto add_schema = [&](const OptimumResult& of) {
-    results::Schema schema{.format = "arcslip-optimum-1",
-                           .list = "optima",
-                           .noun = "optimum",
-                           .tables = {{"course", course(scene, of.problem).columns()}},
-                           .beside = {"optimum", "algorithm", "evaluations", "stop"}};
-    if (of.has_cases()) schema.tables.push_back({"cases", cases(scene, of.problem).columns(), {"elements"}});
-    for (const OptimumResult& each : optima) studies::add_columns(scene, each.set, schema.set);
-    all.schemas.push_back(std::move(schema));
-  };
-  // All of a study have the same columns.
-  add_schema(optima.empty() ? OptimumResult() : optima.front());
+results::Results results_of(const scene::Scene& scene, std::span<const OptimumResult> optima) {
+  const OptimumResult none;
+  const OptimumResult& first = optima.empty() ? none : optima.front();  // all have the same columns
+  results::Schema schema{.format = "arcslip-optimum-1",
+                         .list = "optima",
+                         .noun = "optimum",
+                         .tables = {{"course", course(scene, first.problem).columns()}},
+                         .beside = {"optimum", "algorithm", "evaluations", "stop"}};
+  if (first.has_cases())
+    schema.tables.push_back({"cases", cases(scene, first.problem).columns(), {"elements"}});
+  results::Results all{studies::header(scene), {}, {}};
   for (const OptimumResult& each : optima) {
-    results::Result result{
-        .schema = all.schemas.size() - 1,
-        .head = {each.study, each.kind, studies::named(scene, each.set)},
-        .tables = {course(scene, each.problem).rows(each.optimum.evaluations)},
-        .end = {observables::name(each.status), studies::stop(each.stop), facts(scene, each)}};
-    if (each.has_cases()) result.tables.push_back(cases(scene, each.problem).rows(each.optimum.cases));
-    all.results.push_back(std::move(result));
+    studies::add_columns(scene, each.set, schema.set);
+    all.results.push_back(
+        {.schema = 0,
+         .head = {each.study, each.kind, studies::named(scene, each.set)},
+         .tables = {course(scene, each.problem).rows(each.optimum.evaluations)},
+         .end = {observables::name(each.status), studies::stop(each.stop), facts(scene, each)}});
+    if (each.has_cases())
+      all.results.back().tables.push_back(cases(scene, each.problem).rows(each.optimum.cases));
   }
+  all.schemas.push_back(std::move(schema));
+  return all;
 }
 
-void add(const scene::Scene& scene, std::span<const OptimumCurveResult> curves, results::Results& all) {
-  const auto add_schema = [&](std::vector<results::Column> of_points,
-                              std::vector<results::Column> of_events) {
-    all.schemas.push_back(
-        {.format = "arcslip-optimum-curves-1",
-         .list = "optimum_curves",
-         .noun = "curve",
-         .tables = {{"points", std::move(of_points), {"elements"}}, {"events", std::move(of_events)}}});
-    for (const OptimumCurveResult& each : curves)
-      studies::add_columns(scene, each.set, all.schemas.back().set);
-  };
-  if (curves.empty()) add_schema({}, {});
+results::Results results_of(const scene::Scene& scene, std::span<const OptimumCurveResult> curves) {
+  results::Schema schema{.format = "arcslip-optimum-curves-1",
+                         .list = "optimum_curves",
+                         .noun = "curve",
+                         .tables = {{"points", {}, {"elements"}}, {"events", {}}}};
+  results::Results all{studies::header(scene), {}, {}};
   for (const OptimumCurveResult& each : curves) {
-    const auto point_table = points(scene, each);
-    const auto event_table = events(scene, each);
-    if (&each == &curves.front()) add_schema(point_table.columns(), event_table.columns());
     const OptimumCurve& curve = each.curve;
+    const TableOf<OptimumPoint> of_points = points(scene, each);
+    const TableOf<OptimumEvent> of_events = events(scene, each);
+    schema.tables[0].columns = of_points.columns();  // all have the same
+    schema.tables[1].columns = of_events.columns();
+    studies::add_columns(scene, each.set, schema.set);
     all.results.push_back(
-        {.schema = all.schemas.size() - 1,
+        {.schema = 0,
          .head = {each.study, each.kind, studies::named(scene, each.set), {{"along", curve.along}}},
-         .tables = {point_table.rows(curve.points), event_table.rows(curve.events)},
+         .tables = {of_points.rows(curve.points), of_events.rows(curve.events)},
          .end = {observables::name(curve.status),
                  studies::stop(curve.stop),
                  {{"notes", texts(curve.notes)},
@@ -311,6 +308,8 @@ void add(const scene::Scene& scene, std::span<const OptimumCurveResult> curves, 
                   {"factorizations", curve.work.peaks.factorizations},
                   {"seconds", curve.work.seconds, "s"}}}});
   }
+  all.schemas.push_back(std::move(schema));
+  return all;
 }
 
 }  // namespace arcslip::optimize

@@ -11,8 +11,8 @@
 
 namespace arcslip::optimize {
 
-/// Puts optima to results of the same scene; docs/results.md tells all that there is.
-void add(const scene::Scene& scene, std::span<const OptimumResult> optima, results::Results& all);
-void add(const scene::Scene& scene, std::span<const OptimumCurveResult> curves, results::Results& all);
+/// docs/results.md tells all that there is. The optima, and the curves, of one study.
+results::Results results_of(const scene::Scene& scene, std::span<const OptimumResult> optima);
+results::Results results_of(const scene::Scene& scene, std::span<const OptimumCurveResult> curves);
 
 }  // namespace arcslip::optimize

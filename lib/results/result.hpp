@@ -107,6 +107,9 @@ struct Results {
   std::vector<Result> results;
 };
 
+/// Puts results of the same header behind others.
+void append(Results more, Results& all);
+
 /// Hands all of it to a sink: those of one list after the other.
 void replay(const Results& results, Sink& sink);
 

@@ -77,8 +77,9 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch,
 
 }  // namespace
 
-void add(const scene::Scene& scene, std::span<const ResponseBranch> branches, const BranchOptions& options,
-         results::Results& all) {
+results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> branches,
+                            const BranchOptions& options) {
+  results::Results all{header(scene), {}, {}};
   std::map<std::pair<std::string, bool>, std::size_t> schemas;  // by what tells their columns apart
   for (const ResponseBranch& branch : branches) {
     const auto [at, is_new] = schemas.try_emplace({branch.over, has_maxima(branch)}, all.schemas.size());
@@ -88,12 +89,6 @@ void add(const scene::Scene& scene, std::span<const ResponseBranch> branches, co
     all.results.back().schema = at->second;
   }
   if (branches.empty()) all.schemas.push_back(schema(scene, {}, options));
-}
-
-results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> branches,
-                            const BranchOptions& options) {
-  results::Results all{header(scene), {}, {}};
-  add(scene, branches, options, all);
   return all;
 }
 

@@ -17,8 +17,4 @@ struct BranchOptions {
 results::Results results_of(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
                             const BranchOptions& options = {});
 
-/// Puts branches to results of the same scene.
-void add(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
-         const BranchOptions& options, results::Results& all);
-
 }  // namespace arcslip::studies

@@ -76,13 +76,14 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
 
 }  // namespace
 
-void add(const scene::Scene& scene, std::span<const Motion> motions, results::Results& all) {
+results::Results results_of(const scene::Scene& scene, std::span<const Motion> motions) {
+  results::Results all{header(scene), {}, {}};
   const results::TableOf<Instant> table = history(scene);
   for (const Motion& motion : motions) {
     std::vector<Instant> instants;
     for (std::size_t i = 0; i < motion.history.time.size(); ++i) instants.push_back({&motion.history, i});
     all.results.push_back(
-        {.schema = all.schemas.size(),
+        {.schema = 0,
          .head = {motion.study,
                   motion.kind,
                   named(scene, motion.set),
@@ -96,11 +97,6 @@ void add(const scene::Scene& scene, std::span<const Motion> motions, results::Re
                          .tables = {{"history", table.columns(), {"elements"}, true}}};
   for (const Motion& motion : motions) add_columns(scene, motion.set, schema.set);
   all.schemas.push_back(std::move(schema));
-}
-
-results::Results results_of(const scene::Scene& scene, std::span<const Motion> motions) {
-  results::Results all{header(scene), {}, {}};
-  add(scene, motions, all);
   return all;
 }
 

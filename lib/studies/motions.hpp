@@ -12,7 +12,4 @@ namespace arcslip::studies {
 /// docs/results.md tells all that there is.
 results::Results results_of(const scene::Scene& scene, std::span<const observables::Motion> motions);
 
-/// Puts motions to results of the same scene.
-void add(const scene::Scene& scene, std::span<const observables::Motion> motions, results::Results& all);
-
 }  // namespace arcslip::studies

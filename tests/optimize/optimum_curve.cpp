@@ -10,7 +10,6 @@
 #include <arcslip/optimize/optimum_results.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
-#include <arcslip/studies/columns.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -405,8 +404,7 @@ TEST_CASE("result files tell every point of the curve and every event") {
   result.curve = optimum_curve(s, result.problem, {"force.cosine", 1, 8});
   const std::vector<OptimumCurveResult> results = {result};
   std::ostringstream text;
-  results::Results all{studies::header(s), {}, {}};
-  add(s, results, all);
+  const results::Results all = results_of(s, results);
   results::write_json(text, all);
   const auto document = nlohmann::json::parse(text.str());
   CHECK(document["format"] == "arcslip-optimum-curves-1");
