@@ -9,7 +9,7 @@
 
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/stop_request.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <exception>
 #include <new>
@@ -40,7 +40,7 @@ ExitCode print(const Information& information) {
 
 void tell_faults(const std::string& file, const scene::SceneError& error) {
   for (const scene::Fault& fault : error.faults()) {
-    tell_line(scene::visible(file) + ": " + scene::visible(fault.pointer) +
+    tell_line(results::visible(file) + ": " + results::visible(fault.pointer) +
               (fault.pointer.empty() ? "" : ": ") + fault.message);
   }
 }

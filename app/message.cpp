@@ -3,7 +3,7 @@
 #include "interrupt.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <string>
 
@@ -14,7 +14,7 @@ void tell(std::string_view message) {
 }
 
 void tell_line(std::string_view text) {
-  put(scene::visible_lines(text) + '\n');
+  put(results::visible_lines(text) + '\n');
 }
 
 void put(std::string_view text) {

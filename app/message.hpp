@@ -4,7 +4,7 @@
 
 namespace arcslip::app {
 
-/// Lines on standard error, with what a terminal must not get escaped (scene/visible.hpp). What cannot be
+/// Lines on standard error, with what a terminal must not get escaped (results/text.hpp). What cannot be
 /// written there is lost.
 void tell_line(std::string_view text);
 

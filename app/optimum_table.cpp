@@ -1,7 +1,7 @@
 #include "optimum_table.hpp"
 
 #include <arcslip/optimize/case_label.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +22,13 @@ std::string number(double value, const char* format = "%.8g") {
 }
 
 std::string with_unit(const scene::Scene& scene, const std::string& parameter, double value) {
-  const std::string unit = output::parameter_unit(scene, parameter);
+  const std::string unit = studies::parameter_unit(scene, parameter);
   return number(value) + (unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
 // Of several friction elements the sticks are told once, not of every case.
 std::string place(const scene::Scene& scene, const observables::ResponsePoint& point, std::size_t most) {
-  std::string text = number(output::in_scene_unit(scene, point.omega), "%.8f") + " " +
+  std::string text = number(studies::in_scene_unit(scene, point.omega), "%.8f") + " " +
                      std::string(scene::unit_name(scene.frequency_unit));
   const auto sticks = std::count_if(point.elements.begin(), point.elements.end(),
                                     [](const auto& element) { return element.has_stick; });
@@ -60,7 +60,7 @@ void write_curve(std::ostream& out, const scene::Scene& scene, const optimize::O
       out << result.problem.over[k].name << " = "
           << with_unit(scene, result.problem.over[k].name, point.design[k]) << ", ";
     out << "A_max = " << number(point.amplitude, "%.8e") << " m at "
-        << number(output::in_scene_unit(scene, point.response.omega), "%.8f") << ' '
+        << number(studies::in_scene_unit(scene, point.response.omega), "%.8f") << ' '
         << scene::unit_name(scene.frequency_unit) << what << (point.minimum ? "" : ", a saddle") << '\n';
   };
   std::size_t event = 0;
@@ -135,7 +135,7 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
       << "; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
   for (const auto& other : certificate.others) {
     out << "  another response, by " << other.found_by << ": " << number(other.amplitude, "%.8e") << " m at "
-        << number(output::in_scene_unit(scene, other.omega)) << ' ' << scene::unit_name(scene.frequency_unit);
+        << number(studies::in_scene_unit(scene, other.omega)) << ' ' << scene::unit_name(scene.frequency_unit);
     if (result.has_cases())
       out << " with " << optimize::case_text(scene, result.problem, result.optimum.cases[other.in_case]);
     out << '\n';
@@ -149,7 +149,7 @@ void write_table(std::ostream& out, const scene::Scene& scene,
                  std::span<const optimize::OptimumResult> results) {
   for (const optimize::OptimumResult& result : results) {
     const optimize::Optimum& found = result.optimum;
-    if (!result.set.empty()) out << output::assignment(scene, result.set) << '\n';
+    if (!result.set.empty()) out << studies::assignment(scene, result.set) << '\n';
     for (const std::string& note : found.notes) out << "  " << note << '\n';
     if (found.design.empty() || !std::isfinite(found.amplitude)) {
       out << "  no optimum: " << result.stop.message << '\n';
@@ -186,7 +186,7 @@ void write_table(std::ostream& out, const scene::Scene& scene,
 void write_table(std::ostream& out, const scene::Scene& scene,
                  std::span<const optimize::OptimumCurveResult> results) {
   for (const optimize::OptimumCurveResult& result : results) {
-    if (!result.set.empty()) out << output::assignment(scene, result.set) << '\n';
+    if (!result.set.empty()) out << studies::assignment(scene, result.set) << '\n';
     write_curve(out, scene, result);
   }
 }

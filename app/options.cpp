@@ -2,10 +2,10 @@
 
 #include "option_values.hpp"
 
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/units.hpp>
 #include <arcslip/results/version.hpp>
 #include <arcslip/scene/combinations.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -104,7 +104,7 @@ void add_time_options(CLI::App& verb, Texts& texts) {
   verb.add_option(
           "--tolerance", texts.tolerance,
           "of the state: change over a period that is steady, or last correction of shooting (default: " +
-              output::shortest(usual.tolerance) + "); 0: no transient ends before --periods")
+              results::shortest(usual.tolerance) + "); 0: no transient ends before --periods")
       ->type_name("T");
 }
 
@@ -185,8 +185,8 @@ void check_consistent(const Options& options, bool json_given, bool csv_given, b
                      ": give one of them another place");
   }
   if (options.from && options.to && !(*options.from < *options.to)) {
-    throw UsageError("--from must be below --to; found --from " + output::shortest(*options.from) +
-                     " and --to " + output::shortest(*options.to));
+    throw UsageError("--from must be below --to; found --from " + results::shortest(*options.from) +
+                     " and --to " + results::shortest(*options.to));
   }
 }
 
@@ -237,10 +237,10 @@ std::variant<Options, Information> parse(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const std::string first = argv[1];
     if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
-      throw UsageError("unknown verb \"" + scene::visible(first) + "\", must be " + verb_names() + "\n" +
+      throw UsageError("unknown verb \"" + results::visible(first) + "\", must be " + verb_names() + "\n" +
                        hint);
     }
-    throw UsageError(scene::visible(error.what()) + "\n" + hint);
+    throw UsageError(results::visible(error.what()) + "\n" + hint);
   }
   const CLI::App* verb = app.get_subcommands().front();
   options.verb = verbs.at(verb);

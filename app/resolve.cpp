@@ -2,9 +2,9 @@
 
 #include "interrupt.hpp"
 
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/units.hpp>
 #include <arcslip/scene/scene_file.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -20,7 +20,7 @@ void apply(scene::Scene& scene, const Options& options) {
     try {
       scene::set(scene, name, value);
     } catch (const scene::ParameterError& error) {
-      throw UsageError("--set " + name + "=" + output::shortest(value) + ": " + error.what());
+      throw UsageError("--set " + name + "=" + results::shortest(value) + ": " + error.what());
     }
   }
   scene.harmonics.order = options.harmonics.value_or(scene.harmonics.order);
@@ -32,7 +32,7 @@ void apply(scene::Scene& scene, const Options& options) {
   } catch (const scene::SceneError& error) {
     std::string message = "the options make the scene invalid:";
     for (const scene::Fault& fault : error.faults()) {
-      message += "\n  " + scene::visible(fault.pointer) + ": " + fault.message;
+      message += "\n  " + results::visible(fault.pointer) + ": " + fault.message;
     }
     throw UsageError(message);
   }
@@ -42,7 +42,7 @@ std::string range_unit(const scene::Scene& scene, const scene::Study& study) {
   if (study.kind == scene::StudyKind::frf) {
     return std::string(scene::unit_name(scene.frequency_unit));
   }
-  return study.over == "frequency" ? "" : output::parameter_unit(scene, study.over);
+  return study.over == "frequency" ? "" : studies::parameter_unit(scene, study.over);
 }
 
 /// Throws where an option names no parameter at all; what else may be wrong with it is told by check_study().
@@ -85,10 +85,10 @@ std::string option_of(const std::string& key, const Options& options) {
     return "--over " + options.over;
   }
   if (key == "from" && options.from) {
-    return "--from " + output::shortest(*options.from);
+    return "--from " + results::shortest(*options.from);
   }
   if (key == "to" && options.to) {
-    return "--to " + output::shortest(*options.to);
+    return "--to " + results::shortest(*options.to);
   }
   for (const auto& [name, value] :
        {std::pair{"steps", options.steps}, std::pair{"periods", options.periods},
@@ -100,7 +100,7 @@ std::string option_of(const std::string& key, const Options& options) {
   for (const auto& [name, value] :
        {std::pair{"tolerance", options.tolerance}, std::pair{"seconds", options.seconds}}) {
     if (key == name && value) {
-      return std::string("--") + name + " " + output::shortest(*value);
+      return std::string("--") + name + " " + results::shortest(*value);
     }
   }
   return "";
@@ -148,7 +148,7 @@ void set_along(scene::Study& study, const scene::Scene& scene, const Options& op
   }
   for (const auto& [parameter, value] : options.set) {
     if (study.along && study.along->name == parameter) {
-      throw UsageError("--set " + parameter + "=" + output::shortest(value) +
+      throw UsageError("--set " + parameter + "=" + results::shortest(value) +
                        ": the study goes along this parameter; give --along for its range");
     }
   }
@@ -174,7 +174,7 @@ void check_study(const scene::Scene& scene, std::size_t index, const Options& op
     for (const scene::Fault& fault : error.faults()) {
       const std::string key = fault.pointer.starts_with(place) ? fault.pointer.substr(place.size()) : "";
       const std::string option = option_of(key, options);
-      message += (message.empty() ? "" : "\n  ") + (option.empty() ? scene::visible(fault.pointer) : option) +
+      message += (message.empty() ? "" : "\n  ") + (option.empty() ? results::visible(fault.pointer) : option) +
                  ": " + fault.message;
     }
     throw UsageError(message);
@@ -195,9 +195,9 @@ void set_range(scene::Study& study, const scene::Scene& scene, const Options& op
     throw UsageError(
         (options.from ? "--from must be below " : "--to must be above ") +
         (options.from
-             ? output::quantity(study.to, unit) + ", where the study \"" + study.name + "\" ends"
-             : output::quantity(study.from, unit) + ", where the study \"" + study.name + "\" begins") +
-        "; found " + output::quantity(options.from ? study.from : study.to, unit));
+             ? studies::quantity(study.to, unit) + ", where the study \"" + study.name + "\" ends"
+             : studies::quantity(study.from, unit) + ", where the study \"" + study.name + "\" begins") +
+        "; found " + studies::quantity(options.from ? study.from : study.to, unit));
   }
 }
 
@@ -245,7 +245,7 @@ scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Opt
   }
   for (const auto& [parameter, value] : options.set) {
     if (parameter == study.over) {
-      throw UsageError("--set " + parameter + "=" + output::shortest(value) +
+      throw UsageError("--set " + parameter + "=" + results::shortest(value) +
                        ": the study is over this parameter; give --from and --to for its range");
     }
   }

@@ -5,9 +5,10 @@
 #include "options.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
+#include <arcslip/output/figures.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -34,6 +35,32 @@ std::string beside(const std::string& file, const std::string& part) {
   const std::string extension = path.extension().string();
   path.replace_extension();
   return path.string() + "." + part + extension;
+}
+
+/// Whether a name is that of a study or of more figures of it.
+bool is_of(const std::string& name, const StudyFiles& study) {
+  return name == study.name || name.starts_with(study.name + "_");
+}
+
+/// Removes the figures of a study that an earlier run has drawn and this one has not.
+void remove_other_figures(const StudyFiles& files, std::span<const StudyFiles> all,
+                          const std::vector<std::string>& drawn) {
+  std::error_code error;
+  std::vector<std::string> others;
+  for (const auto& entry : std::filesystem::directory_iterator(files.folder, error)) {
+    const std::string name = entry.path().stem().string();
+    const auto is_nearer = [&](const StudyFiles& other) {
+      return other.name.size() > files.name.size() && is_of(name, other);
+    };
+    if (entry.path().extension() == ".gp" && is_of(name, files) &&
+        std::find(drawn.begin(), drawn.end(), name) == drawn.end() &&
+        std::none_of(all.begin(), all.end(), is_nearer)) {
+      others.push_back(name);
+    }
+  }
+  for (const std::string& name : others) {
+    output::remove_figures(files.folder, name);
+  }
 }
 
 }  // namespace
@@ -137,11 +164,11 @@ void check_places(const std::vector<Place>& places, const std::string& scene_fil
     const auto file = std::pair(status.st_dev, status.st_ino);
     const auto same = is_there ? by_file.emplace(file, place.what) : std::pair(by_file.end(), true);
     if (!same.second && same.first->second.empty()) {
-      throw UsageError(scene::visible(place.path) + " is the scene itself: give the results another place");
+      throw UsageError(results::visible(place.path) + " is the scene itself: give the results another place");
     }
     if (!other.second || !same.second) {
       throw UsageError((other.second ? same.first->second : other.first->second) + " and " + place.what +
-                       " both go to " + scene::visible(place.path) + ": give one of them another place");
+                       " both go to " + results::visible(place.path) + ": give one of them another place");
     }
     output::check_writable(place.path);
   }
@@ -166,9 +193,10 @@ ExitCode Writing::code(ExitCode otherwise) const {
   return failed_ ? ExitCode::usage_or_file : stopped_ ? ExitCode::stopped_early : otherwise;
 }
 
-std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     scene::StudyKind kind, const StudyResult& result,
-                                     const results::Results& results, Writing& writing) {
+std::vector<std::string> write_study(const StudyFiles& files, std::span<const StudyFiles> all,
+                                     const scene::Scene& scene, scene::StudyKind kind,
+                                     const StudyResult& result, const results::Results& results,
+                                     Writing& writing) {
   std::vector<std::string> paths;
   const auto write = [&](const std::string& path, const std::function<void(std::ostream&)>& writer) {
     if (writing.file(path, writer)) {
@@ -188,14 +216,22 @@ std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene
       std::filesystem::remove(path, ignored);
     }
   }
-  writing.attempt([&] {
-    const output::Figures figures = write_figures(scene, kind, result, files.folder, files.name, interrupted);
-    paths.insert(paths.end(), figures.sources.begin(), figures.sources.end());
-    paths.insert(paths.end(), figures.images.begin(), figures.images.end());
-    if (!figures.problem.empty()) {
-      tell(figures.problem);
-    }
-  });
+  std::vector<std::string> drawn, problems;
+  const std::vector<results::FigureData> figures = figures_of(scene, kind, result);
+  for (const results::FigureData& data : figures) {
+    drawn.push_back(files.name + (data.name.empty() ? "" : "_" + data.name));
+    writing.attempt([&] {
+      const output::Figures now = output::draw_figures(data, files.folder, drawn.back(), interrupted);
+      paths.insert(paths.end(), now.sources.begin(), now.sources.end());
+      paths.insert(paths.end(), now.images.begin(), now.images.end());
+      problems.push_back(now.problem);
+    });
+  }
+  const auto told = std::find_if(problems.begin(), problems.end(), [](const auto& each) { return !each.empty(); });
+  if (told != problems.end()) {  // the others are alike
+    tell(*told);
+  }
+  remove_other_figures(files, all, drawn);
   return paths;
 }
 

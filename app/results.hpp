@@ -83,10 +83,12 @@ class Writing {
   bool failed_ = false, stopped_ = false;
 };
 
-/// Writes the files and figures of a study of this kind; results: those of `result`. Returns the paths of
+/// Writes the files and figures of a study of this kind; results: those of `result`;
+/// all: the files of all studies of the run. What an earlier run has left of this study is removed. Returns the paths of
 /// what is there; tells on standard error what is missing, and why.
-std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     scene::StudyKind kind, const StudyResult& result,
-                                     const results::Results& results, Writing& writing);
+std::vector<std::string> write_study(const StudyFiles& files, std::span<const StudyFiles> all,
+                                     const scene::Scene& scene, scene::StudyKind kind,
+                                     const StudyResult& result, const results::Results& results,
+                                     Writing& writing);
 
 }  // namespace arcslip::app

@@ -2,7 +2,7 @@
 
 #include "interrupt.hpp"
 
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <ostream>
 #include <sstream>
@@ -25,7 +25,7 @@ void StandardOutput::write(const std::function<void(std::ostream&)>& writer) {
 void StandardOutput::write_lines(const std::function<void(std::ostream&)>& writer) {
   std::ostringstream text;
   writer(text);
-  write([&](std::ostream& out) { out << scene::visible_lines(text.str()); });
+  write([&](std::ostream& out) { out << results::visible_lines(text.str()); });
 }
 
 void StandardOutput::finish() const {

@@ -15,7 +15,7 @@ class StandardOutput {
   /// What a terminal may get as it is, such as JSON and CSV.
   void write(const std::function<void(std::ostream&)>& writer);
 
-  /// Lines for people, with what a terminal must not get escaped (scene/visible.hpp).
+  /// Lines for people, with what a terminal must not get escaped (results/text.hpp).
   void write_lines(const std::function<void(std::ostream&)>& writer);
 
   /// Throws output::WriteError where not all was written.

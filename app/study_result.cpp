@@ -7,9 +7,9 @@
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/optimize/optimum_figures.hpp>
 #include <arcslip/optimize/optimum_results.hpp>
-#include <arcslip/output/motion.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/units.hpp>
 #include <arcslip/studies/branches.hpp>
+#include <arcslip/studies/figures.hpp>
 #include <arcslip/studies/motions.hpp>
 
 #include <algorithm>
@@ -39,19 +39,6 @@ const char* noun(const OptimumResult& /*of*/) {
 
 const char* noun(const OptimumCurveResult& /*of*/) {
   return "curve";
-}
-
-template <class Item>
-output::Figures draw(const scene::Scene& scene, scene::StudyKind kind, const std::vector<Item>& items,
-                     const std::string& folder, const std::string& name, const scene::StopRequest& stop) {
-  using output::write_figures;
-  return write_figures(scene, kind, items, folder, name, stop);
-}
-
-output::Figures draw(const scene::Scene& scene, scene::StudyKind /*kind*/,
-                     const std::vector<OptimumCurveResult>& items, const std::string& folder,
-                     const std::string& name, const scene::StopRequest& stop) {
-  return optimize::write_figures(scene, items, folder, name, stop);
 }
 
 /// What has the status and the stop.
@@ -128,7 +115,7 @@ std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult
       if (end(item).status == observables::Status::complete) {
         continue;
       }
-      const std::string set = output::assignment(scene, item.set);
+      const std::string set = studies::assignment(scene, item.set);
       sentences.push_back(std::string(noun(item)) + " " + std::to_string(i + 1) +
                           (set.empty() ? "" : " (" + set + ")") + " " + observables::name(end(item).status) +
                           ": " + end(item).stop.message);
@@ -156,10 +143,21 @@ results::Results results_of(const scene::Scene& scene, const StudyResult& result
       result);
 }
 
-output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
-                              const std::string& folder, const std::string& name,
-                              const scene::StopRequest& stop) {
-  return std::visit([&](const auto& items) { return draw(scene, kind, items, folder, name, stop); }, result);
+std::vector<results::FigureData> figures_of(const scene::Scene& scene, scene::StudyKind kind,
+                                            const StudyResult& result) {
+  return std::visit(
+      [&](const auto& items) -> std::vector<results::FigureData> {
+        using Item = typename std::decay_t<decltype(items)>::value_type;
+        if constexpr (std::is_same_v<Item, ResponseBranch>)
+          return {studies::figures_of(scene, kind, items)};
+        else if constexpr (std::is_same_v<Item, Motion>)
+          return {studies::figures_of(scene, items)};
+        else if constexpr (std::is_same_v<Item, OptimumCurveResult>)
+          return {optimize::figures_of(scene, std::span(items))};
+        else
+          return optimize::figures_of(scene, std::span(items));
+      },
+      result);
 }
 
 }  // namespace arcslip::app

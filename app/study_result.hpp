@@ -1,13 +1,13 @@
 #pragma once
 // What a study gives, and all that the command does with it. A kind of results is one alternative of the
-// variant, with a function of its own for each of these (results_of, write_figures, write_table, noun, end)
+// variant, with a function of its own for each of these (results_of, figures_of, write_table, noun, end)
 // and the members study, kind and set; the rest knows no kinds.
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/motion.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/optimize/optimum_study.hpp>
-#include <arcslip/output/figures.hpp>
+#include <arcslip/results/figure.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -38,8 +38,8 @@ void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult
 /// coefficients: with the harmonics of the responses.
 results::Results results_of(const scene::Scene& scene, const StudyResult& result, bool coefficients);
 
-output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind, const StudyResult& result,
-                              const std::string& folder, const std::string& name,
-                              const scene::StopRequest& stop);
+/// Each has a name of its own; with a single one there may be nothing on it.
+std::vector<results::FigureData> figures_of(const scene::Scene& scene, scene::StudyKind kind,
+                                            const StudyResult& result);
 
 }  // namespace arcslip::app

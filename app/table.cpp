@@ -1,8 +1,8 @@
 #include "table.hpp"
 
-#include <arcslip/output/friction_elements.hpp>
-#include <arcslip/output/units.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/studies/friction_elements.hpp>
+#include <arcslip/studies/units.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -33,10 +33,10 @@ std::string formatted(const char* format, double value) {
 Row header(const scene::Scene& scene, const Row& parameters, const Row& friction) {
   Row row;
   for (const std::string& name : parameters) {
-    row.push_back(output::with_unit(name, output::parameter_unit(scene, name)));
+    row.push_back(studies::with_unit(name, studies::parameter_unit(scene, name)));
   }
   row.insert(row.end(),
-             {"event", output::with_unit("frequency", scene::unit_name(scene.frequency_unit)), "A_max (m)"});
+             {"event", studies::with_unit("frequency", scene::unit_name(scene.frequency_unit)), "A_max (m)"});
   for (const std::string& name : friction) {
     row.push_back(friction.size() == 1 ? "stick (%)" : name + " stick (%)");
   }
@@ -49,17 +49,17 @@ Row row(const scene::Scene& scene, const ResponseBranch& branch, const observabl
         const Row& friction) {
   Row cells;
   for (const auto& [name, value] : branch.set) {
-    cells.push_back(output::shortest(value));
+    cells.push_back(results::shortest(value));
   }
   if (!branch.over.empty()) {
     cells.push_back(event != nullptr ? formatted("%.8g", event->point.over) : "-");
   }
   if (event != nullptr) {
     const observables::ResponsePoint& point = event->point;
-    cells.insert(cells.end(), {event->kind, formatted("%.8f", output::in_scene_unit(scene, point.omega)),
+    cells.insert(cells.end(), {event->kind, formatted("%.8f", studies::in_scene_unit(scene, point.omega)),
                                point.unbounded ? "unbounded" : formatted("%.8e", point.amplitude)});
     for (const std::string& name : friction) {
-      cells.push_back(formatted("%.4f", output::stick_percent(point, name)));
+      cells.push_back(formatted("%.4f", studies::stick_percent(point, name)));
     }
   } else {
     cells.insert(cells.end(), 3 + friction.size(), "-");
@@ -79,7 +79,7 @@ void write_aligned(std::ostream& out, std::vector<Row> rows) {
   for (Row& cells : rows) {
     widths.resize(std::max(widths.size(), cells.size()));
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      cells[i] = scene::visible(cells[i]);
+      cells[i] = results::visible(cells[i]);
       widths[i] = std::max(widths[i], characters(cells[i]));
     }
   }
@@ -105,7 +105,7 @@ void write_table(std::ostream& out, const scene::Scene& scene, std::span<const R
   if (!branches.front().over.empty()) {
     parameters.push_back(branches.front().over);
   }
-  const Row friction = output::friction_elements(branches);
+  const Row friction = studies::friction_elements(branches);
   std::vector<Row> rows{header(scene, parameters, friction)};
   for (const ResponseBranch& branch : branches) {
     for (const observables::ResponseEvent& event : branch.events) {
@@ -124,9 +124,9 @@ void write_table(std::ostream& out, const scene::Scene& scene, std::span<const M
   }
   Row head;
   for (const auto& [name, value] : motions.front().set) {
-    head.push_back(output::with_unit(name, output::parameter_unit(scene, name)));
+    head.push_back(studies::with_unit(name, studies::parameter_unit(scene, name)));
   }
-  head.insert(head.end(), {"method", output::with_unit("frequency", scene::unit_name(scene.frequency_unit)),
+  head.insert(head.end(), {"method", studies::with_unit("frequency", scene::unit_name(scene.frequency_unit)),
                            "A_max (m)"});
   const auto& elements = motions.front().elements;
   for (const observables::ElementMotion& element : elements) {
@@ -137,10 +137,10 @@ void write_table(std::ostream& out, const scene::Scene& scene, std::span<const M
   for (const Motion& motion : motions) {
     Row& cells = rows.emplace_back();
     for (const auto& [name, value] : motion.set) {
-      cells.push_back(output::shortest(value));
+      cells.push_back(results::shortest(value));
     }
     cells.insert(cells.end(), {std::string(scene::method_name(motion.method)),
-                               formatted("%.8f", output::in_scene_unit(scene, motion.omega)),
+                               formatted("%.8f", studies::in_scene_unit(scene, motion.omega)),
                                formatted("%.8e", motion.amplitude)});
     for (std::size_t i = 0; i < elements.size(); ++i) {
       cells.push_back(i < motion.elements.size() ? formatted("%.4f", motion.elements[i].stick_percent) : "-");

@@ -11,7 +11,7 @@
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/combinations.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 #include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
@@ -141,8 +141,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       results::Results of_study = results_of(scene, result, options.coefficients);
       if (!options.out.empty()) {
         for (const std::string& path :
-             write_study(files[i], scene, studies[i].kind, result, of_study, writing)) {
-          places += scene::visible(path) + "\n";
+             write_study(files[i], files, scene, studies[i].kind, result, of_study, writing)) {
+          places += results::visible(path) + "\n";
         }
       }
       append(std::move(of_study), results);

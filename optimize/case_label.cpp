@@ -1,7 +1,7 @@
 #include <arcslip/optimize/case_label.hpp>
 
-#include <arcslip/output/figure_data.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/results/text.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <cmath>
 
@@ -23,23 +23,23 @@ std::string direction_text(const scene::Scene& scene, const scene::Direction& di
   std::string text;
   for (const scene::Term& term : direction) {
     text.append(term.weight < 0 ? (text.empty() ? "-" : " - ") : text.empty() ? "" : " + ");
-    if (std::abs(term.weight) != 1) text.append(output::shortest(std::abs(term.weight))).append(" ");
+    if (std::abs(term.weight) != 1) text.append(results::shortest(std::abs(term.weight))).append(" ");
     text.append(scene.dofs[static_cast<std::size_t>(term.dof)]);
   }
   return text;
 }
 
 std::string case_text(const scene::Scene& scene, const OptimumProblem& problem, const CaseResult& of) {
-  std::string text = output::assignment(scene, of.set);
-  append(text, output::assignment(scene, of.scatter));
+  std::string text = studies::assignment(scene, of.set);
+  append(text, studies::assignment(scene, of.scatter));
   if (const auto* direction = response(problem, of))
     append(text, "response at " + direction_text(scene, *direction));
   return text.empty() ? "the scene as it is" : text;
 }
 
 std::string case_label(const scene::Scene& scene, const OptimumProblem& problem, const CaseResult& of) {
-  std::string text = output::set_label(scene, of.set);
-  append(text, output::set_label(scene, of.scatter));
+  std::string text = studies::set_label(scene, of.set);
+  append(text, studies::set_label(scene, of.scatter));
   if (const auto* direction = response(problem, of)) append(text, direction_text(scene, *direction));
   return text.empty() ? "as it is" : text;
 }

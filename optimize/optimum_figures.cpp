@@ -1,15 +1,15 @@
 // The figures of optima.
 #include <arcslip/optimize/case_label.hpp>
 #include <arcslip/optimize/optimum_figures.hpp>
-#include <arcslip/output/draw_figures.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/results/text.hpp>
+#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <iterator>
 #include <limits>
 #include <set>
 
@@ -25,35 +25,35 @@ double to_four_digits(double value) {
 }
 
 std::string value_label(const scene::Scene& scene, const OptimumProblem& problem, double value) {
-  return output::quantity(to_four_digits(value), output::parameter_unit(scene, problem.over[0].name));
+  return studies::quantity(to_four_digits(value), studies::parameter_unit(scene, problem.over[0].name));
 }
 
-std::vector<output::FigureBand> bands(const Optimum& optimum) {
-  std::vector<output::FigureBand> all;
+std::vector<results::FigureBand> bands(const Optimum& optimum) {
+  std::vector<results::FigureBand> all;
   if (!optimum.certificate || optimum.certificate->ranges.empty()) return all;
   auto ranges = optimum.certificate->ranges[0];
   std::sort(ranges.begin(), ranges.end(), [](auto& a, auto& b) { return a.share > b.share; });
   for (const ToleranceRange& range : ranges)
-    all.push_back({"within " + output::quantity(100 * range.share, "%"), {range.lower, range.upper}});
+    all.push_back({"within " + studies::quantity(100 * range.share, "%"), {range.lower, range.upper}});
   return all;
 }
 
 // The ranges of tolerance behind the curve of peaks of the same setting, and the load at its minimum.
 void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> results,
-                    output::FigureData& data) {
-  for (output::FigureLine& line : data.lines) {
+                    results::FigureData& data) {
+  for (results::FigureLine& line : data.lines) {
     const auto result = std::find_if(results.begin(), results.end(),
                                      [&](const OptimumResult& each) { return each.set == line.set; });
     if (result == results.end()) continue;
     line.bands = bands(result->optimum);
     if (!line.label.empty()) continue;
-    for (output::FigureMark& mark : line.marks)
+    for (results::FigureMark& mark : line.marks)
       if (mark.kind == "minimum") mark.label = value_label(scene, result->problem, mark.record[0]);
   }
 }
 
 // One line for each case, whatever the cases set: branches are told apart by their number until then.
-output::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind kind,
+results::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind kind,
                                   const OptimumResult& result,
                                   std::vector<ResponseBranch> CaseCurves::*branches, bool weighted) {
   const OptimumProblem& problem = result.problem;
@@ -66,17 +66,18 @@ output::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind ki
       for (auto& event : branch.events) event.point.amplitude *= factor;
       all.push_back(std::move(branch));
     }
-  output::FigureData data = output::figure_data(scene, kind, all);
-  if (!result.set.empty()) data.title = output::assignment(scene, result.set) + ": " + data.title;
+  results::FigureData data = studies::figures_of(scene, kind, all);
+  if (!result.set.empty()) data.title = studies::assignment(scene, result.set) + ": " + data.title;
   std::set<std::vector<std::string>> names;
-  for (output::FigureLine& line : data.lines) {
+  for (results::FigureLine& line : data.lines) {
     const CaseResult& each = result.optimum.cases[static_cast<std::size_t>(line.set[0].second)];
     line.set = result.set;
     line.set.insert(line.set.end(), each.set.begin(), each.set.end());
     line.set.insert(line.set.end(), each.scatter.begin(), each.scatter.end());
+    line.heading = studies::assignment(scene, line.set);
     line.label = case_label(scene, problem, each);
     if (each.weight != 1)
-      line.label += (weighted ? ", times " : ", weight ") + output::shortest(to_four_digits(each.weight));
+      line.label += (weighted ? ", times " : ", weight ") + results::shortest(to_four_digits(each.weight));
     std::vector<std::string>& own = data.parameters;
     own.clear();
     for (const auto* values : {&each.set, &each.scatter})
@@ -92,7 +93,7 @@ output::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind ki
 }
 
 // The highest of a line at a value of the parameter, between its points; NaN beyond them.
-double height(const output::FigureLine& line, std::size_t column, double at) {
+double height(const results::FigureLine& line, std::size_t column, double at) {
   double highest = std::numeric_limits<double>::quiet_NaN();
   for (const auto& part : line.parts)
     for (std::size_t i = 1; i < part.size(); ++i) {
@@ -105,21 +106,21 @@ double height(const output::FigureLine& line, std::size_t column, double at) {
 }
 
 // Of what is to be least: its curve, made of the lines, the optimum on it and the ranges around.
-void add_criterion(const scene::Scene& scene, const OptimumResult& result, output::FigureData& data) {
+void add_criterion(const scene::Scene& scene, const OptimumResult& result, results::FigureData& data) {
   const bool mean = result.problem.criterion == Criterion::mean;
-  const std::size_t amplitude = data.amplitude_column();
+  const std::size_t amplitude = studies::amplitude_column(scene::StudyKind::peaks);
   std::set<double> places;
-  for (const output::FigureLine& line : data.lines)
+  for (const results::FigureLine& line : data.lines)
     for (const auto& part : line.parts)
       for (const auto& record : part) places.insert(record[0]);
   double sum = 0;
   for (const CaseCurves& each : result.curves) sum += result.optimum.cases[each.of].weight;
-  output::FigureLine criterion;
+  results::FigureLine criterion;
   const std::string best = value_label(scene, result.problem, result.optimum.design[0]);
   criterion.label = (mean ? "mean, least at " : "worst, least at ") + best;
   auto& curve = criterion.parts.emplace_back();
   const auto record = [&](double at, double value) {
-    output::Record values(data.columns.size(), std::numeric_limits<double>::quiet_NaN());
+    results::Record values(data.columns.size(), std::numeric_limits<double>::quiet_NaN());
     values[0] = at;
     values[amplitude] = value;
     return values;
@@ -135,63 +136,46 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, outpu
   }
   criterion.marks.push_back({"minimum", record(result.optimum.design[0], result.optimum.amplitude), best});
   criterion.bands = bands(result.optimum);
-  for (output::FigureLine& line : data.lines) line.marks.clear();
+  for (results::FigureLine& line : data.lines) line.marks.clear();
   data.lines.push_back(std::move(criterion));
 }
 
-class Drawing {
- public:
-  Drawing(const scene::Scene& scene, const std::string& folder, const scene::StopRequest& stop)
-      : scene_(scene), folder_(folder), stop_(stop) {}
+void add(results::FigureData data, const std::string& name, std::vector<results::FigureData>& all) {
+  if (data.lines.empty()) return;
+  data.name = name;
+  all.push_back(std::move(data));
+}
 
-  void add(const output::FigureData& data, const std::string& name) {
-    if (data.lines.empty()) {
-      if (!drawn_.contains(name)) output::remove_figures(folder_, name);  // of an earlier run
-      return;
-    }
-    drawn_.insert(name);
-    output::Figures more = output::draw_figures(scene_, data, folder_, name, stop_);
-    std::move(more.sources.begin(), more.sources.end(), std::back_inserter(all.sources));
-    std::move(more.images.begin(), more.images.end(), std::back_inserter(all.images));
-    if (all.problem.empty()) all.problem = std::move(more.problem);
-  }
-
-  output::Figures all;
-
- private:
-  const scene::Scene& scene_;
-  const std::string& folder_;
-  const scene::StopRequest& stop_;
-  std::set<std::string> drawn_;
-};
-
-void draw_cases(const scene::Scene& scene, const OptimumResult& result, const std::string& name,
-                Drawing& drawing) {
+void add_cases(const scene::Scene& scene, const OptimumResult& result, const std::string& name,
+               std::vector<results::FigureData>& all) {
   const auto& cases = result.optimum.cases;
   const bool weighted = result.problem.criterion == Criterion::worst &&
                         std::any_of(cases.begin(), cases.end(), [](auto& each) { return each.weight != 1; });
-  output::FigureData peaks =
+  results::FigureData peaks =
       lines_of_cases(scene, scene::StudyKind::peaks, result, &CaseCurves::peaks, weighted);
   if (!peaks.lines.empty()) {
     add_criterion(scene, result, peaks);
-    if (weighted) peaks.columns[peaks.amplitude_column()].label = "amplitude times weight (m)";
-    drawing.add(peaks, name);
+    if (weighted) {
+      const std::size_t amplitude = studies::amplitude_column(scene::StudyKind::peaks);
+      peaks.columns[amplitude].label = "amplitude times weight (m)";
+      for (results::Figure& figure : peaks.figures)
+        if (figure.y == amplitude) figure.y_label = "peak " + peaks.columns[amplitude].label;
+    }
+    add(std::move(peaks), name, all);
   }
-  drawing.add(lines_of_cases(scene, scene::StudyKind::frf, result, &CaseCurves::responses, false),
-              name + "_responses");
+  add(lines_of_cases(scene, scene::StudyKind::frf, result, &CaseCurves::responses, false),
+      name.empty() ? "responses" : name + "_responses", all);
 }
 
 }  // namespace
 
-output::Figures write_figures(const scene::Scene& scene, scene::StudyKind,
-                              std::span<const OptimumResult> results, const std::string& folder,
-                              const std::string& name, const scene::StopRequest& stop) {
-  Drawing drawing(scene, folder, stop);
+std::vector<results::FigureData> figures_of(const scene::Scene& scene, std::span<const OptimumResult> results) {
+  std::vector<results::FigureData> all;
   std::vector<ResponseBranch> curves, responses;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const OptimumResult& result = results[i];
     if (!result.curves.empty())
-      draw_cases(scene, result, results.size() > 1 ? name + "_" + std::to_string(i + 1) : name, drawing);
+      add_cases(scene, result, result.set.empty() ? "" : std::to_string(i + 1), all);
     for (ResponseBranch curve : result.direct.curves) {
       curve.set = result.set;
       curves.push_back(std::move(curve));
@@ -201,11 +185,11 @@ output::Figures write_figures(const scene::Scene& scene, scene::StudyKind,
       responses.push_back(std::move(branch));
     }
   }
-  output::FigureData peaks = output::figure_data(scene, scene::StudyKind::peaks, curves);
+  results::FigureData peaks = studies::figures_of(scene, scene::StudyKind::peaks, curves);
   add_tolerances(scene, results, peaks);
-  drawing.add(peaks, name);
-  drawing.add(output::figure_data(scene, scene::StudyKind::frf, responses), name + "_responses");
-  return std::move(drawing.all);
+  add(std::move(peaks), "", all);
+  add(studies::figures_of(scene, scene::StudyKind::frf, responses), "responses", all);
+  return all;
 }
 
 }  // namespace arcslip::optimize

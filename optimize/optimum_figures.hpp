@@ -1,23 +1,25 @@
 #pragma once
-// Figures of optima.
+// Figures of optima and of curves of optima, as data.
 
+#include <arcslip/optimize/optimum_curve_result.hpp>
 #include <arcslip/optimize/optimum_study.hpp>
-#include <arcslip/output/figures.hpp>
+#include <arcslip/results/figure.hpp>
 
 #include <span>
-#include <string>
+#include <vector>
 
 namespace arcslip::optimize {
 
-/// Of one parameter: the resonance peaks over its bounds with the least one marked, and the ranges in
-/// which the amplitude is within 1 % and 5 % of it shaded (NAME_amplitude, NAME_frequency; unshaded
-/// NAME_amplitude_over_stick). Of any: the frequency responses at half, once and twice the
-/// optimum, or only once where there are several results (NAME_responses_amplitude, NAME_responses_stick).
-/// With cases, of each result by itself (NAME_1, NAME_2 ... where there are several): the highest peak of
-/// each case, times its weight, and the criterion over the bounds, with the optimum and its ranges
-/// (NAME_amplitude), and the responses of the cases at the optimum.
-output::Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
-                              std::span<const OptimumResult> results, const std::string& folder,
-                              const std::string& name, const scene::StopRequest& stop = {});
+/// Of one parameter: the resonance peaks over its bounds with the least one marked, and the ranges in which the
+/// amplitude is within 1 % and 5 % of it shaded (unshaded over the stick share). Of any: the frequency responses
+/// at half, once and twice the optimum, or only once where there are several results (data named "responses").
+/// With cases, of each result by itself (data named "1", "1_responses" and so on where for_each gives several):
+/// the highest peak of each case, times its weight, and the criterion over the bounds, with the optimum and its
+/// ranges, and the responses of the cases at the optimum. Each has a line on it.
+std::vector<results::FigureData> figures_of(const scene::Scene& scene, std::span<const OptimumResult> results);
+
+/// Over s, with a line for each result: the amplitude ("amplitude"), the stick share of each friction element
+/// ("stick") and each parameter of the design, by its name.
+results::FigureData figures_of(const scene::Scene& scene, std::span<const OptimumCurveResult> results);
 
 }  // namespace arcslip::optimize

@@ -2,7 +2,7 @@
 // Optima and curves of optima as results, formats "arcslip-optimum-1" and "arcslip-optimum-curves-1": tables
 // of the designs that were looked at and of the cases; of the points of a curve and its events.
 
-#include <arcslip/optimize/optimum_curve_output.hpp>
+#include <arcslip/optimize/optimum_curve_result.hpp>
 #include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>

@@ -3,7 +3,7 @@
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/optimum.hpp>
-#include <arcslip/optimize/optimum_curve_output.hpp>
+#include <arcslip/optimize/optimum_curve_result.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include <arcslip/output/atomic_file.hpp>
 
 #include <arcslip/output/descriptor_buffer.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <cerrno>
 #include <cstdio>
@@ -96,7 +96,7 @@ std::pair<std::string, int> unused_name(const std::string& folder, const TryName
 }  // namespace
 
 WriteError::WriteError(const std::string& path, int error)
-    : std::runtime_error("cannot write " + scene::visible(path) + ": " +
+    : std::runtime_error("cannot write " + results::visible(path) + ": " +
                          std::generic_category().message(error) + " (" + advice(error) + ")"),
       error_(error) {}
 

@@ -1,7 +1,6 @@
 #include <arcslip/output/figures.hpp>
 
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/output/draw_figures.hpp>
 #include <arcslip/output/gnuplot_script.hpp>
 #include <arcslip/output/process.hpp>
 
@@ -15,6 +14,9 @@
 
 namespace arcslip::output {
 namespace {
+
+using results::FigureData;
+using results::FigureLine;
 
 constexpr std::chrono::seconds least_time{60};           // for gnuplot
 constexpr std::chrono::microseconds time_of_point{100};  // more for each point of each figure
@@ -112,39 +114,33 @@ std::string file_name(const std::string& name) {
   return result.empty() || result.front() == '-' ? "_" + result : result;
 }
 
-Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
-                      std::span<const observables::ResponseBranch> branches, const std::string& folder,
-                      const std::string& name, const scene::StopRequest& stop) {
-  return draw_figures(scene, figure_data(scene, kind, branches), folder, name, stop);
-}
-
 void remove_figures(const std::string& folder, const std::string& name) {
   const std::string base = folder_prefix(folder), stem = file_name(name);
   remove_images(base, images_of(base + stem + ".gp"));
   remove_images(base, {stem + ".dat", stem + ".gp"});
 }
 
-Figures draw_figures(const scene::Scene& scene, const FigureData& data, const std::string& folder,
+Figures draw_figures(const FigureData& data, const std::string& folder,
                      const std::string& name, const scene::StopRequest& stop) {
   const std::string stem = file_name(name);
   const std::string base = folder_prefix(folder);
-  const std::vector<GnuplotFigure> figures = gnuplot_figures(data, stem);
+  const std::vector<std::string> images = data.lines.empty() ? std::vector<std::string>() : image_names(data, stem);
 
   Figures result;
   result.sources = {base + stem + ".dat", base + stem + ".gp"};
   std::vector<std::string> old = images_of(result.sources[1]);
-  for (const GnuplotFigure& figure : figures) {
-    old.insert(old.end(), {figure.name + ".svg", figure.name + ".png"});
+  for (const std::string& image : images) {
+    old.insert(old.end(), {image + ".svg", image + ".png"});
   }
   const int removed = remove_images(base, old);
-  write_file(result.sources[0], [&](std::ostream& out) { write_figure_data(out, scene, data); });
-  write_file(result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, figures); });
+  write_file(result.sources[0], [&](std::ostream& out) { write_figure_data(out, data); });
+  write_file(result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, images); });
   const auto problem = [&](const std::string& what) {
     result.problem = what + (removed > 0 && result.images.empty()
                                  ? "; those of an earlier run are removed, since they show other data"
                                  : "");
   };
-  if (figures.empty()) {
+  if (images.empty()) {
     problem("there is no point to draw, so there is no figure");
     return result;
   }
@@ -159,13 +155,13 @@ Figures draw_figures(const scene::Scene& scene, const FigureData& data, const st
 
   // gnuplot writes under a temporary name; what is whole gets its own.
   const std::string suffix = "." + std::to_string(::getpid()) + ".tmp";
-  const auto time = time_for(data, figures.size());
+  const auto time = time_for(data, images.size());
   const ProcessResult run =
       run_program("gnuplot", {"-d", "-e", "suffix='" + suffix + "'", stem + ".gp"}, folder, {stop, time});
   bool all_whole = run.end == ProcessEnd::by_itself && run.exit_code == 0;
-  for (const GnuplotFigure& figure : figures) {
+  for (const std::string& image : images) {
     for (const auto& [extension, ending] : {std::pair{".svg", "</svg>"}, std::pair{".png", "IEND"}}) {
-      const std::string path = base + figure.name + extension;
+      const std::string path = base + image + extension;
       const std::string temporary = path + suffix;
       if (run.exit_code == 0 && is_whole(temporary, ending) &&
           std::rename(temporary.c_str(), path.c_str()) == 0) {

@@ -1,11 +1,9 @@
 #pragma once
-// Figures of studies, drawn by gnuplot.
+// Figures, drawn by gnuplot.
 
-#include <arcslip/observables/response.hpp>
-#include <arcslip/scene/scene.hpp>
+#include <arcslip/results/figure.hpp>
 #include <arcslip/scene/stop_request.hpp>
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,15 +15,13 @@ struct Figures {
   std::string problem;               // why images are missing, one sentence for people; empty: all are there
 };
 
-/// Writes NAME.dat and NAME.gp into `folder`, of the branches of one study of this kind, and lets gnuplot
-/// make of them the figures of gnuplot_figures(), as SVG and PNG, with a line for each combination of set
-/// parameters. NAME is made of letters, digits, '.', '_' and '-' only. Without gnuplot, or where it fails,
-/// hangs (it has a minute, and 0.1 ms more for each point of each figure) or `stop` is asked for, `problem`
-/// says so and the sources are there all the same. Images of an earlier run with this NAME are removed first.
-/// Throws WriteError where the sources cannot be written.
-Figures write_figures(const scene::Scene& scene, scene::StudyKind kind,
-                      std::span<const observables::ResponseBranch> branches, const std::string& folder,
-                      const std::string& name, const scene::StopRequest& stop = {});
+/// Writes NAME.dat and NAME.gp into `folder`, and lets gnuplot make of them the figures of `data`, as SVG and PNG.
+/// NAME is made of letters, digits, '.', '_' and '-' only. Without gnuplot, or where it fails, hangs (it has a
+/// minute, and 0.1 ms more for each point of each figure) or `stop` is asked for, `problem` says so and the
+/// sources are there all the same. Images of an earlier run with this NAME are removed first. Throws WriteError
+/// where the sources cannot be written.
+Figures draw_figures(const results::FigureData& data, const std::string& folder, const std::string& name,
+                     const scene::StopRequest& stop = {});
 
 /// Removes the sources of this NAME in `folder` and the images that they were drawn to, if they are there.
 void remove_figures(const std::string& folder, const std::string& name);

@@ -20,7 +20,7 @@ std::string rounded(double value) {
 }
 
 /// Tics of a logarithmic axis: decades, or 1, 2, 5 where there are few of them.
-void write_logarithmic_tics(std::ostream& out, char axis, const Range& range) {
+void write_logarithmic_tics(std::ostream& out, char axis, const results::Range& range) {
   const double decades = std::log10(range.upper / range.lower);
   if (decades > 2.5) {
     out << "set " << axis << "tics " << (decades > 12 ? "1e3" : "10") << "\nset m" << axis
@@ -46,16 +46,16 @@ void write_logarithmic_tics(std::ostream& out, char axis, const Range& range) {
 
 /// The axis of a column: just its range, or with room at both ends, of which the upper one may hold labels,
 /// and the lower one where there are minima.
-Axis axis_of(const FigureColumn& column, bool has_room, bool has_minima = false) {
+Axis axis_of(const results::FigureColumn& column, bool has_room, bool has_minima = false) {
   const double parts_below = has_minima ? 2 : 1;
-  if (column.scale == Scale::percent) {
+  if (column.scale == results::Scale::percent) {
     return {{-3, 103}};
   }
   const auto [lower, upper] = column.range;
   if (!(lower <= upper)) {
     return {{-1, 1}};
   }
-  if (column.scale == Scale::logarithmic) {
+  if (column.scale == results::Scale::logarithmic) {
     if (!has_room && lower < upper) {
       return {column.range, true};
     }
@@ -94,25 +94,25 @@ double Axis::place(double value) const {
                      : (value - range.lower) / (range.upper - range.lower);
 }
 
-bool Axes::shows(const Record& values, const GnuplotFigure& figure) const {
+bool Axes::shows(const results::Record& values, const results::Figure& figure) const {
   return x.shows(values[figure.x]) && y.shows(values[figure.y]);
 }
 
-Place Axes::place(const Record& values, const GnuplotFigure& figure) const {
+Place Axes::place(const results::Record& values, const results::Figure& figure) const {
   return {x.place(values[figure.x]), y.place(values[figure.y])};
 }
 
-Axes axes_of(const FigureData& data, const GnuplotFigure& figure) {
-  const auto has_minimum = [](const FigureLine& line) {
+Axes axes_of(const results::FigureData& data, const results::Figure& figure) {
+  const auto has_minimum = [](const results::FigureLine& line) {
     return std::any_of(line.marks.begin(), line.marks.end(),
-                       [](const FigureMark& mark) { return mark.kind == "minimum"; });
+                       [](const results::FigureMark& mark) { return mark.kind == "minimum"; });
   };
   const bool has_minima = std::any_of(data.lines.begin(), data.lines.end(), has_minimum);
   // What a study goes over fills its axis; in a curve of folds it is the result that the frequency shows.
   return {axis_of(data.columns[figure.x], figure.x != 0), axis_of(data.columns[figure.y], true, has_minima)};
 }
 
-void write_axes(std::ostream& out, const GnuplotFigure& figure, const Axes& axes) {
+void write_axes(std::ostream& out, const results::Figure& figure, const Axes& axes) {
   write_axis(out, 'x', figure.x_label, axes.x);
   write_axis(out, 'y', figure.y_label, axes.y);
 }

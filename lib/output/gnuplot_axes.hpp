@@ -1,8 +1,7 @@
 #pragma once
 
-#include <arcslip/output/figure_data.hpp>
 #include <arcslip/output/figure_labels.hpp>
-#include <arcslip/output/gnuplot_script.hpp>
+#include <arcslip/results/figure.hpp>
 
 #include <iosfwd>
 
@@ -10,7 +9,7 @@ namespace arcslip::output {
 
 /// What one axis of a figure spans.
 struct Axis {
-  Range range;
+  results::Range range;
   bool logarithmic = false;
 
   bool shows(double value) const;
@@ -21,13 +20,13 @@ struct Axis {
 struct Axes {
   Axis x, y;
 
-  bool shows(const Record& values, const GnuplotFigure& figure) const;
-  Place place(const Record& values, const GnuplotFigure& figure) const;
+  bool shows(const results::Record& values, const results::Figure& figure) const;
+  Place place(const results::Record& values, const results::Figure& figure) const;
 };
 
-Axes axes_of(const FigureData& data, const GnuplotFigure& figure);
+Axes axes_of(const results::FigureData& data, const results::Figure& figure);
 
 /// Labels, ranges and tics.
-void write_axes(std::ostream& out, const GnuplotFigure& figure, const Axes& axes);
+void write_axes(std::ostream& out, const results::Figure& figure, const Axes& axes);
 
 }  // namespace arcslip::output

@@ -4,7 +4,7 @@
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/gnuplot_axes.hpp>
 #include <arcslip/output/gnuplot_style.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
 
 #include <algorithm>
@@ -15,12 +15,31 @@
 namespace arcslip::output {
 namespace {
 
+using results::Figure;
+using results::FigureBand;
+using results::FigureColumn;
+using results::FigureData;
+using results::FigureLine;
+using results::FigureMark;
+using results::mark_kinds;
+using results::Record;
+using results::shortest;
+
 constexpr int longest_title = 76;                // characters across a figure
 constexpr std::size_t most_in_key = 24;          // lines that a key has room for
 constexpr const char* other_colour = "#444444";  // in the key, of what lines of several colours have
 
+void write_record(std::ostream& out, const Record& values) {
+  const char* separator = "";
+  for (const double value : values) {
+    out << separator << shortest(value);
+    separator = " ";
+  }
+  out << '\n';
+}
+
 /// How the marks of a kind look, in the order of mark_kinds.
-constexpr std::array<const char*, mark_kinds.size()> mark_styles = {
+constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
     "pointtype 7 pointsize 0.8",  "pointtype 4 pointsize 1 linewidth 1.5",
     "pointtype 9 pointsize 1",    "pointtype 11 pointsize 1",
     "pointtype 13 pointsize 1.1", "pointtype 5 pointsize 0.7"};
@@ -39,7 +58,7 @@ bool is_labelled(const std::string& kind) {
 }
 
 /// The lines over the axes, from 0 to 1, so that no label is put upon one.
-std::vector<std::vector<Place>> places(const FigureData& data, const GnuplotFigure& figure,
+std::vector<std::vector<Place>> places(const FigureData& data, const Figure& figure,
                                        const Axes& axes) {
   std::vector<std::vector<Place>> lines;
   for (const FigureLine& line : data.lines) {
@@ -56,7 +75,7 @@ std::vector<std::vector<Place>> places(const FigureData& data, const GnuplotFigu
 }
 
 /// Labels at the marks, for those that find room.
-void write_labels(std::ostream& out, const FigureData& data, const GnuplotFigure& figure, const Axes& axes) {
+void write_labels(std::ostream& out, const FigureData& data, const Figure& figure, const Axes& axes) {
   struct Label {
     double x, y;
     std::size_t line;
@@ -88,7 +107,7 @@ void write_labels(std::ostream& out, const FigureData& data, const GnuplotFigure
 }
 
 /// Bands behind the lines, where the figure is over what they are ranges of.
-void write_bands(std::ostream& out, const FigureData& data, const GnuplotFigure& figure) {
+void write_bands(std::ostream& out, const FigureData& data, const Figure& figure) {
   out << "unset object\n";
   if (figure.x != 0) {
     return;
@@ -131,17 +150,17 @@ bool has_mark(const FigureLine& line, std::string_view kind) {
 }
 
 /// Whether a figure can show anything of a line, or its marks of a kind.
-bool is_in(const GnuplotFigure& figure, const Record& values) {
+bool is_in(const Figure& figure, const Record& values) {
   return std::isfinite(values[figure.x]) && std::isfinite(values[figure.y]);
 }
 
-bool is_in(const GnuplotFigure& figure, const FigureLine& line) {
+bool is_in(const Figure& figure, const FigureLine& line) {
   return std::any_of(line.parts.begin(), line.parts.end(), [&](const std::vector<Record>& part) {
     return std::any_of(part.begin(), part.end(), [&](const Record& values) { return is_in(figure, values); });
   });
 }
 
-bool is_in(const GnuplotFigure& figure, const FigureLine& line, std::string_view kind) {
+bool is_in(const Figure& figure, const FigureLine& line, std::string_view kind) {
   return std::any_of(line.marks.begin(), line.marks.end(),
                      [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
 }
@@ -160,13 +179,13 @@ void add_bands_to_key(const FigureData& data, std::vector<std::string>& curves) 
   }
 }
 
-void write_plot(std::ostream& out, const FigureData& data, const GnuplotFigure& figure) {
+void write_plot(std::ostream& out, const FigureData& data, const Figure& figure) {
   const std::string columns = " using " + std::to_string(figure.x + 1) + ":" + std::to_string(figure.y + 1);
   const std::size_t count = data.lines.size();
   const std::size_t key_step = (count + most_in_key - 1) / most_in_key;
   std::vector<std::string> curves;
   std::vector<std::string> marks;
-  std::array<bool, mark_kinds.size()> in_figure{};
+  std::array<bool, results::mark_kinds.size()> in_figure{};
   int index = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const FigureLine& line = data.lines[i];
@@ -203,84 +222,51 @@ void write_plot(std::ostream& out, const FigureData& data, const GnuplotFigure& 
   out << '\n';
 }
 
-/// A figure for each friction element, with its stick share on one of the axes.
-void add_stick_figures(const FigureData& data, const GnuplotFigure& first, bool over_stick,
-                       std::vector<GnuplotFigure>& figures) {
-  for (std::size_t i = 0; i < data.friction.size(); ++i) {
-    const std::string& element = data.friction[i];
-    GnuplotFigure figure = first;
-    std::string& label = over_stick ? figure.x_label : figure.y_label;
-    (over_stick ? figure.x : figure.y) = data.stick_column() + i;
-    label = "stick (% of the period)";
-    if (data.friction.size() > 1) {
-      figure.name.append("_").append(file_name(element));
-      label.insert(0, element + ": ");
-    }
-    for (const GnuplotFigure& other : figures) {  // two names may differ only in what a file name cannot hold
-      if (other.name == figure.name) {
-        figure.name.append("_").append(std::to_string(i + 1));
-      }
-    }
-    figures.push_back(figure);
-  }
-}
-
-/// Of the columns of motions in time: each friction element has its displacement and its force.
-std::vector<GnuplotFigure> figures_in_time(const FigureData& data, const std::string& name) {
-  const auto& columns = data.columns;
-  std::vector<GnuplotFigure> figures{{name + "_displacement", 0, 1, columns[0].label, columns[1].label}};
-  for (std::size_t i = 0; i < data.friction.size(); ++i) {
-    const std::size_t q = 2 + 2 * i;
-    const std::string of =
-        data.friction.size() > 1 ? "_" + std::to_string(i + 1) + "_" + file_name(data.friction[i]) : "";
-    figures.push_back({name + "_hysteresis" + of, q, q + 1, columns[q].label, columns[q + 1].label});
-    figures.push_back({name + "_force" + of, 0, q + 1, columns[0].label, columns[q + 1].label});
-  }
-  return figures;
-}
-
 }  // namespace
 
-std::vector<GnuplotFigure> gnuplot_figures(const FigureData& data, const std::string& name) {
-  std::vector<GnuplotFigure> figures;
-  if (data.lines.empty()) {
-    return figures;
+std::vector<std::string> image_names(const FigureData& data, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Figure& figure : data.figures) {
+    std::string own = name + "_" + file_name(figure.name);
+    if (std::find(names.begin(), names.end(), own) != names.end()) {  // differs only in what it cannot hold
+      own += "_" + std::to_string(names.size());
+    }
+    names.push_back(own);
   }
-  if (data.kind == scene::StudyKind::time) {
-    return figures_in_time(data, name);
+  return names;
+}
+
+void write_figure_data(std::ostream& out, const FigureData& data) {
+  const char* separator = "# ";
+  for (const FigureColumn& column : data.columns) {
+    out << separator << results::visible(column.label);
+    separator = ", ";
   }
-  const std::size_t frequency = data.frequency_column();
-  const std::size_t amplitude = data.amplitude_column();
-  const std::string& over = data.columns.front().label;
-  const std::string& frequency_label = data.columns[frequency].label;
-  const std::string& amplitude_label = data.columns[amplitude].label;
-  switch (data.kind) {
-    case scene::StudyKind::frf:
-    case scene::StudyKind::trace:
-    case scene::StudyKind::optimum:  // of which the responses are drawn
-      figures.push_back({name + "_amplitude", 0, amplitude, over, amplitude_label});
-      add_stick_figures(data, {name + "_stick", 0, 0, over, ""}, false, figures);
-      break;
-    case scene::StudyKind::peaks:
-      figures.push_back({name + "_amplitude", 0, amplitude, over, "peak " + amplitude_label});
-      figures.push_back({name + "_frequency", 0, frequency, over, "resonance " + frequency_label});
-      add_stick_figures(data, {name + "_amplitude_over_stick", 0, amplitude, "", "peak " + amplitude_label},
-                        true, figures);
-      break;
-    case scene::StudyKind::folds:
-      figures.push_back({name + "_folds", frequency, 0, frequency_label, over});
-      break;
-    case scene::StudyKind::time:
-      break;
+  out << '\n';
+  for (const FigureLine& line : data.lines) {
+    out << "# " << line.heading << '\n';
+    for (const auto& part : line.parts) {
+      for (const Record& values : part) {
+        write_record(out, values);
+      }
+      out << '\n';
+    }
+    out << '\n';
+    for (const std::string_view kind : mark_kinds) {
+      bool any = false;
+      for (const FigureMark& mark : line.marks) {
+        if (mark.kind == kind) {
+          write_record(out, mark.record);
+          any = true;
+        }
+      }
+      out << (any ? "\n\n" : "");
+    }
   }
-  for (const auto& [own, column] : data.further) {
-    figures.push_back({name + "_" + file_name(own), 0, column, over, data.columns[column].label});
-  }
-  return figures;
 }
 
 void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::string& name,
-                          const std::vector<GnuplotFigure>& figures) {
+                          const std::vector<std::string>& images) {
   out << "# Made by arcslip " << results::version() << ". Draws the figures again: gnuplot -d " << name << ".gp\n"
       << "if (!exists('suffix')) suffix = ''\n"
       << "data = '" << name << ".dat'\n"
@@ -291,18 +277,20 @@ void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::
       << "set grid xtics ytics back linetype 1 linewidth 0.5 linecolor rgb '#dddddd'\n"
       << "set key outside right center vertical Left reverse samplen 3.5 spacing 1.2 noenhanced\n";
   write_key_title(out, data);
-  for (const GnuplotFigure& figure : figures) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const Figure& figure = data.figures[i];
+    const std::string& image = images[i];
     const Axes axes = axes_of(data, figure);
-    out << "\n# " << figure.name << '\n';
+    out << "\n# " << image << '\n';
     write_axes(out, figure, axes);
     write_bands(out, data, figure);
     write_labels(out, data, figure, axes);
     out << "set terminal svg size 800,500 font 'Helvetica,15' background rgb 'white' dashlength 0.5\n"
-        << "set output '" << figure.name << ".svg'.suffix\n";
+        << "set output '" << image << ".svg'.suffix\n";
     write_plot(out, data, figure);
     out << "set terminal pngcairo size 1600,1000 font 'Sans,15' fontscale 1.6 linewidth 2 pointscale 2 "
            "dashlength 0.5\n"
-        << "set output '" << figure.name << ".png'.suffix\n"
+        << "set output '" << image << ".png'.suffix\n"
         << "replot\n"
         << "unset output\n";
   }

@@ -1,6 +1,6 @@
 #include <arcslip/output/gnuplot_style.hpp>
 
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@ namespace arcslip::output {
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : scene::visible(text)) {
+  for (const char c : results::visible(text)) {
     if (c == '\'') {
       result += R"('."'".')";  // gnuplot takes a doubled quote at the beginning for an empty text
     } else {

@@ -6,7 +6,7 @@
 namespace arcslip::output {
 
 /// A text as gnuplot reads it: in single quotes, where nothing is special but the quote itself.
-/// Characters that XML and terminals do not take are escaped (scene/visible.hpp).
+/// Characters that XML and terminals do not take are escaped (results/text.hpp).
 std::string quoted(const std::string& text);
 
 /// The first `longest` characters (UTF-8) of a text, and " ..." where there are more.

@@ -1,5 +1,5 @@
 #include <arcslip/scene/faults.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <array>
 #include <charconv>
@@ -13,7 +13,7 @@ std::string lines_of(const std::vector<Fault>& faults) {
   std::string lines;
   for (const Fault& fault : faults) {
     lines += lines.empty() ? "" : "\n";
-    lines += fault.pointer.empty() ? fault.message : visible(fault.pointer) + ": " + fault.message;
+    lines += fault.pointer.empty() ? fault.message : results::visible(fault.pointer) + ": " + fault.message;
   }
   return lines;
 }
@@ -97,7 +97,7 @@ std::string quoted(std::string_view text) {
       inside += c;
     }
   }
-  return '"' + visible(inside) + '"';
+  return '"' + results::visible(inside) + '"';
 }
 
 std::string shown(std::string_view text) {

@@ -1,6 +1,6 @@
 #include <arcslip/scene/read_text.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <cerrno>
 #include <cstddef>
@@ -35,7 +35,7 @@ class OpenFile {
       descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     } while (descriptor_ < 0 && errno == EINTR);
     if (descriptor_ < 0) {
-      throw FileError("cannot open " + visible(path) + ": " + std::generic_category().message(errno));
+      throw FileError("cannot open " + results::visible(path) + ": " + std::generic_category().message(errno));
     }
   }
   OpenFile(const OpenFile&) = delete;
@@ -82,7 +82,7 @@ std::string read_text(const std::string& path, const StopRequest& stop) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) {
-    throw FileError(visible(path) + " is a directory, must be a scene file");
+    throw FileError(results::visible(path) + " is a directory, must be a scene file");
   }
   if (fs::is_regular_file(status)) {
     const std::uintmax_t size = fs::file_size(path, error);
@@ -95,11 +95,11 @@ std::string read_text(const std::string& path, const StopRequest& stop) {
   while (file.read_some(text)) {
     check_size(text);
     if (is_asked(stop)) {
-      throw Interrupted("interrupted while " + visible(path) + " was read");
+      throw Interrupted("interrupted while " + results::visible(path) + " was read");
     }
   }
   if (errno != 0) {
-    throw FileError(visible(path) + ": reading the scene failed after " + std::to_string(text.size()) +
+    throw FileError(results::visible(path) + ": reading the scene failed after " + std::to_string(text.size()) +
                     " bytes: " + std::generic_category().message(errno));
   }
   return text;

@@ -6,8 +6,9 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
-#include <arcslip/optimize/optimum_curve_output.hpp>
+#include <arcslip/optimize/optimum_figures.hpp>
 #include <arcslip/optimize/optimum_results.hpp>
+#include <arcslip/output/figures.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 
@@ -438,7 +439,7 @@ TEST_CASE("result files tell every point of the curve and every event") {
 
   const auto folder = std::filesystem::temp_directory_path() / "arcslip_optimum_curve";
   std::filesystem::create_directories(folder);
-  const auto figures = write_figures(s, results, folder.string(), "best");
+  const auto figures = output::draw_figures(figures_of(s, results), folder.string(), "best");
   std::ifstream script(folder / "best.gp");
   const std::string commands{std::istreambuf_iterator<char>(script), {}};
   for (const char* figure : {"best_damper.normal_load.svg", "best_amplitude.svg", "best_stick.svg"})

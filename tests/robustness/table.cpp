@@ -10,7 +10,7 @@
 #include "lib/scene/bad_scenes.hpp"
 #include "optimize/limited_searches.hpp"
 
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <cstdio>
 #include <cstdlib>
@@ -76,7 +76,7 @@ void print_head(const std::vector<std::string>& titles) {
 std::string command_line(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"arcslip"};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  return arcslip::scene::visible(joined(words, " "));
+  return arcslip::results::visible(joined(words, " "));
 }
 
 void print_introduction() {

@@ -6,7 +6,7 @@
 
 #include <arcslip/observables/histories.hpp>
 #include <arcslip/observables/time_study.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <cmath>
 #include <stdexcept>
@@ -133,7 +133,7 @@ DataFile loop_shapes(const SceneFile& file) {
     const auto& values = scene.elements.front().values;  // k_d, mu, Fn
     const double limit = values[1] * values[2], slope = values[0] * point.amplitude / limit;
     Block block{
-        set_label(file, branch) + ", τ = " + output::shortest(std::round(10 * stick.of(point)) / 10) + " %",
+        set_label(file, branch) + ", τ = " + results::shortest(std::round(10 * stick.of(point)) / 10) + " %",
         {}};
     for (std::size_t k = 0; k < history.angle.size(); ++k)
       block.rows.push_back({damper.displacement[k] / point.amplitude, damper.force[k] / limit,

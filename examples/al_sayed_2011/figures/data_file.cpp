@@ -1,7 +1,7 @@
 #include "data_file.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <ostream>
 #include <stdexcept>
@@ -15,7 +15,7 @@ void write_row(std::ostream& out, const DataFile& data, const std::vector<double
                            std::to_string(data.columns.size()) + " columns");
   const char* separator = "";
   for (const double value : row) {
-    out << separator << arcslip::output::shortest(value);
+    out << separator << arcslip::results::shortest(value);
     separator = " ";
   }
   out << '\n';

@@ -1,6 +1,6 @@
 #include "studies.hpp"
 
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ std::vector<ResponsePoint> between(const SceneFile& file, scene::Study study, co
                                    const ResponsePoint& begin, const ResponsePoint& end) {
   const auto place = [&](const ResponsePoint& point) {
     return study.kind == scene::StudyKind::peaks ? point.over
-                                                 : output::in_scene_unit(file.scene, point.omega);
+                                                 : studies::in_scene_unit(file.scene, point.omega);
   };
   scene::Scene scene = file.scene;
   for (const auto& [name, value] : branch.set) scene::set(scene, name, value);
@@ -129,7 +129,7 @@ ResponseBranch response_at(const scene::Scene& scene, double frequency) {
   study.to = frequency * 1.001;
   const auto found = observables::frequency_response(scene, study);
   if (found.empty() || found.front().points.empty())
-    throw std::runtime_error("no response was found at " + output::shortest(frequency) + " " +
+    throw std::runtime_error("no response was found at " + results::shortest(frequency) + " " +
                              std::string(scene::unit_name(scene.frequency_unit)));
   return found.front();
 }
@@ -141,16 +141,16 @@ double set_value(const ResponseBranch& branch) {
 
 std::string set_label(const SceneFile& file, const ResponseBranch& branch) {
   const double value = set_value(branch);
-  return output::quantity(value, output::parameter_unit(file.scene, branch.set.front().first));
+  return studies::quantity(value, studies::parameter_unit(file.scene, branch.set.front().first));
 }
 
 Column frequency(const SceneFile& file) {
   return {"frequency (" + std::string(scene::unit_name(file.scene.frequency_unit)) + ")",
-          [&scene = file.scene](const ResponsePoint& p) { return output::in_scene_unit(scene, p.omega); }};
+          [&scene = file.scene](const ResponsePoint& p) { return studies::in_scene_unit(scene, p.omega); }};
 }
 
 Column over(const SceneFile& file, const ResponseBranch& branch) {
-  return {output::with_unit(branch.over, output::parameter_unit(file.scene, branch.over)),
+  return {studies::with_unit(branch.over, studies::parameter_unit(file.scene, branch.over)),
           [](const ResponsePoint& p) { return p.over; }};
 }
 

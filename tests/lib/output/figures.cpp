@@ -2,10 +2,10 @@
 #include "lib/output/support.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/output/draw_figures.hpp>
 #include <arcslip/output/figure_labels.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/process.hpp>
+#include <arcslip/studies/figures.hpp>
 
 #include <chrono>
 #include <csignal>
@@ -43,6 +43,12 @@ void write_program(const std::string& path, const std::string& script) {
   support::fs::permissions(path, support::fs::perms::owner_all);
 }
 
+output::Figures drawn(const scene::Scene& scene, StudyKind kind,
+                      const std::vector<observables::ResponseBranch>& branches, const std::string& folder,
+                      const std::string& name) {
+  return output::draw_figures(studies::figures_of(scene, kind, branches), folder, name);
+}
+
 }  // namespace
 
 TEST_CASE("figures come as whole SVG and PNG, amplitude and stick share") {
@@ -53,7 +59,7 @@ TEST_CASE("figures come as whole SVG and PNG, amplitude and stick share") {
   const TemporaryFolder folder;
   const std::vector branches{support::branch(1), support::branch(3)};
   const auto figures =
-      output::write_figures(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+      drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
   CHECK(figures.problem.empty());
   CHECK(figures.sources == std::vector<std::string>{folder / "frf.dat", folder / "frf.gp"});
   CHECK(figures.images == std::vector<std::string>{folder / "frf_amplitude.svg", folder / "frf_amplitude.png",
@@ -83,7 +89,7 @@ TEST_CASE("no name or title runs a command or breaks a figure") {
   auto scene = support::scene(evil);
   scene.elements[0].name = evil;
   branch.set = {{evil + ".normal_load", 3}};
-  const auto figures = output::write_figures(scene, StudyKind::frf, std::vector{branch}, folder.path(), evil);
+  const auto figures = drawn(scene, StudyKind::frf, std::vector{branch}, folder.path(), evil);
   CHECK(figures.problem == "");
   CHECK(figures.images.size() == 6);
   CHECK_FALSE(support::fs::exists(folder / "broken"));
@@ -125,7 +131,7 @@ TEST_CASE("results that are hard to draw are drawn") {
       branches[i].set[0].second = static_cast<double>(i);
     }
     const auto figures =
-        output::write_figures(support::scene(), StudyKind::frf, branches, folder.path(), name);
+        drawn(support::scene(), StudyKind::frf, branches, folder.path(), name);
     CHECK(figures.problem == "");
     CHECK(figures.images.size() == (name == "no_friction" ? 2 : 4));
   }
@@ -160,7 +166,7 @@ TEST_CASE("a study over a parameter that is hard to draw is drawn") {
       CAPTURE(static_cast<int>(kind), branch.points[0].over, branch.points[0].unbounded);
       const TemporaryFolder folder;
       const auto figures =
-          output::write_figures(support::scene(), kind, std::vector{branch}, folder.path(), "x");
+          drawn(support::scene(), kind, std::vector{branch}, folder.path(), "x");
       CHECK(figures.problem == "");
       CHECK_FALSE(figures.images.empty());
     }
@@ -172,7 +178,7 @@ TEST_CASE("branches without a point give data and a reason, and no figure") {
   auto branch = support::branch();
   branch.points.clear();
   const auto figures =
-      output::write_figures(support::scene(), StudyKind::frf, std::vector{branch}, folder.path(), "frf");
+      drawn(support::scene(), StudyKind::frf, std::vector{branch}, folder.path(), "frf");
   CHECK(figures.problem == "there is no point to draw, so there is no figure");
   CHECK(figures.images.empty());
   CHECK(folder.files() == 2);
@@ -181,7 +187,7 @@ TEST_CASE("branches without a point give data and a reason, and no figure") {
 TEST_CASE("without gnuplot there are the data, the script and a plain message") {
   const TemporaryFolder folder;
   const SearchPath nothing("/nonexistent");
-  const auto figures = output::write_figures(support::scene(), StudyKind::frf, std::vector{support::branch()},
+  const auto figures = drawn(support::scene(), StudyKind::frf, std::vector{support::branch()},
                                              folder.path(), "frf");
   CHECK(figures.problem.find("figures need gnuplot (Debian package gnuplot-nox)") == 0);
   CHECK(figures.images.empty());
@@ -202,7 +208,7 @@ TEST_CASE("a gnuplot that fails, is killed or stops half way leaves a message an
     const TemporaryFolder folder;
     write_program(programs / "gnuplot", c.script);
     const SearchPath path(programs.path() + ":/usr/bin:/bin");
-    const auto figures = output::write_figures(support::scene(), StudyKind::frf,
+    const auto figures = drawn(support::scene(), StudyKind::frf,
                                                std::vector{support::branch()}, folder.path(), "frf");
     CHECK(figures.problem.find(c.message) == 0);
     CHECK(figures.images.empty());
@@ -215,7 +221,7 @@ TEST_CASE("what a failing gnuplot says is told") {
   const TemporaryFolder programs;
   write_program(programs / "gnuplot", "echo no such terminal >&2; exit 3");
   const SearchPath path(programs.path() + ":/usr/bin:/bin");
-  const auto figures = output::write_figures(support::scene(), StudyKind::frf, std::vector{support::branch()},
+  const auto figures = drawn(support::scene(), StudyKind::frf, std::vector{support::branch()},
                                              folder.path(), "frf");
   CHECK(figures.problem.find("\nno such terminal") != std::string::npos);
 }
@@ -241,7 +247,7 @@ TEST_CASE("images of an earlier run are removed where the new ones cannot be dra
   const TemporaryFolder folder;
   const SearchPath nothing("/nonexistent");
   const std::vector branches{support::branch()};
-  output::write_figures(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+  drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
   // As if they had been drawn, with one that the present figures do not have.
   const std::string script = content(folder / "frf.gp");
   output::write_file(folder / "frf.gp", [&](std::ostream& out) {
@@ -250,7 +256,7 @@ TEST_CASE("images of an earlier run are removed where the new ones cannot be dra
   for (const char* image : {"frf_amplitude.svg", "frf_stick.png", "frf_stick_other.svg", "frf_mine.svg"})
     output::write_file(folder / image, [](std::ostream& out) { out << "</svg>"; });
   const auto figures =
-      output::write_figures(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+      drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
   CHECK(figures.problem.find("; those of an earlier run are removed") != std::string::npos);
   CHECK(folder.files() == 3);
   CHECK(support::fs::exists(folder / "frf_mine.svg"));
@@ -261,7 +267,7 @@ TEST_CASE("the data of a figure has a block for each line and its marks") {
   const SearchPath nothing("/nonexistent");
   auto second = support::branch();  // goes on beyond a cut: the same line
   second.events.clear();
-  output::write_figures(support::scene(), StudyKind::frf, std::vector{support::branch(), second},
+  drawn(support::scene(), StudyKind::frf, std::vector{support::branch(), second},
                         folder.path(), "frf");
   const std::string data = content(folder / "frf.dat");
   CHECK(data.find(
@@ -276,7 +282,7 @@ TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitu
     return;
   }
   const TemporaryFolder folder;
-  const auto figures = output::write_figures(support::scene(), StudyKind::peaks,
+  const auto figures = drawn(support::scene(), StudyKind::peaks,
                                              std::vector{support::peaks()}, folder.path(), "peaks");
   CHECK(figures.problem.empty());
   CHECK(figures.images ==
@@ -302,10 +308,10 @@ TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitu
 
 TEST_CASE("bands lie behind the curve over the parameter, named in the key, and not over the stick share") {
   const TemporaryFolder folder;
-  auto data = output::figure_data(support::scene(), StudyKind::peaks, std::vector{support::peaks()});
+  auto data = studies::figures_of(support::scene(), StudyKind::peaks, std::vector{support::peaks()});
   data.lines[0].bands = {{"within 5 %", {2.5, 6}}, {"within 1 %", {3.25, 5}}};
   data.lines[0].marks[0].label = "4.0 N";
-  const auto figures = output::draw_figures(support::scene(), data, folder.path(), "x");
+  const auto figures = output::draw_figures(data, folder.path(), "x");
   const std::string script = content(folder / "x.gp");
   const auto part = [&](const std::string& from, const std::string& to) {
     const auto begin = script.find("# " + from + "\n");
@@ -340,7 +346,7 @@ TEST_CASE(
   const SearchPath nothing("/nonexistent");
   const auto script_of = [](StudyKind kind) {
     const TemporaryFolder folder;
-    output::write_figures(support::scene(), kind, std::vector{support::peaks()}, folder.path(), "x");
+    drawn(support::scene(), kind, std::vector{support::peaks()}, folder.path(), "x");
     return content(folder / "x.gp");
   };
   const std::string trace = script_of(StudyKind::trace);
@@ -363,7 +369,7 @@ TEST_CASE("an axis of a parameter is logarithmic where it is positive over more 
     branch.points[0].over = first;
     branch.points.resize(2);
     branch.events.clear();
-    output::write_figures(support::scene(), StudyKind::peaks, std::vector{branch}, folder.path(), "x");
+    drawn(support::scene(), StudyKind::peaks, std::vector{branch}, folder.path(), "x");
     return content(folder / "x.gp");
   };
   CHECK(script_of(0.01).find("\nset logscale x") != std::string::npos);
@@ -380,7 +386,7 @@ TEST_CASE("the data of a study over a parameter begin with it, and have a block 
   auto branch = support::peaks();
   branch.events.push_back(branch.events[0]);
   branch.events[1].kind = "fold";
-  output::write_figures(support::scene(), StudyKind::peaks, std::vector{branch}, folder.path(), "x");
+  drawn(support::scene(), StudyKind::peaks, std::vector{branch}, folder.path(), "x");
   const std::string data = content(folder / "x.dat");
   CHECK(
       data.find(

@@ -1,10 +1,11 @@
 #include "catch.hpp"
 #include "lib/output/support.hpp"
 
+#include <arcslip/output/figures.hpp>
 #include <arcslip/output/gnuplot_script.hpp>
-#include <arcslip/output/motion.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
+#include <arcslip/studies/figures.hpp>
 #include <arcslip/studies/motions.hpp>
 
 #include <nlohmann/json.hpp>
@@ -143,28 +144,28 @@ TEST_CASE("CSV of motions has a row an instant, with units") {
 TEST_CASE("figures of motions are the displacement, and the loop and the force of each friction element") {
   const scene::Scene scene = made_up_scene();
   const std::vector<Motion> motions{motion(1), motion(2)};
-  const auto data = output::figure_data(scene, motions);
+  const auto data = studies::figures_of(scene, motions);
   REQUIRE(data.lines.size() == 2);
   CHECK(data.lines[1].label == "2 N");
   CHECK(data.columns[2].range.upper == 0.2);
   CHECK(data.columns[3].range.lower == -1.5);
-  const auto figures = output::gnuplot_figures(data, "time");
+  const auto figures = data.figures;
   REQUIRE(figures.size() == 3);
-  CHECK(figures[0].name == "time_displacement");
+  CHECK(figures[0].name == "displacement");
   CHECK(figures[0].x_label == "time (s)");
-  CHECK(figures[1].name == "time_hysteresis");
+  CHECK(figures[1].name == "hysteresis");
   CHECK(figures[1].x_label == "damper displacement (m)");
   CHECK(figures[1].y_label == "damper force (N)");
-  CHECK(figures[2].name == "time_force");
+  CHECK(figures[2].name == "force");
   CHECK(figures[2].x == 0);
   CHECK(figures[2].y == 3);
 
   Motion two = motion();
   two.history.elements.push_back(two.history.elements.front());
   two.history.elements.back().name = "b/c";
-  const auto more = output::gnuplot_figures(output::figure_data(scene, std::vector{two}), "t");
+  const auto more = output::image_names(studies::figures_of(scene, std::vector{two}), "t");
   REQUIRE(more.size() == 5);
-  CHECK(more[3].name == "t_hysteresis_2_b_c");
+  CHECK(more[3] == "t_hysteresis_2_b_c");
 }
 
 TEST_CASE("histories of more than 20 000 instants are thinned in figures, and keep their end") {
@@ -175,7 +176,7 @@ TEST_CASE("histories of more than 20 000 instants are thinned in figures, and ke
     longer.history.displacement.push_back(-i);
     longer.history.velocity.push_back(0);
   }
-  const auto data = output::figure_data(made_up_scene(), std::vector{longer});
+  const auto data = studies::figures_of(made_up_scene(), std::vector{longer});
   const auto& part = data.lines.at(0).parts.at(0);
   CHECK(part.size() <= 20'001);
   CHECK(part.size() > 15'000);
@@ -188,13 +189,11 @@ TEST_CASE("the figures of motions are drawn") {
     return;
   }
   const support::TemporaryFolder folder;
-  const auto figures = output::write_figures(made_up_scene(), scene::StudyKind::time, std::vector{motion()},
-                                             folder.path(), "time");
+  const auto figures = output::draw_figures(studies::figures_of(made_up_scene(), std::vector{motion()}), folder.path(), "time");
   CHECK(figures.problem.empty());
   CHECK(figures.images.size() == 6);
   CHECK(support::content(folder / "time.dat").find("# time (s), displacement (m), damper displacement (m)") ==
         0);
-  const auto none = output::write_figures(made_up_scene(), scene::StudyKind::time, std::vector<Motion>{},
-                                          folder.path(), "none");
+  const auto none = output::draw_figures(studies::figures_of(made_up_scene(), std::vector<Motion>{}), folder.path(), "none");
   CHECK(none.problem == "there is no point to draw, so there is no figure");
 }

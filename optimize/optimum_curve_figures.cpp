@@ -1,7 +1,7 @@
-#include <arcslip/optimize/optimum_curve_output.hpp>
+#include <arcslip/optimize/optimum_figures.hpp>
 
-#include <arcslip/output/draw_figures.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <algorithm>
 
@@ -9,6 +9,7 @@ namespace arcslip::optimize {
 namespace {
 
 constexpr double decade = 10;
+constexpr auto study_kind = scene::StudyKind::optimum;
 
 // As a branch over s, for the figures.
 observables::ResponseBranch branch_of(const OptimumCurveResult& result) {
@@ -27,40 +28,38 @@ std::string mark_of(const std::string& kind) {
   return kind == "turning_point" ? "turn" : kind == "minimum" || kind == "maximum" ? kind : "";
 }
 
-output::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResult& result) {
+results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResult& result) {
   const observables::ResponseBranch branch = branch_of(result);
-  output::FigureData data = output::figure_data(scene, scene::StudyKind::optimum, {&branch, 1});
+  results::FigureData data = studies::figures_of(scene, study_kind, {&branch, 1});
   if (data.lines.empty()) return data;
-  output::FigureLine& line = data.lines.front();
-  const auto add = [](output::Record& record, const OptimumPoint& at) {
+  results::FigureLine& line = data.lines.front();
+  const auto add = [](results::Record& record, const OptimumPoint& at) {
     record.insert(record.end(), at.design.begin(), at.design.end());
   };
   for (const OptimumEvent& event : result.curve.events) {
     if (mark_of(event.kind).empty()) continue;
-    output::Record record = line.parts[0][std::min(event.after, line.parts[0].size() - 1)];
+    results::Record record = line.parts[0][std::min(event.after, line.parts[0].size() - 1)];
     record[0] = event.point.along;
-    record[data.frequency_column()] = output::in_scene_unit(scene, event.point.response.omega);
-    record[data.amplitude_column()] = event.point.amplitude;
+    record[studies::frequency_column(study_kind)] = studies::in_scene_unit(scene, event.point.response.omega);
+    record[studies::amplitude_column(study_kind)] = event.point.amplitude;
     add(record, event.point);
     line.marks.push_back({mark_of(event.kind), record});
   }
   for (std::size_t i = 0; i < line.parts[0].size(); ++i) add(line.parts[0][i], result.curve.points[i]);
   for (const DesignVariable& v : result.problem.over) {
-    data.further.push_back({v.name, data.columns.size()});
-    data.columns.push_back({output::with_unit(v.name, output::parameter_unit(scene, v.name))});
+    const std::string label = studies::with_unit(v.name, studies::parameter_unit(scene, v.name));
+    data.figures.push_back({v.name, 0, data.columns.size(), data.columns[0].label, label});
+    data.columns.push_back({label});
   }
   return data;
 }
 
 }  // namespace
 
-output::Figures write_figures(const scene::Scene& scene, std::span<const OptimumCurveResult> results,
-                              const std::string& folder, const std::string& name,
-                              const scene::StopRequest& stop) {
-  output::FigureData all;
-  all.kind = scene::StudyKind::optimum;
+results::FigureData figures_of(const scene::Scene& scene, std::span<const OptimumCurveResult> results) {
+  results::FigureData all;
   for (const OptimumCurveResult& result : results) {
-    output::FigureData one = figure_of(scene, result);
+    results::FigureData one = figure_of(scene, result);
     if (one.lines.empty()) continue;
     if (all.columns.empty())
       all = std::move(one);
@@ -68,14 +67,14 @@ output::Figures write_figures(const scene::Scene& scene, std::span<const Optimum
       all.lines.push_back(std::move(one.lines.front()));
   }
   for (std::size_t i = 0; i < all.columns.size(); ++i) {
-    output::FigureColumn& column = all.columns[i];
-    column.range = output::full_range(all, i);
-    if (column.scale != output::Scale::percent && i != all.frequency_column())
+    results::FigureColumn& column = all.columns[i];
+    column.range = results::full_range(all, i);
+    if (column.scale != results::Scale::percent && i != studies::frequency_column(study_kind))
       column.scale = column.range.lower > 0 && column.range.upper > decade * column.range.lower
-                         ? output::Scale::logarithmic
-                         : output::Scale::linear;
+                         ? results::Scale::logarithmic
+                         : results::Scale::linear;
   }
-  return output::draw_figures(scene, all, folder, name, stop);
+  return all;
 }
 
 }  // namespace arcslip::optimize

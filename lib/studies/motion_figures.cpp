@@ -1,14 +1,12 @@
-#include <arcslip/output/draw_figures.hpp>
-#include <arcslip/output/gnuplot_script.hpp>
-#include <arcslip/output/motion.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/figures.hpp>
 
-#include <algorithm>
 
-namespace arcslip::output {
+namespace arcslip::studies {
 namespace {
 
 using observables::Motion;
+using results::FigureData;
+using results::Record;
 
 constexpr std::size_t most_instants = 20'000;
 
@@ -51,15 +49,25 @@ std::vector<Record> records(const time::History& history) {
   return all;
 }
 
+void set_figures(const std::vector<std::string>& friction, FigureData& data) {
+  const auto& columns = data.columns;
+  data.figures = {{"displacement", 0, 1, columns[0].label, columns[1].label}};
+  for (std::size_t i = 0; i < friction.size(); ++i) {
+    const std::size_t q = 2 + 2 * i;
+    const std::string of = friction.size() > 1 ? "_" + std::to_string(i + 1) + "_" + friction[i] : "";
+    data.figures.push_back({"hysteresis" + of, q, q + 1, columns[q].label, columns[q + 1].label});
+    data.figures.push_back({"force" + of, 0, q + 1, columns[0].label, columns[q + 1].label});
+  }
+}
+
 }  // namespace
 
-FigureData figure_data(const scene::Scene& scene, std::span<const Motion> motions) {
+FigureData figures_of(const scene::Scene& scene, std::span<const Motion> motions) {
   FigureData data;
-  data.kind = scene::StudyKind::time;
   data.title = scene.title;
-  data.friction = friction_of(motions);
+  const std::vector<std::string> friction = friction_of(motions);
   data.columns = {{"time (s)"}, {"displacement (m)"}};
-  for (const std::string& element : data.friction) {
+  for (const std::string& element : friction) {
     data.columns.push_back({element + " displacement (m)"});
     data.columns.push_back({element + " force (N)"});
   }
@@ -72,17 +80,14 @@ FigureData figure_data(const scene::Scene& scene, std::span<const Motion> motion
         data.parameters.push_back(name);
       }
     }
-    data.lines.push_back({set_label(scene, motion.set), motion.set, {records(motion.history)}, {}});
+    data.lines.push_back(line_of(scene, motion.set));
+    data.lines.back().parts = {records(motion.history)};
   }
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
-    data.columns[i].range = full_range(data, i);
+    data.columns[i].range = results::full_range(data, i);
   }
+  set_figures(friction, data);
   return data;
 }
 
-Figures write_figures(const scene::Scene& scene, scene::StudyKind /*time*/, std::span<const Motion> motions,
-                      const std::string& folder, const std::string& name, const scene::StopRequest& stop) {
-  return draw_figures(scene, figure_data(scene, motions), folder, name, stop);
-}
-
-}  // namespace arcslip::output
+}  // namespace arcslip::studies

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace arcslip::output {
+namespace arcslip::studies {
 
 /// Names of the elements that stick and slip, in the order of the points.
 std::vector<std::string> friction_elements(std::span<const observables::ResponseBranch> branches);
@@ -15,4 +15,4 @@ std::vector<std::string> friction_elements(std::span<const observables::Response
 /// Share of the period in which this element sticks (%); NaN where the point does not know.
 double stick_percent(const observables::ResponsePoint& point, std::string_view element);
 
-}  // namespace arcslip::output
+}  // namespace arcslip::studies

@@ -1,8 +1,8 @@
-#include <arcslip/output/friction_elements.hpp>
+#include <arcslip/studies/friction_elements.hpp>
 
 #include <limits>
 
-namespace arcslip::output {
+namespace arcslip::studies {
 
 std::vector<std::string> friction_elements(std::span<const observables::ResponseBranch> branches) {
   std::vector<std::string> names;
@@ -30,4 +30,4 @@ double stick_percent(const observables::ResponsePoint& point, std::string_view e
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace arcslip::output
+}  // namespace arcslip::studies

@@ -2,7 +2,8 @@
 #include "lib/output/support.hpp"
 
 #include <arcslip/output/figures.hpp>
-#include <arcslip/output/units.hpp>
+#include <arcslip/results/text.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <limits>
 
@@ -11,25 +12,25 @@ using namespace arcslip;
 TEST_CASE("a parameter's unit is its field's, a tie's that of its members") {
   auto scene = support::scene();
   scene.ties.push_back({"load", {"damper.normal_load"}});
-  CHECK(output::parameter_unit(scene, "damper.normal_load") == "N");
-  CHECK(output::parameter_unit(scene, "load") == "N");
-  CHECK(output::parameter_unit(scene, "k.value") == "N/m");
-  CHECK_THROWS_AS(output::parameter_unit(scene, "nothing.value"), scene::ParameterError);
+  CHECK(studies::parameter_unit(scene, "damper.normal_load") == "N");
+  CHECK(studies::parameter_unit(scene, "load") == "N");
+  CHECK(studies::parameter_unit(scene, "k.value") == "N/m");
+  CHECK_THROWS_AS(studies::parameter_unit(scene, "nothing.value"), scene::ParameterError);
 }
 
 TEST_CASE("numbers are written as short as they read back") {
-  CHECK(output::shortest(3) == "3");
-  CHECK(output::shortest(0.01) == "0.01");
-  CHECK(output::shortest(1e-12) == "1e-12");
-  CHECK(output::shortest(1.0 / 3) == "0.3333333333333333");
-  CHECK(output::shortest(-std::numeric_limits<double>::infinity()) == "-inf");
+  CHECK(results::shortest(3) == "3");
+  CHECK(results::shortest(0.01) == "0.01");
+  CHECK(results::shortest(1e-12) == "1e-12");
+  CHECK(results::shortest(1.0 / 3) == "0.3333333333333333");
+  CHECK(results::shortest(-std::numeric_limits<double>::infinity()) == "-inf");
 }
 
 TEST_CASE("a set of parameters reads as an assignment with units") {
-  CHECK(output::assignment(support::scene(),
+  CHECK(studies::assignment(support::scene(),
                            {{"damper.normal_load", 3}, {"damper.friction_coefficient", 0.5}}) ==
         "damper.normal_load = 3 N, damper.friction_coefficient = 0.5");
-  CHECK(output::assignment(support::scene(), {}).empty());
+  CHECK(studies::assignment(support::scene(), {}).empty());
 }
 
 TEST_CASE("a file name holds nothing that a shell, gnuplot or another folder could make something of") {

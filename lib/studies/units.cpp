@@ -1,35 +1,28 @@
-#include <arcslip/output/units.hpp>
+#include <arcslip/studies/units.hpp>
 
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
-#include <array>
-#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 
-namespace arcslip::output {
+namespace arcslip::studies {
+
 std::string parameter_unit(const scene::Scene& scene, std::string_view parameter) {
   return std::string(scene::parameter_fields(scene, parameter).front()->unit);
 }
 
 std::string with_unit(std::string_view quantity, std::string_view unit) {
-  std::string text = scene::visible(quantity);
+  std::string text = results::visible(quantity);
   if (!unit.empty()) {
     text.append(" (").append(unit).append(")");
   }
   return text;
 }
 
-std::string shortest(double value) {
-  std::array<char, 32> text;
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), result.ptr};
-}
-
 std::string quantity(double value, std::string_view unit) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.10g", value);  // without the last digits' rounding
-  std::string text = shortest(std::strtod(digits, nullptr));
+  std::string text = results::shortest(std::strtod(digits, nullptr));
   if (!unit.empty() && unit != "-") {
     text.append(" ").append(unit);
   }
@@ -39,8 +32,16 @@ std::string quantity(double value, std::string_view unit) {
 std::string assignment(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
   std::string text;
   for (const auto& [name, value] : set) {
-    text.append(text.empty() ? "" : ", ").append(scene::visible(name)).append(" = ");
+    text.append(text.empty() ? "" : ", ").append(results::visible(name)).append(" = ");
     text += quantity(value, parameter_unit(scene, name));
+  }
+  return text;
+}
+
+std::string set_label(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
+  std::string text;
+  for (const auto& [name, value] : set) {
+    text.append(text.empty() ? "" : ", ").append(quantity(value, parameter_unit(scene, name)));
   }
   return text;
 }
@@ -49,4 +50,4 @@ double in_scene_unit(const scene::Scene& scene, double omega) {
   return omega / scene::to_rad_per_s(scene.frequency_unit);
 }
 
-}  // namespace arcslip::output
+}  // namespace arcslip::studies

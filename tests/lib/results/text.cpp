@@ -1,9 +1,9 @@
-#include <arcslip/scene/visible.hpp>
+#include <arcslip/results/text.hpp>
 
 #include "catch.hpp"
 
-using arcslip::scene::visible;
-using arcslip::scene::visible_lines;
+using arcslip::results::visible;
+using arcslip::results::visible_lines;
 
 TEST_CASE("what commands a terminal, turns the direction of writing or is no character is escaped") {
   CHECK(visible("\x1b]0;owned\a\x1b[31m") == "\\u001b]0;owned\\u0007\\u001b[31m");

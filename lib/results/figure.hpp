@@ -1,0 +1,76 @@
+#pragma once
+// Figures as data: what is drawn over what, before any program draws it.
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace arcslip::results {
+
+struct Range {
+  double lower = 0, upper = 0;
+};
+
+enum class Scale { linear, logarithmic, percent };
+
+/// A quantity of every point, and how an axis shows it.
+struct FigureColumn {
+  std::string label;  // "frequency (Hz)"
+  Scale scale = Scale::linear;
+  Range range{};  // of the values that the scale can show; lower > upper: there are none
+};
+
+using Record = std::vector<double>;  // a value for each column, NaN where there is none
+
+/// The kinds of events that are drawn, in the order of the data.
+inline constexpr std::array<std::string_view, 6> mark_kinds = {"peak",    "fold", "maximum",
+                                                               "minimum", "cusp", "turn"};
+
+struct FigureMark {
+  std::string kind;
+  Record record;
+  std::string label{};  // empty: that of its line
+};
+
+/// Values of column 0 that are shaded over the height of the figures over it.
+struct FigureBand {
+  std::string label;  // "within 5 %"
+  Range range;
+};
+
+/// One line of a figure: the results with the same set parameters.
+struct FigureLine {
+  std::string label{};                                // "3 N", or "3 N, 0.1 N s/m"
+  std::string heading{};                              // in the data: "damper.normal_load = 3 N, ..."
+  std::vector<std::pair<std::string, double>> set{};  // what they tell
+  std::vector<std::vector<Record>> parts{};           // drawn apart
+  std::vector<FigureMark> marks{};
+  bool unbounded = false;           // somewhere, where nothing can be drawn
+  std::vector<FigureBand> bands{};  // the widest first
+};
+
+/// One column over another, both counted from 0.
+struct Figure {
+  std::string name;  // "amplitude"
+  std::size_t x = 0, y = 1;
+  std::string x_label, y_label;  // "amplitude (m)"
+};
+
+/// What figures of the same lines show.
+struct FigureData {
+  std::string name{};  // tells it from others of the same results; mostly ""
+  std::string title;
+  std::vector<std::string> parameters{};  // that tell the lines apart, by name
+  std::vector<FigureColumn> columns{};
+  std::vector<FigureLine> lines{};
+  std::vector<Figure> figures{};  // none: nothing is drawn
+};
+
+/// Of all finite values of a column that are above a bound; lower > upper where there are none.
+Range range_of(const FigureData& data, std::size_t column, double above);
+Range full_range(const FigureData& data, std::size_t column);
+
+}  // namespace arcslip::results

@@ -1,0 +1,156 @@
+#include <arcslip/studies/figures.hpp>
+
+#include <arcslip/studies/friction_elements.hpp>
+#include <arcslip/studies/units.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace arcslip::studies {
+namespace {
+
+using observables::ResponseBranch;
+using observables::ResponsePoint;
+using results::Figure;
+using results::FigureColumn;
+using results::FigureData;
+using results::FigureLine;
+using results::Range;
+using results::Record;
+using results::Scale;
+using scene::StudyKind;
+
+constexpr double decade = 10;
+
+Record record(const scene::Scene& scene, StudyKind kind, const std::vector<std::string>& friction,
+              const ResponsePoint& point) {
+  Record values;
+  if (kind != StudyKind::frf) {
+    values.push_back(point.over);
+  }
+  values.push_back(in_scene_unit(scene, point.omega));
+  values.push_back(point.unbounded ? observables::no_value : point.amplitude);
+  for (const std::string& element : friction) {
+    values.push_back(stick_percent(point, element));
+  }
+  return values;
+}
+
+/// Amplitudes of frequency responses are shown by their logarithm, which no resonance dwarfs; other columns
+/// where they are positive and span decades.
+void set_ranges(StudyKind kind, FigureData& data) {
+  for (std::size_t i = 0; i < data.columns.size(); ++i) {
+    FigureColumn& column = data.columns[i];
+    column.range = results::full_range(data, i);
+    if (column.scale == Scale::percent || i == frequency_column(kind)) {
+      continue;
+    }
+    const bool is_amplitude = i == amplitude_column(kind);
+    const Range positive = is_amplitude ? results::range_of(data, i, 0) : column.range;
+    if (positive.lower > 0 && positive.upper >= positive.lower &&
+        ((is_amplitude && kind == StudyKind::frf) || positive.upper > decade * positive.lower)) {
+      column.scale = Scale::logarithmic;
+      column.range = positive;
+    }
+  }
+}
+
+void set_columns(const scene::Scene& scene, StudyKind kind, const std::vector<std::string>& friction,
+                 std::span<const ResponseBranch> branches, FigureData& data) {
+  if (kind != StudyKind::frf) {
+    const std::string name = branches.empty() ? "" : branches.front().over;
+    data.columns.push_back({with_unit(name, name.empty() ? "" : parameter_unit(scene, name))});
+  }
+  data.columns.push_back({with_unit("frequency", scene::unit_name(scene.frequency_unit))});
+  data.columns.push_back({"amplitude (m)"});
+  for (const std::string& element : friction) {
+    data.columns.push_back({element + " stick (%)", Scale::percent});
+  }
+}
+
+/// A figure for each friction element, with its stick share on one of the axes.
+void add_stick_figures(StudyKind kind, const std::vector<std::string>& friction, Figure first, bool over_stick,
+                       FigureData& data) {
+  for (std::size_t i = 0; i < friction.size(); ++i) {
+    Figure figure = first;
+    std::string& label = over_stick ? figure.x_label : figure.y_label;
+    (over_stick ? figure.x : figure.y) = amplitude_column(kind) + 1 + i;
+    label = "stick (% of the period)";
+    if (friction.size() > 1) {
+      figure.name += "_" + friction[i];
+      label.insert(0, friction[i] + ": ");
+    }
+    data.figures.push_back(figure);
+  }
+}
+
+void set_figures(StudyKind kind, const std::vector<std::string>& friction, FigureData& data) {
+  const std::size_t frequency = frequency_column(kind), amplitude = amplitude_column(kind);
+  const std::string& over = data.columns.front().label;
+  const std::string& frequency_label = data.columns[frequency].label;
+  const std::string& amplitude_label = data.columns[amplitude].label;
+  if (kind == StudyKind::peaks) {
+    data.figures = {{"amplitude", 0, amplitude, over, "peak " + amplitude_label},
+                    {"frequency", 0, frequency, over, "resonance " + frequency_label}};
+    add_stick_figures(kind, friction, {"amplitude_over_stick", 0, amplitude, "", "peak " + amplitude_label}, true,
+                      data);
+  } else if (kind == StudyKind::folds) {
+    data.figures = {{"folds", frequency, 0, frequency_label, over}};
+  } else {  // responses, also those of optima
+    data.figures = {{"amplitude", 0, amplitude, over, amplitude_label}};
+    add_stick_figures(kind, friction, {"stick", 0, 0, over, ""}, false, data);
+  }
+}
+
+}  // namespace
+
+std::size_t frequency_column(StudyKind kind) {
+  return kind == StudyKind::frf ? 0 : 1;
+}
+
+std::size_t amplitude_column(StudyKind kind) {
+  return frequency_column(kind) + 1;
+}
+
+FigureLine line_of(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
+  return {.label = set_label(scene, set), .heading = assignment(scene, set), .set = set};
+}
+
+FigureData figures_of(const scene::Scene& scene, StudyKind kind, std::span<const ResponseBranch> branches) {
+  FigureData data;
+  data.title = scene.title;
+  const std::vector<std::string> friction = friction_elements(branches);
+  set_columns(scene, kind, friction, branches, data);
+  for (const ResponseBranch& branch : branches) {
+    if (branch.points.empty()) {
+      continue;
+    }
+    if (data.parameters.empty()) {
+      for (const auto& [name, value] : branch.set) {
+        data.parameters.push_back(name);
+      }
+    }
+    auto line = std::find_if(data.lines.begin(), data.lines.end(),
+                             [&](const FigureLine& candidate) { return candidate.set == branch.set; });
+    if (line == data.lines.end()) {
+      line = data.lines.insert(line, line_of(scene, branch.set));
+    }
+    for (const observables::ResponseEvent& event : branch.events) {
+      line->unbounded = line->unbounded || event.point.unbounded;
+      if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) != results::mark_kinds.end()) {
+        line->marks.push_back({event.kind, record(scene, kind, friction, event.point)});
+      }
+    }
+    std::vector<Record>& part = line->parts.emplace_back();
+    for (const ResponsePoint& point : branch.points) {
+      line->unbounded = line->unbounded || point.unbounded;
+      part.push_back(record(scene, kind, friction, point));
+    }
+  }
+  set_ranges(kind, data);
+  set_figures(kind, friction, data);
+  return data;
+}
+
+}  // namespace arcslip::studies
