@@ -7,8 +7,23 @@
 namespace arcslip::elements {
 namespace {
 
+constexpr double same_height = 1e-12;  // of the range of the motion
+
+// Of several samples that are as high but for rounding, as a motion of a shorter period than the force's has
+// them, the first.
+int first_of(In x, double height, double same) {
+  Eigen::Index s = 0;
+  while (std::abs(x[s] - height) > same) ++s;
+  return static_cast<int>(s);
+}
+
+std::uint64_t with_sample(std::uint64_t piece, int sample) {
+  return (piece ^ (static_cast<std::uint64_t>(sample) << 2)) * 1099511628211ull;
+}
+
 // One march over the span from the sample of largest x, where f = +p, is periodic by construction. The
-// samples that stick follow their anchor, the last sample that slipped.
+// samples that stick follow their anchor, the last sample that slipped. Which samples are the highest and the
+// lowest one is part of the piece, as what slips is: anchors and centre follow them.
 class SampledJenkins final : public Element {
  public:
   SampledJenkins(const Harmonics& h, int samples)
@@ -37,20 +52,22 @@ class SampledJenkins final : public Element {
     A_.setZero();
     B_.setZero();
     if (jacobian) J_.setZero();
-    Eigen::Index highest = 0, lowest = 0;
-    const double high = x_.maxCoeff(&highest), low = x_.minCoeff(&lowest);
+    const double high = x_.maxCoeff(), low = x_.minCoeff();
     const double range = h_.odd ? 2 * std::max(high, -low) : high - low;
+    const int highest = first_of(x_, high, same_height * range);
+    const int lowest = first_of(x_, low, same_height * range);
     if (p == 0 && range == 0) {
       stick_share_ = 0;
       piece_ = 0;
       F_.setZero();
     } else if (range <= 2 * x_s) {
-      stick(u, kd, static_cast<int>(highest), static_cast<int>(lowest), jacobian);
+      stick(u, kd, highest, lowest, jacobian);
     } else {
       // Where the motion is odd it may begin at the lowest sample, seen with the other sign.
       const bool mirrored = h_.odd && -low > high;
-      march(u, static_cast<int>(mirrored ? lowest : highest), mirrored ? -1 : 1, kd, x_s, jacobian);
+      march(u, mirrored ? lowest : highest, mirrored ? -1 : 1, kd, x_s, jacobian);
       F_ = kd * A_ + p * B_;
+      if (p == 0) piece_ = 0;  // no force, whatever slips
     }
   }
 
@@ -94,6 +111,7 @@ class SampledJenkins final : public Element {
     A_ = u;
     if (jacobian) J_.diagonal().setConstant(kd);
     if (!h_.odd) {
+      piece_ = with_sample(with_sample(piece_, highest), lowest);
       A_[0] -= 0.5 * (x_[highest] + x_[lowest]);
       if (jacobian) J_.row(0) -= 0.5 * kd * (samples_.basis(highest) + samples_.basis(lowest));
     }
@@ -120,7 +138,7 @@ class SampledJenkins final : public Element {
     int anchor = 0, stuck = 0;
     double anchor_x = turned * x_[top], anchored = 1;
     bool slipping = true;
-    piece_ = 2;
+    piece_ = with_sample(2, 2 * top + (turned < 0));
     const auto close_anchor = [&] {
       if (!jacobian) return;
       const Seen a = seen(top, anchor, turned);

@@ -196,6 +196,27 @@ TEST_CASE("the sampled Jacobian is exact for the sampled force") {
     }
 }
 
+TEST_CASE("the sampled force is one straight line within its piece") {
+  long within = 0;
+  for (const bool odd : {true, false})
+    for (const double load : {0.0, 0.3, 1.0, 2.5, 100.0})
+      for (unsigned seed = 1; seed <= 40; ++seed) {
+        const Harmonics h{5, odd};
+        const auto element = make_sampled_jenkins(h, 64);
+        const Eigen::VectorXd u = motion(h, 1, seed), v = u + motion(h, 0.03, seed + 100);
+        const Fields fields{2.0, 0.5, load};
+        element->move_to(u, fields, true);
+        const std::uint64_t piece = element->piece();
+        const Eigen::VectorXd expected = element->force() + element->jacobian() * (v - u);
+        element->move_to(v, fields, false);
+        if (element->piece() != piece) continue;
+        ++within;
+        CAPTURE(odd, load, seed);
+        CHECK((element->force() - expected).norm() < 1e-13);
+      }
+  CHECK(within > 40);
+}
+
 TEST_CASE("force and energy are continuous where slip is born, between stick and slip") {
   for (bool odd : {true, false}) {
     const Harmonics h{5, odd};
@@ -272,10 +293,10 @@ TEST_CASE(
     "an element that sticks stays in its piece, whichever of equal extremes rounding makes the highest") {
   // A motion of half the period of the force has each of its extremes twice.
   const Harmonics h{7, false};
-  const auto element = make_jenkins(h);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-1, 1);
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < 40; ++trial) {
+    const auto element = trial % 2 == 0 ? make_jenkins(h) : make_sampled_jenkins(h, 128);
     Eigen::VectorXd u = motion(h, 1, static_cast<unsigned>(trial));
     for (int n = 1; n <= h.order; n += 2) u[h.cosine_index(n)] = u[h.sine_index(n)] = 0;
     const Fields fields{1, 0.5, 100};
@@ -292,13 +313,15 @@ TEST_CASE(
 
 TEST_CASE("an element without load has one piece, whatever its motion") {
   const Harmonics h{5, false};
-  const auto element = make_jenkins(h);
   const Fields fields{2, 0.5, 0};
-  element->move_to(motion(h, 1, 1), fields, false);
-  const auto piece = element->piece();
-  for (unsigned seed = 2; seed < 30; ++seed) {
-    element->move_to(motion(h, 1, seed), fields, false);
-    CHECK(element->piece() == piece);
-    CHECK(element->force().norm() < 1e-14);
+  for (const bool sampled : {false, true}) {
+    const auto element = sampled ? make_sampled_jenkins(h, 64) : make_jenkins(h);
+    element->move_to(motion(h, 1, 1), fields, false);
+    const auto piece = element->piece();
+    for (unsigned seed = 2; seed < 30; ++seed) {
+      element->move_to(motion(h, 1, seed), fields, false);
+      CHECK(element->piece() == piece);
+      CHECK(element->force().norm() < 1e-14);
+    }
   }
 }
