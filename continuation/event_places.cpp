@@ -204,7 +204,13 @@ std::optional<Corner> EventLocator::division(const Place& from, double length) {
   Place at = from;
   const auto part = [&](const Vector& v) {
     at.v = v;
-    return part_of(monitors_, accepted(probe, at));
+    const Accepted now = accepted(probe, at);
+    std::uint64_t all = 0;
+    for (const Monitor& monitor : monitors_) {
+      if (monitor.part) value_of(monitor, now);
+      all = with_part(all, monitor, now);
+    }
+    return all;
   };
   Corner found;
   Correction correction;

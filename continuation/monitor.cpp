@@ -24,13 +24,6 @@ MonitorFailure::MonitorFailure(const std::string& monitor, double at, const std:
     : std::runtime_error("the monitor \"" + monitor + "\" threw at " + text(at) + because(what)),
       parameter(at) {}
 
-std::uint64_t part_of(const std::vector<Monitor>& monitors, const Accepted& now) {
-  std::uint64_t part = 0;
-  for (const Monitor& monitor : monitors)
-    if (monitor.part) part = (part ^ call(monitor.part, monitor, now)) * 1099511628211ull;
-  return part;
-}
-
 Monitor bound_monitor(std::string name, int index, double value) {
   Monitor monitor;
   monitor.name = std::move(name);

@@ -69,8 +69,9 @@ struct Monitor {
   /// by the slopes on both sides. False: they are taken as they are, as where kinks are many and small.
   bool divides_at_kinks = true;
 
-  /// Where quantity() is the largest of several smooth ones: which of them it is. Steps are divided where it
-  /// changes, as at kinks of F. Asked for beside the branch as well, where the tangent is another place's.
+  /// Where quantity() is the largest of several smooth ones: which of them it is, asked for after value() at
+  /// the same place. Steps are divided where it changes, as at kinks of F. Both are asked for beside the
+  /// branch as well, where the tangent is another place's.
   std::function<std::uint64_t(const Accepted&)> part = {};
 
   /// Whether a zero of value() at a branch point is an event of this monitor as well. False: of dp/ds.

@@ -7,7 +7,6 @@
 #include <exception>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace arcslip::continuation {
 
@@ -31,8 +30,10 @@ inline double value_of(const Monitor& monitor, const Accepted& now) {
 inline double quantity_of(const Monitor& monitor, const Accepted& now) {
   return monitor.quantity ? call(monitor.quantity, monitor, now) : 0;
 }
-/// Of all monitors whose quantities are made of several smooth ones: which of them they are. 0: there are
-/// none.
-std::uint64_t part_of(const std::vector<Monitor>& monitors, const Accepted& now);
+/// Which of several smooth ones the monitor's quantity is, added to those of the monitors before it. As it
+/// was: it is made of none.
+inline std::uint64_t with_part(std::uint64_t before, const Monitor& monitor, const Accepted& now) {
+  return monitor.part ? (before ^ call(monitor.part, monitor, now)) * 1099511628211ull : before;
+}
 
 }  // namespace arcslip::continuation

@@ -99,11 +99,12 @@ void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place)
   const Accepted now = accepted(at, place);
   place.monitors.resize(monitors.size());
   place.quantities.resize(monitors.size());
+  place.part = 0;
   for (std::size_t m = 0; m < monitors.size(); ++m) {
     place.monitors[m] = value_of(monitors[m], now);
     place.quantities[m] = quantity_of(monitors[m], now);
+    place.part = with_part(place.part, monitors[m], now);
   }
-  place.part = part_of(monitors, now);
 }
 
 Point point(const Place& place, const Correction& correction) {

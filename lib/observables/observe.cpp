@@ -30,6 +30,7 @@ Extreme Observer::extreme(const hbm::HbmEvaluator& at, continuation::In u) {
   at.stiffness().response(u, at.force_factor(), x_);
   const Extreme found = amplitude_.of(x_);
   last_amplitude_ = found.amplitude;
+  last_reversal_ = found.reversal;
   return found;
 }
 
@@ -123,8 +124,8 @@ continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
   // Sampled friction has a kink wherever a sample begins or ceases to slip.
   monitor.divides_at_kinks = observer->problem().model().settings.friction == scene::Friction::exact;
   if (monitor.divides_at_kinks)
-    monitor.part = [observer](const continuation::Accepted& now) {
-      return std::uint64_t{observer->extreme(evaluator_of(now), now.u).reversal};
+    monitor.part = [observer](const continuation::Accepted&) {
+      return std::uint64_t{observer->last_reversal()};
     };
   return monitor;
 }

@@ -36,6 +36,9 @@ class Observer {
   /// A at the last call of any of these.
   double last_amplitude() const { return last_amplitude_; }
 
+  /// Which reversal it was.
+  std::size_t last_reversal() const { return last_reversal_; }
+
   /// dA/ds along the branch.
   double amplitude_slope(const continuation::Accepted& now);
 
@@ -49,6 +52,7 @@ class Observer {
   std::unique_ptr<Maxima> maxima_;          // when first asked for
   continuation::Vector x_, dx_, by_parameter_;
   double last_amplitude_ = 0;
+  std::size_t last_reversal_ = 0;
 };
 
 /// Peaks: dA/ds falls through zero. There is no pole at folds, as dA/domega has.
