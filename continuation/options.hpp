@@ -37,9 +37,9 @@ struct StepOptions {
   double relative_state = 0.5;    // |du| <= relative_state * (1 + |u|), in scales; > 0
 
   /// The accuracy of the curve between the points: the largest distance of the branch from the cubic through
-  /// two neighbouring points with their tangents (interpolate() in branch.hpp), in scales, relative to 1 +
-  /// |u|. Measured in the middle of each step without a kink, by one residual and one solve. 0: not asked
-  /// for.
+  /// two neighbouring points with their tangents (interpolate() in branch.hpp), in scales, relative to
+  /// the larger |u| of the two, to 1e-6 at least. Measured in the middle of each step, of one with kinks in
+  /// the middle of each of its smooth parts, by one residual and one solve. 0: not asked for.
   double curve_tolerance = 0;
 
   double angle = 0.2;          // rad between the tangents of neighbouring points, aimed at

@@ -23,6 +23,7 @@ constexpr double endless_tail =
     1e-12;  // of the parameter's scale: so near to a bound a branch that does not reach it ends
 constexpr double tail_before = 1e-9;     // and its last point was so near
 constexpr double least_power = 0.1;      // of the distance from a bound, with which u comes to rest there
+constexpr double been_away = 3;          // roundings of the way from the start: nearer, it has not come back
 constexpr double singular_bound = 1e-6;  // relative to p: so near to a singular bound a branch has reached it
 
 }  // namespace
@@ -162,9 +163,8 @@ Tracer::Attempt Tracer::attempt() {
     next_.arclength = s_.here.arclength + length;
   }
   if (!measure(next_)) return refuse(Rejected::singular, 0, 0);
+  curve_error_ = curve_error();
   divide();
-  other_piece_between_ = false;
-  if (next_.piece == s_.here.piece) curve_error_ = curve_error(length);
   if (curve_error_ > 1) return refuse(Rejected::curve, curve_error_, 1, Attempt::unresolved);
   if (hides_a_piece(length)) return refuse(Rejected::curve, curve_error_, 1, Attempt::unresolved);
   if (!resolved(length)) return refuse(Rejected::quantity, 0, 0, Attempt::unresolved);
@@ -240,7 +240,7 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   for (std::size_t k = 0; k < corners_.size() && s_.here.arclength > 0; ++k) {
     const Place& at = corners_[k].before;
     const double miss = distance(*main_, at.v, s_.start.v);
-    if (miss > rounding) continue;
+    if (miss > rounding || at.arclength < been_away * rounding) continue;
     next_ = s_.start;
     next_.arclength = at.arclength;
     corners_.resize(k);

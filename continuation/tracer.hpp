@@ -106,7 +106,8 @@ class Tracer {
   bool within_limits();
   bool runs_along(double bound) const;
   void end_in_tail(double bound);
-  double curve_error(double length);
+  double curve_error();
+  double curve_error(const Place& from, const Place& to);
   bool hides_a_piece(double length);
   double unresolved_factor() const;
   double choose_step(double angle, const Correction& correction) const;

@@ -54,7 +54,7 @@ bool Tracer::step_beyond_corner() {
   auto more = events_->corners(corners_.back().beyond, next_);
   corners_.insert(corners_.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
   const double whole = next_.arclength - s_.here.arclength;
-  if (!measure(next_)) return false;
+  if (!measure(next_) || curve_error() > 1) return false;
   divide();
   return resolved(whole) && take(whole, s_.step, true, correction) != Attempt::rejected;
 }

@@ -19,6 +19,7 @@ constexpr double unresolved_share = 1.0 / 50;  // of the step that was first fou
 constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
 constexpr double curve_safety = 0.9;           // of the step that the curve's error allows
 constexpr double middle_share = 0.7;           // of the largest error of the curve, in the middle of a step
+constexpr double smallest_relevant_curve = 1e-6;  // |u| in scales: below, the curve's error is absolute
 
 // Of the step, where the curve's error is `error` times that allowed: it falls with the fourth power.
 double curve_factor(double error) {
@@ -155,15 +156,30 @@ bool Tracer::is_kink(double turn, const Place& next) {
   return false;
 }
 
-// Of the cubic between here and next_, over that allowed: at its middle, where it is largest but for what the
-// fourth derivative changes within the step.
-double Tracer::curve_error(double length) {
-  const double allowed = middle_share * options_.step.curve_tolerance * (1 + main_->norm_u(next_.v));
-  if (!(allowed > 0)) return 0;
-  hermite(s_.here.v, s_.here.tangent, next_.v, next_.tangent, length, 0.5, v_);
+// Of the cubics along the smooth pieces between here and next_, over that allowed: the largest.
+double Tracer::curve_error() {
+  double largest = 0;
+  other_piece_between_ = false;
+  if (!(options_.step.curve_tolerance > 0)) return largest;
+  const Place* from = &s_.here;
+  for (std::size_t k = 0; k <= corners_.size(); ++k) {
+    const Place& to = k < corners_.size() ? corners_[k].before : next_;
+    if (from->piece == to.piece) largest = std::max(largest, curve_error(*from, to));
+    if (k < corners_.size()) from = &corners_[k].beyond;
+  }
+  return largest;
+}
+
+// Of one: at its middle, where it is largest but for what the fourth derivative changes within it.
+double Tracer::curve_error(const Place& from, const Place& to) {
+  const double size = std::max({main_->norm_u(from.v), main_->norm_u(to.v), smallest_relevant_curve});
+  const double allowed = middle_share * options_.step.curve_tolerance * size;
+  const double length = distance(*main_, from.v, to.v);
+  if (!(length > 0)) return 0;
+  hermite(from.v, from.tangent, to.v, to.tangent, length, 0.5, v_);
   const double error = main_->distance_from_branch(v_) / allowed;
   std::uint64_t piece = 0;
-  other_piece_between_ = main_->piece(piece) && piece != next_.piece;
+  if (main_->piece(piece) && piece != to.piece) other_piece_between_ = true;
   return std::isfinite(error) ? error : 1 / shrinkage;
 }
 

@@ -16,7 +16,7 @@ using continuation::Vector;
 constexpr double points_in_window = 150;           // at least, from end to end, of a curve
 constexpr double events_in_window = 20;            // the same, where only its events are asked for
 constexpr double step_between_events = 1.0 / 200;  // relative to the highest frequency
-constexpr double curve_tolerance = 1e-4;           // no resonance narrower than a step goes by unseen
+constexpr double curve_tolerance = 1e-5;           // no resonance narrower than a step goes by unseen
 constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
 constexpr double smallest_step = 1e-2;          // of the largest at the low end of the window
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end

@@ -95,6 +95,80 @@ TEST_CASE(
   CHECK(points_before < 700);
 }
 
+TEST_CASE("the curve is as near to the branch, relative to |u|, where |u| is small in scales") {
+  for (double tolerance : {1e-3, 1e-5, 1e-7}) {
+    constexpr double size = 1e-4;
+    const auto wave = [](double p) { return size * (2 + std::sin(9 * p)); };
+    const auto problem =
+        from_functions({.size = 1,
+                        .parameters = {parameter("p", 0)},
+                        .residual = [=](In u, In p, Out F) { F[0] = u[0] - wave(p[0]); },
+                        .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+                        .derivative = [](In, In p, int, Out dF) { dF[0] = -size * 9 * std::cos(9 * p[0]); }});
+    Options options = window(-1, 1);
+    options.step.curve_tolerance = tolerance;
+    options.step.largest_parameter = 10;
+    const Branch branch = trace(problem, {Vector{{wave(-1)}}, Vector{{-1.0}}, 0, 1}, options);
+    REQUIRE(branch.stop.reason == StopReason::boundary);
+    double worst = 0;
+    for (int k = 0; k <= 2000; ++k) {
+      const Point at = interpolate(branch, branch.points.back().arclength * k / 2000);
+      worst = std::max(worst, std::abs(at.u[0] / wave(at.parameter) - 1));
+    }
+    CAPTURE(tolerance, worst, branch.points.size());
+    CHECK(worst < tolerance);
+    CHECK(branch.points.size() < 300);
+  }
+}
+
+TEST_CASE("a resonance in the part of a step before a kink is seen as in any other step") {
+  // From p = -0.5 to a kink at 0.1 the branch is straight, but for a bump in the middle; so its slopes and
+  // its change from end to end tell of none.
+  constexpr double middle = -0.2, width = 0.04, height = 0.05;
+  const auto bump = [=](double p) { return height * std::exp(-std::pow((p - middle) / width, 2)); };
+  const auto slope = [=](double p) {
+    return (p < 0.1 ? -0.5 : 0.3) - 2 * (p - middle) / (width * width) * bump(p);
+  };
+  const auto problem = from_functions(
+      {.size = 1,
+       .parameters = {parameter("p", 0)},
+       .residual = [=](In u, In p,
+                       Out F) { F[0] = u[0] - 2 - (p[0] < 0.1 ? -0.5 : 0.3) * (p[0] - 0.1) - bump(p[0]); },
+       .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+       .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); },
+       .piece = [](In, In p) { return p[0] < 0.1 ? 1 : 2; }});
+  Monitor peak{"peak", [=](const Accepted& now) { return now.tangent[0]; }, Crossing::falling};
+  peak.quantity = [](const Accepted& now) { return now.u[0]; };
+  Options options = window(-0.5, 1);
+  options.step.curve_tolerance = 1e-4;
+  options.step.largest_parameter = 10;
+  options.step.largest_angle = 1.2;
+  options.step.initial = 0.9;
+  const Branch branch = trace(problem, {Vector{{2.3}}, Vector{{-0.5}}, 0, 1}, options, {peak});
+  REQUIRE(branch.stop.reason == StopReason::boundary);
+  REQUIRE(branch.events.size() == 1);
+  CHECK(branch.events[0].located);
+  CHECK(std::abs(slope(branch.events[0].point.parameter)) < 1e-9);
+}
+
+TEST_CASE("a kink beside the start of a window that is narrow beside p does not close the branch") {
+  const auto slope = [](double u) { return u < 2 ? 1.0 : 1.5; };
+  const auto problem = from_functions(
+      {.size = 1,
+       .parameters = {parameter("p", 0, 1e-4)},
+       .residual = [=](In u, In p, Out F) { F[0] = slope(u[0]) * (u[0] - 2) - (p[0] - 1) / 1e-4; },
+       .jacobian = [=](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = slope(u[0]); },
+       .derivative = [](In, In, int, Out dF) { dF[0] = -1e4; },
+       .piece = [](In u, In) { return u[0] < 2 ? 1 : 2; }});
+  Options options = window(1 - 5e-7, 1 + 1e-4);
+  options.step.initial = 0.002;
+  const Branch branch =
+      trace(problem, {Vector{{2.0}}, Vector{{options.lower}}, 0, 1}, options, {kink_monitor()});
+  CAPTURE(branch.stop.message);
+  CHECK(branch.stop.reason == StopReason::boundary);
+  CHECK(branch.events.size() == 1);
+}
+
 TEST_CASE("a kink too small to turn the branch is passed whatever curve_tolerance asks beside it") {
   const auto slope = [](double u) { return u < 0 ? 1.0 : 1.5; };
   const auto problem =
