@@ -21,7 +21,8 @@ namespace arcslip::optimize {
 /// At a point of a piece.
 struct Seen {
   OptimumPoint point;
-  double slope;  // d ln A / dsigma of the optimum
+  double slope;     // d ln A / dsigma of the optimum
+  int orientation;  // of the tangent there (Standing)
 };
 
 class CurveOfOptima {
@@ -71,6 +72,7 @@ class CurveOfOptima {
   void note_turn(double before, const OptimumPoint& at);
   // The way in which the inequality that has changed holds more and more.
   void orient(const Inequality& watched);
+  void end_flat(const std::string& parameter);
   // A free parameter on which no active peak depends.
   std::optional<std::size_t> without_influence();
   // The response where the curve stands.

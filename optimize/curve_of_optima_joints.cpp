@@ -93,12 +93,7 @@ void CurveOfOptima::orient(const Inequality& watched) {
     if (known) slack[side] = at.slack(watched);
   }
   if (!known || slack[0] == slack[1] || !go(0)) {
-    if (const auto flat = without_influence())
-      return static_cast<void>(
-          end(Status::stopped, "flat",
-              text("at ", place(here_.sigma), ": from there on the highest peak does not depend on ",
-                   problem_.over[*flat].name,
-                   ", of which a range of values is as good: no single optimum is left")));
+    if (const auto flat = without_influence()) return end_flat(problem_.over[*flat].name);
     end(Status::stopped, "no_exchange",
         "at " + place(here_.sigma) +
             ": the active peaks and bounds change, and there is no single optimum beyond");
@@ -106,6 +101,12 @@ void CurveOfOptima::orient(const Inequality& watched) {
   }
   if (slack[1] < slack[0]) here_.turn_back();
   here_.take(at);
+}
+
+void CurveOfOptima::end_flat(const std::string& parameter) {
+  end(Status::stopped, "flat",
+      text("at ", place(here_.sigma), ": from there on the highest peak does not depend on ", parameter,
+           ", of which a range of values is as good: no single optimum is left"));
 }
 
 std::optional<std::size_t> CurveOfOptima::without_influence() {
@@ -150,11 +151,13 @@ void CurveOfOptima::verify() {
 }
 
 void CurveOfOptima::set_safe() {
+  // Only a way without a surprise allows a longer one: at one place many responses may be traced.
+  if (!curve_.points.empty() && way_since_response(curve_.points.back()) >= interval_)
+    interval_ = std::min(between_responses, 2 * interval_);
   checked_ = curve_.points.empty() ? std::optional<OptimumPoint>{} : curve_.points.back();
   safe_ = here_;
   safe_points_ = curve_.points.size();
   safe_events_ = curve_.events.size();
-  interval_ = std::min(between_responses, 2 * interval_);
 }
 
 void CurveOfOptima::go_back() {
@@ -179,6 +182,7 @@ void CurveOfOptima::lost(const continuation::Stop& stop) {
   verify();
   if (ended_ || rewound_) return;
   const Standing last = here_;
+  flat_.clear();
   for (const double by : beyond)
     for (const int way : {1, -1})
       if (goes_on(last, by, way)) {
@@ -186,6 +190,7 @@ void CurveOfOptima::lost(const continuation::Stop& stop) {
         return;
       }
   here_ = last;
+  if (!flat_.empty()) return end_flat(flat_);
   end(Status::stopped, "lost_peak",
       where + "the active peaks cannot be followed, and no optimum near by goes on beyond: " + stop.message);
 }

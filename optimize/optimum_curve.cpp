@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 namespace arcslip::optimize {
@@ -25,6 +26,12 @@ constexpr double same_point = 1e-9;  // of y and sigma
 
 bool is_change(const Event& event) {
   return event.monitor.starts_with("change") || event.monitor == "peak_joins";
+}
+
+std::vector<KnownPeak> peaks_of(const OptimumPoint& point) {
+  std::vector<KnownPeak> all;
+  for (const OptimumPeak& peak : point.peaks) all.push_back({peak.kind, peak.omega, point.amplitude});
+  return all;
 }
 
 // What has ended a piece. An extremum or a turn may stand at the same place, after it.
@@ -224,7 +231,10 @@ void CurveOfOptima::piece() {
   bool due = false, user = false;
   std::exception_ptr thrown;
   const auto observe = [&](const Accepted& now, const Event*) {
-    seen[now.arclength] = {point(evaluator(now)), evaluator(now).slope_along()};
+    Standing there = here_;
+    there.tangent = now.tangent;
+    there.orient(evaluator(now));
+    seen[now.arclength] = {point(evaluator(now)), evaluator(now).slope_along(), there.orientation};
     const OptimumPoint& at = seen[now.arclength].point;
     try {
       user = options_.progress && !options_.progress(at);
@@ -261,8 +271,9 @@ void CurveOfOptima::piece() {
     return;
   }
   const OptimalityEvaluator& at = *end_of_piece;
-  here_.take(at);
-  here_.orient(at);
+  here_.design = at.design();
+  here_.peaks = peaks_of(curve_.points.back());
+  here_.orientation = std::prev(seen.upper_bound(last.arclength))->second.orientation;  // of all the piece
   for (Inequality& each : may_change)
     if (each.kind == Kind::peak)
       each.index = here_.active.peaks[static_cast<std::size_t>(
@@ -304,9 +315,7 @@ std::unique_ptr<OptimalityEvaluator> CurveOfOptima::at_last_point() {
   if (here_.move(*at) && at->residual().cwiseAbs().maxCoeff() <= same_level) return at;
   std::vector<double> design = last.design;
   design.push_back(last.along);
-  std::vector<KnownPeak> wanted;
-  for (const OptimumPeak& peak : last.peaks) wanted.push_back({peak.kind, peak.omega, last.amplitude});
-  here_.active.peaks = find_again(peaks_.trace(design), wanted, same_level);
+  here_.active.peaks = find_again(peaks_.trace(design), peaks_of(last), same_level);
   if (here_.active.peaks.empty()) return nullptr;
   at = std::make_unique<OptimalityEvaluator>(data());
   return here_.move(*at) ? std::move(at) : nullptr;

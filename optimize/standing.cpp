@@ -18,6 +18,7 @@ constexpr double largest_correction = 0.5;  // of y and tau
 constexpr double same_frequency = 0.02;     // relative
 constexpr double beside = 1e-2;             // of y: where an amplitude is compared with that at a minimum
 constexpr double no_change = 1e-10;         // of A, relative
+constexpr double no_weight = 1e-9;          // of a peak beside one that is flat and as high
 
 // [E_z E_sigma; row^T]
 Matrix bordered(const OptimalityEvaluator& at, const Vector& row) {
@@ -125,7 +126,11 @@ Vector OptimalitySetting::estimate(const ActiveSet& active, Vector& weights) con
 OptimalitySetting::Moved OptimalitySetting::hold_flat(ActiveSet& active, std::vector<double>& design) const {
   Moved result;
   for (std::size_t k = 0; k < size(); ++k) {
+    Vector weights;
+    estimate(active, weights);
     const auto has_influence = [&](std::size_t i) {
+      const auto at = std::find(active.peaks.begin(), active.peaks.end(), i) - active.peaks.begin();
+      if (!(weights[at] > no_weight)) return false;
       const Peak& peak = peaks.state().peaks[i];
       return std::abs(peak.gradient[static_cast<Eigen::Index>(k)] * scaled[k].slope(design[k])) >
              no_influence * peak.amplitude;

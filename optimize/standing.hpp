@@ -54,8 +54,9 @@ struct OptimalitySetting {
   /// z and weights at the design where the peaks are, which nearly solves the equations.
   Vector estimate(const ActiveSet& active, Vector& weights) const;
 
-  /// A parameter without influence, such as the load of a damper that sticks, is put to the bound up to which
-  /// it has none, and held there: its index and its value before. `flat`: one that has no such bound.
+  /// A parameter without influence on the active peaks that have a weight, such as the load of a damper that
+  /// sticks, is put to the bound up to which it has none, and held there: its index and its value before.
+  /// `flat`: one that has no such bound.
   struct Moved {
     std::vector<std::pair<std::size_t, double>> moved;
     std::optional<std::size_t> flat;

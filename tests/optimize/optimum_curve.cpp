@@ -224,6 +224,30 @@ TEST_CASE("the optimum is followed onto a corner, where a damper begins to slip,
   }
 }
 
+TEST_CASE("where a resonance and a corner meet in a fold the curve goes on, and not back over itself") {
+  // A damper begins to slip: the resonance turns round within 1e-6 of the stiffness, the corner beside it
+  // goes on. Farther on another resonance comes up.
+  const OptimumProblem problem{{{"d2.normal_load", 0.05, 50}}, 8, 45};
+  const OptimumCurve curve = optimum_curve(two_dampers(2), problem, {"d2.stiffness", 200, 8000});
+  check_complete(curve);
+  std::vector<std::string> kinds;
+  for (const OptimumEvent& event : curve.events) kinds.push_back(event.kind);
+  CHECK(kinds == std::vector<std::string>{"peak_changes", "peak_changes", "peak_joins", "peak_leaves"});
+  CHECK(std::is_sorted(curve.points.begin(), curve.points.end(),
+                       [](const auto& a, const auto& b) { return a.along < b.along; }));
+  int beside[3] = {0, 0, 0};
+  for (const OptimumPoint& at : curve.points) {
+    CHECK(at.minimum);
+    const int piece = at.along < 4346 ? 0 : at.along < 4392 ? 1 : 2;
+    if (beside[piece]++ % 10 != 5) continue;
+    CAPTURE(at.along, at.design[0], at.amplitude);
+    const Optimum found = search(two_dampers(2), problem, "d2.stiffness", at);
+    CHECK(reference::error(at.amplitude, found.amplitude) < 1e-9);
+    CHECK(reference::error(at.design[0], found.design[0]) < 1e-4);
+  }
+  for (const int count : beside) CHECK(count > 5);
+}
+
 TEST_CASE("bounds and peaks: as many as there are conditions, one has to leave for another") {
   const OptimumProblem problem{{{"d1.normal_load", 0.05, 4}, {"d2.normal_load", 0.05, 8}}, 8, 45};
   const OptimumCurve curve = optimum_curve(two_dampers(), problem, {"force.cosine", 2, 20});
@@ -446,6 +470,36 @@ TEST_CASE("result files tell every point of the curve and every event") {
     CHECK(contains(commands, figure));
   CHECK((figures.images.size() == 6 || !figures.problem.empty()));
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a peak without weight beside one that does not depend on the design holds no optimum") {
+  // The lower resonance comes to where d1 sticks: from there on it alone decides, over a range of loads.
+  const OptimumProblem problem{{{"d1.normal_load", 0.05, 50}}, 8, 45};
+  const OptimumCurve curve = optimum_curve(two_dampers(2), problem, {"d2.stiffness", 200, 8000});
+  INFO(curve.stop.message);
+  CHECK(curve.stop.reason == "flat");
+  REQUIRE_FALSE(curve.points.empty());
+  const OptimumPoint& last = curve.points.back();
+  REQUIRE(last.peaks.size() == 2);
+  CHECK(last.peaks[0].weight == Approx(1).margin(1e-4));
+  CHECK(std::is_sorted(curve.points.begin(), curve.points.end(),
+                       [](const auto& a, const auto& b) { return a.along < b.along; }));
+  double amplitude[2] = {0, 0};
+  for (const int i : {0, 1}) {
+    OptimumPoint beyond = last;
+    beyond.along *= 1.005;
+    beyond.design[0] *= i == 0 ? 1.1 : 1.3;
+    scene::Scene s = two_dampers(2);
+    scene::set(s, "d2.stiffness", beyond.along);
+    scene::set(s, "d1.normal_load", beyond.design[0]);
+    amplitude[i] = optimum(s, problem, {.evaluations = 1, .certificate = false}).evaluations[0].amplitude;
+  }
+  CHECK(reference::error(amplitude[0], amplitude[1]) < 1e-10);
+  for (std::size_t i = 5; i < curve.points.size(); i += 30) {
+    const OptimumPoint& at = curve.points[i];
+    CAPTURE(at.along);
+    CHECK(reference::error(search(two_dampers(2), problem, "d2.stiffness", at).amplitude, at.amplitude) < 1e-9);
+  }
 }
 
 TEST_CASE("a curve of optima ends, and says so, where the highest peak ceases to depend on the design") {
