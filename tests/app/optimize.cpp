@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <set>
 
 using namespace app_test;
 using Json = nlohmann::json;
@@ -106,6 +109,38 @@ TEST_CASE("a study of kind optimum runs with the others, with files and figures"
     for (const char* file : {"out/best_load_amplitude.svg", "out/best_load_responses_amplitude.png"})
       CHECK(std::find(files.begin(), files.end(), file) != files.end());
   }
+}
+
+TEST_CASE("the progress of a search tells its phase, its evaluations and the least amplitude so far") {
+  const Workplace place;
+  std::ifstream two_dampers(ARCSLIP_SOURCE_DIR "/examples/two_dampers/scene.json");
+  Json scene = Json::parse(two_dampers);
+  scene["studies"] = {scene["studies"][1]};  // with a limit, so that designs elsewhere are searched from, too
+  place.write("scene.json", scene.dump());
+  const std::vector<std::string> arguments{"optimize", "scene.json", "--harmonics", "31", "--json", "-"};
+  const Ended ended = Program(place, arguments, {}, "", true).wait();
+  REQUIRE(ended.exit_code == 0);
+  CAPTURE(ended.err);
+  const double least = Json::parse(ended.out)["optima"][0]["optimum"]["amplitude"].get<double>();
+  // The last words of a long line are cut off by the terminal's width.
+  const std::regex line(
+      R"(\rsearch 1/1  ([a-z ]+?)  (\d+) evaluations?  [\d.]+ Hz(?:  best ([\d.e-]+) m )?)");
+  std::set<std::string> phases;
+  int evaluations = 0;
+  double best = HUGE_VAL;
+  for (std::sregex_iterator at(ended.err.begin(), ended.err.end(), line), none; at != none; ++at) {
+    const std::smatch& told = *at;
+    phases.insert(told[1]);
+    CHECK(std::stoi(told[2]) >= evaluations);
+    evaluations = std::stoi(told[2]);
+    if (!told[3].matched) continue;
+    CHECK(std::stod(told[3]) <= best);
+    best = std::stod(told[3]);
+  }
+  CHECK(phases.contains("the search elsewhere"));
+  CHECK(phases.contains("the certificate"));
+  CHECK(evaluations == Json::parse(ended.out)["optima"][0]["evaluations"].get<int>());
+  CHECK(best == Approx(least).epsilon(1e-4));  // five digits
 }
 
 TEST_CASE("what is asked wrongly of optimize is answered with what is allowed, and exit code 1") {

@@ -157,6 +157,34 @@ TEST_CASE("cases of each level have figures of their own, with a line for each c
   }
 }
 
+TEST_CASE("figures of results that are no more do not stay beside those of fewer results") {
+  const Workplace place;
+  Json study = study_of_levels(), other = study_of_levels();
+  other["name"] = "levels_3";
+  const auto run_with = [&](std::vector<double> values) {
+    study["for_each"] = {{"k.value", std::move(values)}};
+    place.write("scene.json", scene_with(place, {other, study}).dump());
+    REQUIRE(
+        run(place, {"run", "scene.json", "--out", "out", "--quiet"}, {{"PATH", "/nonexistent"}}).exit_code ==
+        0);
+    const auto files = place.files();
+    std::vector<std::string> scripts;
+    for (const std::string& file : files)
+      if (file.ends_with(".gp")) scripts.push_back(file.substr(4));
+    return scripts;
+  };
+  const std::vector<std::string> of_other{"levels_3.gp", "levels_3_responses.gp"};
+  const std::vector<std::string> of_first{"levels_1.gp", "levels_1_responses.gp"};
+  std::vector<std::string> of_two = of_first;
+  of_two.insert(of_two.end(), {"levels_2.gp", "levels_2_responses.gp"});
+  of_two.insert(of_two.end(), of_other.begin(), of_other.end());
+  std::vector<std::string> of_one = of_first;
+  of_one.insert(of_one.end(), of_other.begin(), of_other.end());
+  CHECK(run_with({17890, 18000}) == of_two);
+  CHECK(run_with({17890}) == of_one);
+  CHECK(place.read("out/levels_1.gp").find("set title 'k.value = 17890 N/m: ") != std::string::npos);
+}
+
 TEST_CASE("the optimum along the force is that of a search at every end, and grows in proportion") {
   const Workplace place;
   const std::vector<std::string> common{"optimize", "scene.json", "--harmonics", "5",
