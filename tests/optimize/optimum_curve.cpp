@@ -498,7 +498,8 @@ TEST_CASE("a peak without weight beside one that does not depend on the design h
   for (std::size_t i = 5; i < curve.points.size(); i += 30) {
     const OptimumPoint& at = curve.points[i];
     CAPTURE(at.along);
-    CHECK(reference::error(search(two_dampers(2), problem, "d2.stiffness", at).amplitude, at.amplitude) < 1e-9);
+    CHECK(reference::error(search(two_dampers(2), problem, "d2.stiffness", at).amplitude, at.amplitude) <
+          1e-9);
   }
 }
 
