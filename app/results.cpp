@@ -175,18 +175,27 @@ void check_places(const std::vector<Place>& places, const std::string& scene_fil
 }
 
 bool Writing::file(const std::string& path, const std::function<void(std::ostream&)>& writer) {
-  return attempt([&] { output::write_file(path, writer, interrupted); });
+  return attempt(results::visible(path), [&] { output::write_file(path, writer, interrupted); });
 }
 
-bool Writing::attempt(const std::function<void()>& write) {
+bool Writing::attempt(const std::string& what, const std::function<void()>& write) {
   try {
     write();
     return true;
   } catch (const output::WriteError& error) {
     tell(error.what());
     (error.error() == EINTR ? stopped_ : failed_) = true;
+    misses(what);
     return false;
   }
+}
+
+std::string Writing::missing() const {
+  std::string list;
+  for (const std::string& what : missing_) {
+    list += (list.empty() ? "" : ", ") + what;
+  }
+  return list.empty() ? "all that is computed is written" : "not written: " + list;
 }
 
 ExitCode Writing::code(ExitCode otherwise) const {
@@ -220,11 +229,15 @@ std::vector<std::string> write_study(const StudyFiles& files, std::span<const St
   const std::vector<results::FigureData> figures = figures_of(scene, kind, result);
   for (const results::FigureData& data : figures) {
     drawn.push_back(files.name + (data.name.empty() ? "" : "_" + data.name));
-    writing.attempt([&] {
+    const std::string what = "the figures of " + results::visible(files.path(""));
+    writing.attempt(what, [&] {
       const output::Figures now = output::draw_figures(data, files.folder, drawn.back(), interrupted);
       paths.insert(paths.end(), now.sources.begin(), now.sources.end());
       paths.insert(paths.end(), now.images.begin(), now.images.end());
       problems.push_back(now.problem);
+      if (!now.problem.empty()) {
+        writing.misses(what);
+      }
     });
   }
   const auto told = std::find_if(problems.begin(), problems.end(), [](const auto& each) { return !each.empty(); });

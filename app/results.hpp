@@ -74,13 +74,18 @@ class Writing {
  public:
   /// True where it is written.
   bool file(const std::string& path, const std::function<void(std::ostream&)>& writer);
-  /// The same of whatever may throw output::WriteError.
-  bool attempt(const std::function<void()>& write);
+  /// The same of whatever may throw output::WriteError; `what` it writes, for people.
+  bool attempt(const std::string& what, const std::function<void()>& write);
+  /// `what` is not there for a reason that is told.
+  void misses(std::string what) { missing_.push_back(std::move(what)); }
+  /// What is not there: part of a sentence.
+  std::string missing() const;
   /// How the program is to end, which would end in another way if all were written.
   ExitCode code(ExitCode otherwise) const;
 
  private:
   bool failed_ = false, stopped_ = false;
+  std::vector<std::string> missing_;
 };
 
 /// Writes the files and figures of a study of this kind; results: those of `result`;

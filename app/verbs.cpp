@@ -124,14 +124,16 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   Writing writing;
   ExitCode code = ExitCode::done;
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
+  bool any_begun = false;
   results::Results results{studies::header(scene), {}, {}};
   std::string places;
   std::ostringstream tables;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     if (interrupted()) {
-      tell("the study \"" + studies[i].name + "\" was not begun");
+      tell("the study \"" + studies[i].name + "\" was not begun: what it would write is left as it was");
       continue;
     }
+    any_begun = true;
     StudyResult result = compute_visibly(scene, studies[i], options.quiet, interruption);
     for (const std::string& sentence : early_ends(scene, result)) {
       code = ExitCode::stopped_early;
@@ -152,16 +154,12 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
     }
     write_table(tables, scene, result);
   }
-  if (results.schemas.empty()) {  // nothing was begun
-    append(results_of(scene, no_result(studies.front()), options.coefficients), results);
-  }
-
   StandardOutput screen;
-  std::vector<File> outputs;
-  if (!options.json.empty()) {
+  std::vector<File> outputs;  // none where no study was begun
+  if (any_begun && !options.json.empty()) {
     outputs.push_back({options.json, [&](std::ostream& out) { results::write_json(out, results); }});
   }
-  if (!options.csv.empty()) {
+  if (any_begun && !options.csv.empty()) {
     std::vector<File> csv = csv_files(options.csv, results);
     outputs.insert(outputs.end(), csv.begin(), csv.end());
   }
@@ -181,11 +179,12 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
     }
     screen.write_lines([&](std::ostream& out) { out << tables.str(); });
   }
-  writing.attempt([&] { screen.finish(); });
+  writing.attempt("standard output", [&] { screen.finish(); });
   if (interrupted()) {
     code = ExitCode::stopped_early;
     if (interruption.is_new()) {
-      tell("interrupted while results were written; see above for what is missing, if anything");
+      tell(!any_begun ? "interrupted before a study was begun: nothing is computed, and nothing is written"
+                       : "interrupted while results were written; " + writing.missing());
     }
   }
   return writing.code(code);

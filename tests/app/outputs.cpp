@@ -107,7 +107,8 @@ TEST_CASE("one signal ends the wait for a pipe's reader or writer, with a senten
     const Ended ended = writing.wait();
     CHECK(ended.exit_code == 3);
     CHECK(ended.err.find("cannot write pipe: Interrupted system call (nobody read it") != std::string::npos);
-    CHECK(ended.err.find("arcslip: interrupted") != std::string::npos);
+    CHECK(ended.err.find("arcslip: interrupted while results were written; not written: pipe\n") !=
+          std::string::npos);
     CHECK(ended.out.find("peak") != std::string::npos);
     fs::remove(place / "a.csv");
 
@@ -205,6 +206,8 @@ TEST_CASE("a signal while figures are drawn ends gnuplot and is told, with exit 
   write_tiny_scene(place);
   const auto hanging = with_gnuplot(place, "echo $$ > drawing; exec sleep 600\n");
   for (const int signal : {SIGINT, SIGTERM}) {
+    fs::create_directory(place / "results");
+    place.write("results/two.csv", "of an earlier run\n");
     Program program(place, {"run", "tiny.json", "--out", "results", "--quiet"}, hanging);
     while (!fs::exists(place / "results/drawing") || place.read("results/drawing").empty())
       std::this_thread::sleep_for(10ms);
@@ -213,7 +216,11 @@ TEST_CASE("a signal while figures are drawn ends gnuplot and is told, with exit 
     const Ended ended = program.wait();
     CHECK(ended.exit_code == 3);
     CHECK(ended.err.find("arcslip: interrupted before the figures were drawn") != std::string::npos);
-    CHECK(ended.err.find("the study \"two\" was not begun") != std::string::npos);
+    CHECK(ended.err.find("the study \"two\" was not begun: what it would write is left as it was") !=
+          std::string::npos);
+    CHECK(ended.err.find("arcslip: interrupted while results were written; not written: the figures of "
+                         "results/one\n") != std::string::npos);
+    CHECK(place.read("results/two.csv") == "of an earlier run\n");
     CHECK(::kill(gnuplot, 0) != 0);
     check_whole(place, "one");
     fs::remove_all(place / "results");

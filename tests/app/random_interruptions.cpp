@@ -132,3 +132,41 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("a signal that comes before any study is begun leaves all as it was, and says so") {
+  constexpr int moments = 50, most_rounds = 20;
+  for (const RandomInterruption& row : random_interruptions()) {
+    CAPTURE(row.arguments);
+    if (row.arguments.front() == "check") {
+      continue;
+    }
+    // The study begins some time after the scene is read, which is nearly all that check does.
+    Run reading({{"check", "scene.json", "--quiet"}, row.example, {}, row.patch});
+    const auto began = Clock::now();
+    reading.program->wait();
+    const double duration = Seconds(Clock::now() - began).count();
+    bool met = false;
+    for (int i = 0; i < moments * most_rounds && !met; ++i) {
+      Run run(row, {"--quiet"});
+      std::this_thread::sleep_for(Seconds(2 * duration * (i % moments) / moments));
+      run.program->send(SIGTERM);
+      const Ended ended = run.program->wait();
+      met = ended.err.find("was not begun") != std::string::npos &&
+            ended.err.find("what is computed so far") == std::string::npos;
+      if (!met) {
+        continue;
+      }
+      CAPTURE(ended.err);
+      CHECK(ended.exit_code == 3);
+      CHECK(ended.err.find("was not begun: what it would write is left as it was") != std::string::npos);
+      CHECK(ended.err.find("interrupted before a study was begun: nothing is computed, and nothing is "
+                           "written") != std::string::npos);
+      CHECK(ended.out.empty());
+      CHECK(run.place.files() == run.before);
+      for (const std::string& file : row.files) {
+        CHECK(run.place.read(file) == old_content);
+      }
+    }
+    CHECK(met);
+  }
+}
