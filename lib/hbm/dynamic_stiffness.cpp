@@ -11,8 +11,10 @@ constexpr double pole =
     1e-14;  // pivot of the linear coordinates, relative to the largest entry of its column
 constexpr double rounding = 1e-13;  // of a direction in y, relative to its largest entry
 constexpr Eigen::Index few = 16;  // unknowns, up to which blocks of a factorization cost more than they save
+constexpr double sparse_share = 0.1;  // of the multiplications of dense factors, each of which costs less
 
 using Complex = std::complex<double>;
+using Sparse = continuation::ComplexSparseLU::Matrix;
 
 // a - b c, without the tests for infinity of operator*.
 Complex less_product(Complex a, Complex b, Complex c) {
@@ -63,8 +65,6 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       masses_(in_y(model.masses)),
       dampers_(in_y(model.dampers)),
       springs_(in_y(model.springs)),
-      lu_(l_),
-      Zll_(l_, l_),
       rhs_(l_, r_ + 2),
       q_(r_),
       y_(r_ + l_),
@@ -79,6 +79,28 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
   f_.assign(H, Vectorc(r_));
   W_.assign(H, Matrixc(l_, r_ + 2));
   last_p_ = Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""));
+  if (l_ > few) choose_sparse();
+  if (!sparse_lu_) {
+    lu_ = continuation::LU<Complex>(l_);
+    Zll_.resize(l_, l_);
+  }
+}
+
+// Each degree of freedom of a large structure is linked to few others, and so is each coordinate in y.
+void DynamicStiffness::choose_sparse() {
+  std::vector<Eigen::Triplet<Complex>> places;
+  for (Eigen::Index i = 0; i < l_; ++i) places.emplace_back(i, i, 1.0);
+  for (const auto* parts : {&masses_, &dampers_, &springs_})
+    for (const PartInY& part : *parts)
+      for (const auto& [j, at_j] : part.direction)
+        for (const auto& [i, at_i] : part.direction)
+          if (i >= r_ && j >= r_) places.emplace_back(i - r_, j - r_, 1.0);
+  sparse_Zll_.resize(l_, l_);
+  sparse_Zll_.setFromTriplets(places.begin(), places.end());
+  const double n = l_;
+  if (static_cast<double>(sparse_Zll_.nonZeros()) > sparse_share * n * n) return;
+  sparse_lu_.emplace(sparse_Zll_);
+  if (sparse_lu_->multiplications() > sparse_share * n * n * n / 3) sparse_lu_.reset();
 }
 
 // A stiff part stands in its own row and column there; what rounding leaves of it in others is taken out:
@@ -141,20 +163,29 @@ bool DynamicStiffness::move_to(In p) {
     if (l_ == 0) continue;
 
     for (Eigen::Index j = 0; j < l_; ++j) {
-      for (Eigen::Index i = 0; i < l_; ++i) Zll_(i, j) = entry(r_ + i, r_ + j);
       for (Eigen::Index i = 0; i < r_; ++i) rhs_(j, i) = entry(r_ + j, i);
       rhs_(j, r_) = full_f_[r_ + j];
       rhs_(j, r_ + 1) = response_[r_ + j];
     }
     Matrixc& W = W_[index];
-    if (l_ <= few) {
+    if (sparse_lu_) {
+      for (int j = 0; j < l_; ++j)
+        for (Sparse::InnerIterator at(sparse_Zll_, j); at; ++at) at.valueRef() = entry(r_ + at.row(), r_ + j);
+      if (!sparse_lu_->factorize(sparse_Zll_, pole)) return false;
       W = rhs_;
-      if (!eliminate(Zll_, W)) return false;
+      sparse_lu_->solve_in_place(W);
     } else {
-      lu_.factorize(Zll_);
-      for (Eigen::Index k = 0; k < l_; ++k)
-        if (!(std::abs(lu_.pivot(k)) > pole * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
-      lu_.solve_columns(rhs_, W);
+      for (Eigen::Index j = 0; j < l_; ++j)
+        for (Eigen::Index i = 0; i < l_; ++i) Zll_(i, j) = entry(r_ + i, r_ + j);
+      if (l_ <= few) {
+        W = rhs_;
+        if (!eliminate(Zll_, W)) return false;
+      } else {
+        lu_.factorize(Zll_);
+        for (Eigen::Index k = 0; k < l_; ++k)
+          if (!(std::abs(lu_.pivot(k)) > pole * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
+        lu_.solve_columns(rhs_, W);
+      }
     }
     for (Eigen::Index j = 0; j < r_; ++j)
       for (Eigen::Index i = 0; i <= j; ++i) {  // Z is symmetric
@@ -282,6 +313,20 @@ void DynamicStiffness::differentiate(int k, In u, int h, double force_factor, Ve
   const double n = harmonics_.cosine_order(h), s = n * omega_;
   gather(u, h, q_);
   expand(q_, h, force_factor, y_);
+  if (k == model::frequency && sparse_lu_) {
+    v.setZero();
+    const auto add = [&](const std::vector<PartInY>& parts, Complex factor) {
+      for (const PartInY& part : parts) {
+        Complex along = 0;
+        for (const auto& [i, at_i] : part.direction) along += at_i * y_[i];
+        along *= factor * last_p_[part.parameter];
+        for (const auto& [i, at_i] : part.direction) v[i] += at_i * along;
+      }
+    };
+    add(masses_, -2 * n * s);
+    add(dampers_, Complex(0, n));
+    return;
+  }
   if (k == model::frequency) {
     for (Eigen::Index i = 0; i < v.size(); ++i) {
       Complex sum = 0;

@@ -8,9 +8,11 @@
 // Z_ql Z_ll^-1 v_l.
 
 #include <arcslip/continuation/dense_algebra.hpp>
+#include <arcslip/continuation/sparse_algebra.hpp>
 #include <arcslip/hbm/coordinates.hpp>
 
 #include <complex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -63,6 +65,7 @@ class DynamicStiffness {
     std::vector<std::pair<Eigen::Index, double>> direction;  // what is not zero of P^T d
   };
   std::vector<PartInY> in_y(const std::vector<model::LinearPart>& parts) const;
+  void choose_sparse();
   void assemble(In p);
   bool depends_on(int k) const;
   void differentiate(int k, In u, int h, double force_factor, Vectorc& v) const;
@@ -89,6 +92,8 @@ class DynamicStiffness {
   std::vector<Matrixc> W_;  // l x (r + 2): Z_ll^-1 [Z_lq, f_l, response_l]
   continuation::LU<Complex> lu_;
   Matrixc Zll_, rhs_;
+  std::optional<continuation::ComplexSparseLU> sparse_lu_;  // where it costs less; then in place of these:
+  continuation::ComplexSparseLU::Matrix sparse_Zll_;
   mutable Vectorc q_, y_, v_, full_f_;
 };
 

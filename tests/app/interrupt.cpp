@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <string>
 #include <thread>
 
 using namespace app_test;
@@ -79,5 +81,61 @@ TEST_CASE(
       if (is_result(file)) check_stopped(place.read(file));
     }
     if (!ended.out.empty() && ended.out.front() == '{') check_stopped(ended.out);
+  }
+}
+
+namespace {
+
+/// A row of masses with a friction damper at its end.
+std::string chain(int dofs) {
+  Json scene = {{"format", "arcslip-scene-1"}, {"frequency_unit", "rad/s"}};
+  Json& structure = scene["structure"];
+  for (int i = 0; i < dofs; ++i) {
+    const std::string n = std::to_string(i), x = "x" + n;
+    structure["dofs"].push_back(x);
+    structure["masses"].push_back({{"name", "m" + n}, {"at", x}, {"value", 1}});
+    Json spring = {{"name", "k" + n}, {"value", 1e4}}, damper = {{"name", "c" + n}, {"value", 1}};
+    for (Json* part : {&spring, &damper}) {
+      if (i > 0) {
+        (*part)["between"] = {x, "x" + std::to_string(i - 1)};
+      } else {
+        (*part)["at"] = x;
+      }
+    }
+    structure["springs"].push_back(spring);
+    structure["dampers"].push_back(damper);
+  }
+  const std::string last = "x" + std::to_string(dofs - 1);
+  scene["elements"] = {{{"name", "d"},
+                        {"type", "jenkins"},
+                        {"at", last},
+                        {"stiffness", 1e3},
+                        {"friction_coefficient", 0.5},
+                        {"normal_load", 2}}};
+  scene["excitation"] = {{{"name", "f"}, {"at", "x" + std::to_string(dofs / 2)}, {"cosine", 1}}};
+  scene["harmonics"] = {{"order", 7}};
+  scene["response"] = {{"at", last}};
+  scene["studies"] = {{{"name", "frf"}, {"kind", "frf"}, {"from", 1}, {"to", 3}}};
+  return scene.dump();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a structure of 1000 degrees of freedom obeys a signal within a second of work, whatever is under way") {
+  const Workplace place;
+  place.write("big.json", chain(1000));
+  for (const auto moment : {20ms, 100ms, 300ms, 1000ms, 3000ms}) {
+    CAPTURE(moment.count());
+    Program program(place, {"frf", "big.json", "--json", "a.json"});
+    while (program.is_running() && !program.handles(SIGTERM)) std::this_thread::yield();
+    std::this_thread::sleep_for(moment);
+    const double worked = program.processor_seconds();
+    const bool was_running = program.is_running();
+    program.send(SIGTERM);
+    const Ended ended = program.wait();
+    CAPTURE(ended.err, was_running);
+    CHECK(ended.exit_code == (was_running ? 3 : 0));
+    CHECK(ended.processor_seconds - worked < 1);
   }
 }

@@ -7,6 +7,9 @@
 #include <Eigen/Dense>
 
 #include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
 
 using namespace arcslip;
 using continuation::Vector;
@@ -112,4 +115,78 @@ TEST_CASE("a resonance of the condensed part alone, undamped, is no place to eva
   CHECK_FALSE(stiffness.move_to(p));
   p[model::frequency] = 2.0000001;
   CHECK(stiffness.move_to(p));
+}
+
+namespace {
+
+/// A row of masses to ground, the last one with a friction damper. `linked`: each also to every other one by
+/// a spring of zero, which changes nothing but that no entry is left out.
+scene::Scene long_chain(int dofs, bool linked) {
+  scene::Scene s;
+  for (int i = 0; i < dofs; ++i) {
+    const std::string n = std::to_string(i);
+    s.dofs.push_back("x" + n);
+    s.masses.push_back({"m" + n, &scene::mass_type, {{i, 1.0}}, {1 + 0.3 * (i % 3)}});
+    const scene::Direction along =
+        i > 0 ? scene::Direction{{i, 1.0}, {i - 1, -1.0}} : scene::Direction{{i, 1.0}};
+    s.springs.push_back({"k" + n, &scene::spring_type, along, {1e4}});
+    s.dampers.push_back({"c" + n, &scene::damper_type, along, {2.0}});
+    for (int j = 0; linked && j + 1 < i; ++j)
+      s.springs.push_back(
+          {"z" + n + "_" + std::to_string(j), &scene::spring_type, {{i, 1.0}, {j, -1.0}}, {0.0}});
+  }
+  s.elements.push_back({"d", &scene::jenkins_type, {{dofs - 1, 1.0}}, {1e3, 0.5, 2.0}});
+  s.excitation.push_back({"f", &scene::force_type, {{dofs / 2, 1.0}}, {1.0, 0.0}});
+  s.harmonics.order = 3;
+  s.response = {{dofs / 3, 1.0}};
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a large structure responds the same whether its matrices are taken as sparse or as dense") {
+  const int dofs = 60;
+  std::vector<Vector> found;
+  for (const bool linked : {false, true}) {
+    const model::Model model = model::build(long_chain(dofs, linked));
+    hbm::DynamicStiffness stiffness(model, hbm::coordinates(model), model.harmonics);
+    Vector p(model.parameters.size());
+    for (std::size_t k = 0; k < model.parameters.size(); ++k)
+      p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+    const int c = model.harmonics.size();
+    Vector all(0);
+    for (const double omega : {0.5, 20.0, 95.0, 300.0}) {
+      p[model::frequency] = omega;
+      REQUIRE(stiffness.move_to(p));
+      Vector u(c), x(c), g(c), dR(c), dx(c);
+      stiffness.force(u);
+      stiffness.solve(u);
+      stiffness.response(u, 1, x);
+      stiffness.response_transposed(x, g);
+      stiffness.parameter_derivative(model::frequency, u, 1, dR);
+      stiffness.response_derivative(model::frequency, u, 1, dx);
+      all.conservativeResize(all.size() + 4 * c);
+      all.tail(4 * c) << x / x.norm(), g / g.norm(), dR / dR.norm(), dx / dx.norm();
+    }
+    found.push_back(all);
+  }
+  CHECK((found[0] - found[1]).norm() < 1e-10);
+}
+
+TEST_CASE("a large structure whose linear coordinates resonate undamped has a pole, sparse or dense") {
+  for (const bool linked : {false, true}) {
+    scene::Scene s = long_chain(60, linked);
+    s.dampers.clear();
+    for (auto& mass : s.masses) mass.values = {1.0};
+    const model::Model model = model::build(s);
+    hbm::DynamicStiffness stiffness(model, hbm::coordinates(model), model.harmonics);
+    Vector p(model.parameters.size());
+    for (std::size_t k = 0; k < model.parameters.size(); ++k)
+      p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+    // 59 masses between two walls, for the last one stands still.
+    p[model::frequency] = 2 * 100 * std::sin(std::numbers::pi / 2 * 7 / 60);
+    CHECK_FALSE(stiffness.move_to(p));
+    p[model::frequency] *= 1 + 1e-6;
+    CHECK(stiffness.move_to(p));
+  }
 }

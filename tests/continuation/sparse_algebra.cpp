@@ -1,0 +1,74 @@
+// Sparse LU against dense LU and against closed forms.
+#include "catch.hpp"
+
+#include <arcslip/continuation/dense_algebra.hpp>
+#include <arcslip/continuation/sparse_algebra.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace arcslip::continuation;
+using Complex = std::complex<double>;
+using Sparse = ComplexSparseLU::Matrix;
+
+constexpr double least = 1e-14;
+
+/// A row of n masses, each linked to its neighbours, beyond resonances, with damping.
+Sparse chain(int n, Complex diagonal) {
+  std::vector<Eigen::Triplet<Complex>> entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, diagonal);
+    if (i + 1 < n) {
+      entries.emplace_back(i, i + 1, -1.0);
+      entries.emplace_back(i + 1, i, -1.0);
+    }
+  }
+  Sparse A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+}  // namespace
+
+TEST_CASE("sparse complex LU solves as dense LU does, also where the diagonal is zero or small") {
+  for (const int n : {1, 2, 40, 300})
+    for (const Complex diagonal : {Complex(2, 0.1), Complex(1e-9, 1e-9), Complex(-1.3, 0.01)}) {
+      Sparse A = chain(n, diagonal);
+      for (int i = 3; i + 20 < n; i += 7) A.coeffRef(i, i + 20) = Complex(0.3, 0.01 * i);
+      A.makeCompressed();
+      CAPTURE(n, diagonal);
+      ComplexSparseLU lu(A);
+      for (const double factor : {1.0, 0.25}) {  // other values in the same pattern
+        const Sparse other = A * factor;
+        const Eigen::MatrixXcd dense(other), B = Eigen::MatrixXcd::Random(n, 3);
+        REQUIRE(lu.factorize(other, least));
+        Eigen::MatrixXcd X = B;
+        lu.solve_in_place(X);
+        CHECK((dense * X - B).norm() < 1e-13 * dense.norm() * X.norm());
+        const Eigen::MatrixXcd expected = solve_complex(dense, B);
+        if (diagonal.real() == 2) CHECK((X - expected).norm() < 1e-10 * expected.norm());
+      }
+    }
+}
+
+TEST_CASE("sparse complex LU tells a singular matrix, to the pivot that is asked for") {
+  Sparse A = chain(50, 2);
+  A.coeffRef(20, 20) = 0;
+  A.coeffRef(20, 19) = A.coeffRef(20, 21) = 0;  // a row of zeros, in the pattern
+  ComplexSparseLU lu(A);
+  CHECK_FALSE(lu.factorize(A, least));
+  A.coeffRef(20, 20) = 1e-12;
+  CHECK(lu.factorize(A, least));
+  CHECK_FALSE(lu.factorize(A, 1e-10));
+  A.coeffRef(20, 20) = std::nan("");
+  CHECK_FALSE(lu.factorize(A, least));
+}
+
+TEST_CASE("a chain of n masses takes some n multiplications, not n^3") {
+  CHECK(ComplexSparseLU(chain(2000, 2)).multiplications() < 20 * 2000.0);
+  const int n = 60;
+  const Sparse full = Eigen::MatrixXcd::Ones(n, n).sparseView();
+  CHECK(ComplexSparseLU(full).multiplications() == Approx(n * n * n / 3.0).epsilon(0.1));
+}
