@@ -51,6 +51,31 @@ const optimize::OptimumCurve& end(const OptimumCurveResult& item) {
   return item.curve;
 }
 
+/// Of what is complete.
+std::string doubt(const ResponseBranch& branch) {
+  return branch.doubt;
+}
+
+std::string doubt(const OptimumResult& result) {
+  const auto doubtful = std::find_if(result.responses.begin(), result.responses.end(),
+                                     [](const ResponseBranch& branch) { return !branch.doubt.empty(); });
+  return doubtful == result.responses.end() || end(result).status != observables::Status::complete
+             ? ""
+             : doubtful->doubt;
+}
+
+template <class Item>
+std::string doubt(const Item& /*item*/) {
+  return {};
+}
+
+template <class Item>
+std::string part_and_status(const scene::Scene& scene, const Item& item, std::size_t index) {
+  const std::string set = studies::assignment(scene, item.set);
+  return std::string(noun(item)) + " " + std::to_string(index + 1) + (set.empty() ? "" : " (" + set + ")") +
+         " " + observables::name(end(item).status);
+}
+
 StudyResult computed(const scene::Scene& scene, const scene::Study& study,
                      const observables::ProgressCallback& progress) {
   switch (study.kind) {
@@ -111,14 +136,23 @@ std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult
   std::vector<std::string> sentences;
   const auto add = [&](const auto& items) {
     for (std::size_t i = 0; i < items.size(); ++i) {
-      const auto& item = items[i];
-      if (end(item).status == observables::Status::complete) {
-        continue;
+      if (end(items[i]).status != observables::Status::complete) {
+        sentences.push_back(part_and_status(scene, items[i], i) + ": " + end(items[i]).stop.message);
       }
-      const std::string set = studies::assignment(scene, item.set);
-      sentences.push_back(std::string(noun(item)) + " " + std::to_string(i + 1) +
-                          (set.empty() ? "" : " (" + set + ")") + " " + observables::name(end(item).status) +
-                          ": " + end(item).stop.message);
+    }
+  };
+  std::visit(add, result);
+  return sentences;
+}
+
+std::vector<std::string> doubts(const scene::Scene& scene, const StudyResult& result) {
+  std::vector<std::string> sentences;
+  const auto add = [&](const auto& items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (const std::string why = doubt(items[i]); !why.empty()) {
+        sentences.push_back(part_and_status(scene, items[i], i) +
+                            ", but followed in its rounding, which takes digits of what it tells: " + why);
+      }
     }
   };
   std::visit(add, result);

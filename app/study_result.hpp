@@ -32,6 +32,9 @@ StudyResult compute(const scene::Scene& scene, const scene::Study& study,
 /// For each part that ended early, which and why.
 std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult& result);
 
+/// For each part that is complete, but has lost digits, which and why.
+std::vector<std::string> doubts(const scene::Scene& scene, const StudyResult& result);
+
 /// Aligned columns for people.
 void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
 

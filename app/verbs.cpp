@@ -139,6 +139,9 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       code = ExitCode::stopped_early;
       tell(sentence);
     }
+    for (const std::string& sentence : doubts(scene, result)) {
+      tell(sentence);
+    }
     if (has_files) {
       results::Results of_study = results_of(scene, result, options.coefficients);
       if (!options.out.empty()) {

@@ -84,6 +84,7 @@ class Curves {
     SpecialCurve curve;
     int unknowns;
     double seconds;
+    std::string doubt;
   };
 
   std::string what() const { return peaks_ ? "resonance peak" : "fold"; }
@@ -134,7 +135,10 @@ class Curves {
     look_beyond(curve.end);
     if (curve.begin) look_beyond(*curve.begin);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
-    found_.push_back({std::move(curve), start.problem->size() + 1, seconds.count()});
+    Vector p = hbm::parameters_at(*start.problem, start.x[start.problem->size()]);
+    p[way_.index] = start.over;
+    std::string doubt = doubt_of_rounding(*way_.model, p, curve.counts);
+    found_.push_back({std::move(curve), start.problem->size() + 1, seconds.count(), std::move(doubt)});
   }
 
   static bool is_stopped(const SpecialCurveEnd& end) {
@@ -216,6 +220,11 @@ class Curves {
     solver.unknowns = found.unknowns;
     solver.seconds = found.seconds;
     add(found.curve.counts, solver);
+    for (ResponseBranch& part : parts) {
+      if (part.status != Status::complete || found.doubt.empty()) continue;
+      part.doubt = found.doubt;
+      part.stop.message += "; " + found.doubt;
+    }
     return parts;
   }
 

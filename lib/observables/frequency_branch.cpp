@@ -25,20 +25,18 @@ constexpr double rejected_in_rounding = 0.5;    // steps, over points: where the
 }  // namespace
 
 std::string doubt_of_rounding(const model::Model& model, const Vector& p,
-                              const continuation::Branch& branch) {
-  using continuation::StopReason;
-  const bool in_rounding = static_cast<double>(branch.counts.rejected_steps) >
-                           rejected_in_rounding * static_cast<double>(branch.counts.points);
-  if (branch.stop.reason == StopReason::user || (branch.stop.reason == StopReason::boundary && !in_rounding))
-    return {};
-  const std::string apart = model::stiffness_apart(model, p);
-  return apart.empty() ? "" : "; " + apart;
+                              const continuation::Counts& counts) {
+  const bool in_rounding =
+      static_cast<double>(counts.rejected_steps) > rejected_in_rounding * static_cast<double>(counts.points);
+  return in_rounding ? model::stiffness_apart(model, p) : "";
 }
 
 void speak_of_scene(const model::Model& model, const Vector& p, continuation::Branch& branch) {
   std::string& message = branch.stop.message;
   if (const auto doubt = message.find("; the Jacobian"); doubt != std::string::npos) message.erase(doubt);
-  message += doubt_of_rounding(model, p, branch);
+  using continuation::StopReason;
+  if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
+  if (const std::string apart = model::stiffness_apart(model, p); !apart.empty()) message += "; " + apart;
 }
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,

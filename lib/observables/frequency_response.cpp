@@ -110,8 +110,9 @@ class Sweep {
       result.stop.value = branch.stop.value / unit_;
       result.stop.limit = upper_ / unit_;
       if (branch.stop.value == upper_) {
+        result.doubt = doubt_of_rounding(*model_, hbm::parameters_at(*traced.problem, from), branch.counts);
         result.stop.message = "reached the end of the window at " + with_unit(upper_) +
-                              doubt_of_rounding(*model_, hbm::parameters_at(*traced.problem, from), branch);
+                              (result.doubt.empty() ? "" : "; " + result.doubt);
       } else {
         result.status = Status::stopped;
         double highest = from;

@@ -163,7 +163,7 @@ class Traces {
       if (result.events[i].kind != "fold" && !departs(course, at[i], result.events[i].point.amplitude))
         result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
     speak_of_scene(*way_.model, p, branch);
-    finish(result, branch, doubt_of_rounding(*way_.model, p, branch));
+    finish(result, branch, doubt_of_rounding(*way_.model, p, branch.counts));
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -176,7 +176,9 @@ class Traces {
     if (branch.stop.reason != StopReason::boundary) return;
     result.stop.limit = way_.to;
     if (branch.stop.value == way_.to) {
-      result.stop.message = "reached the end of the range at " + way_.name + " = " + text(way_.to) + doubt;
+      result.doubt = doubt;
+      result.stop.message = "reached the end of the range at " + way_.name + " = " + text(way_.to) +
+                            (doubt.empty() ? "" : "; " + doubt);
       return;
     }
     result.status = Status::stopped;

@@ -138,6 +138,7 @@ struct ResponseBranch {
   std::vector<int> harmonics;                              // orders n of the coefficients
   std::vector<ResponsePoint> points;
   std::vector<ResponseEvent> events;
+  std::string doubt;  // of a branch that reached its end in its rounding: why digits are lost; empty: none
   SolverSummary solver;
 };
 

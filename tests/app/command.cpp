@@ -332,3 +332,28 @@ TEST_CASE("help and version stand on standard output") {
     CHECK(help.err.empty());
   }
 }
+
+TEST_CASE(
+    "a complete branch in its rounding is told on standard error, also with --quiet, and in the results") {
+  const Workplace place;
+  for (const std::string quiet : {"", "--quiet"}) {
+    std::vector<std::string> arguments{"frf",         "scene.json",
+                                       "--harmonics", "1",
+                                       "--set",       "damper.normal_load=1",
+                                       "--set",       "damper.stiffness=1.789e18",
+                                       "--json",      "a.json"};
+    if (!quiet.empty()) {
+      arguments.push_back(quiet);
+    }
+    const Ended ended = run(place, arguments);
+    CAPTURE(ended.err);
+    CHECK(ended.exit_code == 0);
+    const std::string why = "damper.stiffness = 1.789e+18 N/m is 1e+14 times k.value = 1.789e+04 N/m";
+    CHECK(ended.err.find("arcslip: branch 1 complete, but followed in its rounding, "
+                         "which takes digits of what it tells: " +
+                         why) != std::string::npos);
+    const Json branch = Json::parse(place.read("a.json"))["branches"][0];
+    CHECK(branch["status"] == "complete");
+    CHECK(branch["stop"]["message"].get<std::string>().find(why) != std::string::npos);
+  }
+}
