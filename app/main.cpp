@@ -7,9 +7,9 @@
 #include "standard_output.hpp"
 #include "verbs.hpp"
 
+#include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/stop_request.hpp>
-#include <arcslip/results/text.hpp>
 
 #include <exception>
 #include <new>

@@ -2,10 +2,10 @@
 
 #include "option_values.hpp"
 
-#include <arcslip/studies/units.hpp>
+#include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
 #include <arcslip/scene/combinations.hpp>
-#include <arcslip/results/text.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <CLI/CLI.hpp>
 

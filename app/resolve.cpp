@@ -2,9 +2,9 @@
 
 #include "interrupt.hpp"
 
-#include <arcslip/studies/units.hpp>
-#include <arcslip/scene/scene_file.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/scene/scene_file.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -174,8 +174,8 @@ void check_study(const scene::Scene& scene, std::size_t index, const Options& op
     for (const scene::Fault& fault : error.faults()) {
       const std::string key = fault.pointer.starts_with(place) ? fault.pointer.substr(place.size()) : "";
       const std::string option = option_of(key, options);
-      message += (message.empty() ? "" : "\n  ") + (option.empty() ? results::visible(fault.pointer) : option) +
-                 ": " + fault.message;
+      message += (message.empty() ? "" : "\n  ") +
+                 (option.empty() ? results::visible(fault.pointer) : option) + ": " + fault.message;
     }
     throw UsageError(message);
   }
@@ -195,9 +195,9 @@ void set_range(scene::Study& study, const scene::Scene& scene, const Options& op
     throw UsageError(
         (options.from ? "--from must be below " : "--to must be above ") +
         (options.from
-             ? studies::quantity(study.to, unit) + ", where the study \"" + study.name + "\" ends"
-             : studies::quantity(study.from, unit) + ", where the study \"" + study.name + "\" begins") +
-        "; found " + studies::quantity(options.from ? study.from : study.to, unit));
+             ? results::quantity(study.to, unit) + ", where the study \"" + study.name + "\" ends"
+             : results::quantity(study.from, unit) + ", where the study \"" + study.name + "\" begins") +
+        "; found " + results::quantity(options.from ? study.from : study.to, unit));
   }
 }
 

@@ -203,9 +203,7 @@ ExitCode Writing::code(ExitCode otherwise) const {
 }
 
 std::vector<std::string> write_study(const StudyFiles& files, std::span<const StudyFiles> all,
-                                     const scene::Scene& scene, scene::StudyKind kind,
-                                     const StudyResult& result, const results::Results& results,
-                                     Writing& writing) {
+                                     const scene::Scene& scene, const StudyResult& result, Writing& writing) {
   std::vector<std::string> paths;
   const auto write = [&](const std::string& path, const std::function<void(std::ostream&)>& writer) {
     if (writing.file(path, writer)) {
@@ -213,8 +211,8 @@ std::vector<std::string> write_study(const StudyFiles& files, std::span<const St
     }
   };
   write(files.path(".scene.json"), [&](std::ostream& out) { out << scene::write(scene); });
-  write(files.path(".json"), [&](std::ostream& out) { results::write_json(out, results); });
-  const std::vector<File> tables = csv_files(files.path(".csv"), results);
+  write(files.path(".json"), [&](std::ostream& out) { results::write_json(out, result.results); });
+  const std::vector<File> tables = csv_files(files.path(".csv"), result.results);
   for (const File& table : tables) {
     write(table.path, table.writer);
   }
@@ -226,8 +224,7 @@ std::vector<std::string> write_study(const StudyFiles& files, std::span<const St
     }
   }
   std::vector<std::string> drawn, problems;
-  const std::vector<results::FigureData> figures = figures_of(scene, kind, result);
-  for (const results::FigureData& data : figures) {
+  for (const results::FigureData& data : result.figures) {
     drawn.push_back(files.name + (data.name.empty() ? "" : "_" + data.name));
     const std::string what = "the figures of " + results::visible(files.path(""));
     writing.attempt(what, [&] {
@@ -240,7 +237,8 @@ std::vector<std::string> write_study(const StudyFiles& files, std::span<const St
       }
     });
   }
-  const auto told = std::find_if(problems.begin(), problems.end(), [](const auto& each) { return !each.empty(); });
+  const auto told =
+      std::find_if(problems.begin(), problems.end(), [](const auto& each) { return !each.empty(); });
   if (told != problems.end()) {  // the others are alike
     tell(*told);
   }

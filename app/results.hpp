@@ -88,12 +88,10 @@ class Writing {
   std::vector<std::string> missing_;
 };
 
-/// Writes the files and figures of a study of this kind; results: those of `result`;
-/// all: the files of all studies of the run. What an earlier run has left of this study is removed. Returns the paths of
-/// what is there; tells on standard error what is missing, and why.
+/// Writes the files and figures of a study. all: the files of all studies of the run. What an earlier run has
+/// left of this study is removed. Returns the paths of what is there; tells on standard error what is
+/// missing, and why.
 std::vector<std::string> write_study(const StudyFiles& files, std::span<const StudyFiles> all,
-                                     const scene::Scene& scene, scene::StudyKind kind,
-                                     const StudyResult& result, const results::Results& results,
-                                     Writing& writing);
+                                     const scene::Scene& scene, const StudyResult& result, Writing& writing);
 
 }  // namespace arcslip::app

@@ -1,48 +1,27 @@
 #pragma once
-// What a study gives, and all that the command does with it. A kind of results is one alternative of the
-// variant, with a function of its own for each of these (results_of, figures_of, write_table, noun, end)
-// and the members study, kind and set; the rest knows no kinds.
+// From a study to its results and figures: all that the command knows of its kinds.
 
 #include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/observables/motion.hpp>
-#include <arcslip/observables/response.hpp>
-#include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/results/figure.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 
-#include <iosfwd>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace arcslip::app {
 
-using StudyResult =
-    std::variant<std::vector<observables::ResponseBranch>, std::vector<observables::Motion>,
-                 std::vector<optimize::OptimumResult>, std::vector<optimize::OptimumCurveResult>>;
+struct StudyResult {
+  results::Results results;
+  std::vector<results::FigureData>
+      figures;  // each has a name of its own; with one there may be nothing on it
+};
 
-/// Nothing yet of what such a study gives.
-StudyResult no_result(const scene::Study& study);
-
-/// Every result says which study it is of.
-StudyResult compute(const scene::Scene& scene, const scene::Study& study,
+/// coefficients: with the harmonics of the responses. Figures only where they are asked for.
+StudyResult compute(const scene::Scene& scene, const scene::Study& study, bool coefficients, bool figures,
                     const observables::ProgressCallback& progress);
 
-/// For each part that ended early, which and why.
-std::vector<std::string> early_ends(const scene::Scene& scene, const StudyResult& result);
-
-/// For each part that is complete, but has lost digits, which and why.
-std::vector<std::string> doubts(const scene::Scene& scene, const StudyResult& result);
-
-/// Aligned columns for people.
-void write_table(std::ostream& out, const scene::Scene& scene, const StudyResult& result);
-
-/// coefficients: with the harmonics of the responses.
-results::Results results_of(const scene::Scene& scene, const StudyResult& result, bool coefficients);
-
-/// Each has a name of its own; with a single one there may be nothing on it.
-std::vector<results::FigureData> figures_of(const scene::Scene& scene, scene::StudyKind kind,
-                                            const StudyResult& result);
+/// The list in which a document holds the results of such a study.
+std::string list_of(const scene::Study& study);
 
 }  // namespace arcslip::app

@@ -10,8 +10,9 @@
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/results/json_writer.hpp>
-#include <arcslip/scene/combinations.hpp>
+#include <arcslip/results/table_writer.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/scene/combinations.hpp>
 #include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
@@ -56,7 +57,7 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
 /// Throws where one table would have to hold results of different kinds.
 void check_one_table(const Options& options, const std::vector<scene::Study>& studies) {
   for (const scene::Study& study : studies) {
-    if (!options.csv.empty() && no_result(study).index() != no_result(studies.front()).index()) {
+    if (!options.csv.empty() && list_of(study) != list_of(studies.front())) {
       throw UsageError("--csv holds one table, but the results of the studies \"" + studies.front().name +
                        "\" and \"" + study.name +
                        "\" have different columns: use --out, where each study has its own");
@@ -96,18 +97,19 @@ void tell_partial(Interruption& interruption) {
   }
 }
 
-StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study, bool quiet,
+StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study, const Options& options,
                             Interruption& interruption) {
-  ProgressLine line(quiet, std::string(scene::unit_name(scene.frequency_unit)));
-  StudyResult result = compute(scene, study, [&](const observables::Progress& progress) {
+  ProgressLine line(options.quiet, std::string(scene::unit_name(scene.frequency_unit)));
+  const auto progress = [&](const observables::Progress& now) {
     if (!interrupted()) {
-      line.show(progress);
+      line.show(now);
       return true;
     }
     line.clear();
     tell_partial(interruption);
     return false;
-  });
+  };
+  StudyResult result = compute(scene, study, options.coefficients, !options.out.empty(), progress);
   line.clear();
   tell_partial(interruption);
   return result;
@@ -123,7 +125,6 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   Interruption interruption;
   Writing writing;
   ExitCode code = ExitCode::done;
-  const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
   bool any_begun = false;
   results::Results results{studies::header(scene), {}, {}};
   std::string places;
@@ -134,28 +135,24 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       continue;
     }
     any_begun = true;
-    StudyResult result = compute_visibly(scene, studies[i], options.quiet, interruption);
-    for (const std::string& sentence : early_ends(scene, result)) {
+    StudyResult result = compute_visibly(scene, studies[i], options, interruption);
+    for (const std::string& sentence : results::early_ends(result.results)) {
       code = ExitCode::stopped_early;
       tell(sentence);
     }
-    for (const std::string& sentence : doubts(scene, result)) {
+    for (const std::string& sentence : results::doubts(result.results)) {
       tell(sentence);
     }
-    if (has_files) {
-      results::Results of_study = results_of(scene, result, options.coefficients);
-      if (!options.out.empty()) {
-        for (const std::string& path :
-             write_study(files[i], files, scene, studies[i].kind, result, of_study, writing)) {
-          places += results::visible(path) + "\n";
-        }
+    if (!options.out.empty()) {
+      for (const std::string& path : write_study(files[i], files, scene, result, writing)) {
+        places += results::visible(path) + "\n";
       }
-      append(std::move(of_study), results);
     }
     if (studies.size() > 1) {
       tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
     }
-    write_table(tables, scene, result);
+    results::write_table(tables, result.results);
+    append(std::move(result.results), results);
   }
   StandardOutput screen;
   std::vector<File> outputs;  // none where no study was begun
@@ -187,7 +184,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
     code = ExitCode::stopped_early;
     if (interruption.is_new()) {
       tell(!any_begun ? "interrupted before a study was begun: nothing is computed, and nothing is written"
-                       : "interrupted while results were written; " + writing.missing());
+                      : "interrupted while results were written; " + writing.missing());
     }
   }
   return writing.code(code);

@@ -25,7 +25,7 @@ double to_four_digits(double value) {
 }
 
 std::string value_label(const scene::Scene& scene, const OptimumProblem& problem, double value) {
-  return studies::quantity(to_four_digits(value), studies::parameter_unit(scene, problem.over[0].name));
+  return results::quantity(to_four_digits(value), studies::parameter_unit(scene, problem.over[0].name));
 }
 
 std::vector<results::FigureBand> bands(const Optimum& optimum) {
@@ -34,7 +34,7 @@ std::vector<results::FigureBand> bands(const Optimum& optimum) {
   auto ranges = optimum.certificate->ranges[0];
   std::sort(ranges.begin(), ranges.end(), [](auto& a, auto& b) { return a.share > b.share; });
   for (const ToleranceRange& range : ranges)
-    all.push_back({"within " + studies::quantity(100 * range.share, "%"), {range.lower, range.upper}});
+    all.push_back({"within " + results::quantity(100 * range.share, "%"), {range.lower, range.upper}});
   return all;
 }
 
@@ -54,8 +54,8 @@ void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> re
 
 // One line for each case, whatever the cases set: branches are told apart by their number until then.
 results::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind kind,
-                                  const OptimumResult& result,
-                                  std::vector<ResponseBranch> CaseCurves::*branches, bool weighted) {
+                                   const OptimumResult& result,
+                                   std::vector<ResponseBranch> CaseCurves::*branches, bool weighted) {
   const OptimumProblem& problem = result.problem;
   std::vector<ResponseBranch> all;
   for (const CaseCurves& curves : result.curves)
@@ -169,7 +169,8 @@ void add_cases(const scene::Scene& scene, const OptimumResult& result, const std
 
 }  // namespace
 
-std::vector<results::FigureData> figures_of(const scene::Scene& scene, std::span<const OptimumResult> results) {
+std::vector<results::FigureData> figures_of(const scene::Scene& scene,
+                                            std::span<const OptimumResult> results) {
   std::vector<results::FigureData> all;
   std::vector<ResponseBranch> curves, responses;
   for (std::size_t i = 0; i < results.size(); ++i) {

@@ -1,5 +1,7 @@
 #include <arcslip/optimize/optimum_results.hpp>
 
+#include <arcslip/optimize/optimum_text.hpp>
+
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/studies/columns.hpp>
 
@@ -204,6 +206,13 @@ Object facts(const scene::Scene& scene, const OptimumResult& result) {
   return all;
 }
 
+// Of the responses at the optimum.
+std::string doubt(const OptimumResult& result) {
+  for (const observables::ResponseBranch& branch : result.responses)
+    if (!branch.doubt.empty()) return studies::doubt_of(branch);
+  return {};
+}
+
 TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult& result) {
   TableOf<OptimumPoint> table;
   const std::string& along = result.curve.along;
@@ -260,7 +269,7 @@ results::Results results_of(const scene::Scene& scene, std::span<const OptimumRe
   const OptimumResult& first = optima.empty() ? none : optima.front();  // all have the same columns
   results::Schema schema{.format = "arcslip-optimum-1",
                          .list = "optima",
-                         .noun = "optimum",
+                         .noun = "search",
                          .tables = {{"course", course(scene, first.problem).columns()}},
                          .beside = {"optimum", "algorithm", "evaluations", "stop"}};
   if (first.has_cases())
@@ -268,11 +277,11 @@ results::Results results_of(const scene::Scene& scene, std::span<const OptimumRe
   results::Results all{studies::header(scene), {}, {}};
   for (const OptimumResult& each : optima) {
     studies::add_columns(scene, each.set, schema.set);
-    all.results.push_back(
-        {.schema = 0,
-         .head = {each.study, each.kind, studies::named(scene, each.set)},
-         .tables = {course(scene, each.problem).rows(each.optimum.evaluations)},
-         .end = {observables::name(each.status), studies::stop(each.stop), facts(scene, each)}});
+    all.results.push_back({.schema = 0,
+                           .head = {each.study, each.kind, studies::named(scene, each.set)},
+                           .tables = {course(scene, each.problem).rows(each.optimum.evaluations)},
+                           .end = {observables::name(each.status), studies::stop(each.stop),
+                                   facts(scene, each), doubt(each), text_of(scene, each)}});
     if (each.has_cases())
       all.results.back().tables.push_back(cases(scene, each.problem).rows(each.optimum.cases));
   }
@@ -306,7 +315,9 @@ results::Results results_of(const scene::Scene& scene, std::span<const OptimumCu
                   {"responses", curve.work.peaks.responses},
                   {"followed", curve.work.peaks.followed},
                   {"factorizations", curve.work.peaks.factorizations},
-                  {"seconds", curve.work.seconds, "s"}}}});
+                  {"seconds", curve.work.seconds, "s"}},
+                 "",
+                 text_of(scene, each)}});
   }
   all.schemas.push_back(std::move(schema));
   return all;

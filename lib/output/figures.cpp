@@ -120,11 +120,12 @@ void remove_figures(const std::string& folder, const std::string& name) {
   remove_images(base, {stem + ".dat", stem + ".gp"});
 }
 
-Figures draw_figures(const FigureData& data, const std::string& folder,
-                     const std::string& name, const scene::StopRequest& stop) {
+Figures draw_figures(const FigureData& data, const std::string& folder, const std::string& name,
+                     const scene::StopRequest& stop) {
   const std::string stem = file_name(name);
   const std::string base = folder_prefix(folder);
-  const std::vector<std::string> images = data.lines.empty() ? std::vector<std::string>() : image_names(data, stem);
+  const std::vector<std::string> images =
+      data.lines.empty() ? std::vector<std::string>() : image_names(data, stem);
 
   Figures result;
   result.sources = {base + stem + ".dat", base + stem + ".gp"};

@@ -15,11 +15,11 @@ struct Figures {
   std::string problem;               // why images are missing, one sentence for people; empty: all are there
 };
 
-/// Writes NAME.dat and NAME.gp into `folder`, and lets gnuplot make of them the figures of `data`, as SVG and PNG.
-/// NAME is made of letters, digits, '.', '_' and '-' only. Without gnuplot, or where it fails, hangs (it has a
-/// minute, and 0.1 ms more for each point of each figure) or `stop` is asked for, `problem` says so and the
-/// sources are there all the same. Images of an earlier run with this NAME are removed first. Throws WriteError
-/// where the sources cannot be written.
+/// Writes NAME.dat and NAME.gp into `folder`, and lets gnuplot make of them the figures of `data`, as SVG and
+/// PNG. NAME is made of letters, digits, '.', '_' and '-' only. Without gnuplot, or where it fails, hangs (it
+/// has a minute, and 0.1 ms more for each point of each figure) or `stop` is asked for, `problem` says so and
+/// the sources are there all the same. Images of an earlier run with this NAME are removed first. Throws
+/// WriteError where the sources cannot be written.
 Figures draw_figures(const results::FigureData& data, const std::string& folder, const std::string& name,
                      const scene::StopRequest& stop = {});
 

@@ -58,8 +58,7 @@ bool is_labelled(const std::string& kind) {
 }
 
 /// The lines over the axes, from 0 to 1, so that no label is put upon one.
-std::vector<std::vector<Place>> places(const FigureData& data, const Figure& figure,
-                                       const Axes& axes) {
+std::vector<std::vector<Place>> places(const FigureData& data, const Figure& figure, const Axes& axes) {
   std::vector<std::vector<Place>> lines;
   for (const FigureLine& line : data.lines) {
     for (const std::vector<Record>& part : line.parts) {
@@ -267,7 +266,8 @@ void write_figure_data(std::ostream& out, const FigureData& data) {
 
 void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::string& name,
                           const std::vector<std::string>& images) {
-  out << "# Made by arcslip " << results::version() << ". Draws the figures again: gnuplot -d " << name << ".gp\n"
+  out << "# Made by arcslip " << results::version() << ". Draws the figures again: gnuplot -d " << name
+      << ".gp\n"
       << "if (!exists('suffix')) suffix = ''\n"
       << "data = '" << name << ".dat'\n"
       << "set encoding utf8\n"

@@ -40,6 +40,14 @@ struct Table {
   bool by_columns = false;             // JSON holds a list for each column, and not an object for each row
 };
 
+/// What people are shown.
+struct Shown {
+  std::string title;              // "A_max (m)"
+  std::vector<std::string> path;  // of a column, or of a fact of the end
+  std::string format = "%.8g";    // of a number, as printf has it
+  std::string otherwise{};        // a flag whose name stands where there is no value and the flag is true
+};
+
 /// What all results of one study look like.
 struct Schema {
   std::string format;  // of a document that holds nothing else: "arcslip-branches-1"
@@ -47,6 +55,8 @@ struct Schema {
   std::string noun;    // "branch"
   std::vector<Table> tables;
   std::vector<Column> set{};          // of Head::set, in any of them
+  std::vector<Shown> shown{};         // to people; none: End::text
+  std::string shown_table{};          // whose rows; empty: facts of the end
   std::vector<std::string> beside{};  // keys of the one result of a document that stand beside its list, too
 };
 
@@ -80,6 +90,8 @@ struct End {
   std::string status;
   Object stop;  // "reason", "value", "limit", "message"
   Object facts{};
+  std::string doubt{};  // why what is complete has fewer digits than it seems; empty: it has not
+  std::string text{};   // for people, lines
 };
 
 class Sink {
@@ -106,6 +118,9 @@ struct Results {
   std::vector<Schema> schemas;
   std::vector<Result> results;
 };
+
+/// A row as members within members.
+Object object(std::span<const Column> columns, const Rows& rows, std::size_t row);
 
 /// Puts results of the same header behind others.
 void append(Results more, Results& all);

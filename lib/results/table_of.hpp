@@ -147,7 +147,4 @@ class TableOf {
   std::vector<std::function<Cells(Items)>> fill_;
 };
 
-/// A row as members within members.
-Object object(std::span<const Column> columns, const Rows& rows, std::size_t row);
-
 }  // namespace arcslip::results

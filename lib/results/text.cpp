@@ -1,6 +1,8 @@
 #include <arcslip/results/text.hpp>
 
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 
 namespace arcslip::results {
 namespace {
@@ -112,6 +114,16 @@ std::string json_quoted(std::string_view text) {
     text.remove_prefix(next.size);
   }
   return out += '"';
+}
+
+std::string quantity(double value, std::string_view unit) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.10g", value);  // without the last digits' rounding
+  std::string text = shortest(std::strtod(digits, nullptr));
+  if (!unit.empty() && unit != "-") {
+    text.append(" ").append(unit);
+  }
+  return text;
 }
 
 }  // namespace arcslip::results

@@ -21,6 +21,9 @@ inline std::string shortest(double value) {
   return text;
 }
 
+/// "3 N", to ten digits; a pure number ("" or "-") stands alone.
+std::string quantity(double value, std::string_view unit);
+
 /// The text with every character escaped that commands a terminal, changes how its neighbours look, or is
 /// none: control characters (C0, DEL, C1), marks and embeddings of writing direction, separators of lines and
 /// paragraphs, noncharacters (U+FFFE, U+FFFF and their like) and surrogates, as JSON escapes them (\u009b);

@@ -1,6 +1,7 @@
 #include <arcslip/studies/branches.hpp>
 
 #include <arcslip/studies/columns.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <cmath>
 #include <map>
@@ -37,13 +38,25 @@ results::TableOf<ResponseEvent> events(const scene::Scene& scene, const Response
   return table;
 }
 
+std::vector<results::Shown> shown(const scene::Scene& scene, const std::string& over) {
+  std::vector<results::Shown> all;
+  if (!over.empty()) all.push_back({with_unit(over, parameter_unit(scene, over)), {over}});
+  all.push_back({"event", {"kind"}});
+  all.push_back({with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"});
+  all.push_back({"A_max (m)", {"amplitude"}, "%.8e", "unbounded"});
+  add_stick(scene, all);
+  return all;
+}
+
 results::Schema schema(const scene::Scene& scene, const ResponseBranch& branch,
                        const BranchOptions& options) {
   return {.format = "arcslip-branches-1",
           .list = "branches",
           .noun = "branch",
           .tables = {{"points", points(scene, branch, options).columns(), {"elements"}},
-                     {"events", events(scene, branch, options).columns(), {"elements"}}}};
+                     {"events", events(scene, branch, options).columns(), {"elements"}}},
+          .shown = shown(scene, branch.over),
+          .shown_table = "events"};
 }
 
 results::Object solver(const observables::SolverSummary& summary) {
@@ -71,7 +84,10 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch,
   }
   result.tables = {points(scene, branch, options).rows(branch.points),
                    events(scene, branch, options).rows(branch.events)};
-  result.end = {observables::name(branch.status), stop(branch.stop), {{"solver", solver(branch.solver)}}};
+  result.end = {observables::name(branch.status),
+                stop(branch.stop),
+                {{"solver", solver(branch.solver)}},
+                doubt_of(branch)};
   return result;
 }
 

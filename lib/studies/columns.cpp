@@ -104,6 +104,16 @@ void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<
   }
 }
 
+void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown) {
+  const auto is_friction = [](const scene::Part& element) { return element.type == &scene::jenkins_type; };
+  const bool one = std::count_if(scene.elements.begin(), scene.elements.end(), is_friction) == 1;
+  for (const scene::Part& element : scene.elements)
+    if (is_friction(element))
+      shown.push_back({(one ? "" : element.name + " ") + "stick (%)",
+                       {"elements", element.name, "stick_percent"},
+                       "%.4f"});
+}
+
 results::Header header(const scene::Scene& scene) {
   return {"arcslip " + std::string(results::version()), scene::hash(scene), scene.title,
           std::string(scene::unit_name(scene.frequency_unit))};
@@ -111,6 +121,12 @@ results::Header header(const scene::Scene& scene) {
 
 results::Object stop(const observables::Stop& stop) {
   return {{"reason", stop.reason}, {"value", stop.value}, {"limit", stop.limit}, {"message", stop.message}};
+}
+
+std::string doubt_of(const observables::ResponseBranch& branch) {
+  return branch.doubt.empty()
+             ? ""
+             : "followed in its rounding, which takes digits of what it tells: " + branch.doubt;
 }
 
 }  // namespace arcslip::studies

@@ -36,8 +36,14 @@ results::Object named(const scene::Scene& scene, const NamedValues& values);
 /// The columns of these parameters, but for those that are there.
 void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<results::Column>& columns);
 
+/// What people are shown of friction elements: the share of the period, or of the time, in stick.
+void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown);
+
 results::Header header(const scene::Scene& scene);
 
 results::Object stop(const observables::Stop& stop);
+
+/// What makes a branch doubtful (ResponseBranch::doubt), as the end of a sentence; empty: nothing.
+std::string doubt_of(const observables::ResponseBranch& branch);
 
 }  // namespace arcslip::studies

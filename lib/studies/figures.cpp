@@ -70,8 +70,8 @@ void set_columns(const scene::Scene& scene, StudyKind kind, const std::vector<st
 }
 
 /// A figure for each friction element, with its stick share on one of the axes.
-void add_stick_figures(StudyKind kind, const std::vector<std::string>& friction, Figure first, bool over_stick,
-                       FigureData& data) {
+void add_stick_figures(StudyKind kind, const std::vector<std::string>& friction, Figure first,
+                       bool over_stick, FigureData& data) {
   for (std::size_t i = 0; i < friction.size(); ++i) {
     Figure figure = first;
     std::string& label = over_stick ? figure.x_label : figure.y_label;
@@ -93,8 +93,8 @@ void set_figures(StudyKind kind, const std::vector<std::string>& friction, Figur
   if (kind == StudyKind::peaks) {
     data.figures = {{"amplitude", 0, amplitude, over, "peak " + amplitude_label},
                     {"frequency", 0, frequency, over, "resonance " + frequency_label}};
-    add_stick_figures(kind, friction, {"amplitude_over_stick", 0, amplitude, "", "peak " + amplitude_label}, true,
-                      data);
+    add_stick_figures(kind, friction, {"amplitude_over_stick", 0, amplitude, "", "peak " + amplitude_label},
+                      true, data);
   } else if (kind == StudyKind::folds) {
     data.figures = {{"folds", frequency, 0, frequency_label, over}};
   } else {  // responses, also those of optima
@@ -138,7 +138,8 @@ FigureData figures_of(const scene::Scene& scene, StudyKind kind, std::span<const
     }
     for (const observables::ResponseEvent& event : branch.events) {
       line->unbounded = line->unbounded || event.point.unbounded;
-      if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) != results::mark_kinds.end()) {
+      if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) !=
+          results::mark_kinds.end()) {
         line->marks.push_back({event.kind, record(scene, kind, friction, event.point)});
       }
     }

@@ -16,10 +16,11 @@ namespace arcslip::studies {
 
 /// Of the branches of a study of this kind, a line for each combination of set parameters. Columns: the
 /// parameter of a study over one, the frequency, the amplitude (m), stick (%) of each friction element. Of
-/// frequency responses and traces over a parameter: the amplitude and the stick share of each friction element
-/// ("amplitude", "stick"). Of resonance peaks: their amplitude, their frequency ("frequency"), and the amplitude
-/// over the stick share of each friction element ("amplitude_over_stick"). Of folds: the parameter over the
-/// frequency ("folds").
+/// frequency responses and traces over a parameter: the amplitude and the stick share of each friction
+/// element
+/// ("amplitude", "stick"). Of resonance peaks: their amplitude, their frequency ("frequency"), and the
+/// amplitude over the stick share of each friction element ("amplitude_over_stick"). Of folds: the parameter
+/// over the frequency ("folds").
 results::FigureData figures_of(const scene::Scene& scene, scene::StudyKind kind,
                                std::span<const observables::ResponseBranch> branches);
 
@@ -28,11 +29,13 @@ std::size_t frequency_column(scene::StudyKind kind);
 std::size_t amplitude_column(scene::StudyKind kind);
 
 /// The displacement over time ("displacement"), and for each friction element its hysteresis loop
-/// ("hysteresis") and its force over time ("force"), with a line for each motion. Columns: time, displacement of
-/// the response, then displacement and force of each friction element. More than 20 000 instants are thinned.
+/// ("hysteresis") and its force over time ("force"), with a line for each motion. Columns: time, displacement
+/// of the response, then displacement and force of each friction element. More than 20 000 instants are
+/// thinned.
 results::FigureData figures_of(const scene::Scene& scene, std::span<const observables::Motion> motions);
 
 /// A line of these set parameters, without anything on it: "3 N, 0.1 N s/m".
-results::FigureLine line_of(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set);
+results::FigureLine line_of(const scene::Scene& scene,
+                            const std::vector<std::pair<std::string, double>>& set);
 
 }  // namespace arcslip::studies

@@ -1,6 +1,5 @@
 #include <arcslip/studies/figures.hpp>
 
-
 namespace arcslip::studies {
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/studies/columns.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <complex>
 #include <utility>
@@ -63,6 +64,8 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
                       {"energy_stored", motion.energy.stored, "J"},
                       {"energy_defect", motion.energy.defect(), "J"},
                       {"multipliers", std::move(multipliers)}};
+  if (!motion.multipliers.empty())
+    all.push_back({"largest_multiplier", std::abs(motion.multipliers.front())});
   if (motion.stable) all.push_back({"stable", *motion.stable});
   if (motion.elements.size() == 1)
     all.push_back({"stick_percent", motion.elements.front().stick_percent, "%"});
@@ -91,10 +94,20 @@ results::Results results_of(const scene::Scene& scene, std::span<const Motion> m
          .tables = {table.rows(instants)},
          .end = {observables::name(motion.status), stop(motion.stop), facts(scene, motion)}});
   }
+  std::vector<results::Shown> shown{
+      {"method", {"method"}},
+      {with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
+      {"A_max (m)", {"amplitude"}, "%.8e"}};
+  add_stick(scene, shown);
+  shown.insert(shown.end(), {{"E_friction (J)", {"energy_friction"}, "%.6e"},
+                             {"E_viscous (J)", {"energy_viscous"}, "%.6e"},
+                             {"multiplier", {"largest_multiplier"}, "%.6f"},
+                             {"periods", {"periods"}}});
   results::Schema schema{.format = "arcslip-time-1",
                          .list = "motions",
                          .noun = "motion",
-                         .tables = {{"history", table.columns(), {"elements"}, true}}};
+                         .tables = {{"history", table.columns(), {"elements"}, true}},
+                         .shown = std::move(shown)};
   for (const Motion& motion : motions) add_columns(scene, motion.set, schema.set);
   all.schemas.push_back(std::move(schema));
   return all;

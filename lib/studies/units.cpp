@@ -2,9 +2,6 @@
 
 #include <arcslip/results/text.hpp>
 
-#include <cstdio>
-#include <cstdlib>
-
 namespace arcslip::studies {
 
 std::string parameter_unit(const scene::Scene& scene, std::string_view parameter) {
@@ -19,21 +16,11 @@ std::string with_unit(std::string_view quantity, std::string_view unit) {
   return text;
 }
 
-std::string quantity(double value, std::string_view unit) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.10g", value);  // without the last digits' rounding
-  std::string text = results::shortest(std::strtod(digits, nullptr));
-  if (!unit.empty() && unit != "-") {
-    text.append(" ").append(unit);
-  }
-  return text;
-}
-
 std::string assignment(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
   std::string text;
   for (const auto& [name, value] : set) {
     text.append(text.empty() ? "" : ", ").append(results::visible(name)).append(" = ");
-    text += quantity(value, parameter_unit(scene, name));
+    text += results::quantity(value, parameter_unit(scene, name));
   }
   return text;
 }
@@ -41,7 +28,7 @@ std::string assignment(const scene::Scene& scene, const std::vector<std::pair<st
 std::string set_label(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
   std::string text;
   for (const auto& [name, value] : set) {
-    text.append(text.empty() ? "" : ", ").append(quantity(value, parameter_unit(scene, name)));
+    text.append(text.empty() ? "" : ", ").append(results::quantity(value, parameter_unit(scene, name)));
   }
   return text;
 }

@@ -17,9 +17,6 @@ std::string parameter_unit(const scene::Scene& scene, std::string_view parameter
 /// (results/text.hpp).
 std::string with_unit(std::string_view quantity, std::string_view unit);
 
-/// "3 N", to ten digits; a pure number stands alone.
-std::string quantity(double value, std::string_view unit);
-
 /// "damper.normal_load = 3 N, c.value = 0.1 N s/m"; "" for no parameter. Escaped as with_unit() does.
 std::string assignment(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set);
 

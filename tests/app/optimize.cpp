@@ -90,10 +90,10 @@ TEST_CASE("a study of kind optimum runs with the others, with files and figures"
   CHECK(load(1) == Approx(2 * load(0)).epsilon(1e-6));
   CHECK(json["optima"][1]["set"]["force.cosine"] == 2.0);
   const std::string csv = place.read("out/best_load.csv");
-  CHECK(csv.find("study,force.cosine (N),optimum,damper.normal_load (N),amplitude (m)\r\n") == 0);
+  CHECK(csv.find("study,force.cosine (N),search,damper.normal_load (N),amplitude (m)\r\n") == 0);
   CHECK(csv.find("\r\nbest load,2,2,") != std::string::npos);
   const std::string summary = place.read("out/best_load.summary.csv");
-  CHECK(summary.find("study,kind,force.cosine (N),optimum,status,") == 0);
+  CHECK(summary.find("study,kind,force.cosine (N),search,status,") == 0);
   CHECK(summary.find(",optimum.damper.normal_load (N),optimum.amplitude (m),") != std::string::npos);
   CHECK(summary.find("\r\nbest load,optimum,2,2,complete,") != std::string::npos);
   const std::string script = place.read("out/best_load.gp");

@@ -98,7 +98,7 @@ TEST_CASE("the table and the CSV tell every case") {
   }
   CHECK(ended.out.find("A_max") == std::string::npos);
   const std::string csv = place.read("a.cases.csv");
-  CHECK(csv.find("study,optimum,set,response,weight,active,multiplier,amplitude (m),") == 0);
+  CHECK(csv.find("study,search,set,response,weight,active,multiplier,amplitude (m),") == 0);
   for (const char* part :
        {R"(,1,"{""force.cosine"":1.0}",,1,true,)", R"(,1,"{""force.cosine"":2.0}",,0.5,true,)"})
     CHECK(csv.find(part) != std::string::npos);

@@ -42,7 +42,8 @@ std::map<std::string, std::string> with_gnuplot(const Workplace& place, const st
 void check_whole(const Workplace& place, const std::string& study) {
   CAPTURE(study);
   CHECK(Json::parse(place.read("results/" + study + ".json"))["branches"][0]["status"] == "complete");
-  CHECK(place.read("results/" + study + ".events.csv").find("\r\n" + study + ",1,peak,") != std::string::npos);
+  CHECK(place.read("results/" + study + ".events.csv").find("\r\n" + study + ",1,peak,") !=
+        std::string::npos);
 }
 
 }  // namespace

@@ -58,8 +58,7 @@ TEST_CASE("figures come as whole SVG and PNG, amplitude and stick share") {
   }
   const TemporaryFolder folder;
   const std::vector branches{support::branch(1), support::branch(3)};
-  const auto figures =
-      drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+  const auto figures = drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
   CHECK(figures.problem.empty());
   CHECK(figures.sources == std::vector<std::string>{folder / "frf.dat", folder / "frf.gp"});
   CHECK(figures.images == std::vector<std::string>{folder / "frf_amplitude.svg", folder / "frf_amplitude.png",
@@ -130,8 +129,7 @@ TEST_CASE("results that are hard to draw are drawn") {
     for (std::size_t i = 0; i < branches.size(); ++i) {
       branches[i].set[0].second = static_cast<double>(i);
     }
-    const auto figures =
-        drawn(support::scene(), StudyKind::frf, branches, folder.path(), name);
+    const auto figures = drawn(support::scene(), StudyKind::frf, branches, folder.path(), name);
     CHECK(figures.problem == "");
     CHECK(figures.images.size() == (name == "no_friction" ? 2 : 4));
   }
@@ -165,8 +163,7 @@ TEST_CASE("a study over a parameter that is hard to draw is drawn") {
     for (const auto& branch : {one_point, at_zero, negative, nearly_constant, unbounded}) {
       CAPTURE(static_cast<int>(kind), branch.points[0].over, branch.points[0].unbounded);
       const TemporaryFolder folder;
-      const auto figures =
-          drawn(support::scene(), kind, std::vector{branch}, folder.path(), "x");
+      const auto figures = drawn(support::scene(), kind, std::vector{branch}, folder.path(), "x");
       CHECK(figures.problem == "");
       CHECK_FALSE(figures.images.empty());
     }
@@ -177,8 +174,7 @@ TEST_CASE("branches without a point give data and a reason, and no figure") {
   const TemporaryFolder folder;
   auto branch = support::branch();
   branch.points.clear();
-  const auto figures =
-      drawn(support::scene(), StudyKind::frf, std::vector{branch}, folder.path(), "frf");
+  const auto figures = drawn(support::scene(), StudyKind::frf, std::vector{branch}, folder.path(), "frf");
   CHECK(figures.problem == "there is no point to draw, so there is no figure");
   CHECK(figures.images.empty());
   CHECK(folder.files() == 2);
@@ -187,8 +183,8 @@ TEST_CASE("branches without a point give data and a reason, and no figure") {
 TEST_CASE("without gnuplot there are the data, the script and a plain message") {
   const TemporaryFolder folder;
   const SearchPath nothing("/nonexistent");
-  const auto figures = drawn(support::scene(), StudyKind::frf, std::vector{support::branch()},
-                                             folder.path(), "frf");
+  const auto figures =
+      drawn(support::scene(), StudyKind::frf, std::vector{support::branch()}, folder.path(), "frf");
   CHECK(figures.problem.find("figures need gnuplot (Debian package gnuplot-nox)") == 0);
   CHECK(figures.images.empty());
   CHECK(folder.files() == 2);
@@ -208,8 +204,8 @@ TEST_CASE("a gnuplot that fails, is killed or stops half way leaves a message an
     const TemporaryFolder folder;
     write_program(programs / "gnuplot", c.script);
     const SearchPath path(programs.path() + ":/usr/bin:/bin");
-    const auto figures = drawn(support::scene(), StudyKind::frf,
-                                               std::vector{support::branch()}, folder.path(), "frf");
+    const auto figures =
+        drawn(support::scene(), StudyKind::frf, std::vector{support::branch()}, folder.path(), "frf");
     CHECK(figures.problem.find(c.message) == 0);
     CHECK(figures.images.empty());
     CHECK(folder.files() == 2);
@@ -221,8 +217,8 @@ TEST_CASE("what a failing gnuplot says is told") {
   const TemporaryFolder programs;
   write_program(programs / "gnuplot", "echo no such terminal >&2; exit 3");
   const SearchPath path(programs.path() + ":/usr/bin:/bin");
-  const auto figures = drawn(support::scene(), StudyKind::frf, std::vector{support::branch()},
-                                             folder.path(), "frf");
+  const auto figures =
+      drawn(support::scene(), StudyKind::frf, std::vector{support::branch()}, folder.path(), "frf");
   CHECK(figures.problem.find("\nno such terminal") != std::string::npos);
 }
 
@@ -255,8 +251,7 @@ TEST_CASE("images of an earlier run are removed where the new ones cannot be dra
   });
   for (const char* image : {"frf_amplitude.svg", "frf_stick.png", "frf_stick_other.svg", "frf_mine.svg"})
     output::write_file(folder / image, [](std::ostream& out) { out << "</svg>"; });
-  const auto figures =
-      drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+  const auto figures = drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
   CHECK(figures.problem.find("; those of an earlier run are removed") != std::string::npos);
   CHECK(folder.files() == 3);
   CHECK(support::fs::exists(folder / "frf_mine.svg"));
@@ -267,8 +262,7 @@ TEST_CASE("the data of a figure has a block for each line and its marks") {
   const SearchPath nothing("/nonexistent");
   auto second = support::branch();  // goes on beyond a cut: the same line
   second.events.clear();
-  drawn(support::scene(), StudyKind::frf, std::vector{support::branch(), second},
-                        folder.path(), "frf");
+  drawn(support::scene(), StudyKind::frf, std::vector{support::branch(), second}, folder.path(), "frf");
   const std::string data = content(folder / "frf.dat");
   CHECK(data.find(
             "# frequency (Hz), amplitude (m), damper stick (%)\n# damper.normal_load = 3 N\n1 0.01 100\n") ==
@@ -282,8 +276,8 @@ TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitu
     return;
   }
   const TemporaryFolder folder;
-  const auto figures = drawn(support::scene(), StudyKind::peaks,
-                                             std::vector{support::peaks()}, folder.path(), "peaks");
+  const auto figures =
+      drawn(support::scene(), StudyKind::peaks, std::vector{support::peaks()}, folder.path(), "peaks");
   CHECK(figures.problem.empty());
   CHECK(figures.images ==
         std::vector<std::string>{folder / "peaks_amplitude.svg", folder / "peaks_amplitude.png",

@@ -189,11 +189,13 @@ TEST_CASE("the figures of motions are drawn") {
     return;
   }
   const support::TemporaryFolder folder;
-  const auto figures = output::draw_figures(studies::figures_of(made_up_scene(), std::vector{motion()}), folder.path(), "time");
+  const auto figures = output::draw_figures(studies::figures_of(made_up_scene(), std::vector{motion()}),
+                                            folder.path(), "time");
   CHECK(figures.problem.empty());
   CHECK(figures.images.size() == 6);
   CHECK(support::content(folder / "time.dat").find("# time (s), displacement (m), damper displacement (m)") ==
         0);
-  const auto none = output::draw_figures(studies::figures_of(made_up_scene(), std::vector<Motion>{}), folder.path(), "none");
+  const auto none = output::draw_figures(studies::figures_of(made_up_scene(), std::vector<Motion>{}),
+                                         folder.path(), "none");
   CHECK(none.problem == "there is no point to draw, so there is no figure");
 }

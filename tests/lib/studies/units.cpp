@@ -28,7 +28,7 @@ TEST_CASE("numbers are written as short as they read back") {
 
 TEST_CASE("a set of parameters reads as an assignment with units") {
   CHECK(studies::assignment(support::scene(),
-                           {{"damper.normal_load", 3}, {"damper.friction_coefficient", 0.5}}) ==
+                            {{"damper.normal_load", 3}, {"damper.friction_coefficient", 0.5}}) ==
         "damper.normal_load = 3 N, damper.friction_coefficient = 0.5");
   CHECK(studies::assignment(support::scene(), {}).empty());
 }

@@ -1,4 +1,4 @@
-#include "optimum_table.hpp"
+#include <arcslip/optimize/optimum_text.hpp>
 
 #include <arcslip/optimize/case_label.hpp>
 #include <arcslip/studies/units.hpp>
@@ -7,9 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <ostream>
+#include <sstream>
 #include <string>
 
-namespace arcslip::app {
+namespace arcslip::optimize {
 namespace {
 
 constexpr std::size_t most_cases = 24;  // lines of a table for people
@@ -38,12 +39,12 @@ std::string place(const scene::Scene& scene, const observables::ResponsePoint& p
   return text;
 }
 
-void write_cases(std::ostream& out, const scene::Scene& scene, const optimize::OptimumResult& result) {
+void write_cases(std::ostream& out, const scene::Scene& scene, const OptimumResult& result) {
   const bool mean = result.problem.criterion == scene::Criterion::mean;
   const auto& cases = result.optimum.cases;
   for (std::size_t c = 0; c < std::min(cases.size(), most_cases); ++c)
-    out << "    " << optimize::case_text(scene, result.problem, cases[c]) << ": "
-        << number(cases[c].amplitude, "%.8e") << " m at " << place(scene, cases[c].point, 1)
+    out << "    " << case_text(scene, result.problem, cases[c]) << ": " << number(cases[c].amplitude, "%.8e")
+        << " m at " << place(scene, cases[c].point, 1)
         << (cases[c].weight == 1 ? "" : ", weight " + number(cases[c].weight, "%.4g"))
         << (cases[c].active && !mean ? ", active" : "") << '\n';
   if (cases.size() > most_cases)
@@ -51,10 +52,10 @@ void write_cases(std::ostream& out, const scene::Scene& scene, const optimize::O
 }
 
 // The ends of a curve and its events.
-void write_curve(std::ostream& out, const scene::Scene& scene, const optimize::OptimumCurveResult& result) {
-  const optimize::OptimumCurve& curve = result.curve;
+void write_curve(std::ostream& out, const scene::Scene& scene, const OptimumCurveResult& result) {
+  const OptimumCurve& curve = result.curve;
   for (const std::string& note : curve.notes) out << "  " << note << '\n';
-  const auto line = [&](const std::string& what, const optimize::OptimumPoint& point) {
+  const auto line = [&](const std::string& what, const OptimumPoint& point) {
     out << "  " << curve.along << " = " << with_unit(scene, curve.along, point.along) << ": ";
     for (std::size_t k = 0; k < point.design.size(); ++k)
       out << result.problem.over[k].name << " = "
@@ -78,7 +79,7 @@ void write_curve(std::ostream& out, const scene::Scene& scene, const optimize::O
 }
 
 // "d1.normal_load + 2 d2.normal_load = 6, at most 6"
-void write_sums(std::ostream& out, const optimize::OptimumResult& result) {
+void write_sums(std::ostream& out, const OptimumResult& result) {
   for (const scene::LinearLimit& limit : result.problem.linear_limits) {
     double sum = 0;
     std::string text;
@@ -99,11 +100,11 @@ const char* cut_by(bool bound, bool limit) {
   return bound ? " (a bound)" : limit ? " (a limit)" : "";
 }
 
-void write_certificate(std::ostream& out, const scene::Scene& scene, const optimize::OptimumResult& result) {
-  const optimize::Certificate& certificate = *result.optimum.certificate;
+void write_certificate(std::ostream& out, const scene::Scene& scene, const OptimumResult& result) {
+  const Certificate& certificate = *result.optimum.certificate;
   const auto& over = result.problem.over;
   for (std::size_t k = 0; k < certificate.ranges.size(); ++k)
-    for (const optimize::ToleranceRange& range : certificate.ranges[k])
+    for (const ToleranceRange& range : certificate.ranges[k])
       out << "  within " << number(100 * range.share, "%.0f") << " % for " << over[k].name << " from "
           << with_unit(scene, over[k].name, range.lower) << cut_by(range.lower_is_bound, range.lower_is_limit)
           << " to " << with_unit(scene, over[k].name, range.upper)
@@ -112,10 +113,10 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
     if (certificate.at_bound[k] != 0)
       out << "  " << over[k].name << " is at its " << (certificate.at_bound[k] < 0 ? "lower" : "upper")
           << " bound\n";
-  for (const optimize::ActiveLimit& limit : certificate.limits)
+  for (const ActiveLimit& limit : certificate.limits)
     if (limit.by_height)
       out << "  the limit on " << limit.limit << " is exceeded at a peak that is "
-          << number(100 * optimize::watched_share) << " % of the highest: above that it would hold there\n";
+          << number(100 * watched_share) << " % of the highest: above that it would hold there\n";
     else
       out << "  "
           << (limit.limit.starts_with("a linear") ? "the limit on a sum" : "the limit on " + limit.limit)
@@ -124,8 +125,8 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
   int active = 0;
   for (const auto& peak : certificate.peaks) {
     active += peak.active;
-    const bool lower = peak.kind == optimize::PeakKind::lower_end;
-    if (peak.active && (lower || peak.kind == optimize::PeakKind::upper_end))
+    const bool lower = peak.kind == PeakKind::lower_end;
+    if (peak.active && (lower || peak.kind == PeakKind::upper_end))
       out << "  the amplitude is largest at the " << (lower ? "lower" : "upper")
           << " end of the window: a wider one may hold a higher peak\n";
   }
@@ -135,9 +136,10 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
       << "; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
   for (const auto& other : certificate.others) {
     out << "  another response, by " << other.found_by << ": " << number(other.amplitude, "%.8e") << " m at "
-        << number(studies::in_scene_unit(scene, other.omega)) << ' ' << scene::unit_name(scene.frequency_unit);
+        << number(studies::in_scene_unit(scene, other.omega)) << ' '
+        << scene::unit_name(scene.frequency_unit);
     if (result.has_cases())
-      out << " with " << optimize::case_text(scene, result.problem, result.optimum.cases[other.in_case]);
+      out << " with " << case_text(scene, result.problem, result.optimum.cases[other.in_case]);
     out << '\n';
   }
   if (!certificate.others_lower) out << "  it is higher than the highest peak of the branch\n";
@@ -145,50 +147,47 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const optim
 
 }  // namespace
 
-void write_table(std::ostream& out, const scene::Scene& scene,
-                 std::span<const optimize::OptimumResult> results) {
-  for (const optimize::OptimumResult& result : results) {
-    const optimize::Optimum& found = result.optimum;
-    if (!result.set.empty()) out << studies::assignment(scene, result.set) << '\n';
-    for (const std::string& note : found.notes) out << "  " << note << '\n';
-    if (found.design.empty() || !std::isfinite(found.amplitude)) {
-      out << "  no optimum: " << result.stop.message << '\n';
-      continue;
-    }
-    for (std::size_t k = 0; k < found.design.size(); ++k)
-      out << "  " << result.problem.over[k].name << " = "
-          << with_unit(scene, result.problem.over[k].name, found.design[k]) << '\n';
-    if (result.has_cases()) {
-      out << "  " << scene::criterion_name(result.problem.criterion) << " of " << found.cases.size()
-          << (found.cases.size() == 1 ? " case = " : " cases = ") << number(found.amplitude, "%.8e")
-          << " m\n";
-      write_cases(out, scene, result);
-    } else {
-      out << "  A_max = " << number(found.amplitude, "%.8e") << " m at "
-          << place(scene, found.point, found.point.elements.size()) << '\n';
-    }
-    write_sums(out, result);
-    if (!found.feasible) out << "  a constraint is not met there\n";
-    out << "  " << found.algorithm << ", " << found.evaluations.size() << " evaluations, "
-        << found.work.responses << " responses traced, " << number(found.seconds, "%.3f")
-        << " s: " << result.stop.message.substr(0, result.stop.message.find("; the least amplitude")) << '\n';
-    if (found.certificate) write_certificate(out, scene, result);
-    if (result.direct.found)
-      out << "  the curve of peaks has its minimum at " << result.problem.over[0].name << " = "
-          << with_unit(scene, result.problem.over[0].name, result.direct.point.over)
-          << ": relative differences " << number(result.difference_of_design(), "%.1e") << " and "
-          << number(result.difference_of_amplitude(), "%.1e") << " in amplitude\n";
-    else if (!result.direct.message.empty())
-      out << "  " << result.direct.message << '\n';
+std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
+  std::ostringstream out;
+  const Optimum& found = result.optimum;
+  if (!result.set.empty()) out << studies::assignment(scene, result.set) << '\n';
+  for (const std::string& note : found.notes) out << "  " << note << '\n';
+  if (found.design.empty() || !std::isfinite(found.amplitude)) {
+    out << "  no optimum: " << result.stop.message << '\n';
+    return out.str();
   }
+  for (std::size_t k = 0; k < found.design.size(); ++k)
+    out << "  " << result.problem.over[k].name << " = "
+        << with_unit(scene, result.problem.over[k].name, found.design[k]) << '\n';
+  if (result.has_cases()) {
+    out << "  " << scene::criterion_name(result.problem.criterion) << " of " << found.cases.size()
+        << (found.cases.size() == 1 ? " case = " : " cases = ") << number(found.amplitude, "%.8e") << " m\n";
+    write_cases(out, scene, result);
+  } else {
+    out << "  A_max = " << number(found.amplitude, "%.8e") << " m at "
+        << place(scene, found.point, found.point.elements.size()) << '\n';
+  }
+  write_sums(out, result);
+  if (!found.feasible) out << "  a constraint is not met there\n";
+  out << "  " << found.algorithm << ", " << found.evaluations.size() << " evaluations, "
+      << found.work.responses << " responses traced, " << number(found.seconds, "%.3f")
+      << " s: " << result.stop.message << '\n';
+  if (found.certificate) write_certificate(out, scene, result);
+  if (result.direct.found)
+    out << "  the curve of peaks has its minimum at " << result.problem.over[0].name << " = "
+        << with_unit(scene, result.problem.over[0].name, result.direct.point.over)
+        << ": relative differences " << number(result.difference_of_design(), "%.1e") << " and "
+        << number(result.difference_of_amplitude(), "%.1e") << " in amplitude\n";
+  else if (!result.direct.message.empty())
+    out << "  " << result.direct.message << '\n';
+  return out.str();
 }
 
-void write_table(std::ostream& out, const scene::Scene& scene,
-                 std::span<const optimize::OptimumCurveResult> results) {
-  for (const optimize::OptimumCurveResult& result : results) {
-    if (!result.set.empty()) out << studies::assignment(scene, result.set) << '\n';
-    write_curve(out, scene, result);
-  }
+std::string text_of(const scene::Scene& scene, const OptimumCurveResult& result) {
+  std::ostringstream out;
+  if (!result.set.empty()) out << studies::assignment(scene, result.set) << '\n';
+  write_curve(out, scene, result);
+  return out.str();
 }
 
-}  // namespace arcslip::app
+}  // namespace arcslip::optimize

@@ -1,0 +1,183 @@
+#include <arcslip/results/table_writer.hpp>
+
+#include <arcslip/results/text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <type_traits>
+#include <utility>
+
+namespace arcslip::results {
+namespace {
+
+using Row = std::vector<std::string>;
+
+constexpr const char* no_value = "-";
+
+std::string text_of(const Value& value, const std::string& format) {
+  return std::visit(
+      [&](const auto& is) -> std::string {
+        using Is = std::decay_t<decltype(is)>;
+        if constexpr (std::is_same_v<Is, double>) {
+          std::array<char, 64> text{};
+          std::snprintf(text.data(), text.size(), format.c_str(), is);
+          return std::isfinite(is) ? text.data() : no_value;
+        } else if constexpr (std::is_same_v<Is, long>) {
+          return std::to_string(is);
+        } else if constexpr (std::is_same_v<Is, std::string>) {
+          return is;
+        } else {
+          return no_value;
+        }
+      },
+      value.get());
+}
+
+const Value* find(const Object& object, std::span<const std::string> path) {
+  const auto has_key = [&](const Member& member) { return member.key == path.front(); };
+  const auto found = std::find_if(object.begin(), object.end(), has_key);
+  if (found == object.end()) return nullptr;
+  if (path.size() == 1) return &found->value;
+  const auto* inner = std::get_if<Object>(&found->value.get());
+  return inner ? find(*inner, path.subspan(1)) : nullptr;
+}
+
+/// The cells of what is shown of an object.
+Row cells(const std::vector<Shown>& shown, const Object& object) {
+  Row row;
+  for (const Shown& each : shown) {
+    const Value* value = find(object, each.path);
+    row.push_back(value ? text_of(*value, each.format) : no_value);
+    if (row.back() != no_value || each.otherwise.empty()) continue;
+    const Value* flag = find(object, {&each.otherwise, 1});
+    if (flag && std::holds_alternative<bool>(flag->get()) && std::get<bool>(flag->get()))
+      row.back() = each.otherwise;
+  }
+  return row;
+}
+
+/// Of UTF-8.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+void write_aligned(std::ostream& out, std::vector<Row> rows) {
+  std::vector<std::size_t> widths;
+  for (Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      row[i] = visible(row[i]);
+      widths[i] = std::max(widths[i], characters(row[i]));
+    }
+  }
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      out << (i > 0 ? "  " : "") << std::string(widths[i] - characters(row[i]), ' ') << row[i];
+    out << '\n';
+  }
+}
+
+std::string part_and_status(const Results& results, std::size_t i) {
+  const Result& result = results.results[i];
+  const Schema& schema = results.schemas[result.schema];
+  const std::string set = assignment(result.head.set);
+  return schema.noun + " " + std::to_string(i + 1) + (set.empty() ? "" : " (" + set + ")") + " " +
+         result.end.status;
+}
+
+bool is_complete(const Result& result) {
+  return result.end.status == "complete";
+}
+
+}  // namespace
+
+TableWriter::TableWriter(std::ostream& out) : out_(out) {}
+
+void TableWriter::begin(const Header& /*header*/, std::span<const Schema> schemas) {
+  schemas_.assign(schemas.begin(), schemas.end());
+}
+
+void TableWriter::curve(const Head& head, std::size_t schema) {
+  if (schema != schema_) finish();
+  schema_ = schema;
+  head_ = head;
+  of_it_.clear();
+}
+
+void TableWriter::rows(std::size_t table, const Rows& rows) {
+  const Schema& schema = schemas_[schema_];
+  const Table& of = schema.tables[table];
+  for (std::size_t i = 0; i < rows.count && of.key == schema.shown_table; ++i)
+    of_it_.push_back(cells(schema.shown, object(of.columns, rows, i)));
+}
+
+void TableWriter::end(const End& end) {
+  const Schema& schema = schemas_[schema_];
+  if (schema.shown.empty()) {
+    out_ << end.text;
+    return;
+  }
+  if (schema.shown_table.empty()) of_it_ = {cells(schema.shown, end.facts)};
+  if (of_it_.empty()) of_it_.emplace_back(schema.shown.size(), no_value);
+  for (Row& row : of_it_) {
+    Row& line = lines_.emplace_back();
+    for (const Column& column : schema.set) {
+      const Value* value = find(head_.set, column.path);
+      const auto* number = value ? std::get_if<double>(&value->get()) : nullptr;
+      line.push_back(number ? shortest(*number) : no_value);
+    }
+    line.insert(line.end(), row.begin(), row.end());
+    line.push_back(end.status);
+  }
+}
+
+void TableWriter::finish() {
+  if (lines_.empty()) return;
+  const Schema& schema = schemas_[schema_];
+  Row titles;
+  for (const Column& column : schema.set)
+    titles.push_back(name(column) + (column.unit.empty() ? "" : " (" + column.unit + ")"));
+  for (const Shown& each : schema.shown) titles.push_back(each.title);
+  titles.push_back(schema.noun);
+  lines_.insert(lines_.begin(), std::move(titles));
+  write_aligned(out_, std::exchange(lines_, {}));
+}
+
+void write_table(std::ostream& out, const Results& results) {
+  TableWriter writer(out);
+  replay(results, writer);
+}
+
+std::string assignment(const Object& set) {
+  std::string text;
+  for (const Member& member : set) {
+    const auto* number = std::get_if<double>(&member.value.get());
+    text.append(text.empty() ? "" : ", ").append(visible(member.key)).append(" = ");
+    text += number ? quantity(*number, member.unit) : no_value;
+  }
+  return text;
+}
+
+std::vector<std::string> early_ends(const Results& results) {
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < results.results.size(); ++i) {
+    const Value* message = find(results.results[i].end.stop, std::vector<std::string>{"message"});
+    if (!is_complete(results.results[i]))
+      sentences.push_back(part_and_status(results, i) + ": " + (message ? text_of(*message, "") : ""));
+  }
+  return sentences;
+}
+
+std::vector<std::string> doubts(const Results& results) {
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < results.results.size(); ++i)
+    if (const Result& result = results.results[i]; is_complete(result) && !result.end.doubt.empty())
+      sentences.push_back(part_and_status(results, i) + ", but " + result.end.doubt);
+  return sentences;
+}
+
+}  // namespace arcslip::results

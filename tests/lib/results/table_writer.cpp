@@ -1,0 +1,80 @@
+#include "catch.hpp"
+#include "lib/results/made_up.hpp"
+
+#include <arcslip/results/table_writer.hpp>
+
+#include <cmath>
+#include <sstream>
+
+using namespace arcslip::results;
+
+namespace {
+
+std::string written(const Results& results) {
+  std::ostringstream text;
+  write_table(text, results);
+  return text.str();
+}
+
+Results shown() {
+  Results results = made_up::results();
+  results.schemas[0].shown = {
+      {"x (m)", {"x"}, "%.2f", "yes"}, {"word", {"word"}}, {"load", {"elements", "d", "load"}}};
+  results.schemas[0].shown_table = "rows";
+  return results;
+}
+
+}  // namespace
+
+TEST_CASE("people see the rows of a table in aligned columns, with what is set and how each result ended") {
+  CHECK(written(shown()) ==
+        "load (N)  x (m)     word  load     thing\n"
+        "     2.5   0.10  =a, \"b\"     3  complete\n"
+        "     2.5  -0.00              -  complete\n");
+}
+
+TEST_CASE("where there is no value a flag that is true stands in its place") {
+  Results results = shown();
+  std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {HUGE_VAL, std::nan("")};
+  CHECK(written(results).find("     2.5    yes  =a, \"b\"     3  complete\n") != std::string::npos);
+  CHECK(written(results).find("     2.5      -              -  complete\n") != std::string::npos);
+}
+
+TEST_CASE("a result without rows has one that says so, and results of one kind share a table") {
+  Results results = shown();
+  results.results[1] = results.results[0];
+  results.results[1].tables.clear();
+  results.results[1].end.status = "failed";
+  results.results[1].head.set[0].value = 10.0;
+  CHECK(written(results) ==
+        "load (N)  x (m)     word  load     thing\n"
+        "     2.5   0.10  =a, \"b\"     3  complete\n"
+        "     2.5  -0.00              -  complete\n"
+        "      10      -        -     -    failed\n");
+}
+
+TEST_CASE("people see facts of each result, a row for each, or its own text") {
+  Results results = made_up::results();
+  results.schemas[0].shown = {{"best", {"best", "x"}, "%.3f"}, {"none", {"nothing"}}};
+  results.results[1].end.text = "in its own words\n";
+  CHECK(written(results) ==
+        "load (N)   best  none     thing\n     2.5  1.500     -  complete\nin its own words\n");
+}
+
+TEST_CASE("what commands a terminal is escaped in a table") {
+  Results results = shown();
+  std::get<std::vector<std::string>>(results.results[0].tables[0].columns[3].of)[0] = "\x1b[31m";
+  CHECK(written(results).find("\\u001b[31m") != std::string::npos);
+}
+
+TEST_CASE("what ended early, and what is complete but doubtful, is told by its number and what it sets") {
+  Results results = made_up::results();
+  results.results[1].head.set = {{"load", 3.0, "N"}, {"share", 0.5}};
+  results.results[1].end.stop = {{"message", "it broke"}};
+  results.results[0].end.doubt = "hardly so";
+  CHECK(early_ends(results) ==
+        std::vector<std::string>{"other 2 (load = 3 N, share = 0.5) failed: it broke"});
+  CHECK(doubts(results) == std::vector<std::string>{"thing 1 (load = 2.5 N) complete, but hardly so"});
+  results.results[1].end.doubt = "and doubtful";
+  CHECK(doubts(results).size() == 1);  // the failure is told already
+}
