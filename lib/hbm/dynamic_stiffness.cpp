@@ -88,16 +88,17 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
 
 // Each degree of freedom of a large structure is linked to few others, and so is each coordinate in y.
 void DynamicStiffness::choose_sparse() {
-  std::vector<Eigen::Triplet<Complex>> places;
-  for (Eigen::Index i = 0; i < l_; ++i) places.emplace_back(i, i, 1.0);
+  const double n = l_;
+  Matrixc linked = Matrixc::Identity(l_, l_);
   for (const auto* parts : {&masses_, &dampers_, &springs_})
-    for (const PartInY& part : *parts)
+    for (const PartInY& part : *parts) {
+      const auto links = static_cast<double>(part.direction.size());
+      if (links * links > sparse_share * n * n) return;
       for (const auto& [j, at_j] : part.direction)
         for (const auto& [i, at_i] : part.direction)
-          if (i >= r_ && j >= r_) places.emplace_back(i - r_, j - r_, 1.0);
-  sparse_Zll_.resize(l_, l_);
-  sparse_Zll_.setFromTriplets(places.begin(), places.end());
-  const double n = l_;
+          if (i >= r_ && j >= r_) linked(i - r_, j - r_) = 1;
+    }
+  sparse_Zll_ = linked.sparseView();
   if (static_cast<double>(sparse_Zll_.nonZeros()) > sparse_share * n * n) return;
   sparse_lu_.emplace(sparse_Zll_);
   if (sparse_lu_->multiplications() > sparse_share * n * n * n / 3) sparse_lu_.reset();
