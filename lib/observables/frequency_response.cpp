@@ -59,8 +59,9 @@ class Sweep {
         return true;
       }
       const double omega = now.p[model::frequency];
+      const bool was_within = course.empty() || course.back().second <= beyond_display;
       course.emplace_back(omega, now.u.norm() / observer.problem().displacement());
-      if (course.back().second > beyond_display && course[course.size() - 2].second <= beyond_display) {
+      if (was_within && course.back().second > beyond_display) {
         growth = unboundedness(observer.problem(), now.p, now.u);
         if (growth.unbounded) return false;
       }
