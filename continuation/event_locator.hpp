@@ -46,8 +46,11 @@ class EventLocator {
   /// beyond, where the signs of determinants are not known. Nothing where none is found.
   std::optional<Corner> corner(const Place& from, double length, const Vector& towards);
 
-  /// The kinks of a step, in order, where a monitor is one of kinks or the slope of a quantity; others take a
-  /// step as it is. From `from` on, as many as are found.
+  /// Whether a monitor is one of kinks, or the slope of a quantity that is divided there.
+  bool looks_for_kinks() const;
+
+  /// The kinks of a step, in order, where they are looked for; otherwise a step is taken as it is. From `from`
+  /// on, as many as are found.
   std::vector<Corner> corners(const Place& from, const Place& to);
 
   /// Where within a smooth section a quantity goes over from one of several to another, in order.

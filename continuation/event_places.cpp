@@ -180,12 +180,15 @@ std::optional<Corner> EventLocator::corner(const Place& from, double length, con
   return std::nullopt;
 }
 
+bool EventLocator::looks_for_kinks() const {
+  return std::any_of(monitors_.begin(), monitors_.end(), [](const Monitor& each) {
+    return each.kind == MonitorKind::kink || (each.quantity && each.divides_at_kinks);
+  });
+}
+
 std::vector<Corner> EventLocator::corners(const Place& from, const Place& to) {
   std::vector<Corner> found;
-  const auto looks = [](const Monitor& each) {
-    return each.kind == MonitorKind::kink || (each.quantity && each.divides_at_kinks);
-  };
-  if (to.piece == from.piece || std::none_of(monitors_.begin(), monitors_.end(), looks)) return found;
+  if (to.piece == from.piece || !looks_for_kinks()) return found;
   const Place* side = &from;
   for (int k = 0; k < most_kinks && side->piece != to.piece; ++k) {
     const Vector way = to.v - side->v;

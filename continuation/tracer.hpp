@@ -129,7 +129,7 @@ class Tracer {
   std::size_t unresolved_ = 0;        // the monitor whose quantity it was
   bool evaluated_ = true;             // the last rejection came from the corrector, not from the problem
   double curve_error_ = 0;            // of the curve along the last step, over that allowed
-  bool other_piece_between_ = false;  // in the middle of the last step, where its ends are on one
+  bool other_piece_between_ = false;  // in the last step, of which its sections tell nothing
   double chord_error_ = 0;            // of the monitored quantities in the last step, over that allowed
   std::vector<Corner> corners_;       // in the step that is tried, in order
   std::optional<Place> terminal_;

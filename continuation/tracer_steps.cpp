@@ -156,7 +156,8 @@ bool Tracer::is_kink(double turn, const Place& next) {
   return false;
 }
 
-// Of the cubics along the smooth pieces between here and next_, over that allowed: the largest.
+// Of the cubics along the smooth pieces between here and next_, over that allowed: the largest. And whether
+// there is more between than these.
 double Tracer::curve_error() {
   double largest = 0;
   other_piece_between_ = false;
@@ -164,7 +165,10 @@ double Tracer::curve_error() {
   const Place* from = &s_.here;
   for (std::size_t k = 0; k <= corners_.size(); ++k) {
     const Place& to = k < corners_.size() ? corners_[k].before : next_;
-    if (from->piece == to.piece) largest = std::max(largest, curve_error(*from, to));
+    if (from->piece == to.piece)
+      largest = std::max(largest, curve_error(*from, to));
+    else if (events_->looks_for_kinks())
+      other_piece_between_ = true;
     if (k < corners_.size()) from = &corners_[k].beyond;
   }
   return largest;
@@ -183,8 +187,9 @@ double Tracer::curve_error(const Place& from, const Place& to) {
   return std::isfinite(error) ? error : 1 / shrinkage;
 }
 
-// Whether two kinks lie in the step, of which its ends tell nothing: then it is shortened, though not without
-// end, as the cubic may touch another piece where the branch does not.
+// Whether kinks lie in the step that were not found, two between ends on one piece or one that is hard to
+// come to: then it is shortened, though not without end, as the cubic may touch another piece where the
+// branch does not.
 bool Tracer::hides_a_piece(double length) {
   if (!other_piece_between_ || stretch_is_short(unresolved_share)) return false;
   begin_stretch(length);

@@ -151,6 +151,43 @@ TEST_CASE("a resonance in the part of a step before a kink is seen as in any oth
   CHECK(std::abs(slope(branch.events[0].point.parameter)) < 1e-9);
 }
 
+TEST_CASE("a step with more kinks than are found is made shorter: a resonance beyond them is seen") {
+  constexpr double middle = 0.5, width = 0.04, height = 0.05;
+  constexpr int kinks = 20;
+  const auto bump = [=](double p) { return height * std::exp(-std::pow((p - middle) / width, 2)); };
+  const auto u_of = [=](double p) {
+    double u = 2 - 0.5 * p + bump(p);
+    for (int k = 0; k < kinks; ++k) u += 0.001 * std::abs(p - 0.01 * k);
+    return u;
+  };
+  const auto slope = [=](double p) {
+    double du = -0.5 - 2 * (p - middle) / (width * width) * bump(p);
+    for (int k = 0; k < kinks; ++k) du += p < 0.01 * k ? -0.001 : 0.001;
+    return du;
+  };
+  const auto problem = from_functions({.size = 1,
+                                       .parameters = {parameter("p", 0)},
+                                       .residual = [=](In u, In p, Out F) { F[0] = u[0] - u_of(p[0]); },
+                                       .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+                                       .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); },
+                                       .piece =
+                                           [](In, In p) {
+                                             int passed = 0;
+                                             while (passed < kinks && p[0] >= 0.01 * passed) ++passed;
+                                             return static_cast<std::uint64_t>(passed);
+                                           }});
+  Monitor peak{"peak", [=](const Accepted& now) { return now.tangent[0]; }, Crossing::falling};
+  peak.quantity = [](const Accepted& now) { return now.u[0]; };
+  Options options = window(-0.5, 1.5);
+  options.step.curve_tolerance = 1e-4;
+  options.step.largest_parameter = 10;
+  options.step.initial = 1.7;
+  const Branch branch = trace(problem, {Vector{{u_of(-0.5)}}, Vector{{-0.5}}, 0, 1}, options, {peak});
+  REQUIRE(branch.stop.reason == StopReason::boundary);
+  REQUIRE(branch.events.size() == 1);
+  CHECK(std::abs(slope(branch.events[0].point.parameter)) < 1e-9);
+}
+
 TEST_CASE("a kink beside the start of a window that is narrow beside p does not close the branch") {
   const auto slope = [](double u) { return u < 2 ? 1.0 : 1.5; };
   const auto problem = from_functions(
