@@ -181,6 +181,7 @@ void fields(Visit&& visit, auto& x) {
       visit("jacobian_error", x.jacobian_error), visit("factors_fit", x.factors_fit);
       visit("factors", x.factors);
     }
+    if (visit.holds("curve_error")) visit("curve_error", x.curve_error);
   }
 }
 

@@ -36,6 +36,7 @@ struct State {
   bool has_before = false;  // so that a cubic leads on
   bool begun = false, ended = false;
   double step = 0, last_step = 0;  // to be tried next; from `before` to `here`
+  double curve_error = 0;          // of the curve there, over that allowed
   int rejections = 0;              // since here.arclength passed trouble_end
   double trouble_end = -1;
   double unresolved_end = -1, unresolved_step = 0;  // a stretch whose slopes did not tell its quantities

@@ -330,6 +330,7 @@ bool Tracer::accept(Place&& place, const Correction& correction) {
   warn_of_undefined(place);
   keep(place, correction);
   s_.last_step = place.arclength - from->arclength;
+  s_.curve_error = curve_error_;
   if (corners_.empty())
     std::swap(s_.before, s_.here);
   else

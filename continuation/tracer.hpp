@@ -110,6 +110,7 @@ class Tracer {
   double curve_error(const Place& from, const Place& to);
   bool hides_a_piece(double length);
   double unresolved_factor() const;
+  double error_growth() const;
   double choose_step(double angle, const Correction& correction) const;
   double largest_parameter_step() const;
   double limited(double ds) const;

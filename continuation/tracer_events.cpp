@@ -117,7 +117,6 @@ std::vector<LocatedEvent> Tracer::with_crossing(std::vector<LocatedEvent>&& foun
     found.insert(place, std::move(*crossing_));
   }
   crossing_.reset();
-  curve_error_ = 0;
   return std::move(found);
 }
 

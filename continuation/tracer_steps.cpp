@@ -196,13 +196,21 @@ bool Tracer::hides_a_piece(double length) {
   return true;
 }
 
+// Of the curve's error in steps of one length, from the last step to this one: where it grows, as towards a
+// resonance, it is expected to go on so (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
+double Tracer::error_growth() const {
+  if (!(s_.curve_error > 0) || !corners_.empty()) return 1;
+  const double length = (next_.arclength - s_.here.arclength) / s_.last_step;
+  return std::max(1.0, curve_error_ / (s_.curve_error * std::pow(length, 4)));
+}
+
 double Tracer::choose_step(double angle, const Correction& correction) const {
   double factor = angle > 0 ? options_.step.angle / angle : growth;
   const bool contraction_counts = correction.first > std::sqrt(options_.newton.tolerance);
   if (contraction_counts && correction.contraction > 0)
     factor = std::min(factor, std::sqrt(options_.step.contraction / correction.contraction));
   if (chord_error_ > 0) factor = std::min(factor, curve_safety / std::sqrt(chord_error_));
-  if (curve_error_ > 0) factor = std::min(factor, curve_factor(curve_error_));
+  if (curve_error_ > 0) factor = std::min(factor, curve_factor(curve_error_ * error_growth()));
   return s_.step * std::clamp(factor, shrinkage, growth);
 }
 
