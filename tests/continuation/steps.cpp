@@ -151,6 +151,32 @@ TEST_CASE("a resonance in the part of a step before a kink is seen as in any oth
   CHECK(std::abs(slope(branch.events[0].point.parameter)) < 1e-9);
 }
 
+TEST_CASE("resonances narrower than a tenth of a step are seen, wherever in a step they lie") {
+  constexpr int places = 20;
+  for (const auto& [height, width] : {std::pair{3e-4, 4e-4}, std::pair{1e-3, 2e-4}})
+    for (int k = 0; k < places; ++k) {
+      const double step = 1.0 / 150, middle = 0.5 + k * step / places, h = height, w = width;
+      const auto line = [=](double p) { return std::pow(p - middle, 2) + w * w; };
+      const auto u_of = [=](double p) { return 1 + 0.2 * p + h * w * w / line(p); };
+      const auto slope = [=](double p) { return 0.2 - 2 * h * w * w * (p - middle) / std::pow(line(p), 2); };
+      const auto problem =
+          from_functions({.size = 1,
+                          .parameters = {parameter("p", 0)},
+                          .residual = [=](In u, In p, Out F) { F[0] = u[0] - u_of(p[0]); },
+                          .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+                          .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); }});
+      Monitor peak{"peak", [=](const Accepted& now) { return now.tangent[0]; }, Crossing::falling};
+      peak.quantity = [](const Accepted& now) { return now.u[0]; };
+      Options options = window(0, 1);
+      options.step.largest_parameter = step;
+      options.step.curve_tolerance = 1e-5;
+      const Branch branch = trace(problem, {Vector{{u_of(0)}}, Vector{{0.0}}, 0, 1}, options, {peak});
+      CAPTURE(height, width, k, branch.counts.points);
+      CHECK(branch.events.size() == 1);
+      CHECK(branch.counts.points < 220);
+    }
+}
+
 TEST_CASE("a step with more kinks than are found is made shorter: a resonance beyond them is seen") {
   constexpr double middle = 0.5, width = 0.04, height = 0.05;
   constexpr int kinks = 20;

@@ -31,6 +31,19 @@ Variant of(std::string name, const Scene& s, double factor) {
   return variant;
 }
 
+void add(Response& result, observables::Observer& observer, const continuation::Accepted& now,
+         const continuation::Event* event, const Variant& variant) {
+  const double amplitude =
+      observer.extreme(static_cast<const hbm::HbmEvaluator&>(now.at), now.u).amplitude / variant.amplitude;
+  Seen seen{"point", false, true, now.parameter / variant.frequency, amplitude};
+  if (event) {
+    seen.kind = event->monitor;
+    seen.nonsmooth = event->nonsmooth;
+    seen.located = event->located;
+  }
+  (event ? result.events : result.points).push_back(std::move(seen));
+}
+
 std::string with(const char* what, double factor) {
   std::ostringstream text;
   text << what << " " << factor;
@@ -140,15 +153,7 @@ Response response(const Variant& variant) {
   Response result;
   const auto record = [&](observables::Observer& observer, const continuation::Accepted& now,
                           const continuation::Event* event) {
-    const double amplitude =
-        observer.extreme(static_cast<const hbm::HbmEvaluator&>(now.at), now.u).amplitude / variant.amplitude;
-    Seen seen{"point", false, true, now.parameter / variant.frequency, amplitude};
-    if (event) {
-      seen.kind = event->monitor;
-      seen.nonsmooth = event->nonsmooth;
-      seen.located = event->located;
-    }
-    (event ? result.events : result.points).push_back(std::move(seen));
+    add(result, observer, now, event, variant);
     return true;
   };
   result.stop = observables::frequency_branch(
@@ -164,6 +169,39 @@ Response response(const Variant& variant) {
 
 Response response(const Scene& s) {
   return response(Variant{"as it is", s});
+}
+
+Response in_short_steps(const Scene& s) {
+  const auto& study = s.studies.front();
+  const double unit = scene::to_rad_per_s(s.frequency_unit);
+  const double lower = study.from * unit, upper = study.to * unit, width = upper - lower;
+  Response result;
+  const auto first =
+      observables::first_response(std::make_shared<const model::Model>(model::build(s)), lower, width);
+  if (!first.u) {
+    result.stop.reason = continuation::StopReason::start_failed;
+    return result;
+  }
+  continuation::Options options;
+  options.lower = lower;
+  options.upper = upper;
+  options.check_jacobian = false;
+  options.largest_state = 1e8;
+  options.step.largest_parameter = width / 1500;
+  options.step.relative_parameter = 0.005;
+  options.step.curve_tolerance = 1e-8;
+  options.step.angle = 0.05;
+  const auto observer = std::make_shared<observables::Observer>(first.problem);
+  const Variant as_it_is{"as it is", s};
+  result.stop = continuation::trace(
+                    first.problem, {*first.u, hbm::parameters_at(*first.problem, lower), model::frequency, 1},
+                    options, {observables::peak_monitor(observer), continuation::fold_monitor()},
+                    [&](const continuation::Accepted& now, const continuation::Event* event) {
+                      add(result, *observer, now, event, as_it_is);
+                      return true;
+                    })
+                    .stop;
+  return result;
 }
 
 std::string difference(const Response& one, const Response& other, double tolerance) {

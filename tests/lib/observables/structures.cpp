@@ -10,6 +10,8 @@
 #include "lib/observables/structures.hpp"
 #include "random.hpp"
 
+#include <arcslip/model/model.hpp>
+#include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/time_study.hpp>
 
 #include <algorithm>
@@ -56,6 +58,11 @@ bool is_sampled(const scene::Scene& s) {
   return s.harmonics.friction == scene::Friction::sampled;
 }
 
+bool has_cubic_spring(const scene::Scene& s) {
+  return std::any_of(s.elements.begin(), s.elements.end(),
+                     [](const auto& element) { return element.type == &scene::cubic_spring_type; });
+}
+
 std::vector<invariances::Variant> variants(const scene::Scene& s, std::uint64_t seed) {
   Random random(seed);
   std::vector<invariances::Variant> all;
@@ -82,14 +89,38 @@ void check_energies(const observables::ResponseBranch& branch) {
   CHECK(worst < 1e-8);
 }
 
-/// Beside cubic springs there may be several responses at an end of the window; a trace from there is then
-/// that of another one.
-bool same_ends(const invariances::Response& one, const invariances::Response& other) {
+/// Beside cubic springs there may be several responses at an end of the window: whether both traces began
+/// with the same one, or, backwards, ended where the other one began.
+bool same_ends(const invariances::Response& one, const invariances::Response& other, bool backwards) {
   const auto same = [](const auto& a, const auto& b) {
     return std::abs(a.amplitude / b.amplitude - 1) < 1e-6;
   };
   return one.points.size() > 1 && other.points.size() > 1 && same(one.points.front(), other.points.front()) &&
-         same(one.points.back(), other.points.back());
+         (!backwards || same(one.points.back(), other.points.back()));
+}
+
+/// Where the response from which a branch begins turns back at a fold and leaves the window at its lower end,
+/// others above it are on another branch. Only cubic springs bend it over. In a window that begins lower it
+/// is the same one, and goes on below.
+bool turns_back(const scene::Scene& s, const observables::ResponseBranch& branch) {
+  if (!has_cubic_spring(s) || branch.stop.reason != "boundary" || branch.points.size() < 3) return false;
+  const auto& study = s.studies.front();
+  const double unit = scene::to_rad_per_s(s.frequency_unit), from = study.from * unit;
+  if (branch.points.back().omega != from) return false;
+  int folds = 0, same_folds = 0;
+  bool goes_on = false;
+  for (const auto& event : branch.events) folds += event.kind == "fold";
+  const auto beyond = [&](observables::Observer&, const continuation::Accepted& now,
+                          const continuation::Event* event) {
+    for (const auto& each : branch.events)
+      same_folds += event && event->monitor == "fold" && each.kind == "fold" &&
+                    std::abs(now.parameter / each.point.omega - 1) < tolerance;
+    goes_on = now.parameter < from;
+    return !goes_on;
+  };
+  observables::frequency_branch(std::make_shared<const model::Model>(model::build(s)),
+                                {0.9 * from, study.to * unit}, from, beyond);
+  return folds % 2 == 1 && same_folds == folds && goes_on;
 }
 
 void check_variants(const scene::Scene& s, std::uint64_t seed) {
@@ -98,7 +129,7 @@ void check_variants(const scene::Scene& s, std::uint64_t seed) {
   for (const auto& variant : variants(s, seed)) {
     CAPTURE(variant.name);
     const auto response = invariances::response(variant);
-    if (variant.backwards && !same_ends(as_it_is, response)) continue;
+    if (has_cubic_spring(s) && !same_ends(as_it_is, response, variant.backwards)) continue;
     CHECK(invariances::difference(as_it_is, response, tolerance) == "");
   }
 }
@@ -113,6 +144,16 @@ TEST_CASE("random structures have the same events in all units, names, orders an
 
 // A corner beyond which a piece ends at once; peaks just beyond where another reversal becomes the highest;
 // resonances, and pairs of kinks, that are narrower than a step.
+TEST_CASE("random structures have the same events in steps a tenth as long") {
+  const structures::Seeds seeds = structures::seeds();
+  for (std::uint64_t seed = seeds.first; seed < seeds.end; ++seed) {
+    const scene::Scene s = structure(seed);
+    if (is_sampled(s)) continue;
+    CAPTURE(seed, s.elements.size());
+    CHECK(invariances::difference(invariances::in_short_steps(s), invariances::response(s), tolerance) == "");
+  }
+}
+
 TEST_CASE("the hardest of the random structures have the same events in all units, names and orders") {
   for (const std::uint64_t seed : {77, 127, 378, 464, 489, 641, 673, 771, 942, 945, 1008})
     check_variants(structure(seed), seed);
@@ -139,26 +180,21 @@ TEST_CASE("random structures with sampled friction have the same responses in al
 }
 
 TEST_CASE("responses of random structures reach the end of their windows, with balanced energies") {
-  int failed = 0;
   const structures::Seeds seeds = structures::seeds();
   for (std::uint64_t seed = seeds.first; seed < seeds.end; ++seed) {
     const scene::Scene s = structure(seed);
     CAPTURE(seed, s.elements.size(), is_sampled(s));
     for (const auto& branch : observables::frequency_response(s, s.studies.front())) {
       CAPTURE(branch.stop.message);
-      const bool is_complete = branch.status == observables::Status::complete;
-      failed += !is_complete;
-      if (!is_sampled(s)) CHECK(is_complete);
+      CHECK((branch.status == observables::Status::complete || turns_back(s, branch)));
       check_energies(branch);
     }
   }
-  // Of sampled friction some: where more samples change than a step can tell from each other.
-  CAPTURE(failed);
-  CHECK(failed <= 0.02 * static_cast<double>(structures::number.count()));
 }
 
 TEST_CASE("harmonic balance of random structures is their motion in time") {
   double worst = 0;
+  long compared = 0;
   const structures::Seeds seeds = structures::seeds();
   for (std::uint64_t seed = seeds.first; seed < seeds.end; seed += structures::beside_time) {
     scene::Scene s = structure(seed);
@@ -171,7 +207,7 @@ TEST_CASE("harmonic balance of random structures is their motion in time") {
     const double frequency = study.from + random.between(0.1, 0.9) * (study.to - study.from);
     CAPTURE(seed, frequency, is_sampled(s));
     s.harmonics.order = 41;
-    s.harmonics.samples = 2048;
+    s.harmonics.samples = 4096;
     const auto balance = scenes::response_at(s, frequency);
     if (balance.truncation_flagged) continue;
     scene::Study time;
@@ -184,9 +220,10 @@ TEST_CASE("harmonic balance of random structures is their motion in time") {
     if (motion.stable && !*motion.stable) continue;
     const double difference = std::abs(motion.amplitude / balance.amplitude - 1);
     worst = std::max(worst, difference);
+    ++compared;
     CAPTURE(balance.amplitude, motion.amplitude, balance.truncation_estimate);
     CHECK(difference < 1e-3);
   }
-  CAPTURE(worst);
-  CHECK(worst > 0);
+  CAPTURE(worst, compared);
+  CHECK((compared > 0 || structures::number.count() < 12));
 }
