@@ -5,6 +5,7 @@
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/trials.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -149,33 +150,30 @@ inline double excess(const Search& search, const std::vector<double>& design) {
   return excess;
 }
 
-/// The lowest of what other algorithms come to, and of designs over the bounds, where all limits hold.
+/// The lowest design that another way comes to where all limits hold.
 struct Lowest {
   double amplitude = std::numeric_limits<double>::infinity();
   std::string by;
   std::vector<double> design;
-  void take(const optimize::Optimum& found, const std::string& name) {
-    if (!found.feasible || found.design.empty() || !(found.amplitude < amplitude)) return;
-    amplitude = found.amplitude;
+  void take(double other, const std::string& name, const std::vector<double>& at) {
+    if (!(other < amplitude)) return;
+    amplitude = other;
     by = name;
-    design = found.design;
+    design = at;
+  }
+  void take(const optimize::Optimum& found, const std::string& name) {
+    if (found.feasible && !found.design.empty()) take(found.amplitude, name, found.design);
   }
 };
-
-inline Lowest other_algorithms(const Search& search) {
-  Lowest lowest;
-  for (const char* algorithm : {"LN_COBYLA", "LD_MMA"})
-    lowest.take(optimize::optimum(search.scene, search.problem,
-                                  {.algorithm = algorithm, .certificate = false, .elsewhere = false}),
-                algorithm);
-  return lowest;
-}
 
 /// designs: of each search; evenly over the logarithm where there is one parameter, at random where there are
 /// more.
 inline Lowest grid(const Search& search, std::uint64_t seed, int designs) {
   Random random(seed + 1000000);
   Lowest lowest;
+  optimize::Watch watch(0, {});
+  const optimize::OptimumOptions options;
+  optimize::Trials trials(search.scene, search.problem, options, watch, false);
   for (int i = 0; i < designs; ++i) {
     std::vector<double> design;
     for (const auto& variable : search.problem.over) {
@@ -183,8 +181,22 @@ inline Lowest grid(const Search& search, std::uint64_t seed, int designs) {
           search.problem.over.size() == 1 ? static_cast<double>(i) / (designs - 1) : random.share();
       design.push_back(variable.lower * std::pow(variable.upper / variable.lower, share));
     }
-    lowest.take(look(search, design), "grid");
+    trials.evaluate(design, true);
+    if (trials.formulation().excess() == 0) lowest.take(trials.cases().value(), "grid", design);
   }
+  return lowest;
+}
+
+/// LN_COBYLA from the lowest of them, too.
+inline Lowest from_grid(const Search& search, std::uint64_t seed, int designs) {
+  Lowest lowest = grid(search, seed, designs);
+  if (lowest.design.empty()) return lowest;
+  scene::Scene there = search.scene;
+  for (std::size_t k = 0; k < lowest.design.size(); ++k)
+    scene::set(there, search.problem.over[k].name, lowest.design[k]);
+  lowest.take(optimize::optimum(there, search.problem,
+                                {.algorithm = "LN_COBYLA", .certificate = false, .elsewhere = false}),
+              "LN_COBYLA from the grid");
   return lowest;
 }
 
