@@ -64,6 +64,11 @@ double Run::call(std::size_t k, const Function& function, std::span<const double
     return not_a_number;
   }
   std::fill(gradient.begin(), gradient.end(), not_a_number);
+  if (std::any_of(x.begin(), x.end(), [](double xi) { return !std::isfinite(xi); })) {
+    interrupt(Reason::rounding);  // SLSQP divides by zero where no step keeps two constraints
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    return not_a_number;
+  }
 
   double value = not_a_number;
   std::size_t called = k;
