@@ -40,7 +40,7 @@ bool Search::goes_on() {
   if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
     return false;
   if (best().excess > 0) {
-    if (find_feasible()) return true;
+    if (find_feasible() || look_elsewhere()) return true;
     if (interrupted()) return false;
     result_.status = Status::stopped;
     result_.stop.reason = "infeasible";
@@ -136,12 +136,15 @@ bool Search::look_elsewhere() {
   std::vector<std::string> ignored;
   std::vector<std::pair<std::vector<double>, std::string>> beginnings;
   const std::vector<double> here = best().design;
-  double least = (1 - gain) * best().value;
-  for (std::vector<double>& design : lowest_elsewhere())
-    beginnings.emplace_back(std::move(design), asked_.name);
+  const bool within =
+      best().excess == 0;  // else such designs were looked for in vain, but by these algorithms
+  double least = within ? (1 - gain) * best().value : infinity;
+  if (within)
+    for (std::vector<double>& design : lowest_elsewhere())
+      beginnings.emplace_back(std::move(design), asked_.name);
   for (const char* other : {"LN_COBYLA", "LD_MMA"}) beginnings.emplace_back(space().start(ignored), other);
   std::vector<double> lower;
-  if (best().value < least) {
+  if (within && best().value < least) {
     least = best().value;
     lower = best().design;
   }
@@ -178,8 +181,9 @@ bool Search::look_elsewhere() {
   if (lower.empty() || watch_.stopped()) return false;
   trials_.evaluate(lower, true);
   if (!std::isfinite(cases().value())) return false;
-  note("the search came to " + space().text(here) + ", and went on from the lower " + space().text(lower) +
-       " elsewhere");
+  note("the search came to " + space().text(here) +
+       (within ? ", and went on from the lower " : ", where a limit is exceeded, and went on from ") +
+       space().text(lower) + " elsewhere");
   stood_ = {best().value, {result_.status, result_.stop}};
   go_from(lower);  // a limit that is active may be exceeded there, by rounding
   return true;
