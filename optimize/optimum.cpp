@@ -7,6 +7,7 @@
 #include <arcslip/optimize/text.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
@@ -27,8 +28,10 @@ constexpr double as_good_within_limits = 1e-7;  // the same, and by what a limit
 constexpr double settled_share = 0.1;           // of what a minimum may leave: where a refinement ends
 constexpr std::size_t most_retreats = 12;       // designs that are looked at again
 constexpr double far_enough = 0.01;             // of the range of a variable: from one of them to the next
-constexpr int most_idle = 100;                  // calls at designs that are known, one after the other
-constexpr int most_in_refinement = 200;         // evaluations of one algorithm
+constexpr std::array slipping = {most_dissipation, 0.75, 0.9, 0.97};  // of k_d X: slip limits after a release
+constexpr int most_idle = 100;           // calls at designs that are known, one after the other
+constexpr std::size_t patience = 25;     // evaluations without a gain, for each parameter and one more
+constexpr int most_in_refinement = 200;  // evaluations of one algorithm
 
 }  // namespace
 
@@ -159,7 +162,9 @@ void Search::minimize_once() {
   if (refinements_ > 0) options.evaluations = std::min(options.evaluations, most_in_refinement);
   const bool smooth = algorithm_.name[1] == 'D' && !formulation.epigraph() && problem.constraints.empty();
   candidate_ = {};
-  known_ = count();
+  known_ = gained_ = count();
+  gained_excess_ = best().excess;
+  gained_value_ = best().value;
   idle_ = 0;
   Ends by = Ends::no;
   options.progress = [&](const Progress&) {
@@ -194,9 +199,15 @@ Search::Ends Search::ends(bool smooth) {
     trials_.call_best();
     return Ends::vanishes;
   }
+  if (best().excess < gained_excess_ || best().value < (1 - gain) * gained_value_) {
+    gained_excess_ = best().excess;
+    gained_value_ = best().value;
+    gained_ = count();
+  }
   const bool settled = (limited_ || refinements_ > 0) && !smooth && is_settled();
   if (settled && refinements_ > 0) return Ends::settles;
-  return idle_ == most_idle ? Ends::idles : Ends::no;
+  const bool in_vain = limited_ && !algorithm_.global && count() - gained_ > patience * (1 + start_.size());
+  return idle_ == most_idle || in_vain ? Ends::idles : Ends::no;
 }
 
 bool Search::is_settled() {
@@ -313,14 +324,30 @@ bool Search::release() {
   if (ended_ || algorithm_.global || !cases().stand_at(best().design)) return false;
   if (!(best().value < (1 - gain) * stuck_value_)) return false;
   stuck_value_ = best().value;
-  const auto design = released(cases(), space().parameters(), space().lower());
-  if (!design) return false;
+  std::vector<std::vector<double>> designs;
+  for (const double share : slipping) {
+    const auto design = released(cases(), space().parameters(), space().lower(), share);
+    if (!design) return false;
+    if (designs.empty() || *design != designs.back()) designs.push_back(*design);
+  }
   const std::string stuck = space().text(best().design);
-  trials_.evaluate(*design, true);
-  if (!std::isfinite(cases().value())) return false;
+  const bool within = best().excess == 0;
+  // Slip that has just begun keeps the limits that are kept without, but a limit on the energy perhaps not
+  // where that is largest. From outside, a search may go back to where all sticks.
+  std::optional<std::vector<double>> from;
+  for (const std::vector<double>& design : designs) {
+    trials_.evaluate(design, true);
+    if (!std::isfinite(cases().value())) continue;
+    if (!from) from = design;
+    if (within && trials_.formulation().excess() > 0) continue;
+    from = design;
+    break;
+  }
+  if (!from) return false;
+  if (!cases().stand_at(*from)) cases().trace(*from);
   note("at " + stuck + " a friction element sticks; the search went on with it slipping, from " +
-       space().text(*design));
-  start_ = *design;
+       space().text(*from));
+  start_ = *from;
   return true;
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double no_influence = 1e-12;  // of d ln A / d ln p
 constexpr double as_high = 1e-6;        // relative: a peak nearer to the highest is one of them
-constexpr double most_dissipation = 0.5;
 
 bool moves_highest(const PeakState& state, std::size_t k) {
   return std::any_of(state.peaks.begin(), state.peaks.end(), [&](const Peak& peak) {
@@ -38,7 +37,7 @@ double closest_to_slip(PeakAmplitude& peaks, const observables::ResponsePoint& p
 }  // namespace
 
 std::optional<std::vector<double>> released(const Cases& cases, std::span<const int> over,
-                                            std::span<const double> lower) {
+                                            std::span<const double> lower, double share) {
   std::optional<std::vector<double>> design;
   for (std::size_t k = 0; k < over.size(); ++k) {
     bool moves = false;
@@ -52,7 +51,7 @@ std::optional<std::vector<double>> released(const Cases& cases, std::span<const 
     }
     if (moves || most == 0) continue;
     const std::vector<double>& at = cases.state(0).design;
-    const double value = std::max(lower[k], most_dissipation * most * at[k]);
+    const double value = std::max(lower[k], share * most * at[k]);
     if (!(value < at[k])) continue;
     if (!design) design = at;
     (*design)[k] = value;

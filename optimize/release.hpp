@@ -15,10 +15,13 @@
 
 namespace arcslip::optimize {
 
+inline constexpr double most_dissipation = 0.5;  // of k_d X
+
 /// The design where the cases stand, with each parameter that moves none of the highest peaks, and is the
-/// friction coefficient or the normal load of an element that sticks at one, lowered to where p = k_d X/2, or
-/// to its lower bound. over: the design's parameters in the model. nullopt: there is none.
+/// friction coefficient or the normal load of an element that sticks at one, lowered to where
+/// p = share k_d X, or to its lower bound. over: the design's parameters in the model. nullopt: there is
+/// none.
 std::optional<std::vector<double>> released(const Cases& cases, std::span<const int> over,
-                                            std::span<const double> lower);
+                                            std::span<const double> lower, double share = most_dissipation);
 
 }  // namespace arcslip::optimize

@@ -27,7 +27,7 @@ class Search {
 
  private:
   /// Why a run of an algorithm was ended from here: the gradient vanishes; the conditions of a minimum hold;
-  /// it calls for designs that are known again and again.
+  /// it calls for designs that are known again and again, or, with limits, for many without a gain.
   enum class Ends { no, vanishes, settles, idles };
 
   Cases& cases() { return trials_.cases(); }
@@ -112,9 +112,11 @@ class Search {
   struct Candidate {
     std::vector<double> design;
     Balance left;
-  } candidate_;                  // of this round, for a minimum
-  std::size_t known_ = 0;        // evaluations at the last call of an algorithm
-  int idle_ = 0;                 // calls since there was another
+  } candidate_;             // of this round, for a minimum
+  std::size_t known_ = 0;   // evaluations at the last call of an algorithm
+  int idle_ = 0;            // calls since there was another
+  std::size_t gained_ = 0;  // evaluations at the last gain of this run, and what it came to
+  double gained_value_ = 0, gained_excess_ = 0;
   double refined_ = 0;           // V that no other algorithm made a minimum of
   std::size_t refinements_ = 0;  // by other algorithms
   int restarts_ = 0;             // from lower designs beside a minimum

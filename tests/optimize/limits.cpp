@@ -164,6 +164,44 @@ TEST_CASE("a search with limits goes on from the lowest design over the bounds, 
   CHECK(found.amplitude < random_limits::grid(search, 75, 40).amplitude);
 }
 
+TEST_CASE("a damper that sticks is let slip no farther than a limit on the energy allows") {
+  for (const std::uint64_t seed : {131, 302}) {  // stuck no energy is lost; half way to it, too much
+    const auto search = random_limits::make(seed);
+    const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
+    CAPTURE(seed, found.stop.message);
+    REQUIRE(found.status == observables::Status::complete);
+    CHECK(std::abs(random_limits::excess(search, found.design)) <= 2e-6);
+    CHECK(found.amplitude <= random_limits::from_grid(search, seed, 40).amplitude * (1 + 1e-6));
+  }
+}
+
+TEST_CASE("where no sample keeps the limits, another algorithm may come to a design that does") {
+  const auto search = random_limits::make(182);
+  const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
+  CAPTURE(found.stop.message);
+  REQUIRE(found.status == observables::Status::complete);
+  CHECK(random_limits::excess(search, found.design) <= 1e-6);
+}
+
+TEST_CASE("where an algorithm asks for a design that is no number, the search goes on with others") {
+  const auto search = random_limits::make(366);  // SLSQP does: a limit is exceeded where nothing moves it
+  const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
+  CHECK(found.stop.reason == "infeasible");
+  CHECK(found.evaluations.size() > 50);
+  for (const optimize::Evaluation& each : found.evaluations) CHECK(std::isfinite(each.design[0]));
+}
+
+TEST_CASE("an algorithm that gains nothing over many designs is ended, and others go on") {
+  const auto search = random_limits::make(257);  // SLSQP crawls along outside the limits
+  const auto found =
+      optimize::optimum(search.scene, search.problem, {.certificate = false, .elsewhere = false});
+  CAPTURE(found.stop.message);
+  CHECK(found.stop.reason != "evaluation_limit");
+  CHECK(found.evaluations.size() < 1000);
+  REQUIRE(found.feasible);
+  CHECK(found.amplitude < 1.7e-4);
+}
+
 TEST_CASE("two loads with a limit on their sum: no pair on the limit is better, however loose it is") {
   const scene::Scene s = two_loads();
   const double a = 29.767989444184423, b = 99999.99999999999;
