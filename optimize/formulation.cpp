@@ -154,7 +154,8 @@ double Formulation::level(std::size_t c, std::size_t peak, std::span<double> gra
 // Limits are those of peaks: an end of the window is none where the response rises inwards. Where it ceases
 // to, a peak comes to the end, with the same observables.
 bool Formulation::is_limited(std::size_t c, std::size_t peak) const {
-  return !cases_.state(c).peaks[peak].rises_inwards();
+  const Peak& of = cases_.state(c).peaks[peak];
+  return !of.rises_inwards() && !of.is_further;
 }
 
 // ln of the amplitude over that from which a limit holds at a peak; infinity at peaks where it does, whatever

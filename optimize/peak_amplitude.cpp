@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace arcslip::optimize {
@@ -17,6 +19,8 @@ using continuation::StopReason;
 constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
 constexpr double at_limit = 1e-6;       // of mu F_n: a peak nearer to a stick limit sits at its corner
 constexpr double small_difference = 1e-6;
+constexpr double same_instant = 0.3;   // rad: of one extreme at two designs, one after the other
+constexpr double same_extreme = 1e-8;  // relative, of amplitude and gradient
 
 }  // namespace
 
@@ -133,6 +137,7 @@ void PeakAmplitude::classify(Peak& peak) {
 // Amplitude and gradient. False where the equations are singular.
 bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
   const Vector p = parameters(design);
+  sensitivity_->hold(peak.instant);
   peak.gradient.resize(static_cast<Eigen::Index>(over_.size()));
   const bool done =
       peak.kind == PeakKind::resonance ? sensitivity_->at_resonance(peak.x, p, over_, peak.gradient)
@@ -140,6 +145,13 @@ bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
                                       : sensitivity_->at_frequency(peak.x, p, over_, peak.gradient);
   peak.amplitude = sensitivity_->amplitude();
   peak.slope = is_end(peak.kind) ? sensitivity_->multiplier() : 0;
+  if (peak.instant) {
+    const double theta = sensitivity_->extreme().theta;
+    const double period = problem_->harmonics().odd ? std::numbers::pi : 2 * std::numbers::pi;
+    const double moved = std::remainder(theta - *peak.instant, period);
+    if (!(std::abs(moved) <= same_instant)) return false;  // it may be another one
+    peak.instant = theta;
+  }
   peak.piece = peak.kind == PeakKind::corner ? 0 : sensitivity_->piece();
   return done;
 }
@@ -176,6 +188,37 @@ void PeakAmplitude::differences(Peak& peak) {
   problem_ = problem;
 }
 
+// At the ends of the window those extremes of the motion that may become the largest. What a motion of a
+// shorter period repeats is one of them.
+void PeakAmplitude::add_extremes() {
+  double most = 0;
+  for (const Peak& peak : state_.peaks) most = std::max(most, peak.amplitude);
+  std::vector<Peak> all;
+  for (Peak& peak : state_.peaks) {
+    std::vector<Peak> here{peak};
+    if (is_end(peak.kind) && peak.amplitude >= watched_.kinks * most) {
+      measure(peak, state_.design);
+      const double own = sensitivity_->extreme().theta;
+      for (const observables::Extreme& extreme : sensitivity_->extremes()) {
+        if (extreme.amplitude < watched_.kinks * most || extreme.theta == own) continue;
+        Peak further = peak;
+        further.instant = extreme.theta;
+        further.is_further = true;
+        if (!measure(further, state_.design)) continue;
+        const bool repeats = std::any_of(here.begin(), here.end(), [&](const Peak& other) {
+          return std::abs(other.amplitude - further.amplitude) <= same_extreme * peak.amplitude &&
+                 (other.gradient - further.gradient).norm() <= same_extreme * peak.gradient.norm();
+        });
+        if (!repeats) here.push_back(std::move(further));
+      }
+      if (here.size() > 1) here.front().instant = own;
+      std::sort(here.begin(), here.end(), [](const Peak& a, const Peak& b) { return a.instant < b.instant; });
+    }
+    std::move(here.begin(), here.end(), std::back_inserter(all));
+  }
+  state_.peaks = std::move(all);
+}
+
 // Keeps the peaks that may be the highest.
 void PeakAmplitude::watch() {
   auto& peaks = state_.peaks;
@@ -207,6 +250,7 @@ const PeakState& PeakAmplitude::trace(std::span<const double> design) {
     if (peak.kind == PeakKind::kink) classify(peak);
     measure(peak, state_.design);
   }
+  add_extremes();
   watch();
   followers_.resize(state_.peaks.size());
   for (Peak& peak : state_.peaks)

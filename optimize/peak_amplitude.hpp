@@ -9,7 +9,8 @@
 //   resonance   dA/ds = 0 along the response (continuation/stationary.hpp)
 //   corner      at which an element begins to slip (hbm/slip_corner.hpp), with slopes of opposite sign on its
 //               sides
-//   lower_end, upper_end   the response at the ends of the window
+//   lower_end, upper_end   the response at the ends of the window; of several extremes of the motion that are
+//                          nearly as high there, one for each, since A has a kink where two are equal
 //   kink        at another kink, such as where two extremes of the motion are equally high
 //
 // The response is traced anew where a peak cannot be followed, because it vanishes, splits, leaves the window
@@ -48,6 +49,8 @@ struct Peak {
   continuation::Vector gradient{};          // dA/dp of the design parameters, m over their units
   continuation::Matrix along{};             // of a kink: dx/dp, by responses beside it; else empty
   double slope = 0;                         // of an end of the window: dA/domega, m s/rad
+  std::optional<double> instant{};          // of which extreme: its angle; none: of the largest
+  bool is_further = false;                  // one of several extremes at one end of the window, not the first
   std::uint64_t piece = 0;                  // of the equations of motion there; 0 at a corner, between two
 
   double omega() const { return x[x.size() - 1]; }
@@ -150,6 +153,7 @@ class PeakAmplitude {
   void classify(Peak& peak);
   bool measure(Peak& peak, std::span<const double> design);
   void differences(Peak& peak);
+  void add_extremes();
   void watch();
   Follower& follower(std::size_t peak);
   bool follow(std::size_t peak, std::span<const double> to, Peak& followed);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace arcslip::observables {
 namespace {
@@ -21,6 +22,24 @@ Extreme Amplitude::of(elements::In x) {
   while (std::abs(turns[first].x) < (1 - same_height) * highest) ++first;
   const auto& turn = turns[first];
   return {std::abs(turn.x), turn.theta, turn.x < 0 ? -1.0 : 1.0, first};
+}
+
+std::vector<Extreme> Amplitude::all(elements::In x) {
+  std::vector<Extreme> extremes;
+  for (const auto& turn : reversals_.find(x))
+    extremes.push_back({std::abs(turn.x), turn.theta, turn.x < 0 ? -1.0 : 1.0, extremes.size()});
+  return extremes;
+}
+
+Extreme Amplitude::near(elements::In x, double theta) {
+  const std::vector<Extreme> extremes = all(x);
+  if (extremes.empty()) return of(x);
+  const double period = harmonics_.odd ? std::numbers::pi : 2 * std::numbers::pi;  // of |x|
+  const auto distance = [&](const Extreme& extreme) {
+    return std::abs(std::remainder(extreme.theta - theta, period));
+  };
+  return *std::min_element(extremes.begin(), extremes.end(),
+                           [&](const Extreme& a, const Extreme& b) { return distance(a) < distance(b); });
 }
 
 double amplitude_change(const elements::Harmonics& harmonics, const Extreme& extreme, elements::In dx) {

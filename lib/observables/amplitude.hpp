@@ -8,6 +8,8 @@
 
 #include <arcslip/elements/reversals.hpp>
 
+#include <vector>
+
 namespace arcslip::observables {
 
 struct Extreme {
@@ -23,6 +25,10 @@ class Amplitude {
 
   /// x: coefficients of the motion, harmonics.size().
   Extreme of(elements::In x);
+  /// All reversals, in the order of theta.
+  std::vector<Extreme> all(elements::In x);
+  /// That nearest to an angle, around the period; the largest where there is none.
+  Extreme near(elements::In x, double theta);
 
  private:
   elements::Harmonics harmonics_;

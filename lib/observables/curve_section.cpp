@@ -79,8 +79,9 @@ namespace {
 // phi(theta_hat).
 class AmplitudeGradient {
  public:
-  explicit AmplitudeGradient(const hbm::HbmProblem& problem)
-      : harmonics_(problem.harmonics()),
+  AmplitudeGradient(const hbm::HbmProblem& problem, std::shared_ptr<const std::optional<double>> instant)
+      : instant_(std::move(instant)),
+        harmonics_(problem.harmonics()),
         condensed_(problem.coordinates().linear() > 0),
         amplitude_(harmonics_),
         x_(harmonics_.size()),
@@ -88,7 +89,7 @@ class AmplitudeGradient {
 
   void by_unknowns(const hbm::HbmEvaluator& at, In u, Out dA) {
     at.stiffness().response(u, at.force_factor(), x_);
-    const Extreme extreme = amplitude_.of(x_);
+    const Extreme extreme = at_extreme();
     elements::series_basis(harmonics_, extreme.theta, a_);
     a_ *= extreme.sign;
     at.stiffness().response_transposed(a_, dA);
@@ -97,12 +98,15 @@ class AmplitudeGradient {
   double by_parameter(const hbm::HbmEvaluator& at, In u, int k) {
     if (!condensed_) return 0;
     at.stiffness().response(u, at.force_factor(), x_);
-    const Extreme extreme = amplitude_.of(x_);
+    const Extreme extreme = at_extreme();
     at.stiffness().response_derivative(k, u, at.force_factor(), x_);
     return amplitude_change(harmonics_, extreme, x_);
   }
 
  private:
+  Extreme at_extreme() { return instant_ && *instant_ ? amplitude_.near(x_, **instant_) : amplitude_.of(x_); }
+
+  std::shared_ptr<const std::optional<double>> instant_;
   elements::Harmonics harmonics_;
   bool condensed_;  // otherwise the response is a combination of the unknowns
   Amplitude amplitude_;
@@ -111,8 +115,9 @@ class AmplitudeGradient {
 
 }  // namespace
 
-continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem) {
-  const auto gradient = std::make_shared<AmplitudeGradient>(*problem);
+continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem,
+                                          std::shared_ptr<const std::optional<double>> instant) {
+  const auto gradient = std::make_shared<AmplitudeGradient>(*problem, std::move(instant));
   const auto of = [](continuation::Evaluator& at) -> const hbm::HbmEvaluator& {
     return static_cast<const hbm::HbmEvaluator&>(at);
   };

@@ -7,6 +7,7 @@
 #include <arcslip/observables/observe.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace arcslip::observables {
 
@@ -41,7 +42,9 @@ class CurveSection {
   continuation::Vector u_, p_, scales_, tangent_;
 };
 
-/// The amplitude as the quantity whose stationary points are followed.
-continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem);
+/// The amplitude as the quantity whose stationary points are followed. instant: where it has an angle, the
+/// extreme of the motion nearest to that in place of the largest.
+continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem,
+                                          std::shared_ptr<const std::optional<double>> instant = {});
 
 }  // namespace arcslip::observables

@@ -24,7 +24,8 @@ using continuation::Vector;
 
 Sensitivity::Sensitivity(std::shared_ptr<const hbm::HbmProblem> problem)
     : problem_(std::move(problem)),
-      quantity_(amplitude_quantity(problem_)),
+      instant_(std::make_shared<std::optional<double>>()),
+      quantity_(amplitude_quantity(problem_, instant_)),
       extremes_(problem_->harmonics()),
       evaluator_(problem_->hbm_evaluator()),
       border_(problem_->size(), 1),
@@ -50,7 +51,7 @@ bool Sensitivity::move_to(In x, In p) {
   if (evaluator_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return false;
   evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
   evaluator_->stiffness().response(u_, evaluator_->force_factor(), x_);
-  amplitude_ = extremes_.of(x_).amplitude;
+  extreme_ = *instant_ ? extremes_.near(x_, **instant_) : extremes_.of(x_);
   return true;
 }
 

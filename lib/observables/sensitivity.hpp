@@ -58,8 +58,15 @@ class Sensitivity {
   /// piece.
   bool second_derivatives(const continuation::Matrix& tangents, Eigen::Ref<continuation::Matrix> second);
 
+  /// Of which extreme of the motion A is from here on: that nearest to an angle, or the largest. At a
+  /// frequency two may be as high: A has a kink there, but each of the two has none.
+  void hold(std::optional<double> instant) { *instant_ = instant; }
+
   /// At the last solution: A, m, and g, the multiplier of the condition.
-  double amplitude() const { return amplitude_; }
+  double amplitude() const { return extreme_.amplitude; }
+  const Extreme& extreme() const { return extreme_; }
+  /// All extremes of the motion there.
+  std::vector<Extreme> extremes() { return extremes_.all(x_); }
   double multiplier() const { return z_[z_.size() - 1]; }
   /// The smooth piece of F that it is in.
   std::uint64_t piece() const { return evaluator_->piece(); }
@@ -73,6 +80,7 @@ class Sensitivity {
   void slopes_of_lagrangian(const continuation::Matrix& tangents, continuation::Out slopes);
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
+  std::shared_ptr<std::optional<double>> instant_;
   continuation::Quantity quantity_;
   Amplitude extremes_;
   std::unique_ptr<hbm::HbmEvaluator> evaluator_;
@@ -82,7 +90,7 @@ class Sensitivity {
   std::vector<int> parameters_;              // of the last gradient
   std::optional<hbm::SlipCorner> corner_{};  // at which the place of the last gradient is held
   continuation::Vector u0_, p0_, L_x_;
-  double amplitude_ = 0;
+  Extreme extreme_{};
 };
 
 }  // namespace arcslip::observables

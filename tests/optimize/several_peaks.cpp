@@ -114,3 +114,30 @@ TEST_CASE("a linear limit on the loads holds, and is active where the optimum wi
   CHECK(found.design[0] + found.design[1] == Approx(2).epsilon(1e-6));
   CHECK(found.amplitude > without.amplitude);
 }
+
+TEST_CASE("at an end of the window two extremes of the motion are equally high at the optimum") {
+  // x = X1 cos(t - phi1) + b X2 cos(2 t - phi2): with b changes its sign what the higher harmonic adds to one
+  // extreme and takes from the other, so that none of it is best.
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "Hz",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "between": ["x", "ground"], "value": 1000}],
+      "dampers": [{"name": "c", "between": ["x", "ground"], "value": 2}]},
+    "elements": [],
+    "excitation": [{"name": "first", "at": "x", "cosine": 1},
+                   {"name": "second", "at": "x", "harmonic": 2, "cosine": 0.7}],
+    "harmonics": {"order": 4}, "response": {"at": "x"},
+    "studies": [{"kind": "frf", "from": 7, "to": 12}]})");
+  const Optimum found = optimize::optimum(s, {{{"second.cosine", -1, 2}}, 7, 12});
+  CAPTURE(found.stop.message);
+  REQUIRE(found.status == observables::Status::complete);
+  CHECK(found.epigraph);
+  const double omega = 7 * 2 * std::numbers::pi;
+  CHECK(found.amplitude == Approx(1 / std::hypot(1000 - omega * omega, 2 * omega)).epsilon(1e-7));
+  CHECK(std::abs(found.design[0]) < 1e-6);
+  REQUIRE(found.certificate);
+  REQUIRE(found.certificate->peaks.size() == 2);
+  for (const auto& peak : found.certificate->peaks) {
+    CHECK(peak.kind == optimize::PeakKind::lower_end);
+    CHECK(peak.weight == Approx(0.5).epsilon(1e-6));
+  }
+}
