@@ -30,6 +30,7 @@ constexpr std::size_t most_retreats = 12;       // designs that are looked at ag
 constexpr double far_enough = 0.01;             // of the range of a variable: from one of them to the next
 constexpr std::array slipping = {most_dissipation, 0.75, 0.9, 0.97};  // of k_d X: slip limits after a release
 constexpr int most_idle = 100;           // calls at designs that are known, one after the other
+constexpr double gain_outside = 0.5;     // of what a limit is exceeded by, relative
 constexpr std::size_t patience = 25;     // evaluations without a gain, for each parameter and one more
 constexpr int most_in_refinement = 200;  // evaluations of one algorithm
 
@@ -199,7 +200,9 @@ Search::Ends Search::ends(bool smooth) {
     trials_.call_best();
     return Ends::vanishes;
   }
-  if (best().excess < gained_excess_ || best().value < (1 - gain) * gained_value_) {
+  const bool within = best().excess == 0;
+  if (best().excess < (1 - gain_outside) * gained_excess_ ||
+      (within && best().value < (1 - gain) * gained_value_)) {
     gained_excess_ = best().excess;
     gained_value_ = best().value;
     gained_ = count();
@@ -256,7 +259,7 @@ bool Search::verify() {
   if (best().design.empty() || !std::isfinite(best().value)) return false;
   const int responses = cases().work().responses;
   const bool gained = best().value < (1 - gain) * round_value_ ||
-                      (std::isfinite(round_excess_) && best().excess < round_excess_);
+                      (std::isfinite(round_excess_) && best().excess < (1 - gain_outside) * round_excess_);
   const double seen = best().value;
   start_ = best().design;
   trials_.begin("the verification");
@@ -333,15 +336,16 @@ bool Search::release() {
   const std::string stuck = space().text(best().design);
   const bool within = best().excess == 0;
   // Slip that has just begun keeps the limits that are kept without, but a limit on the energy perhaps not
-  // where that is largest. From outside, a search may go back to where all sticks.
+  // where that is largest. From far outside, a search may go back to where all sticks.
   std::optional<std::vector<double>> from;
+  double least = infinity;
   for (const std::vector<double>& design : designs) {
     trials_.evaluate(design, true);
-    if (!std::isfinite(cases().value())) continue;
-    if (!from) from = design;
-    if (within && trials_.formulation().excess() > 0) continue;
+    const double excess = trials_.formulation().excess();
+    if (!std::isfinite(cases().value()) || !(excess < least)) continue;
     from = design;
-    break;
+    least = excess;
+    if (!within || excess == 0) break;
   }
   if (!from) return false;
   if (!cases().stand_at(*from)) cases().trace(*from);
