@@ -192,9 +192,14 @@ bool Search::look_elsewhere() {
 std::vector<std::vector<double>> Search::lowest_elsewhere() {
   std::vector<Evaluation> found;
   std::vector<Evaluation> chosen{{best().design, best().value}};  // before one of them is that
-  for (int k = 0; k < space().samples() && static_cast<int>(count()) < options_.evaluations; ++k) {
+  // Where all dampers slip easily or none does, too: no sample may be so near the bounds.
+  std::vector<std::vector<double>> samples;
+  for (const auto& bounds : {space().lower(), space().upper()})
+    samples.emplace_back(bounds.begin(), bounds.end());
+  for (int k = 0; k < space().samples(); ++k) samples.push_back(space().sample(k));
+  for (const std::vector<double>& design : samples) {
+    if (static_cast<int>(count()) >= options_.evaluations) break;
     if (!watch_.go_on()) return {};
-    const std::vector<double> design = space().sample(k);
     trials_.evaluate(design, true);
     if (std::isfinite(cases().value()) && trials_.formulation().excess() == 0)
       found.push_back({design, cases().value()});

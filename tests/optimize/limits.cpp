@@ -175,6 +175,14 @@ TEST_CASE("a damper that sticks is let slip no farther than a limit on the energ
   }
 }
 
+TEST_CASE("with limits the best design may be beside the upper bounds, where nothing slips") {
+  const auto search = random_limits::make(433);
+  const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
+  CAPTURE(found.stop.message);
+  REQUIRE(found.feasible);
+  CHECK(found.amplitude < 4.4e-6);  // 9.16e-5 within the bounds
+}
+
 TEST_CASE("where no sample keeps the limits, another algorithm may come to a design that does") {
   const auto search = random_limits::make(182);
   const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
