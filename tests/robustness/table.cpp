@@ -220,13 +220,14 @@ Random cases, the same on every machine but for the moments of signals. The test
   };
   row("mutants of scenes, read, written, read again and traced", fuzz::mutants, 1, "mutants of scenes",
       "100 000: nothing crashed or hung, all that was read came back as written, and what was not finite, a "
-      "truncation estimate, was flagged. The same of 100 000 under the address and undefined-behaviour "
-      "sanitizers; and of 45 000 of libFuzzer, but for one response, huge at its first frequency, that was "
-      "looked at beyond its list. That one is mended and in the corpus");
+      "truncation estimate, was flagged. The same under the address and undefined-behaviour sanitizers, of "
+      "100 000 before the last changes and of 60 000 since; and of 45 000 of libFuzzer before them, but for "
+      "one response, huge at its first frequency, for which memory before a list was read. It is mended and "
+      "in the corpus");
   row("signals at random moments, of SIGINT and SIGTERM", app_test::random_moments,
       app_test::random_interruptions().size(), "a signal at any moment",
-      "1650, and 1000 more of each of the first three commands below \"Interruptions\": all whole, none "
-      "silent, none left over");
+      "7500: 330 of each command below \"Interruptions\", and of the first four 890 to 1000 more. All files "
+      "whole, none silent, none left over");
   row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, beside "
       "other "
       "algorithms and designs over the bounds",
