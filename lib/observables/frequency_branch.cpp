@@ -104,9 +104,11 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
       return record(*observer, now, event);
     };
   const Vector p = hbm::parameters_at(*problem, from);
-  FrequencyBranch traced{problem,
-                         continuation::trace(problem, {*first.u, p, model::frequency, direction}, options,
-                                             {peak_monitor(observer), continuation::fold_monitor()}, each)};
+  const continuation::Monitor peaks = peak_monitor(observer);
+  continuation::Monitor folds = continuation::fold_monitor();
+  folds.divides_at_kinks = peaks.divides_at_kinks;
+  FrequencyBranch traced{problem, continuation::trace(problem, {*first.u, p, model::frequency, direction},
+                                                      options, {peaks, folds}, each)};
   speak_of_scene(*model, p, traced.branch);
   return traced;
 }

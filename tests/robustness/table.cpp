@@ -240,9 +240,17 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("random structures of 1 to 6 masses with friction, some with cubic springs, in all units, names, "
       "orders and directions",
       structures::number, 1, "structures:",
-      "500: of some 400 with exact friction 2 have a peak in some of these that a longer step passes in "
-      "others; of some 100 with sampled friction one had no response from which to start. 330 beside their "
-      "motion in time");
+      "970 since the last changes, from seed 500 on: with exact friction the same events in all. Of 1600 "
+      "with exact friction 8 had a peak more in steps a tenth as long; these have the same ones now");
+  std::cout << R"(
+With sampled friction a response has the same amplitude at a frequency in all units, names and orders, to 1e-9, but not
+the same set of peaks: each sample that begins or ceases to slip, 256 of them for each damper in these structures, is a
+kink, and the curve between two of them is off the smooth one by a part of the error of sampling, which falls with the
+square of the number of samples. Such small peaks lie closer than steps, and steps do not stop at each of the kinks;
+which of them are met depends on where steps end, and that on rounding. Of 130 such structures 70 had another set of
+peaks in some variant; their highest peaks were the same to 4e-4, in all but two within the distance from the peak with
+exact friction. Peaks that are to be the same ones want exact friction, the default.
+)";
 }
 
 void print_bad_scenes() {
