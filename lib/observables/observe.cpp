@@ -51,6 +51,7 @@ double Observer::amplitude_slope(const continuation::Accepted& now) {
       amplitude_change(evaluator_of(now), now.u, now.tangent.head(n), {{free_, now.tangent[n]}});
   if (last_amplitude_ > at_rest * now.u.norm()) return slope;
   last_amplitude_ = 0;
+  last_reversal_ = 0;
   return 0;
 }
 
