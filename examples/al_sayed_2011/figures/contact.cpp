@@ -6,6 +6,7 @@
 
 #include <arcslip/observables/histories.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/results/text.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <cmath>

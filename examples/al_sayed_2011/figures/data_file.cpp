@@ -1,6 +1,7 @@
 #include "data_file.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
+#include <arcslip/results/text.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <ostream>

@@ -1,5 +1,6 @@
 #include "studies.hpp"
 
+#include <arcslip/results/text.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <algorithm>
@@ -141,7 +142,7 @@ double set_value(const ResponseBranch& branch) {
 
 std::string set_label(const SceneFile& file, const ResponseBranch& branch) {
   const double value = set_value(branch);
-  return studies::quantity(value, studies::parameter_unit(file.scene, branch.set.front().first));
+  return results::quantity(value, studies::parameter_unit(file.scene, branch.set.front().first));
 }
 
 Column frequency(const SceneFile& file) {
@@ -173,7 +174,8 @@ Block block(const std::string& label, const ResponseBranch& branch, const std::v
   };
   std::size_t event = 0;
   for (std::size_t i = 0; i <= branch.points.size(); ++i) {
-    for (; event < branch.events.size() && branch.events[event].after < i; ++event) add(branch.events[event].point);
+    for (; event < branch.events.size() && branch.events[event].after < i; ++event)
+      add(branch.events[event].point);
     if (i < branch.points.size()) add(branch.points[i]);
   }
   return result;
