@@ -65,14 +65,16 @@ bool is_same(const ResponsePoint& a, const ResponsePoint& b) {
   return std::abs(a.amplitude - b.amplitude) <= 1e-6 * a.amplitude;
 }
 
+/// Where a point lies in the range of its study.
+double place_of(const SceneFile& file, const scene::Study& study, const ResponsePoint& point) {
+  return study.kind == scene::StudyKind::peaks ? point.over : studies::in_scene_unit(file.scene, point.omega);
+}
+
 /// Points between two of a branch, by the same study over that range alone, whose steps are shorter. None
 /// where that leads to another branch.
 std::vector<ResponsePoint> between(const SceneFile& file, scene::Study study, const ResponseBranch& branch,
                                    const ResponsePoint& begin, const ResponsePoint& end) {
-  const auto place = [&](const ResponsePoint& point) {
-    return study.kind == scene::StudyKind::peaks ? point.over
-                                                 : studies::in_scene_unit(file.scene, point.omega);
-  };
+  const auto place = [&](const ResponsePoint& point) { return place_of(file, study, point); };
   scene::Scene scene = file.scene;
   for (const auto& [name, value] : branch.set) scene::set(scene, name, value);
   study.for_each.clear();
@@ -91,7 +93,10 @@ std::vector<ResponsePoint> between(const SceneFile& file, scene::Study study, co
 
 void refine(const SceneFile& file, const scene::Study& study, ResponseBranch& branch) {
   std::vector<ResponsePoint> points;
+  std::vector<std::size_t> kept, now;  // points of the branch, and where they are then
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    kept.push_back(i);
+    now.push_back(points.size());
     points.push_back(branch.points[i]);
     std::size_t end = i;
     while (end + 1 < branch.points.size() && is_coarse(branch.points[end], branch.points[end + 1])) ++end;
@@ -101,6 +106,18 @@ void refine(const SceneFile& file, const scene::Study& study, ResponseBranch& br
     if (!more.empty()) i = end - 1;
   }
   branch.points = std::move(points);
+  if (kept.empty()) return;
+  for (auto& event : branch.events) {  // between the points that are nearer now
+    const auto next = std::upper_bound(kept.begin(), kept.end(), event.after) - kept.begin();
+    event.after = now[static_cast<std::size_t>(next) - 1];
+    const std::size_t end = next < std::ssize(now) ? now[static_cast<std::size_t>(next)] : event.after;
+    const double at = place_of(file, study, event.point);
+    for (std::size_t k = event.after; k < end; ++k)
+      if ((place_of(file, study, branch.points[k]) - at) *
+              (place_of(file, study, branch.points[k + 1]) - at) <=
+          0)
+        event.after = k;
+  }
 }
 
 }  // namespace
