@@ -67,7 +67,7 @@ Optimum Search::run() {
     }
   }
   describe();
-  if (!result_.design.empty() && std::isfinite(result_.amplitude)) {
+  if (result_.status != Status::complete && !result_.design.empty() && std::isfinite(result_.amplitude)) {
     result_.stop.message +=
         text("; the least amplitude is ", result_.amplitude, " m at ", space().text(result_.design));
     if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);

@@ -170,9 +170,9 @@ TEST_CASE("bounds that hold no slip leave the amplitude flat, and that is said")
   const Optimum found = optimize::optimum(paper(7, 450), {{{"damper.normal_load", 400, 1000}}, 18, 22});
   CHECK(found.status == observables::Status::complete);
   CHECK(found.stop.reason == "flat");
-  CHECK(contains(found.stop.message,
-                 "the amplitude does not depend on damper.normal_load within the bounds: no friction element "
-                 "slips at the peak; the least amplitude is 0.0568"));
+  CHECK(found.stop.message ==
+        "the amplitude does not depend on damper.normal_load within the bounds: no friction element slips at "
+        "the peak");
   CHECK(found.design[0] == 450);
 }
 
