@@ -158,8 +158,10 @@ void add_study_options(CLI::App& verb, Verb kind, Options& options, Texts& texts
       ->type_name("DIR");
   verb.add_option("--json", options.json, "results as JSON into a file, or - for standard output")
       ->type_name("FILE|-");
-  verb.add_option("--csv", options.csv, "results as CSV into a file, with events and a summary beside it (a.events.csv, a.summary.csv), or "
-                  "- for standard output")
+  verb.add_option(
+          "--csv", options.csv,
+          "results as CSV into a file, with events and a summary beside it (a.events.csv, a.summary.csv), or "
+          "- for standard output")
       ->type_name("FILE|-");
   if (kind != Verb::time) {
     verb.add_flag("--coefficients", options.coefficients, "JSON with the harmonics of each response");

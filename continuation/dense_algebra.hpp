@@ -80,8 +80,8 @@ Matrix orthogonal_complement(const Matrix& A);
 Matrix orthogonal_complement(const Matrix& A, double threshold);
 /// Columns that span A x = 0, by LU with full pivoting.
 Matrix kernel(const Matrix& A);
-/// A right = 0 and A^T left = 0 of an n x n matrix whose rank is n - k; both n x k. Nothing allocates after the
-/// first matrix of a size.
+/// A right = 0 and A^T left = 0 of an n x n matrix whose rank is n - k; both n x k. Nothing allocates after
+/// the first matrix of a size.
 class NullSpaces {
  public:
   NullSpaces();

@@ -49,8 +49,8 @@ class EventLocator {
   /// Whether a monitor is one of kinks, or the slope of a quantity that is divided there.
   bool looks_for_kinks() const;
 
-  /// The kinks of a step, in order, where they are looked for; otherwise a step is taken as it is. From `from`
-  /// on, as many as are found.
+  /// The kinks of a step, in order, where they are looked for; otherwise a step is taken as it is. From
+  /// `from` on, as many as are found.
   std::vector<Corner> corners(const Place& from, const Place& to);
 
   /// Where within a smooth section a quantity goes over from one of several to another, in order.

@@ -37,13 +37,14 @@ using GoOn = std::function<bool()>;
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on = {});
 
-/// Of a branch that was followed in its rounding, with as many steps rejected as made: which stiffnesses lie too
-/// far apart. Empty: no doubt. p: of the branch.
+/// Of a branch that was followed in its rounding, with as many steps rejected as made: which stiffnesses lie
+/// too far apart. Empty: no doubt. p: of the branch.
 std::string doubt_of_rounding(const model::Model& model, const continuation::Vector& p,
                               const continuation::Counts& counts);
 
-/// For the user of a scene, to whom the Jacobian is nothing: where it fails its check, F is rounding there, and
-/// the message says which stiffnesses lie too far apart in its place, as wherever a branch ended for that.
+/// For the user of a scene, to whom the Jacobian is nothing: where it fails its check, F is rounding there,
+/// and the message says which stiffnesses lie too far apart in its place, as wherever a branch ended for
+/// that.
 void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Branch& branch);
 
 /// Called at each point (event: null) and each event; false stops.

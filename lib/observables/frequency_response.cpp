@@ -54,8 +54,8 @@ class Sweep {
     const auto record = [&](Observer& observer, const continuation::Accepted& now,
                             const continuation::Event* event) {
       if (event) {
-        result.events.push_back(
-            {event->monitor, event->nonsmooth, event->located, observer.observe(now, held_by(*event)), event->after});
+        result.events.push_back({event->monitor, event->nonsmooth, event->located,
+                                 observer.observe(now, held_by(*event)), event->after});
         return true;
       }
       const double omega = now.p[model::frequency];

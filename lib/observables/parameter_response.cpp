@@ -142,7 +142,8 @@ class Traces {
       point.over = now.parameter;
       if (event) {
         at.push_back(now.arclength);
-        result.events.push_back({event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
+        result.events.push_back(
+            {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
         return true;
       }
       course.emplace_back(now.arclength, point.amplitude);

@@ -176,15 +176,15 @@ constexpr ResponseQuantity of_response[] = {
      "likewise, for one mass with one friction element alone: the F_p/x of Al Sayed et al. (2011) by maxima "
      "over the period",
      largest_force<&P::in_phase>, has_force_maxima, one_mass_and_friction_part},
-    {"maxima.out_of_phase", "N/m", "likewise, their F_o/x", largest_force<&P::out_of_phase>,
-     has_force_maxima, one_mass_and_friction_part},
+    {"maxima.out_of_phase", "N/m", "likewise, their F_o/x", largest_force<&P::out_of_phase>, has_force_maxima,
+     one_mass_and_friction_part},
 };
 
 constexpr ElementQuantity of_element[] = {
     {"stick_percent", "%", "friction elements: share of the period in stick",
      element<&Element::stick_percent>, is_friction, is_friction_part},
-    {"slip_angles", "rad", "friction elements: where slip begins", angles<&Element::slip_angles>,
-     is_friction, is_friction_part},
+    {"slip_angles", "rad", "friction elements: where slip begins", angles<&Element::slip_angles>, is_friction,
+     is_friction_part},
     {"reversal_angles", "rad", "friction elements: where slip ends", angles<&Element::reversal_angles>,
      is_friction, is_friction_part},
     {"energy", "J", "friction elements: dissipated in a period", element<&Element::energy>},
@@ -192,7 +192,8 @@ constexpr ElementQuantity of_element[] = {
      "friction elements with one stick and one slip phase in each half period: largest displacement of the "
      "element",
      element<&Element::theta_0>, is_friction, is_friction_part},
-    {"theta_star", "rad", "likewise: the slip onset after it", element<&Element::theta_star>, is_friction, is_friction_part},
+    {"theta_star", "rad", "likewise: the slip onset after it", element<&Element::theta_star>, is_friction,
+     is_friction_part},
     {"in_phase", "N", "fundamental of the force, in phase with that of the element's displacement",
      fundamental<&P::in_phase>},
     {"out_of_phase", "N", "likewise, a quarter period ahead", fundamental<&P::out_of_phase>},
@@ -205,7 +206,8 @@ constexpr ElementQuantity of_element[] = {
      largest_of<&ForceMaxima::force>, has_element_maxima, is_friction_part},
     {"maxima.cosine", "N", "likewise, of its cosine terms", largest_of<&ForceMaxima::cosine>,
      has_element_maxima, is_friction_part},
-    {"maxima.sine", "N", "likewise, of its sine terms", largest_of<&ForceMaxima::sine>, has_element_maxima, is_friction_part},
+    {"maxima.sine", "N", "likewise, of its sine terms", largest_of<&ForceMaxima::sine>, has_element_maxima,
+     is_friction_part},
 };
 
 template <class List>

@@ -29,7 +29,7 @@ struct Quantity {
   std::string_view unit;     // "m", "J"; "" of a flag
   std::string_view meaning;  // one line of Markdown
   std::variant<Number, Flag, List> get;
-  Flag has = nullptr;  // whether the response has it at all; null: each has
+  Flag has = nullptr;                   // whether the response has it at all; null: each has
   bool (*in)(const Origin&) = nullptr;  // whether any response of the scene, of the element, may; null: any
 };
 

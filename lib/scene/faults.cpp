@@ -1,5 +1,5 @@
-#include <arcslip/scene/faults.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/scene/faults.hpp>
 
 #include <array>
 #include <charconv>

@@ -1,6 +1,6 @@
+#include <arcslip/results/text.hpp>
 #include <arcslip/scene/read_text.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/results/text.hpp>
 
 #include <cerrno>
 #include <cstddef>
@@ -35,7 +35,8 @@ class OpenFile {
       descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     } while (descriptor_ < 0 && errno == EINTR);
     if (descriptor_ < 0) {
-      throw FileError("cannot open " + results::visible(path) + ": " + std::generic_category().message(errno));
+      throw FileError("cannot open " + results::visible(path) + ": " +
+                      std::generic_category().message(errno));
     }
   }
   OpenFile(const OpenFile&) = delete;
@@ -99,8 +100,8 @@ std::string read_text(const std::string& path, const StopRequest& stop) {
     }
   }
   if (errno != 0) {
-    throw FileError(results::visible(path) + ": reading the scene failed after " + std::to_string(text.size()) +
-                    " bytes: " + std::generic_category().message(errno));
+    throw FileError(results::visible(path) + ": reading the scene failed after " +
+                    std::to_string(text.size()) + " bytes: " + std::generic_category().message(errno));
   }
   return text;
 }

@@ -102,7 +102,8 @@ struct DesignVariable {
 /// at_least <= observable <= at_most, at each resonance peak that is watched, those of at least three
 /// quarters of the highest. Observables: the numbers of observables/quantities.hpp that each response has, as
 /// "frequency" (in the scene's unit) and "energy_friction" (J per period); for an element NAME
-/// "NAME.equivalent_stiffness" and "NAME.equivalent_damping", with friction "NAME.stick_percent", "NAME.energy".
+/// "NAME.equivalent_stiffness" and "NAME.equivalent_damping", with friction "NAME.stick_percent",
+/// "NAME.energy".
 struct ObservableLimit {
   std::string observable;
   double at_least = -std::numeric_limits<double>::infinity();

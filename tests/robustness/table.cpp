@@ -226,7 +226,8 @@ Random cases, the same on every machine but for the moments of signals. The test
       "in the corpus");
   row("signals at random moments, of SIGINT and SIGTERM", app_test::random_moments,
       app_test::random_interruptions().size(), "a signal at any moment",
-      "14 100: 930 of each command below \"Interruptions\", and of the first four 890 to 1000 more. All files "
+      "14 100: 930 of each command below \"Interruptions\", and of the first four 890 to 1000 more. All "
+      "files "
       "whole, none silent, none left over");
   row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, beside a "
       "search from the lowest of other designs over the bounds",
