@@ -14,6 +14,7 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <ostream>
 #include <system_error>
@@ -37,24 +38,36 @@ std::string beside(const std::string& file, const std::string& part) {
   return path.string() + "." + part + extension;
 }
 
-/// Whether a name is that of a study or of more figures of it.
-bool is_of(const std::string& name, const StudyFiles& study) {
-  return name == study.name || name.starts_with(study.name + "_");
+/// Whether a file begins as the tables of results do. Others that have such a name are left alone.
+bool is_table(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return false;
+  }
+  std::ifstream file(path);
+  std::string first;
+  return std::getline(file, first, ',') && first == "study";
+}
+
+/// The study in the folder to which figures of this name belong: of those that have files there the one with
+/// the longest name that this one begins with; "" where there is none.
+std::string owner(const std::string& folder, std::string name) {
+  std::error_code ignored;
+  while (!name.empty() && !std::filesystem::exists(StudyFiles{folder, name}.path(".scene.json"), ignored)) {
+    const std::size_t end = name.rfind('_');
+    name.resize(end == std::string::npos ? 0 : end);
+  }
+  return name;
 }
 
 /// Removes the figures of a study that an earlier run has drawn and this one has not.
-void remove_other_figures(const StudyFiles& files, std::span<const StudyFiles> all,
-                          const std::vector<std::string>& drawn) {
+void remove_other_figures(const StudyFiles& files, const std::vector<std::string>& drawn) {
   std::error_code error;
   std::vector<std::string> others;
   for (const auto& entry : std::filesystem::directory_iterator(files.folder, error)) {
     const std::string name = entry.path().stem().string();
-    const auto is_nearer = [&](const StudyFiles& other) {
-      return other.name.size() > files.name.size() && is_of(name, other);
-    };
-    if (entry.path().extension() == ".gp" && is_of(name, files) &&
-        std::find(drawn.begin(), drawn.end(), name) == drawn.end() &&
-        std::none_of(all.begin(), all.end(), is_nearer)) {
+    if (entry.path().extension() == ".gp" && std::find(drawn.begin(), drawn.end(), name) == drawn.end() &&
+        owner(files.folder, name) == files.name) {
       others.push_back(name);
     }
   }
@@ -132,14 +145,21 @@ void add_csv_places(const std::string& what, const std::string& path, std::vecto
 
 std::vector<File> csv_files(const std::string& path, const results::Results& results) {
   std::vector<File> files;
-  for (const std::string& key : results::table_keys(results)) {
+  const std::vector<std::string> keys = results::table_keys(results);
+  for (const std::string& key : keys) {
     files.push_back({files.empty() ? path : beside(path, key),
                      [&results, key](std::ostream& out) { results::write_csv(out, results, key); }});
   }
-  files.push_back(
-      {beside(path, "summary"), [&results](std::ostream& out) { results::write_csv_summary(out, results); }});
   if (may_wait(path)) {
     files.resize(1);
+    return files;
+  }
+  files.push_back(
+      {beside(path, "summary"), [&results](std::ostream& out) { results::write_csv_summary(out, results); }});
+  for (const char* part : {"events", "cases"}) {
+    if (std::find(keys.begin(), keys.end(), part) == keys.end() && is_table(beside(path, part))) {
+      files.push_back({beside(path, part), nullptr});
+    }
   }
   return files;
 }
@@ -174,8 +194,14 @@ void check_places(const std::vector<Place>& places, const std::string& scene_fil
   }
 }
 
-bool Writing::file(const std::string& path, const std::function<void(std::ostream&)>& writer) {
-  return attempt(results::visible(path), [&] { output::write_file(path, writer, interrupted); });
+bool Writing::file(const File& file) {
+  if (!file.writer) {
+    std::error_code ignored;
+    std::filesystem::remove(file.path, ignored);
+    return false;
+  }
+  return attempt(results::visible(file.path),
+                 [&] { output::write_file(file.path, file.writer, interrupted); });
 }
 
 bool Writing::attempt(const std::string& what, const std::function<void()>& write) {
@@ -202,47 +228,37 @@ ExitCode Writing::code(ExitCode otherwise) const {
   return failed_ ? ExitCode::usage_or_file : stopped_ ? ExitCode::stopped_early : otherwise;
 }
 
-std::vector<std::string> write_study(const StudyFiles& files, std::span<const StudyFiles> all,
-                                     const scene::Scene& scene, const StudyResult& result, Writing& writing) {
+std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
+                                     const StudyResult& result, Writing& writing) {
   std::vector<std::string> paths;
-  const auto write = [&](const std::string& path, const std::function<void(std::ostream&)>& writer) {
-    if (writing.file(path, writer)) {
-      paths.push_back(path);
-    }
-  };
-  write(files.path(".scene.json"), [&](std::ostream& out) { out << scene::write(scene); });
-  write(files.path(".json"), [&](std::ostream& out) { results::write_json(out, result.results); });
+  std::vector<File> all{
+      {files.path(".scene.json"), [&](std::ostream& out) { out << scene::write(scene); }},
+      {files.path(".json"), [&](std::ostream& out) { results::write_json(out, result.results); }}};
   const std::vector<File> tables = csv_files(files.path(".csv"), result.results);
-  for (const File& table : tables) {
-    write(table.path, table.writer);
-  }
-  for (const char* part : csv_parts) {  // an earlier run's must not stand beside other data
-    const std::string path = beside(files.path(".csv"), part);
-    if (std::none_of(tables.begin(), tables.end(), [&](const File& table) { return table.path == path; })) {
-      std::error_code ignored;
-      std::filesystem::remove(path, ignored);
+  all.insert(all.end(), tables.begin(), tables.end());
+  for (const File& file : all) {
+    if (writing.file(file)) {
+      paths.push_back(file.path);
     }
   }
   std::vector<std::string> drawn, problems;
+  const std::string what = "the figures of " + results::visible(files.path(""));
   for (const results::FigureData& data : result.figures) {
     drawn.push_back(files.name + (data.name.empty() ? "" : "_" + data.name));
-    const std::string what = "the figures of " + results::visible(files.path(""));
     writing.attempt(what, [&] {
       const output::Figures now = output::draw_figures(data, files.folder, drawn.back(), interrupted);
       paths.insert(paths.end(), now.sources.begin(), now.sources.end());
       paths.insert(paths.end(), now.images.begin(), now.images.end());
-      problems.push_back(now.problem);
       if (!now.problem.empty()) {
-        writing.misses(what);
+        problems.push_back(now.problem);
       }
     });
   }
-  const auto told =
-      std::find_if(problems.begin(), problems.end(), [](const auto& each) { return !each.empty(); });
-  if (told != problems.end()) {  // the others are alike
-    tell(*told);
+  if (!problems.empty()) {  // the others are alike
+    tell(problems.front());
+    writing.misses(what);
   }
-  remove_other_figures(files, all, drawn);
+  remove_other_figures(files, drawn);
   return paths;
 }
 

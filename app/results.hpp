@@ -45,7 +45,7 @@ struct Place {
   std::string what, path;
 };
 
-/// What writes a file, and where.
+/// What writes a file, and where. No writer: there is to be none; what an earlier run has left is removed.
 struct File {
   std::string path;
   std::function<void(std::ostream&)> writer;
@@ -73,7 +73,7 @@ void check_places(const std::vector<Place>& places, const std::string& scene_fil
 class Writing {
  public:
   /// True where it is written.
-  bool file(const std::string& path, const std::function<void(std::ostream&)>& writer);
+  bool file(const File& file);
   /// The same of whatever may throw output::WriteError; `what` it writes, for people.
   bool attempt(const std::string& what, const std::function<void()>& write);
   /// `what` is not there for a reason that is told.
@@ -88,10 +88,9 @@ class Writing {
   std::vector<std::string> missing_;
 };
 
-/// Writes the files and figures of a study. all: the files of all studies of the run. What an earlier run has
-/// left of this study is removed. Returns the paths of what is there; tells on standard error what is
-/// missing, and why.
-std::vector<std::string> write_study(const StudyFiles& files, std::span<const StudyFiles> all,
-                                     const scene::Scene& scene, const StudyResult& result, Writing& writing);
+/// Writes the files and figures of a study; what an earlier run has left of this study is removed. Returns
+/// the paths of what is there; tells on standard error what is missing, and why.
+std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
+                                     const StudyResult& result, Writing& writing);
 
 }  // namespace arcslip::app

@@ -19,42 +19,31 @@ using optimize::OptimumCurveResult;
 using optimize::OptimumResult;
 using results::FigureData;
 
-/// Hands a study to the function of its kind, and what that gives to visit.
+/// Hands visit the function that computes a study of this kind.
 template <class Visit>
-auto computed(const scene::Scene& scene, const scene::Study& study,
-              const observables::ProgressCallback& progress, const Visit& visit) {
+auto with_function(const scene::Study& study, const Visit& visit) {
   switch (study.kind) {
     case scene::StudyKind::trace:
-      return visit(observables::parameter_response(scene, study, progress));
+      return visit(observables::parameter_response);
     case scene::StudyKind::peaks:
-      return visit(observables::resonance_peaks(scene, study, progress));
+      return visit(observables::resonance_peaks);
     case scene::StudyKind::folds:
-      return visit(observables::fold_curves(scene, study, progress));
+      return visit(observables::fold_curves);
     case scene::StudyKind::time:
-      return visit(observables::motions_in_time(scene, study, progress));
+      return visit(observables::motions_in_time);
     case scene::StudyKind::optimum:
-      if (study.along) {
-        return visit(optimize::optimum_curve_study(scene, study, progress));
-      }
-      return visit(optimize::optimum_study(scene, study, progress));
+      return study.along ? visit(optimize::optimum_curve_study) : visit(optimize::optimum_study);
     case scene::StudyKind::frf:
       break;
   }
-  return visit(observables::frequency_response(scene, study, progress));
+  return visit(observables::frequency_response);
 }
 
-results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> branches,
-                            bool coefficients) {
-  return studies::results_of(scene, branches, {coefficients});
-}
-
-results::Results results_of(const scene::Scene& scene, std::span<const Motion> motions,
-                            bool /*coefficients*/) {
-  return studies::results_of(scene, motions);
-}
+using studies::results_of;
 
 template <class Of>  // optima, curves of them
-results::Results results_of(const scene::Scene& scene, std::span<const Of> all, bool /*coefficients*/) {
+results::Results results_of(const scene::Scene& scene, std::span<const Of> all,
+                            const studies::Detail& /*detail*/) {
   return optimize::results_of(scene, all);
 }
 
@@ -80,28 +69,26 @@ std::vector<FigureData> figures_of(const scene::Scene& scene, scene::StudyKind /
 
 }  // namespace
 
-StudyResult compute(const scene::Scene& scene, const scene::Study& study, bool coefficients, bool figures,
-                    const observables::ProgressCallback& progress) {
-  return computed(scene, study, progress, [&](auto items) {
+StudyResult compute(const scene::Scene& scene, const scene::Study& study, const studies::Detail& detail,
+                    bool figures, const observables::ProgressCallback& progress) {
+  return with_function(study, [&](auto& function) {
+    auto items = function(scene, study, progress);
     for (auto& item : items) {
       item.study = study.name;
       item.kind = scene::kind_name(study.kind);
     }
     const std::span<const typename decltype(items)::value_type> all = items;
-    return StudyResult{results_of(scene, all, coefficients),
+    return StudyResult{results_of(scene, all, detail),
                        figures ? figures_of(scene, study.kind, all) : std::vector<FigureData>()};
   });
 }
 
-std::string list_of(const scene::Study& study) {
-  switch (study.kind) {
-    case scene::StudyKind::time:
-      return "motions";
-    case scene::StudyKind::optimum:
-      return study.along ? "optimum_curves" : "optima";
-    default:
-      return "branches";
-  }
+std::string list_of(const scene::Scene& scene, const scene::Study& study) {
+  return with_function(study, [&](auto& function) {
+    using Items = decltype(function(scene, study, observables::ProgressCallback()));
+    const std::span<const typename Items::value_type> none;
+    return results_of(scene, none, studies::Detail{}).schemas.front().list;
+  });
 }
 
 }  // namespace arcslip::app

@@ -5,6 +5,7 @@
 #include <arcslip/results/figure.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/columns.hpp>
 
 #include <string>
 #include <vector>
@@ -17,11 +18,11 @@ struct StudyResult {
       figures;  // each has a name of its own; with one there may be nothing on it
 };
 
-/// coefficients: with the harmonics of the responses. Figures only where they are asked for.
-StudyResult compute(const scene::Scene& scene, const scene::Study& study, bool coefficients, bool figures,
-                    const observables::ProgressCallback& progress);
+/// Figures only where they are asked for.
+StudyResult compute(const scene::Scene& scene, const scene::Study& study, const studies::Detail& detail,
+                    bool figures, const observables::ProgressCallback& progress);
 
 /// The list in which a document holds the results of such a study.
-std::string list_of(const scene::Study& study);
+std::string list_of(const scene::Scene& scene, const scene::Study& study);
 
 }  // namespace arcslip::app

@@ -55,9 +55,10 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
 }
 
 /// Throws where one table would have to hold results of different kinds.
-void check_one_table(const Options& options, const std::vector<scene::Study>& studies) {
+void check_one_table(const Options& options, const scene::Scene& scene,
+                     const std::vector<scene::Study>& studies) {
   for (const scene::Study& study : studies) {
-    if (!options.csv.empty() && list_of(study) != list_of(studies.front())) {
+    if (!options.csv.empty() && list_of(scene, study) != list_of(scene, studies.front())) {
       throw UsageError("--csv holds one table, but the results of the studies \"" + studies.front().name +
                        "\" and \"" + study.name +
                        "\" have different columns: use --out, where each study has its own");
@@ -109,7 +110,9 @@ StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study
     tell_partial(interruption);
     return false;
   };
-  StudyResult result = compute(scene, study, options.coefficients, !options.out.empty(), progress);
+  const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
+  StudyResult result =
+      compute(scene, study, {has_files, options.coefficients}, !options.out.empty(), progress);
   line.clear();
   tell_partial(interruption);
   return result;
@@ -117,7 +120,7 @@ StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const Options& options) {
-  check_one_table(options, studies);
+  check_one_table(options, scene, studies);
   check_combinations(options, studies);
   const std::vector<StudyFiles> files = study_files(options.out, studies);
   const std::optional<ResultsFolder> held = prepare_places(options, studies, files);
@@ -144,7 +147,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       tell(sentence);
     }
     if (!options.out.empty()) {
-      for (const std::string& path : write_study(files[i], files, scene, result, writing)) {
+      for (const std::string& path : write_study(files[i], scene, result, writing)) {
         places += results::visible(path) + "\n";
       }
     }
@@ -152,7 +155,9 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
     }
     results::write_table(tables, result.results);
-    append(std::move(result.results), results);
+    if (!options.json.empty() || !options.csv.empty()) {
+      append(std::move(result.results), results);
+    }
   }
   StandardOutput screen;
   std::vector<File> outputs;  // none where no study was begun
@@ -166,11 +171,11 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   // Files before what may have to wait for a reader.
   std::stable_partition(outputs.begin(), outputs.end(),
                         [](const File& each) { return !may_wait(each.path); });
-  for (const auto& [place, writer] : outputs) {
-    if (place == "-") {
-      screen.write(writer);
+  for (const File& each : outputs) {
+    if (each.path == "-") {
+      screen.write(each.writer);
     } else {
-      writing.file(place, writer);
+      writing.file(each);
     }
   }
   if (!takes_standard_output(options)) {

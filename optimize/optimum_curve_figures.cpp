@@ -1,5 +1,6 @@
 #include <arcslip/optimize/optimum_figures.hpp>
 
+#include <arcslip/results/text.hpp>
 #include <arcslip/studies/figures.hpp>
 #include <arcslip/studies/units.hpp>
 
@@ -47,7 +48,7 @@ results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResul
   }
   for (std::size_t i = 0; i < line.parts[0].size(); ++i) add(line.parts[0][i], result.curve.points[i]);
   for (const DesignVariable& v : result.problem.over) {
-    const std::string label = studies::with_unit(v.name, studies::parameter_unit(scene, v.name));
+    const std::string label = results::with_unit(v.name, studies::parameter_unit(scene, v.name));
     data.figures.push_back({v.name, 0, data.columns.size(), data.columns[0].label, label});
     data.columns.push_back({label});
   }

@@ -17,21 +17,21 @@ using results::Object;
 using results::TableOf;
 using results::Value;
 
-double in_scene_unit(const scene::Scene& scene, double omega) {
-  return omega / scene::to_rad_per_s(scene.frequency_unit);
-}
-
 Object named(const scene::Scene& scene, const OptimumProblem& problem, std::span<const double> design) {
   Object all;
   for (std::size_t k = 0; k < design.size(); ++k)
-    all.push_back({problem.over[k].name, design[k], studies::unit_of(scene, problem.over[k].name)});
+    all.push_back({problem.over[k].name, design[k], studies::parameter_unit(scene, problem.over[k].name)});
   return all;
+}
+
+std::string place_at_bound(int side) {
+  return side < 0 ? "lower" : side > 0 ? "upper" : "inside";
 }
 
 Object places_at_bounds(const OptimumProblem& problem, const std::vector<int>& at_bound) {
   Object all;
   for (std::size_t k = 0; k < at_bound.size(); ++k)
-    all.push_back({problem.over[k].name, at_bound[k] < 0 ? "lower" : at_bound[k] > 0 ? "upper" : "inside"});
+    all.push_back({problem.over[k].name, place_at_bound(at_bound[k])});
   return all;
 }
 
@@ -58,7 +58,7 @@ Object place_of(const scene::Scene& scene, const scene::Direction& direction) {
 template <class Item, class Get>
 void add_design(const scene::Scene& scene, const OptimumProblem& problem, Get design, TableOf<Item>& table) {
   for (std::size_t k = 0; k < problem.over.size(); ++k)
-    table.add({problem.over[k].name}, studies::unit_of(scene, problem.over[k].name), "of the design",
+    table.add({problem.over[k].name}, studies::parameter_unit(scene, problem.over[k].name), "of the design",
               [design, k](const Item& item) { return design(item)[k]; });
 }
 
@@ -147,7 +147,7 @@ Object certificate(const scene::Scene& scene, const OptimumProblem& problem, con
   Value::List peaks, limits, others;
   for (const CertifiedPeak& peak : c.peaks)
     peaks.emplace_back(in_case({{"kind", name(peak.kind)},
-                                {"frequency", in_scene_unit(scene, peak.omega)},
+                                {"frequency", studies::in_scene_unit(scene, peak.omega)},
                                 {"omega", peak.omega},
                                 {"amplitude", peak.amplitude},
                                 {"active", peak.active},
@@ -159,7 +159,7 @@ Object certificate(const scene::Scene& scene, const OptimumProblem& problem, con
                 limit.in_case));
   for (const OtherResponse& other : c.others)
     others.emplace_back(in_case({{"found_by", other.found_by},
-                                 {"frequency", in_scene_unit(scene, other.omega)},
+                                 {"frequency", studies::in_scene_unit(scene, other.omega)},
                                  {"amplitude", other.amplitude}},
                                 other.in_case));
   all.push_back({"peaks", std::move(peaks)});
@@ -173,9 +173,9 @@ Object certificate(const scene::Scene& scene, const OptimumProblem& problem, con
 Object direct(const scene::Scene& scene, const OptimumResult& result) {
   const DirectOptimum& direct = result.direct;
   if (!direct.found) return {{"message", direct.message}};
-  Object all{
-      {result.problem.over[0].name, direct.point.over, studies::unit_of(scene, result.problem.over[0].name)},
-      {"amplitude", direct.point.amplitude, "m"}};
+  Object all{{result.problem.over[0].name, direct.point.over,
+              studies::parameter_unit(scene, result.problem.over[0].name)},
+             {"amplitude", direct.point.amplitude, "m"}};
   add_response(scene, direct.point, all);
   all.push_back({"difference", Object{{"design", result.difference_of_design()},
                                       {"amplitude", result.difference_of_amplitude()}}});
@@ -216,7 +216,7 @@ std::string doubt(const OptimumResult& result) {
 TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult& result) {
   TableOf<OptimumPoint> table;
   const std::string& along = result.curve.along;
-  table.add({along}, studies::unit_of(scene, along), "the parameter, here",
+  table.add({along}, studies::parameter_unit(scene, along), "the parameter, here",
             [](const OptimumPoint& at) { return at.along; });
   add_design(
       scene, result.problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
@@ -225,7 +225,7 @@ TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult
     Value::List peaks;
     for (const OptimumPeak& peak : at.peaks)
       peaks.emplace_back(Object{{"kind", name(peak.kind)},
-                                {"frequency", in_scene_unit(scene, peak.omega)},
+                                {"frequency", studies::in_scene_unit(scene, peak.omega)},
                                 {"omega", peak.omega},
                                 {"weight", peak.weight}});
     return peaks;
@@ -233,7 +233,7 @@ TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult
   for (std::size_t k = 0; k < result.problem.over.size(); ++k)
     table.add({"at_bound", result.problem.over[k].name}, "", "`lower`, `inside`, `upper`",
               [k](const OptimumPoint& at) {
-                return std::string(at.at_bound[k] < 0 ? "lower" : at.at_bound[k] > 0 ? "upper" : "inside");
+                return k < at.at_bound.size() ? std::optional(place_at_bound(at.at_bound[k])) : std::nullopt;
               });
   table.add({"minimum"}, "", "false: a saddle", [](const OptimumPoint& at) { return at.minimum; });
   table.add(responses(scene), [](const OptimumPoint& at) { return &at.response; });
@@ -251,7 +251,7 @@ TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumCurveResult
   });
   table.add({"frequency"}, std::string(scene::unit_name(scene.frequency_unit)), "of the peak that changes",
             [of_peak, &scene](const OptimumEvent& event) {
-              return of_peak(event, in_scene_unit(scene, event.omega));
+              return of_peak(event, studies::in_scene_unit(scene, event.omega));
             });
   table.add({"omega"}, "rad/s", "of the peak that changes",
             [of_peak](const OptimumEvent& event) { return of_peak(event, event.omega); });

@@ -65,7 +65,7 @@ std::string title(std::span<const std::string> path, const std::string& unit) {
   if (path.size() > 1 && path.front() == "elements") path = path.subspan(1);
   std::string text;
   for (const std::string& key : path) text += (text.empty() ? "" : ".") + key;
-  return unit.empty() ? text : text + " (" + unit + ")";
+  return with_unit(text, unit);
 }
 
 void add(const std::string& title, std::vector<std::string>& titles) {

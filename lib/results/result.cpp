@@ -1,6 +1,6 @@
 #include <arcslip/results/result.hpp>
 
-#include <arcslip/results/table_of.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -12,6 +12,16 @@ std::string name(const Column& column) {
   std::string all;
   for (const std::string& key : column.path) all += (all.empty() ? "" : ".") + key;
   return all;
+}
+
+std::string assignment(const Object& set) {
+  std::string text;
+  for (const Member& member : set) {
+    const auto* number = std::get_if<double>(&member.value.get());
+    text.append(text.empty() ? "" : ", ").append(visible(member.key)).append(" = ");
+    text += number ? quantity(*number, member.unit) : "-";
+  }
+  return text;
 }
 
 Object object(std::span<const Column> columns, const Rows& rows, std::size_t row) {

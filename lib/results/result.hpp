@@ -119,6 +119,9 @@ struct Results {
   std::vector<Result> results;
 };
 
+/// "damper.normal_load = 3 N, c.value = 0.1 N s/m", of Head::set; "" for nothing. Escaped by visible().
+std::string assignment(const Object& set);
+
 /// A row as members within members.
 Object object(std::span<const Column> columns, const Rows& rows, std::size_t row);
 

@@ -139,8 +139,7 @@ void TableWriter::finish() {
   if (lines_.empty()) return;
   const Schema& schema = schemas_[schema_];
   Row titles;
-  for (const Column& column : schema.set)
-    titles.push_back(name(column) + (column.unit.empty() ? "" : " (" + column.unit + ")"));
+  for (const Column& column : schema.set) titles.push_back(with_unit(name(column), column.unit));
   for (const Shown& each : schema.shown) titles.push_back(each.title);
   titles.push_back(schema.noun);
   lines_.insert(lines_.begin(), std::move(titles));
@@ -150,16 +149,6 @@ void TableWriter::finish() {
 void write_table(std::ostream& out, const Results& results) {
   TableWriter writer(out);
   replay(results, writer);
-}
-
-std::string assignment(const Object& set) {
-  std::string text;
-  for (const Member& member : set) {
-    const auto* number = std::get_if<double>(&member.value.get());
-    text.append(text.empty() ? "" : ", ").append(visible(member.key)).append(" = ");
-    text += number ? quantity(*number, member.unit) : no_value;
-  }
-  return text;
 }
 
 std::vector<std::string> early_ends(const Results& results) {

@@ -36,9 +36,6 @@ class TableWriter : public Sink {
 
 void write_table(std::ostream& out, const Results& results);
 
-/// "damper.normal_load = 3 N, c.value = 0.1 N s/m", what a result sets; "" for nothing.
-std::string assignment(const Object& set);
-
 /// For each result that is not complete, which and why; for each that is, what makes it doubtful, if
 /// anything.
 std::vector<std::string> early_ends(const Results& results);

@@ -116,6 +116,12 @@ std::string json_quoted(std::string_view text) {
   return out += '"';
 }
 
+std::string with_unit(std::string_view quantity, std::string_view unit) {
+  std::string text = visible(quantity);
+  if (!unit.empty()) text.append(" (").append(unit).append(")");
+  return text;
+}
+
 std::string quantity(double value, std::string_view unit) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.10g", value);  // without the last digits' rounding

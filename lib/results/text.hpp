@@ -21,6 +21,9 @@ inline std::string shortest(double value) {
   return text;
 }
 
+/// "damper.normal_load (N)", as a column or an axis is headed, escaped by visible().
+std::string with_unit(std::string_view quantity, std::string_view unit);
+
 /// "3 N", to ten digits; a pure number ("" or "-") stands alone.
 std::string quantity(double value, std::string_view unit);
 

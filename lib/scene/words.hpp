@@ -40,7 +40,7 @@ inline constexpr std::array<Word<Criterion>, 2> criteria = {
     {{"worst", Criterion::worst}, {"mean", Criterion::mean}}};
 
 /// What results call their own quantities, beside which the parameter of a study stands by its name.
-inline constexpr std::array<std::string_view, 19> result_names = {"kind",
+inline constexpr std::array<std::string_view, 24> result_names = {"kind",
                                                                   "nonsmooth",
                                                                   "located",
                                                                   "omega",
@@ -58,7 +58,12 @@ inline constexpr std::array<std::string_view, 19> result_names = {"kind",
                                                                   "maxima",
                                                                   "stick_percent",
                                                                   "elements",
-                                                                  "coefficients"};
+                                                                  "coefficients",
+                                                                  "after",
+                                                                  "feasible",
+                                                                  "peaks",
+                                                                  "at_bound",
+                                                                  "minimum"};
 
 /// The keys of a study of some kind, in the order in which they are written.
 inline std::vector<std::string> study_keys(StudyKind kind) {

@@ -1,7 +1,6 @@
 #include <arcslip/studies/branches.hpp>
 
-#include <arcslip/studies/columns.hpp>
-#include <arcslip/studies/units.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <cmath>
 #include <map>
@@ -18,44 +17,45 @@ bool has_maxima(const ResponseBranch& branch) {
   return !branch.points.empty() && !std::isnan(branch.points.front().maxima.velocity);
 }
 
-results::TableOf<ResponsePoint> points(const scene::Scene& scene, const ResponseBranch& branch,
-                                       const BranchOptions& options) {
-  return responses(scene, {branch.over, has_maxima(branch), options.coefficients});
-}
+/// The tables of branches with the same columns.
+struct Tables {
+  Tables(const scene::Scene& scene, const ResponseBranch& branch, bool coefficients)
+      : points(responses(scene, {branch.over, has_maxima(branch), coefficients})) {
+    events.add({"kind"}, "", "`peak`, `fold` and so on",
+               [](const ResponseEvent& event) { return event.kind; });
+    events.add({"nonsmooth"}, "", "at a kink of the branch",
+               [](const ResponseEvent& event) { return event.nonsmooth; });
+    events.add({"located"}, "", "false: the nearest point in its place",
+               [](const ResponseEvent& event) { return event.located; });
+    events.add({"after"}, "", "index of the point before it",
+               [](const ResponseEvent& event) { return event.after; });
+    events.add(responses(scene, {branch.over, true, coefficients}),
+               [](const ResponseEvent& event) { return &event.point; });
+  }
 
-results::TableOf<ResponseEvent> events(const scene::Scene& scene, const ResponseBranch& branch,
-                                       const BranchOptions& options) {
-  results::TableOf<ResponseEvent> table;
-  table.add({"kind"}, "", "`peak`, `fold` and so on", [](const ResponseEvent& event) { return event.kind; });
-  table.add({"nonsmooth"}, "", "at a kink of the branch",
-            [](const ResponseEvent& event) { return event.nonsmooth; });
-  table.add({"located"}, "", "false: the nearest point in its place",
-            [](const ResponseEvent& event) { return event.located; });
-  table.add({"after"}, "", "index of the point before it",
-            [](const ResponseEvent& event) { return event.after; });
-  table.add(responses(scene, {branch.over, true, options.coefficients}),
-            [](const ResponseEvent& event) { return &event.point; });
-  return table;
-}
+  results::TableOf<ResponsePoint> points;
+  results::TableOf<ResponseEvent> events;
+  std::size_t schema = 0;
+};
 
 std::vector<results::Shown> shown(const scene::Scene& scene, const std::string& over) {
   std::vector<results::Shown> all;
-  if (!over.empty()) all.push_back({with_unit(over, parameter_unit(scene, over)), {over}});
+  if (!over.empty()) all.push_back({results::with_unit(over, parameter_unit(scene, over)), {over}});
   all.push_back({"event", {"kind"}});
-  all.push_back({with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"});
+  all.push_back(
+      {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"});
   all.push_back({"A_max (m)", {"amplitude"}, "%.8e", "unbounded"});
   add_stick(scene, all);
   return all;
 }
 
-results::Schema schema(const scene::Scene& scene, const ResponseBranch& branch,
-                       const BranchOptions& options) {
+results::Schema schema(const scene::Scene& scene, const std::string& over, const Tables& tables) {
   return {.format = "arcslip-branches-1",
           .list = "branches",
           .noun = "branch",
-          .tables = {{"points", points(scene, branch, options).columns(), {"elements"}},
-                     {"events", events(scene, branch, options).columns(), {"elements"}}},
-          .shown = shown(scene, branch.over),
+          .tables = {{"points", tables.points.columns(), {"elements"}},
+                     {"events", tables.events.columns(), {"elements"}}},
+          .shown = shown(scene, over),
           .shown_table = "events"};
 }
 
@@ -71,19 +71,17 @@ results::Object solver(const observables::SolverSummary& summary) {
           {"seconds", summary.seconds, "s"}};
 }
 
-results::Result result(const scene::Scene& scene, const ResponseBranch& branch,
-                       const BranchOptions& options) {
-  results::Result result;
-  result.head = {branch.study, branch.kind, named(scene, branch.set)};
+results::Result result(const scene::Scene& scene, const ResponseBranch& branch, const Tables& tables,
+                       const Detail& detail) {
+  results::Result result{tables.schema, {branch.study, branch.kind, named(scene, branch.set)}, {}, {}};
   if (!branch.over.empty()) result.head.facts.push_back({"over", branch.over});
   result.head.facts.push_back({"parameters", named(scene, branch.parameters)});
-  if (options.coefficients) {
-    results::Value::List harmonics;
-    for (const int n : branch.harmonics) harmonics.emplace_back(n);
-    result.head.facts.push_back({"harmonics", std::move(harmonics)});
-  }
-  result.tables = {points(scene, branch, options).rows(branch.points),
-                   events(scene, branch, options).rows(branch.events)};
+  if (detail.coefficients)
+    result.head.facts.push_back(
+        {"harmonics", results::Value::List(branch.harmonics.begin(), branch.harmonics.end())});
+  if (detail.points) result.tables.push_back(tables.points.rows(branch.points));
+  result.tables.resize(1);
+  result.tables.push_back(tables.events.rows(branch.events));
   result.end = {observables::name(branch.status),
                 stop(branch.stop),
                 {{"solver", solver(branch.solver)}},
@@ -94,17 +92,24 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch,
 }  // namespace
 
 results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> branches,
-                            const BranchOptions& options) {
+                            const Detail& detail) {
   results::Results all{header(scene), {}, {}};
-  std::map<std::pair<std::string, bool>, std::size_t> schemas;  // by what tells their columns apart
+  std::map<std::pair<std::string, bool>, Tables> tables;  // by what tells their columns apart
+  const auto tables_of = [&](const ResponseBranch& branch) -> const Tables& {
+    const auto [at, is_new] =
+        tables.try_emplace({branch.over, has_maxima(branch)}, scene, branch, detail.coefficients);
+    if (is_new) {
+      at->second.schema = all.schemas.size();
+      all.schemas.push_back(schema(scene, branch.over, at->second));
+    }
+    return at->second;
+  };
   for (const ResponseBranch& branch : branches) {
-    const auto [at, is_new] = schemas.try_emplace({branch.over, has_maxima(branch)}, all.schemas.size());
-    if (is_new) all.schemas.push_back(schema(scene, branch, options));
-    add_columns(scene, branch.set, all.schemas[at->second].set);
-    all.results.push_back(result(scene, branch, options));
-    all.results.back().schema = at->second;
+    const Tables& of_branch = tables_of(branch);
+    add_columns(scene, branch.set, all.schemas[of_branch.schema].set);
+    all.results.push_back(result(scene, branch, of_branch, detail));
   }
-  if (branches.empty()) all.schemas.push_back(schema(scene, {}, options));
+  if (branches.empty()) tables_of({});
   return all;
 }
 

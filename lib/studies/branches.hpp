@@ -4,17 +4,14 @@
 #include <arcslip/observables/response.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/columns.hpp>
 
 #include <span>
 
 namespace arcslip::studies {
 
-struct BranchOptions {
-  bool coefficients = false;  // also the harmonics of the response: a_n, b_n for each n of "harmonics"
-};
-
 /// docs/results.md tells all that there is.
 results::Results results_of(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
-                            const BranchOptions& options = {});
+                            const Detail& detail = {});
 
 }  // namespace arcslip::studies

@@ -64,7 +64,7 @@ void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::
 results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked& asked) {
   results::TableOf<ResponsePoint> table;
   if (!asked.over.empty())
-    table.add({asked.over}, unit_of(scene, asked.over), "the parameter, here",
+    table.add({asked.over}, parameter_unit(scene, asked.over), "the parameter, here",
               [](const ResponsePoint& response) { return response.over; });
   add(
       observables::response_quantities(), scene, scene, asked, {},
@@ -83,24 +83,13 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
   return table;
 }
 
-std::string unit_of(const scene::Scene& scene, std::string_view parameter) {
-  const std::string_view unit = scene::parameter_fields(scene, parameter).front()->unit;
-  return std::string(unit == "-" ? "" : unit);
-}
-
-results::Object named(const scene::Scene& scene, const NamedValues& values) {
-  results::Object all;
-  for (const auto& [name, value] : values) all.push_back({name, value, unit_of(scene, name)});
-  return all;
-}
-
 void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<results::Column>& columns) {
   for (const auto& [name, value] : set) {
     const auto is_there = [&, &name = name](const results::Column& column) {
       return column.path.front() == name;
     };
     if (std::none_of(columns.begin(), columns.end(), is_there))
-      columns.push_back({{name}, results::Type::number, unit_of(scene, name), "given by `for_each`"});
+      columns.push_back({{name}, results::Type::number, parameter_unit(scene, name), "given by `for_each`"});
   }
 }
 

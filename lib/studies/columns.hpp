@@ -5,13 +5,18 @@
 #include <arcslip/observables/response.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/units.hpp>
 
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 namespace arcslip::studies {
+
+/// How much of its results a study is to give.
+struct Detail {
+  bool points = true;         // false: for who sees only events and facts, no rows of points and of histories
+  bool coefficients = false;  // points and events with the harmonics of the response: a_n, b_n
+};
 
 /// What is asked of responses beside all that each has.
 struct Asked {
@@ -23,15 +28,6 @@ struct Asked {
 
 /// What can be read off responses of a scene, by element in an object "elements".
 results::TableOf<observables::ResponsePoint> responses(const scene::Scene& scene, const Asked& asked = {});
-
-/// Unit of a parameter of the scene as a column has it: "N", "" for a pure number. Throws
-/// scene::ParameterError.
-std::string unit_of(const scene::Scene& scene, std::string_view parameter);
-
-using NamedValues = std::vector<std::pair<std::string, double>>;
-
-/// Values of parameters of the scene by their names.
-results::Object named(const scene::Scene& scene, const NamedValues& values);
 
 /// The columns of these parameters, but for those that are there.
 void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<results::Column>& columns);

@@ -1,5 +1,6 @@
 #include <arcslip/studies/figures.hpp>
 
+#include <arcslip/results/text.hpp>
 #include <arcslip/studies/friction_elements.hpp>
 #include <arcslip/studies/units.hpp>
 
@@ -60,9 +61,9 @@ void set_columns(const scene::Scene& scene, StudyKind kind, const std::vector<st
                  std::span<const ResponseBranch> branches, FigureData& data) {
   if (kind != StudyKind::frf) {
     const std::string name = branches.empty() ? "" : branches.front().over;
-    data.columns.push_back({with_unit(name, name.empty() ? "" : parameter_unit(scene, name))});
+    data.columns.push_back({results::with_unit(name, name.empty() ? "" : parameter_unit(scene, name))});
   }
-  data.columns.push_back({with_unit("frequency", scene::unit_name(scene.frequency_unit))});
+  data.columns.push_back({results::with_unit("frequency", scene::unit_name(scene.frequency_unit))});
   data.columns.push_back({"amplitude (m)"});
   for (const std::string& element : friction) {
     data.columns.push_back({element + " stick (%)", Scale::percent});

@@ -1,8 +1,7 @@
 #include <arcslip/studies/motions.hpp>
 
 #include <arcslip/results/table_of.hpp>
-#include <arcslip/studies/columns.hpp>
-#include <arcslip/studies/units.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <complex>
 #include <utility>
@@ -79,12 +78,14 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
 
 }  // namespace
 
-results::Results results_of(const scene::Scene& scene, std::span<const Motion> motions) {
+results::Results results_of(const scene::Scene& scene, std::span<const Motion> motions,
+                            const Detail& detail) {
   results::Results all{header(scene), {}, {}};
   const results::TableOf<Instant> table = history(scene);
   for (const Motion& motion : motions) {
     std::vector<Instant> instants;
-    for (std::size_t i = 0; i < motion.history.time.size(); ++i) instants.push_back({&motion.history, i});
+    for (std::size_t i = 0; detail.points && i < motion.history.time.size(); ++i)
+      instants.push_back({&motion.history, i});
     all.results.push_back(
         {.schema = 0,
          .head = {motion.study,
@@ -96,7 +97,7 @@ results::Results results_of(const scene::Scene& scene, std::span<const Motion> m
   }
   std::vector<results::Shown> shown{
       {"method", {"method"}},
-      {with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
+      {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
       {"A_max (m)", {"amplitude"}, "%.8e"}};
   add_stick(scene, shown);
   shown.insert(shown.end(), {{"E_friction (J)", {"energy_friction"}, "%.6e"},

@@ -1,5 +1,6 @@
 #include <arcslip/studies/units.hpp>
 
+#include <arcslip/results/result.hpp>
 #include <arcslip/results/text.hpp>
 
 namespace arcslip::studies {
@@ -8,24 +9,17 @@ std::string parameter_unit(const scene::Scene& scene, std::string_view parameter
   return std::string(scene::parameter_fields(scene, parameter).front()->unit);
 }
 
-std::string with_unit(std::string_view quantity, std::string_view unit) {
-  std::string text = results::visible(quantity);
-  if (!unit.empty()) {
-    text.append(" (").append(unit).append(")");
-  }
-  return text;
+results::Object named(const scene::Scene& scene, const NamedValues& values) {
+  results::Object all;
+  for (const auto& [name, value] : values) all.push_back({name, value, parameter_unit(scene, name)});
+  return all;
 }
 
-std::string assignment(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
-  std::string text;
-  for (const auto& [name, value] : set) {
-    text.append(text.empty() ? "" : ", ").append(results::visible(name)).append(" = ");
-    text += results::quantity(value, parameter_unit(scene, name));
-  }
-  return text;
+std::string assignment(const scene::Scene& scene, const NamedValues& set) {
+  return results::assignment(named(scene, set));
 }
 
-std::string set_label(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
+std::string set_label(const scene::Scene& scene, const NamedValues& set) {
   std::string text;
   for (const auto& [name, value] : set) {
     text.append(text.empty() ? "" : ", ").append(results::quantity(value, parameter_unit(scene, name)));

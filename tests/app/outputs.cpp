@@ -82,6 +82,33 @@ TEST_CASE("a file that cannot be written costs no other one") {
   CHECK(place.read("a.csv").find("\r\ntwo,2,") != std::string::npos);
 }
 
+TEST_CASE("one study alone leaves the files of another whose name begins with its own") {
+  const Workplace place;
+  write_tiny_scene(place);
+  Json scene = Json::parse(place.read("tiny.json"));
+  scene["studies"][1]["name"] = "one_fine";
+  place.write("tiny.json", scene.dump());
+  const std::map<std::string, std::string> nothing{{"PATH", "/nonexistent"}};
+  CHECK(run(place, {"run", "tiny.json", "--out", "results"}, nothing).exit_code == 0);
+  const auto before = place.files();
+  CHECK(std::find(before.begin(), before.end(), "results/one_fine.gp") != before.end());
+  CHECK(run(place, {"frf", "tiny.json", "--out", "results"}, nothing).exit_code == 0);
+  CHECK(place.files() == before);
+}
+
+TEST_CASE("tables of an earlier run do not stand beside those of another kind of results") {
+  const Workplace place;
+  write_tiny_scene(place);
+  place.write("a.cases.csv", "my own\n");
+  CHECK(run(place, {"frf", "tiny.json", "--csv", "a.csv"}).exit_code == 0);
+  CHECK(fs::exists(place / "a.events.csv"));
+  CHECK(run(place, {"time", "tiny.json", "--frequency", "10", "--csv", "a.csv"}).exit_code == 0);
+  CHECK(place.read("a.csv").find("study,motion,") == 0);
+  CHECK(fs::exists(place / "a.summary.csv"));
+  CHECK_FALSE(fs::exists(place / "a.events.csv"));
+  CHECK(place.read("a.cases.csv") == "my own\n");
+}
+
 TEST_CASE("a named pipe is opened once and gets all, and a scene may come from one") {
   const Workplace place;
   write_tiny_scene(place);

@@ -163,7 +163,7 @@ TEST_CASE("optima of several studies stand in one table, each value under its ow
   CHECK(ended.exit_code == 0);
   const auto rows = table(ended.out);
   CHECK(rows.at(0) == std::vector<std::string>{"study", "k.value (N/m)", "search", "d.normal_load (N)",
-                                               "amplitude (m)", "d.friction_coefficient"});
+                                               "amplitude (m)", "d.friction_coefficient (-)"});
   for (const auto& row : rows) REQUIRE(row.size() == rows[0].size());
   CHECK(rows[1][0] == "best");
   CHECK(rows[1][5].empty());

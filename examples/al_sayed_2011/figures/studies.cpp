@@ -168,7 +168,7 @@ Column frequency(const SceneFile& file) {
 }
 
 Column over(const SceneFile& file, const ResponseBranch& branch) {
-  return {studies::with_unit(branch.over, studies::parameter_unit(file.scene, branch.over)),
+  return {results::with_unit(branch.over, studies::parameter_unit(file.scene, branch.over)),
           [](const ResponsePoint& p) { return p.over; }};
 }
 
