@@ -7,9 +7,11 @@
 #include "standard_output.hpp"
 #include "verbs.hpp"
 
+#include <arcslip/optimize/studies.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/stop_request.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
 #include <exception>
 #include <new>
@@ -48,12 +50,14 @@ void tell_faults(const std::string& file, const scene::SceneError& error) {
 ExitCode run(int argc, const char* const* argv) {
   std::string scene_file;
   try {
-    const auto request = parse(argc, argv);
+    scene::Catalogue catalogue = studies::catalogue();
+    optimize::add_studies(catalogue);
+    const auto request = parse(argc, argv, catalogue);
     if (const auto* information = std::get_if<Information>(&request)) {
       return print(*information);
     }
     scene_file = std::get<Options>(request).scene;
-    return execute(std::get<Options>(request));
+    return execute(std::get<Options>(request), catalogue);
   } catch (const scene::SceneError& error) {
     tell_faults(scene_file, error);
     return ExitCode::invalid_scene;

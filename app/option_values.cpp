@@ -60,23 +60,7 @@ std::optional<int> whole_number(const std::string& option, const std::string& te
   return value;
 }
 
-std::optional<scene::TimeMethod> method(const std::string& text) {
-  const auto found = scene::method_of(text);
-  if (!text.empty() && !found) {
-    throw UsageError("--method " + text + ": must be shooting, newmark-shooting, newmark or event-driven");
-  }
-  return found;
-}
-
-std::optional<scene::Criterion> criterion(const std::string& text) {
-  const auto found = scene::criterion_of(text);
-  if (!text.empty() && !found) {
-    throw UsageError("--criterion " + text + ": must be worst or mean");
-  }
-  return found;
-}
-
-DesignRange design_range(const std::string& option, const std::string& text) {
+ParameterRange parameter_range(const std::string& option, const std::string& text) {
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
   if (name.empty()) {

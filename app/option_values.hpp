@@ -20,9 +20,7 @@ std::optional<int> whole_number(const std::string& option, const std::string& te
 std::optional<double> frequency(const std::string& option, const std::string& text);
 /// --frequency: one, or a window.
 std::vector<double> frequencies(const std::vector<std::string>& texts);
-std::optional<scene::TimeMethod> method(const std::string& text);
-std::optional<scene::Criterion> criterion(const std::string& text);
 /// name.field, or name.field=lower:upper.
-DesignRange design_range(const std::string& option, const std::string& text);
+ParameterRange parameter_range(const std::string& option, const std::string& text);
 
 }  // namespace arcslip::app

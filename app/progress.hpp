@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/results/progress.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -18,7 +18,7 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { clear(); }
 
-  void show(const observables::Progress& progress);
+  void show(const results::Progress& progress);
   void clear();
 
  private:
@@ -34,6 +34,6 @@ class ProgressLine {
 /// "branch 3/12  152 points  19.84 Hz  step 0.012 Hz  41 %  4 s left"; of a search "search 1/4  the
 /// certificate  37 evaluations  20.1 Hz  best 0.0123 m  12 s", where nobody knows how much is left. `seconds`
 /// have passed since the beginning.
-std::string progress_text(const observables::Progress& progress, const std::string& unit, double seconds);
+std::string progress_text(const results::Progress& progress, const std::string& unit, double seconds);
 
 }  // namespace arcslip::app

@@ -4,11 +4,13 @@
 
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene_file.hpp>
+#include <arcslip/scene/write_values.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
+#include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,14 +40,45 @@ void apply(scene::Scene& scene, const Options& options) {
   }
 }
 
-std::string range_unit(const scene::Scene& scene, const scene::Study& study) {
-  if (study.kind == scene::StudyKind::frf) {
-    return std::string(scene::unit_name(scene.frequency_unit));
-  }
-  return study.over == "frequency" ? "" : studies::parameter_unit(scene, study.over);
+using scene::Key;
+using scene::KeyType;
+using scene::file::Member;
+using scene::file::Node;
+
+/// The keys of a study's settings, as its file has them.
+Node::Object own_keys(const scene::Scene& scene, const scene::Study& study) {
+  Node::Object keys;
+  study.type->write(study.settings, scene, keys);
+  return keys;
 }
 
-/// Throws where an option names no parameter at all; what else may be wrong with it is told by check_study().
+const Node* find(const std::vector<Member>& keys, const std::string& name) {
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const Member& member) { return member.key == name; });
+  return found != keys.end() ? &found->value : nullptr;
+}
+
+/// The name of a parameter under a key, or "".
+std::string parameter_at(const std::vector<Member>& keys, const std::string& name) {
+  const Node* node = find(keys, name);
+  const auto* text = node != nullptr ? node->get<std::string>() : nullptr;
+  return text != nullptr ? *text : "";
+}
+
+const GivenKey* find(const Options& options, const std::string& name) {
+  const auto found = std::find_if(options.keys.begin(), options.keys.end(),
+                                  [&](const GivenKey& given) { return given.key.name == name; });
+  return found != options.keys.end() ? &*found : nullptr;
+}
+
+/// The parameter that an option gives to a key of one, or "".
+std::string parameter_of(const GivenKey& given) {
+  const auto* node = std::get_if<Node>(&given.value);
+  const auto* text = node != nullptr ? node->get<std::string>() : nullptr;
+  return given.key.type == KeyType::parameter && text != nullptr ? *text : "";
+}
+
+/// Throws where an option names no parameter at all; what else may be wrong with it is told when it is read.
 void check_parameter(const scene::Scene& scene, const std::string& option, const std::string& parameter) {
   if (parameter.empty() || parameter == "frequency") {
     return;
@@ -54,6 +87,18 @@ void check_parameter(const scene::Scene& scene, const std::string& option, const
     scene::parameter_fields(scene, parameter);
   } catch (const scene::ParameterError& error) {
     throw UsageError(option + " " + parameter + ": " + error.what());
+  }
+}
+
+void check_parameters(const scene::Scene& scene, const Options& options) {
+  for (const GivenKey& given : options.keys) {
+    const std::string option = "--" + given.key.name;
+    check_parameter(scene, option, parameter_of(given));
+    if (const auto* ranges = std::get_if<std::vector<ParameterRange>>(&given.value)) {
+      for (const ParameterRange& each : *ranges) {
+        check_parameter(scene, option, each.parameter);
+      }
+    }
   }
 }
 
@@ -66,114 +111,232 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-/// The option and its value where it gave this key of a study, or "".
-std::string option_of(const std::string& key, const Options& options) {
-  if (!options.design.empty() && (key.starts_with("over") || key.starts_with("bounds"))) {
-    const auto slash = key.find('/');
-    const std::string place = slash == std::string::npos ? "" : key.substr(slash + 1);
-    std::size_t index = 0;
-    std::from_chars(place.data(), place.data() + place.size(), index);
-    return "--over " + options.design[std::min(index, options.design.size() - 1)].parameter;
+Node pair_of(const std::pair<double, double>& range) {
+  return {Node::List{{range.first}, {range.second}}};
+}
+
+/// Lists of parameters and of their bounds; where an option gives no bounds, those that the study has.
+void add_parameters(const GivenKey& given, const Node::Object& own, std::vector<Member>& keys) {
+  const Node* names = find(own, given.key.name);
+  const Node* bounds = find(own, "bounds");
+  Node::List all_names, all_bounds;
+  for (const ParameterRange& each : std::get<std::vector<ParameterRange>>(given.value)) {
+    const Node* known = nullptr;
+    const auto& own_names = *names->get<Node::List>();
+    for (std::size_t i = 0; i < own_names.size(); ++i) {
+      if (*own_names[i].get<std::string>() == each.parameter) {
+        known = &(*bounds->get<Node::List>())[i];
+      }
+    }
+    if (!each.range && known == nullptr) {
+      const std::string option = "--" + given.key.name + " " + each.parameter;
+      throw UsageError(option + ": its bounds are not known; give them as " + option + "=lower:upper");
+    }
+    all_names.push_back({each.parameter});
+    all_bounds.push_back(each.range ? pair_of(*each.range) : *known);
   }
-  if (options.along && (key == "along" || key == "from" || key == "to")) {
-    return "--along " + options.along->parameter;
+  keys.push_back({given.key.name, {std::move(all_names)}});
+  keys.push_back({"bounds", {std::move(all_bounds)}});
+}
+
+void add_followed(const GivenKey& given, std::vector<Member>& keys) {
+  const ParameterRange& one = std::get<std::vector<ParameterRange>>(given.value).front();
+  if (!one.range) {
+    const std::string option = "--" + given.key.name + " " + one.parameter;
+    throw UsageError(option + ": its range is not known; give it as " + option + "=from:to");
   }
-  if (key == "criterion" && options.criterion) {
-    return "--criterion " + std::string(scene::criterion_name(*options.criterion));
-  }
-  if (key == "over" && !options.over.empty()) {
-    return "--over " + options.over;
-  }
-  if (key == "from" && options.from) {
-    return "--from " + results::shortest(*options.from);
-  }
-  if (key == "to" && options.to) {
-    return "--to " + results::shortest(*options.to);
-  }
-  for (const auto& [name, value] :
-       {std::pair{"steps", options.steps}, std::pair{"periods", options.periods},
-        std::pair{"recorded", options.recorded}, std::pair{"evaluations", options.evaluations}}) {
-    if (key == name && value) {
-      return std::string("--") + name + " " + std::to_string(*value);
+  keys.push_back({given.key.name, {one.parameter}});
+  keys.push_back({"from", {one.range->first}});
+  keys.push_back({"to", {one.range->second}});
+}
+
+/// The keys that the options give, beside the study's own.
+std::vector<Member> keys_of(const Options& options, const Node::Object& own) {
+  std::vector<Member> keys;
+  for (const GivenKey& given : options.keys) {
+    if (const auto* node = std::get_if<Node>(&given.value)) {
+      keys.push_back({given.key.name, *node});
+    } else if (given.key.type == KeyType::parameters) {
+      add_parameters(given, own, keys);
+    } else {
+      add_followed(given, keys);
     }
   }
-  for (const auto& [name, value] :
-       {std::pair{"tolerance", options.tolerance}, std::pair{"seconds", options.seconds}}) {
-    if (key == name && value) {
-      return std::string("--") + name + " " + results::shortest(*value);
+  return keys;
+}
+
+/// The parameters that the options name, which the study then no longer has among its lists.
+std::vector<std::string> named_parameters(const Options& options) {
+  std::vector<std::string> names;
+  for (const GivenKey& given : options.keys) {
+    if (const auto* ranges = std::get_if<std::vector<ParameterRange>>(&given.value)) {
+      for (const ParameterRange& each : *ranges) {
+        names.push_back(each.parameter);
+      }
+    } else if (const std::string parameter = parameter_of(given); !parameter.empty()) {
+      names.push_back(parameter);
     }
+  }
+  return names;
+}
+
+/// Throws where --set gives a value to a parameter that the study itself varies.
+void check_set(const std::vector<Key>& known, const std::vector<Member>& keys, const Options& options) {
+  for (const Key& key : known) {
+    if (key.type != KeyType::parameter && key.type != KeyType::followed) {
+      continue;
+    }
+    for (const auto& [parameter, value] : options.set) {
+      if (parameter == parameter_at(keys, key.name)) {
+        throw UsageError("--set " + parameter + "=" + results::shortest(value) + ": the study " +
+                         (key.type == KeyType::followed
+                              ? "goes along this parameter; give --" + key.name + " for its range"
+                              : "is over this parameter; give --from and --to for its range"));
+      }
+    }
+  }
+}
+
+/// Throws where --from and --to leave nothing between them.
+void check_range(const scene::Scene& scene, const scene::Study& study, const std::vector<Member>& keys,
+                 const Options& options) {
+  const GivenKey* from_given = find(options, "from");
+  const GivenKey* to_given = find(options, "to");
+  const Node *from_node = find(keys, "from"), *to_node = find(keys, "to");
+  if ((from_given == nullptr && to_given == nullptr) || from_node == nullptr || to_node == nullptr) {
+    return;
+  }
+  const double from = *from_node->get<double>(), to = *to_node->get<double>();
+  if (from < to) {
+    return;
+  }
+  const GivenKey& given = from_given != nullptr ? *from_given : *to_given;
+  const std::string over = parameter_at(keys, "over");
+  const std::string unit = given.key.type == KeyType::frequency
+                               ? std::string(scene::unit_name(scene.frequency_unit))
+                           : over == "frequency" ? ""
+                                                 : studies::parameter_unit(scene, over);
+  throw UsageError(from_given != nullptr
+                       ? "--from must be below " + results::quantity(to, unit) + ", where the study \"" +
+                             study.name + "\" ends; found " + results::quantity(from, unit)
+                       : "--to must be above " + results::quantity(from, unit) + ", where the study \"" +
+                             study.name + "\" begins; found " + results::quantity(to, unit));
+}
+
+/// The option that gave the key at this place within a study, or "".
+std::string option_at(const std::string& place, const Options& options) {
+  const std::string key = place.substr(0, place.find('/'));
+  for (const GivenKey& given : options.keys) {
+    const bool is_range = given.key.type == KeyType::followed && (key == "from" || key == "to");
+    const bool is_bounds = given.key.type == KeyType::parameters && key == "bounds";
+    if (key != given.key.name && !is_range && !is_bounds) {
+      continue;
+    }
+    const auto* ranges = std::get_if<std::vector<ParameterRange>>(&given.value);
+    if (ranges == nullptr) {
+      const auto* number = std::get<Node>(given.value).get<double>();
+      return number != nullptr ? "--" + given.key.name + " " + results::shortest(*number) : given.text;
+    }
+    const std::string index = place.find('/') == std::string::npos ? "0" : place.substr(place.find('/') + 1);
+    const std::size_t i = std::min<std::size_t>(std::strtoul(index.c_str(), nullptr, 10), ranges->size() - 1);
+    return "--" + given.key.name + " " + (*ranges)[i].parameter;
   }
   return "";
 }
 
-/// The study that says what the command line does not. A name that no other study has, where there is none.
-std::size_t study_to_follow(scene::Scene& scene, scene::StudyKind kind, const Options& options) {
-  const auto find = [&](bool over_the_same) {
-    return std::find_if(scene.studies.begin(), scene.studies.end(), [&](const scene::Study& study) {
-      return study.kind == kind && (!over_the_same || study.over == options.over);
-    });
-  };
-  auto study = options.over.empty() ? find(false) : find(true);
-  study = study == scene.studies.end() ? find(false) : study;
-  if (study == scene.studies.end()) {
-    std::string free_name = name(options.verb);
-    while (std::any_of(scene.studies.begin(), scene.studies.end(),
-                       [&](const scene::Study& other) { return other.name == free_name; })) {
-      free_name += "_2";
-    }
-    study = scene.studies.insert(study, scene::Study{free_name, kind, 0, 0, {}});
-  }
-  return static_cast<std::size_t>(study - scene.studies.begin());
-}
-
-/// What the options say of a search.
-void set_search(scene::SearchSettings& search, const Options& options) {
-  search.algorithm = options.algorithm.empty() ? search.algorithm : options.algorithm;
-  search.local = options.local.empty() ? search.local : options.local;
-  search.evaluations = options.evaluations.value_or(search.evaluations);
-  search.seconds = options.seconds.value_or(search.seconds);
-}
-
-/// The parameter over which the optimum is to be followed, in place of the study's own.
-void set_along(scene::Study& study, const scene::Scene& scene, const Options& options) {
-  if (options.along) {
-    const auto& [parameter, range] = *options.along;
-    check_parameter(scene, "--along", parameter);
-    if (!range) {
-      throw UsageError("--along " + parameter + ": its range is not known; give it as --along " + parameter +
-                       "=from:to");
-    }
-    scene::drop(study, parameter);
-    study.along = {parameter, range->first, range->second};
-  }
-  for (const auto& [parameter, value] : options.set) {
-    if (study.along && study.along->name == parameter) {
-      throw UsageError("--set " + parameter + "=" + results::shortest(value) +
-                       ": the study goes along this parameter; give --along for its range");
+/// The study that says what the command line does not. Its index, or none where the scene has none.
+std::optional<std::size_t> study_to_follow(const scene::Scene& scene, const Options& options) {
+  const GivenKey* over = find(options, "over");
+  const std::string parameter = over != nullptr ? parameter_of(*over) : "";
+  std::optional<std::size_t> found;
+  for (std::size_t i = scene.studies.size(); i-- > 0;) {
+    if (scene.studies[i].type == options.type) {
+      found = i;
     }
   }
+  for (std::size_t i = scene.studies.size(); i-- > 0 && !parameter.empty();) {
+    const scene::Study& study = scene.studies[i];
+    if (study.type == options.type && parameter_at(own_keys(scene, study), "over") == parameter) {
+      found = i;
+    }
+  }
+  return found;
 }
 
-/// What the options say of a study in time.
-void set_time(scene::TimeSettings& time, const Options& options) {
-  time.method = options.method.value_or(time.method);
-  time.steps = options.steps.value_or(time.steps);
-  time.periods = options.periods.value_or(time.periods);
-  time.recorded = options.recorded.value_or(time.recorded);
-  time.tolerance = options.tolerance.value_or(time.tolerance);
+/// A study with defaults, under a name that no other one has.
+scene::Study new_study(const scene::Scene& scene, const Options& options) {
+  std::string name = options.verb;
+  while (std::any_of(scene.studies.begin(), scene.studies.end(),
+                     [&](const scene::Study& other) { return other.name == name; })) {
+    name += "_2";
+  }
+  return {name, options.type, options.type->defaults(), {}};
+}
+
+/// Throws where neither the scene nor the options say all that a study needs. is_new: the scene has none of
+/// this kind; else it has none over this parameter, and ranges are to be given.
+void check_complete(const Options& options, bool is_new, const std::string& over) {
+  std::vector<std::string> missing;
+  for (const Key& key : options.type->keys()) {
+    const bool is_wanted = is_new ? key.required && key.type != KeyType::other : key.type == KeyType::value;
+    if (is_wanted && find(options, key.name) == nullptr) {
+      missing.push_back("--" + key.name + (key.type == KeyType::parameters ? " with bounds" : ""));
+    }
+  }
+  if (!missing.empty()) {
+    throw UsageError("the scene has no study of kind " + std::string(options.type->name()) +
+                     (is_new ? "" : " over " + over) + ", so not all is known: give " + listed(missing) +
+                     ", or add such a study to the scene");
+  }
 }
 
 }  // namespace
 
-void check_study(const scene::Scene& scene, std::size_t index, const Options& options) {
+scene::Scene resolve(const Options& options, const scene::Catalogue& catalogue) {
+  scene::Scene scene = scene::read_file(options.scene, catalogue, interrupted);
+  apply(scene, options);
+  return scene;
+}
+
+bool takes_keys(const scene::Study& study, const Options& options) {
+  const std::vector<Key> keys = study.type->keys();
+  return std::all_of(options.keys.begin(), options.keys.end(), [&](const GivenKey& given) {
+    return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
+      return key.name == given.key.name && key.type == given.key.type;
+    });
+  });
+}
+
+scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Options& options) {
+  scene::Scene dropped = scene;
+  scene::Study& study = dropped.studies[index];
+  const std::vector<std::string> named = named_parameters(options);
+  for (const std::string& parameter : named) {
+    scene::drop(study, parameter);
+  }
+  const Node::Object own = own_keys(scene, study);
+  std::vector<Member> keys = keys_of(options, own);
+  for (const Key& key : study.type->keys()) {  // what it goes along and is over at once
+    const std::string along = parameter_at(own, key.name);
+    if (key.type == KeyType::followed && find(keys, key.name) == nullptr && !along.empty() &&
+        std::find(named.begin(), named.end(), along) != named.end()) {
+      for (const std::string& gone : {key.name, std::string("from"), std::string("to")}) {
+        keys.push_back({gone, {nullptr}});
+      }
+    }
+  }
+  std::vector<Member> all = keys;
+  all.insert(all.end(), own.begin(), own.end());  // the first of a name counts
+  check_set(study.type->keys(), all, options);
+  check_range(scene, study, all, options);
   try {
-    scene::check(scene);
+    return scene::with_keys(dropped, index, keys);
   } catch (const scene::SceneError& error) {
     const std::string place = "/studies/" + std::to_string(index) + "/";
     std::string message;
     for (const scene::Fault& fault : error.faults()) {
-      const std::string key = fault.pointer.starts_with(place) ? fault.pointer.substr(place.size()) : "";
-      const std::string option = option_of(key, options);
+      const std::string option =
+          fault.pointer.starts_with(place) ? option_at(fault.pointer.substr(place.size()), options) : "";
       message += (message.empty() ? "" : "\n  ") +
                  (option.empty() ? results::visible(fault.pointer) : option) + ": " + fault.message;
     }
@@ -181,122 +344,20 @@ void check_study(const scene::Scene& scene, std::size_t index, const Options& op
   }
 }
 
-scene::Scene resolve(const Options& options) {
-  scene::Scene scene = scene::read_file(options.scene, interrupted);
-  apply(scene, options);
-  return scene;
-}
-
-void set_range(scene::Study& study, const scene::Scene& scene, const Options& options) {
-  study.from = options.from.value_or(study.from);
-  study.to = options.to.value_or(study.to);
-  if (!(study.from < study.to)) {
-    const std::string unit = range_unit(scene, study);
-    throw UsageError(
-        (options.from ? "--from must be below " : "--to must be above ") +
-        (options.from
-             ? results::quantity(study.to, unit) + ", where the study \"" + study.name + "\" ends"
-             : results::quantity(study.from, unit) + ", where the study \"" + study.name + "\" begins") +
-        "; found " + results::quantity(options.from ? study.from : study.to, unit));
+scene::Study study_of_verb(scene::Scene& scene, const Options& options) {
+  check_parameters(scene, options);
+  const GivenKey* over_given = find(options, "over");
+  const std::string over = over_given != nullptr ? parameter_of(*over_given) : "";
+  const std::optional<std::size_t> found = study_to_follow(scene, options);
+  if (!found) {
+    check_complete(options, true, over);
+    scene.studies.push_back(new_study(scene, options));
+  } else if (!over.empty() && parameter_at(own_keys(scene, scene.studies[*found]), "over") != over) {
+    check_complete(options, false, over);
   }
-}
-
-scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Options& options) {
-  check_parameter(scene, "--over", options.over);
-  const bool is_frf = kind == scene::StudyKind::frf, is_time = kind == scene::StudyKind::time;
-  const std::size_t studies_before = scene.studies.size();
-  const std::size_t index = study_to_follow(scene, kind, options);
-  const bool is_new = scene.studies.size() > studies_before;
-  scene::Study& study = scene.studies[index];
-  const bool is_over_another = !is_new && !options.over.empty() && options.over != study.over;
-
-  std::vector<std::string> missing;
-  if (is_new && !is_frf && !is_time && options.over.empty()) {
-    missing.emplace_back("--over");
-  }
-  if ((is_new || is_over_another) && !is_time && !options.from) {
-    missing.emplace_back("--from");
-  }
-  if ((is_new || is_over_another) && !is_time && !options.to) {
-    missing.emplace_back("--to");
-  }
-  if (is_new && !is_frf && options.frequency.empty()) {
-    missing.emplace_back("--frequency");
-  }
-  if (!missing.empty()) {
-    const std::string kind_name = name(options.verb);
-    throw UsageError("the scene has no study of kind " + kind_name +
-                     (is_over_another ? " over " + options.over : "") + ", so not all is known: give " +
-                     listed(missing) + ", or add such a study to the scene");
-  }
-
-  if (!options.over.empty()) {
-    study.over = options.over;
-    std::erase_if(study.for_each, [&](const auto& list) { return list.first == study.over; });
-  }
-  if (!options.frequency.empty()) {
-    study.frequency_from = options.frequency.front();
-    study.frequency_to = options.frequency.back();
-  }
-  set_time(study.time, options);
-  if ((is_new || is_over_another) && !is_time) {
-    study.from = *options.from;
-    study.to = *options.to;
-  }
-  for (const auto& [parameter, value] : options.set) {
-    if (parameter == study.over) {
-      throw UsageError("--set " + parameter + "=" + results::shortest(value) +
-                       ": the study is over this parameter; give --from and --to for its range");
-    }
-  }
-  if (!is_time) {
-    set_range(study, scene, options);
-  }
-  check_study(scene, index, options);
-  return study;
-}
-
-scene::Study optimum_of_verb(scene::Scene& scene, const Options& options) {
-  const std::size_t studies_before = scene.studies.size();
-  const std::size_t index = study_to_follow(scene, scene::StudyKind::optimum, options);
-  const bool is_new = scene.studies.size() > studies_before;
-  scene::Study& study = scene.studies[index];
-  if (is_new && (options.design.empty() || options.frequency.empty())) {
-    throw UsageError(
-        "the scene has no study of kind optimum, so not all is known: give --over, with bounds, and "
-        "--frequency, or add such a study to the scene");
-  }
-  std::vector<scene::DesignVariable> design;
-  for (const DesignRange& range : options.design) {
-    check_parameter(scene, "--over", range.parameter);
-    const auto known = std::find_if(study.design.begin(), study.design.end(),
-                                    [&](const auto& v) { return v.name == range.parameter; });
-    if (!range.bounds && known == study.design.end()) {
-      throw UsageError("--over " + range.parameter + ": its bounds are not known; give them as --over " +
-                       range.parameter + "=lower:upper");
-    }
-    design.push_back(range.bounds
-                         ? scene::DesignVariable{range.parameter, range.bounds->first, range.bounds->second}
-                         : *known);
-  }
-  if (!design.empty()) {
-    study.design = std::move(design);
-  }
-  for (const DesignRange& range : options.design) {
-    scene::drop(study, range.parameter);
-    if (study.along && study.along->name == range.parameter) {
-      study.along.reset();
-    }
-  }
-  if (!options.frequency.empty()) {
-    study.frequency_from = options.frequency.front();
-    study.frequency_to = options.frequency.back();
-  }
-  set_search(study.search, options);
-  set_along(study, scene, options);
-  study.criterion = options.criterion.value_or(study.criterion);
-  check_study(scene, index, options);
-  return study;
+  const std::size_t index = found.value_or(scene.studies.size() - 1);
+  scene = with_options(scene, index, options);
+  return scene.studies[index];
 }
 
 }  // namespace arcslip::app

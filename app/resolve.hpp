@@ -1,5 +1,6 @@
 #pragma once
-// The scene that the command line asks for: the file's, with what --set, --harmonics, --from and --to change.
+// The scene that the command line asks for: the file's, with what --set, --harmonics and the options of a
+// study change.
 
 #include "options.hpp"
 
@@ -11,21 +12,18 @@ namespace arcslip::app {
 
 /// Reads the scene and applies --set and --harmonics. Throws scene::FileError, scene::SceneError for what is
 /// wrong in the file, and UsageError for what is wrong on the command line.
-scene::Scene resolve(const Options& options);
+scene::Scene resolve(const Options& options, const scene::Catalogue& catalogue);
 
-/// Applies --from and --to to a study. Throws UsageError where the range is empty then.
-void set_range(scene::Study& study, const scene::Scene& scene, const Options& options);
+/// Whether a study has all keys that the options give.
+bool takes_keys(const scene::Study& study, const Options& options);
 
-/// Tells what the scene's own check says of the study with this index, which the options made, by these
-/// options. Throws UsageError.
-void check_study(const scene::Scene& scene, std::size_t index, const Options& options);
+/// The scene with the keys that the options give in one of its studies. Throws UsageError where what they
+/// make is no study, with the option that is at fault.
+scene::Scene with_options(const scene::Scene& scene, std::size_t study, const Options& options);
 
-/// The scene's first study of the verb's kind, over the parameter that was asked for if there is one, with
-/// what the command line says; it is made from that where there is none. Throws UsageError.
-scene::Study study_of_verb(scene::Scene& scene, scene::StudyKind kind, const Options& options);
-
-/// The same of the verb optimize: the scene's first study of kind optimum, with the parameters, bounds,
-/// window and settings of the command line.
-scene::Study optimum_of_verb(scene::Scene& scene, const Options& options);
+/// The study that the verb asks for: the scene's first one of its kind, over the parameter that was asked for
+/// if there is one, with what the options say; made from these where there is none. Changes the scene to one
+/// that has it. Throws UsageError.
+scene::Study study_of_verb(scene::Scene& scene, const Options& options);
 
 }  // namespace arcslip::app

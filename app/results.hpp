@@ -2,9 +2,9 @@
 // Where the results of a run go, and that they can go there, known before anything is computed.
 
 #include "exit_code.hpp"
-#include "study_result.hpp"
 
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/study_type.hpp>
 
 #include <functional>
 #include <iosfwd>
@@ -91,6 +91,6 @@ class Writing {
 /// Writes the files and figures of a study; what an earlier run has left of this study is removed. Returns
 /// the paths of what is there; tells on standard error what is missing, and why.
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     const StudyResult& result, Writing& writing);
+                                     const scene::Outcome& result, Writing& writing);
 
 }  // namespace arcslip::app

@@ -6,10 +6,9 @@
 #include "resolve.hpp"
 #include "results.hpp"
 #include "standard_output.hpp"
-#include "study_result.hpp"
 
-#include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/results/json_writer.hpp>
+#include <arcslip/results/progress.hpp>
 #include <arcslip/results/table_writer.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/combinations.hpp>
@@ -55,10 +54,10 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
 }
 
 /// Throws where one table would have to hold results of different kinds.
-void check_one_table(const Options& options, const scene::Scene& scene,
-                     const std::vector<scene::Study>& studies) {
+void check_one_table(const Options& options, const std::vector<scene::Study>& studies) {
+  const auto list = [](const scene::Study& study) { return study.type->list(study.settings); };
   for (const scene::Study& study : studies) {
-    if (!options.csv.empty() && list_of(scene, study) != list_of(scene, studies.front())) {
+    if (!options.csv.empty() && list(study) != list(studies.front())) {
       throw UsageError("--csv holds one table, but the results of the studies \"" + studies.front().name +
                        "\" and \"" + study.name +
                        "\" have different columns: use --out, where each study has its own");
@@ -78,7 +77,7 @@ std::string whole(double count) {
 void check_combinations(const Options& options, const std::vector<scene::Study>& studies) {
   const int most = options.combinations.value_or(scene::usual_combinations);
   for (const scene::Study& study : studies) {
-    const double count = scene::Combinations(study).count();
+    const double count = scene::Combinations(study.for_each).count();
     if (count > most) {
       std::string product;
       for (const auto& [parameter, values] : study.for_each) {
@@ -98,10 +97,10 @@ void tell_partial(Interruption& interruption) {
   }
 }
 
-StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study, const Options& options,
-                            Interruption& interruption) {
+scene::Outcome compute_visibly(const scene::Scene& scene, const scene::Study& study, const Options& options,
+                               Interruption& interruption) {
   ProgressLine line(options.quiet, std::string(scene::unit_name(scene.frequency_unit)));
-  const auto progress = [&](const observables::Progress& now) {
+  const auto progress = [&](const results::Progress& now) {
     if (!interrupted()) {
       line.show(now);
       return true;
@@ -111,16 +110,16 @@ StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study
     return false;
   };
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
-  StudyResult result =
-      compute(scene, study, {has_files, options.coefficients}, !options.out.empty(), progress);
+  scene::Outcome outcome =
+      study.type->run(scene, study, {has_files, options.coefficients, !options.out.empty(), progress});
   line.clear();
   tell_partial(interruption);
-  return result;
+  return outcome;
 }
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const Options& options) {
-  check_one_table(options, scene, studies);
+  check_one_table(options, studies);
   check_combinations(options, studies);
   const std::vector<StudyFiles> files = study_files(options.out, studies);
   const std::optional<ResultsFolder> held = prepare_places(options, studies, files);
@@ -138,7 +137,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       continue;
     }
     any_begun = true;
-    StudyResult result = compute_visibly(scene, studies[i], options, interruption);
+    scene::Outcome result = compute_visibly(scene, studies[i], options, interruption);
     for (const std::string& sentence : results::early_ends(result.results)) {
       code = ExitCode::stopped_early;
       tell(sentence);
@@ -195,8 +194,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   return writing.code(code);
 }
 
-ExitCode check(const Options& options) {
-  const scene::Scene scene = resolve(options);
+ExitCode check(const scene::Scene& scene, const Options& options) {
   if (!options.quiet) {
     StandardOutput screen;
     screen.write_lines([&](std::ostream& out) { out << scene::write(scene); });
@@ -205,36 +203,20 @@ ExitCode check(const Options& options) {
   return ExitCode::done;
 }
 
-ExitCode one_study(scene::StudyKind kind, const Options& options) {
-  scene::Scene scene = resolve(options);
-  const scene::Study study = study_of_verb(scene, kind, options);
-  return run_studies(scene, {study}, options);
-}
-
-ExitCode optimize(const Options& options) {
-  scene::Scene scene = resolve(options);
-  const scene::Study study = optimum_of_verb(scene, options);
-  return run_studies(scene, {study}, options);
-}
-
-ExitCode run(Options options) {
-  scene::Scene scene = resolve(options);
+ExitCode run(scene::Scene scene, Options options) {
   if (scene.studies.empty()) {
     throw UsageError(
         "the scene has no studies, so there is nothing to run: add one to \"studies\", or use "
         "arcslip frf with --from and --to");
   }
-  bool any_frf = false;
-  for (std::size_t i = 0; i < scene.studies.size(); ++i) {
-    if (scene.studies[i].kind == scene::StudyKind::frf) {
-      set_range(scene.studies[i], scene, options);
-      if (options.from || options.to) {
-        check_study(scene, i, options);
-      }
-      any_frf = true;
+  bool any = options.keys.empty();
+  for (std::size_t i = 0; i < scene.studies.size() && !options.keys.empty(); ++i) {
+    if (takes_keys(scene.studies[i], options)) {
+      scene = with_options(scene, i, options);
+      any = true;
     }
   }
-  if (!any_frf && (options.from || options.to)) {
+  if (!any) {
     throw UsageError(
         "--from and --to of run are those of frequency responses, of which the scene has none: use the verb "
         "of the study's kind");
@@ -247,26 +229,16 @@ ExitCode run(Options options) {
 
 }  // namespace
 
-ExitCode execute(const Options& options) {
-  switch (options.verb) {
-    case Verb::run:
-      return run(options);
-    case Verb::frf:
-      return one_study(scene::StudyKind::frf, options);
-    case Verb::trace:
-      return one_study(scene::StudyKind::trace, options);
-    case Verb::peaks:
-      return one_study(scene::StudyKind::peaks, options);
-    case Verb::folds:
-      return one_study(scene::StudyKind::folds, options);
-    case Verb::time:
-      return one_study(scene::StudyKind::time, options);
-    case Verb::optimize:
-      return optimize(options);
-    case Verb::check:
-      break;
+ExitCode execute(const Options& options, const scene::Catalogue& catalogue) {
+  scene::Scene scene = resolve(options, catalogue);
+  if (options.verb == "run") {
+    return run(std::move(scene), options);
   }
-  return check(options);
+  if (options.type == nullptr) {
+    return check(scene, options);
+  }
+  const scene::Study study = study_of_verb(scene, options);
+  return run_studies(scene, {study}, options);
 }
 
 }  // namespace arcslip::app

@@ -5,7 +5,8 @@
 
 namespace arcslip::app {
 
-/// Does what the options ask for. Throws UsageError, scene::SceneError, scene::FileError, output::WriteError.
-ExitCode execute(const Options& options);
+/// Does what the options ask for. catalogue: the kinds of studies that a scene may hold. Throws UsageError,
+/// scene::SceneError, scene::FileError, output::WriteError.
+ExitCode execute(const Options& options, const scene::Catalogue& catalogue);
 
 }  // namespace arcslip::app

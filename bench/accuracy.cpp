@@ -6,6 +6,8 @@
 // Counters: amplitude_error and frequency_error, relative to the closed-form solution (tests/reference), and
 // estimated_error, the truncation estimate at the peak. The time is that of the whole branch, 18 to 22 Hz.
 
+#include "examples.hpp"
+
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -28,7 +30,7 @@ Peak exact_peak(std::int64_t load) {
 }
 
 void peak_error(benchmark::State& state, bool sampled) {
-  scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  scene::Scene scene = bench::example("al_sayed_2011");
   scene.harmonics.order = static_cast<int>(state.range(0));
   scene::set(scene, "damper.normal_load", static_cast<double>(state.range(1)));
   if (sampled) {

@@ -8,6 +8,8 @@
 //
 // Counters: evaluations, responses traced, load (N). The ratios are those of the times of one run.
 
+#include "examples.hpp"
+
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/optimize/optimum.hpp>
 
@@ -20,7 +22,7 @@ namespace {
 using namespace arcslip;
 
 scene::Scene paper(int order) {
-  scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  scene::Scene scene = bench::example("al_sayed_2011");
   scene.harmonics.order = order;
   scene::set(scene, "damper.normal_load", 3);
   return scene;

@@ -2,6 +2,8 @@
 // continuation over the load with every observable. Counters: points; error of the least peak, relative to
 // the exact one (tests/reference/exact_1dof.json).
 
+#include "examples.hpp"
+
 #include <arcslip/observables/curves.hpp>
 
 #include <benchmark/benchmark.h>
@@ -13,11 +15,12 @@ namespace {
 using namespace arcslip;
 
 void peaks(benchmark::State& state) {
-  const scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  const scene::Scene scene = bench::example("al_sayed_2011");
+  const auto& range = scene.studies.at(1).settings.as<observables::CurveRange>();
   std::size_t points = 0;
   double least = 0;
   for (auto _ : state) {
-    const auto curves = observables::resonance_peaks(scene, scene.studies.at(1));
+    const auto curves = observables::resonance_peaks(scene, range);
     if (curves.size() != 1 || curves[0].status != observables::Status::complete || curves[0].events.empty())
       return state.SkipWithError("not one whole curve");
     points = curves[0].points.size();

@@ -5,6 +5,8 @@
 //
 // Counters: points, and periods integrated for one point.
 
+#include "examples.hpp"
+
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/time/shooting.hpp>
 
@@ -20,7 +22,7 @@ using namespace arcslip;
 constexpr int points = 200;
 
 void exact_family(benchmark::State& state) {
-  const auto scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  const auto scene = bench::example("al_sayed_2011");
   const auto model = model::build(scene);
   const std::vector<double> loads = scene.studies.front().for_each.front().second;
   const int load = model::parameter_index(model, "damper.normal_load");

@@ -9,6 +9,8 @@
 //
 // Counters: points of the family; periods, of transients.
 
+#include "examples.hpp"
+
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/time_study.hpp>
 
@@ -23,39 +25,42 @@ using namespace arcslip;
 constexpr int frequencies = 200;
 
 scene::Scene paper() {
-  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  return bench::example("al_sayed_2011");
 }
 
-scene::Study in_time(const scene::Scene& scene, scene::TimeMethod method, int steps) {
-  scene::Study study;
-  study.kind = scene::StudyKind::time;
-  study.for_each = scene.studies.at(0).for_each;
-  study.time.method = method;
-  study.time.steps = steps;
-  study.time.periods = scene::largest_periods;
-  return study;
+/// The scene at each of the loads of its frequency responses.
+std::vector<scene::Scene> at_each_load(const scene::Scene& scene) {
+  std::vector<scene::Scene> all;
+  for (const double load : scene.studies.at(0).for_each.at(0).second)
+    scene::set(all.emplace_back(scene), "damper.normal_load", load);
+  return all;
 }
+
+constexpr int no_limit = 100'000'000;  // of periods
 
 void harmonic_balance(benchmark::State& state) {
   const scene::Scene scene = paper();
+  const auto& window = scene.studies.at(0).settings.as<observables::FrequencyRange>();
+  const auto scenes = at_each_load(scene);
   std::size_t points = 0;
   for (auto _ : state) {
     points = 0;
-    for (const auto& branch : observables::frequency_response(scene, scene.studies.at(0)))
-      points += branch.points.size();
+    for (const scene::Scene& each : scenes)
+      for (const auto& branch : observables::frequency_response(each, window)) points += branch.points.size();
   }
   state.counters["points"] = static_cast<double>(points);
 }
 
 void shooting(benchmark::State& state) {
-  const scene::Scene scene = paper();
-  scene::Study study = in_time(scene, scene::TimeMethod::shooting, 1);
+  const auto scenes = at_each_load(paper());
   std::size_t points = 0, failed = 0;
   for (auto _ : state) {
     points = failed = 0;
     for (int k = 0; k < frequencies; ++k) {
-      study.frequency_from = study.frequency_to = 18 + 4.0 * k / (frequencies - 1);
-      for (const auto& motion : observables::motions_in_time(scene, study)) {
+      const double frequency = 18 + 4.0 * k / (frequencies - 1);
+      for (const scene::Scene& each : scenes) {
+        const auto motion =
+            observables::motion_in_time(each, {frequency, observables::TimeMethod::shooting, 1, no_limit});
         ++points;
         failed += motion.status == observables::Status::complete ? 0 : 1;
       }
@@ -66,16 +71,15 @@ void shooting(benchmark::State& state) {
 }
 
 void newmark_transient(benchmark::State& state) {
-  const scene::Scene scene = paper();
   constexpr int steps = 200, steps_needed = 20'000;
-  scene::Study study = in_time(scene, scene::TimeMethod::newmark, steps);
-  study.frequency_from = study.frequency_to = 20;
+  const observables::TimeSettings settings{20, observables::TimeMethod::newmark, steps, no_limit};
+  const auto scenes = at_each_load(paper());
   double periods = 0;
   const std::clock_t begin = std::clock();
   for (auto _ : state) {
     periods = 0;
-    for (const auto& motion : observables::motions_in_time(scene, study))
-      periods += static_cast<double>(motion.periods);
+    for (const scene::Scene& each : scenes)
+      periods += static_cast<double>(observables::motion_in_time(each, settings).periods);
   }
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   state.counters["periods"] = periods;

@@ -27,7 +27,7 @@ bool Cases::stand_at(std::span<const double> design) const {
 }
 
 double Cases::weight(std::size_t c) const {
-  return criterion_ == scene::Criterion::mean ? all_[c].weight / sum_ : all_[c].weight;
+  return criterion_ == Criterion::mean ? all_[c].weight / sum_ : all_[c].weight;
 }
 
 std::size_t Cases::highest() const {
@@ -38,7 +38,7 @@ std::size_t Cases::highest() const {
 }
 
 std::size_t Cases::highest_of(std::size_t group) const {
-  return criterion_ == scene::Criterion::mean ? group : highest();
+  return criterion_ == Criterion::mean ? group : highest();
 }
 
 double Cases::value() const {
@@ -49,7 +49,7 @@ double Cases::value() const {
     sum += here;
     most = std::max(most, here);
   }
-  return criterion_ == scene::Criterion::mean ? sum : most;
+  return criterion_ == Criterion::mean ? sum : most;
 }
 
 Vector Cases::gradient() const {

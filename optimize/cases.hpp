@@ -6,6 +6,7 @@
 //
 // Both are a sum over groups of cases of the highest in the group: one group, or a group for each case.
 
+#include <arcslip/optimize/design.hpp>
 #include <arcslip/optimize/peak_amplitude.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -18,7 +19,7 @@ namespace arcslip::optimize {
 
 class Cases {
  public:
-  explicit Cases(scene::Criterion criterion) : criterion_(criterion) {}
+  explicit Cases(Criterion criterion) : criterion_(criterion) {}
 
   /// weight: above 0. All are over the same parameters.
   void add(std::unique_ptr<PeakAmplitude> peaks, double weight);
@@ -32,8 +33,8 @@ class Cases {
   PeakAmplitude& peaks(std::size_t c) const { return *all_[c].peaks; }
   const PeakState& state(std::size_t c) const { return all_[c].peaks->state(); }
   double weight(std::size_t c) const;
-  std::size_t group(std::size_t c) const { return criterion_ == scene::Criterion::mean ? c : 0; }
-  std::size_t groups() const { return criterion_ == scene::Criterion::mean ? size() : 1; }
+  std::size_t group(std::size_t c) const { return criterion_ == Criterion::mean ? c : 0; }
+  std::size_t groups() const { return criterion_ == Criterion::mean ? size() : 1; }
 
   /// w_c A_c; infinity where it is unbounded, NaN where there is no response.
   double height(std::size_t c) const { return weight(c) * state(c).amplitude(); }
@@ -54,7 +55,7 @@ class Cases {
     double weight;
   };
 
-  scene::Criterion criterion_;
+  Criterion criterion_;
   std::vector<Each> all_;
   double sum_ = 0;  // of the weights
 };

@@ -27,14 +27,14 @@ struct Seen {
 
 class CurveOfOptima {
  public:
-  CurveOfOptima(const scene::Scene& scene, const OptimumProblem& problem, const scene::DesignVariable& along,
+  CurveOfOptima(const scene::Scene& scene, const OptimumProblem& problem, const DesignVariable& along,
                 const OptimumCurveOptions& options);
   OptimumCurve run();
 
  private:
   static constexpr double between_responses = 0.5;  // of y and sigma
 
-  static OptimumProblem with_along(OptimumProblem problem, const scene::DesignVariable& along);
+  static OptimumProblem with_along(OptimumProblem problem, const DesignVariable& along);
   // Pieces that lead nowhere: the active set may change to and fro, and peaks be lost and found, at one
   // place.
   void guard();
@@ -95,7 +95,7 @@ class CurveOfOptima {
 
   const scene::Scene& scene_;
   const OptimumProblem& problem_;
-  const scene::DesignVariable& along_;
+  const DesignVariable& along_;
   const OptimumCurveOptions& options_;
   Watch watch_;
   DesignSpace space_;  // of the design and, last, s

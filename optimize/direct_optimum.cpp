@@ -47,13 +47,8 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
   if (!problem.cases.empty() || !problem.scatter.empty())
     throw OptionsError("the direct way takes no cases, and nothing that scatters");
   const DesignSpace space(scene, problem);
-  scene::Study study;
-  study.kind = scene::StudyKind::peaks;
-  study.over = problem.over[0].name;
-  study.from = problem.over[0].lower;
-  study.to = problem.over[0].upper;
-  study.frequency_from = problem.frequency_from;
-  study.frequency_to = problem.frequency_to;
+  const observables::CurveRange range{problem.over[0].name, problem.over[0].lower, problem.over[0].upper,
+                                      problem.frequency_from, problem.frequency_to};
   DirectOptimum result;
   const bool slides = std::any_of(scene.elements.begin(), scene.elements.end(),
                                   [](const scene::Part& part) { return part.type == &scene::jenkins_type; });
@@ -69,7 +64,7 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
     stopped = stopped || (progress && !progress(now));
     return !stopped;
   };
-  result.curves = observables::resonance_peaks(scene, study, ask);
+  result.curves = observables::resonance_peaks(scene, range, ask);
   std::string higher;
   try {
     higher = least_minimum(

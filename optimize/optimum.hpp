@@ -24,6 +24,7 @@
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/optimize/certificate.hpp>
+#include <arcslip/optimize/design.hpp>
 #include <arcslip/optimize/minimize.hpp>
 #include <arcslip/optimize/peak_amplitude.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -38,12 +39,6 @@
 
 namespace arcslip::optimize {
 
-using scene::Criterion;
-using scene::DesignCase;
-using scene::DesignVariable;
-using scene::LinearLimit;
-using scene::ObservableLimit;
-
 struct OptimumProblem {
   std::vector<DesignVariable> over;
   double frequency_from = 0, frequency_to = 0;  // window, in the scene's unit
@@ -52,6 +47,7 @@ struct OptimumProblem {
   std::vector<DesignCase> cases{};  // none: one, the scene as it is
   Criterion criterion = Criterion::worst;
   std::vector<DesignVariable> scatter{};  // each case counts with its highest amplitude between these bounds
+  friend bool operator==(const OptimumProblem&, const OptimumProblem&) = default;
 };
 
 struct OptimumProgress {

@@ -42,7 +42,7 @@ const std::string& last_change(const continuation::Branch& branch) {
 }  // namespace
 
 CurveOfOptima::CurveOfOptima(const scene::Scene& scene, const OptimumProblem& problem,
-                             const scene::DesignVariable& along, const OptimumCurveOptions& options)
+                             const DesignVariable& along, const OptimumCurveOptions& options)
     : scene_(scene),
       problem_(problem),
       along_(along),
@@ -78,7 +78,7 @@ OptimumCurve CurveOfOptima::run() {
   return std::move(curve_);
 }
 
-OptimumProblem CurveOfOptima::with_along(OptimumProblem problem, const scene::DesignVariable& along) {
+OptimumProblem CurveOfOptima::with_along(OptimumProblem problem, const DesignVariable& along) {
   if (!problem.cases.empty() || !problem.scatter.empty())
     throw OptionsError("an optimum over several cases is not followed over \"" + along.name +
                        "\"; leave the cases out, or ask for single values of it");
@@ -383,7 +383,7 @@ void CurveOfOptima::finish() {
 }
 
 OptimumCurve optimum_curve(const scene::Scene& scene, const OptimumProblem& problem,
-                           const scene::DesignVariable& along, const OptimumCurveOptions& options) {
+                           const DesignVariable& along, const OptimumCurveOptions& options) {
   return CurveOfOptima(scene, problem, along, options).run();
 }
 

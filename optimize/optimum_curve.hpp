@@ -96,6 +96,6 @@ struct OptimumCurveOptions {
 /// optimum() does, and OptionsError for options out of bounds, where the design is over s as well, or where
 /// there are limits, cases or scatter: such optima are not followed.
 OptimumCurve optimum_curve(const scene::Scene& scene, const OptimumProblem& problem,
-                           const scene::DesignVariable& along, const OptimumCurveOptions& options = {});
+                           const DesignVariable& along, const OptimumCurveOptions& options = {});
 
 }  // namespace arcslip::optimize

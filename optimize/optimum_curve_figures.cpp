@@ -10,7 +10,7 @@ namespace arcslip::optimize {
 namespace {
 
 constexpr double decade = 10;
-constexpr auto study_kind = scene::StudyKind::optimum;
+constexpr auto branch_kind = studies::BranchKind::over_parameter;
 
 // As a branch over s, for the figures.
 observables::ResponseBranch branch_of(const OptimumCurveResult& result) {
@@ -31,7 +31,7 @@ std::string mark_of(const std::string& kind) {
 
 results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResult& result) {
   const observables::ResponseBranch branch = branch_of(result);
-  results::FigureData data = studies::figures_of(scene, study_kind, {&branch, 1});
+  results::FigureData data = studies::figures_of(scene, branch_kind, {&branch, 1});
   if (data.lines.empty()) return data;
   results::FigureLine& line = data.lines.front();
   const auto add = [](results::Record& record, const OptimumPoint& at) {
@@ -41,8 +41,9 @@ results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResul
     if (mark_of(event.kind).empty()) continue;
     results::Record record = line.parts[0][std::min(event.after, line.parts[0].size() - 1)];
     record[0] = event.point.along;
-    record[studies::frequency_column(study_kind)] = studies::in_scene_unit(scene, event.point.response.omega);
-    record[studies::amplitude_column(study_kind)] = event.point.amplitude;
+    record[studies::frequency_column(branch_kind)] =
+        studies::in_scene_unit(scene, event.point.response.omega);
+    record[studies::amplitude_column(branch_kind)] = event.point.amplitude;
     add(record, event.point);
     line.marks.push_back({mark_of(event.kind), record});
   }
@@ -70,7 +71,7 @@ results::FigureData figures_of(const scene::Scene& scene, std::span<const Optimu
   for (std::size_t i = 0; i < all.columns.size(); ++i) {
     results::FigureColumn& column = all.columns[i];
     column.range = results::full_range(all, i);
-    if (column.scale != results::Scale::percent && i != studies::frequency_column(study_kind))
+    if (column.scale != results::Scale::percent && i != studies::frequency_column(branch_kind))
       column.scale = column.range.lower > 0 && column.range.upper > decade * column.range.lower
                          ? results::Scale::logarithmic
                          : results::Scale::linear;

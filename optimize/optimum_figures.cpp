@@ -52,44 +52,54 @@ void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> re
   }
 }
 
-// One line for each case, whatever the cases set: branches are told apart by their number until then.
-results::FigureData lines_of_cases(const scene::Scene& scene, scene::StudyKind kind,
-                                   const OptimumResult& result,
-                                   std::vector<ResponseBranch> CaseCurves::*branches, bool weighted) {
+// A line for each case that has a curve, whatever the cases set.
+struct CaseLines {
+  results::FigureData data;
+  std::vector<const CaseResult*> cases;  // of the lines
+};
+
+CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, const OptimumResult& result,
+                         std::vector<ResponseBranch> CaseCurves::*branches, bool weighted) {
   const OptimumProblem& problem = result.problem;
-  std::vector<ResponseBranch> all;
-  for (const CaseCurves& curves : result.curves)
-    for (ResponseBranch branch : curves.*branches) {
-      const double factor = weighted ? result.optimum.cases[curves.of].weight : 1;
-      branch.set = {{problem.over[0].name, static_cast<double>(curves.of)}};
+  std::vector<std::vector<ResponseBranch>> all;  // of each line
+  std::vector<studies::LineOfBranches> lines;
+  std::vector<std::vector<std::string>> names;
+  CaseLines found;
+  for (const CaseCurves& curves : result.curves) {
+    const CaseResult& each = result.optimum.cases[curves.of];
+    std::vector<ResponseBranch>& own = all.emplace_back(curves.*branches);
+    const bool any = std::any_of(own.begin(), own.end(), [](auto& branch) { return !branch.points.empty(); });
+    if (!any) continue;
+    for (ResponseBranch& branch : own) {
+      const double factor = weighted ? each.weight : 1;
       for (auto& point : branch.points) point.amplitude *= factor;
       for (auto& event : branch.events) event.point.amplitude *= factor;
-      all.push_back(std::move(branch));
     }
-  results::FigureData data = studies::figures_of(scene, kind, all);
-  if (!result.set.empty()) data.title = studies::assignment(scene, result.set) + ": " + data.title;
-  std::set<std::vector<std::string>> names;
-  for (results::FigureLine& line : data.lines) {
-    const CaseResult& each = result.optimum.cases[static_cast<std::size_t>(line.set[0].second)];
-    line.set = result.set;
-    line.set.insert(line.set.end(), each.set.begin(), each.set.end());
-    line.set.insert(line.set.end(), each.scatter.begin(), each.scatter.end());
-    line.heading = studies::assignment(scene, line.set);
-    line.label = case_label(scene, problem, each);
-    if (each.weight != 1)
-      line.label += (weighted ? ", times " : ", weight ") + results::shortest(to_four_digits(each.weight));
-    std::vector<std::string>& own = data.parameters;
-    own.clear();
+    std::vector<std::pair<std::string, double>> set = result.set;
+    std::vector<std::string>& of_case = names.emplace_back();
     for (const auto* values : {&each.set, &each.scatter})
-      for (const auto& value : *values) own.push_back(value.first);
-    names.insert(own);
+      for (const auto& value : *values) {
+        set.push_back(value);
+        of_case.push_back(value.first);
+      }
+    studies::LineOfBranches& line = lines.emplace_back();
+    line.line = {.label = case_label(scene, problem, each),
+                 .heading = studies::assignment(scene, set),
+                 .set = std::move(set)};
+    if (each.weight != 1)
+      line.line.label +=
+          (weighted ? ", times " : ", weight ") + results::shortest(to_four_digits(each.weight));
+    for (const ResponseBranch& branch : own) line.branches.push_back(&branch);
+    found.cases.push_back(&each);
   }
-  if (names.size() != 1) {  // no common title: each line with names
-    data.parameters.clear();
-    for (std::size_t i = 0; i < data.lines.size(); ++i)
-      data.lines[i].label = case_text(scene, problem, result.optimum.cases[result.curves[i].of]);
-  }
-  return data;
+  results::FigureData& data = found.data;
+  data = studies::figures_of(scene, kind, std::move(lines));
+  if (!result.set.empty()) data.title = studies::assignment(scene, result.set) + ": " + data.title;
+  const bool alike = std::all_of(names.begin(), names.end(), [&](auto& own) { return own == names[0]; });
+  if (alike && !names.empty()) data.parameters = names.front();
+  for (std::size_t i = 0; !alike && i < data.lines.size(); ++i)  // no common title: each line with names
+    data.lines[i].label = case_text(scene, problem, *found.cases[i]);
+  return found;
 }
 
 // The highest of a line at a value of the parameter, between its points; NaN beyond them.
@@ -106,15 +116,16 @@ double height(const results::FigureLine& line, std::size_t column, double at) {
 }
 
 // Of what is to be least: its curve, made of the lines, the optimum on it and the ranges around.
-void add_criterion(const scene::Scene& scene, const OptimumResult& result, results::FigureData& data) {
+void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseLines& lines) {
+  results::FigureData& data = lines.data;
   const bool mean = result.problem.criterion == Criterion::mean;
-  const std::size_t amplitude = studies::amplitude_column(scene::StudyKind::peaks);
+  const std::size_t amplitude = studies::amplitude_column(studies::BranchKind::peaks);
   std::set<double> places;
   for (const results::FigureLine& line : data.lines)
     for (const auto& part : line.parts)
       for (const auto& record : part) places.insert(record[0]);
   double sum = 0;
-  for (const CaseCurves& each : result.curves) sum += result.optimum.cases[each.of].weight;
+  for (const CaseResult* each : lines.cases) sum += each->weight;
   results::FigureLine criterion;
   const std::string best = value_label(scene, result.problem, result.optimum.design[0]);
   criterion.label = (mean ? "mean, least at " : "worst, least at ") + best;
@@ -129,8 +140,7 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, resul
     double value = 0;
     for (std::size_t i = 0; i < data.lines.size(); ++i) {
       const double own = height(data.lines[i], amplitude, at);
-      const double weight = result.optimum.cases[result.curves[i].of].weight;
-      value = mean ? value + weight * own / sum : std::max(value, own);
+      value = mean ? value + lines.cases[i]->weight * own / sum : std::max(value, own);
     }
     if (std::isfinite(value)) curve.push_back(record(at, value));
   }
@@ -151,19 +161,20 @@ void add_cases(const scene::Scene& scene, const OptimumResult& result, const std
   const auto& cases = result.optimum.cases;
   const bool weighted = result.problem.criterion == Criterion::worst &&
                         std::any_of(cases.begin(), cases.end(), [](auto& each) { return each.weight != 1; });
-  results::FigureData peaks =
-      lines_of_cases(scene, scene::StudyKind::peaks, result, &CaseCurves::peaks, weighted);
+  CaseLines of_peaks =
+      lines_of_cases(scene, studies::BranchKind::peaks, result, &CaseCurves::peaks, weighted);
+  results::FigureData& peaks = of_peaks.data;
   if (!peaks.lines.empty()) {
-    add_criterion(scene, result, peaks);
+    add_criterion(scene, result, of_peaks);
     if (weighted) {
-      const std::size_t amplitude = studies::amplitude_column(scene::StudyKind::peaks);
+      const std::size_t amplitude = studies::amplitude_column(studies::BranchKind::peaks);
       peaks.columns[amplitude].label = "amplitude times weight (m)";
       for (results::Figure& figure : peaks.figures)
         if (figure.y == amplitude) figure.y_label = "peak " + peaks.columns[amplitude].label;
     }
     add(std::move(peaks), name, all);
   }
-  add(lines_of_cases(scene, scene::StudyKind::frf, result, &CaseCurves::responses, false),
+  add(lines_of_cases(scene, studies::BranchKind::responses, result, &CaseCurves::responses, false).data,
       name.empty() ? "responses" : name + "_responses", all);
 }
 
@@ -186,10 +197,10 @@ std::vector<results::FigureData> figures_of(const scene::Scene& scene,
       responses.push_back(std::move(branch));
     }
   }
-  results::FigureData peaks = studies::figures_of(scene, scene::StudyKind::peaks, curves);
+  results::FigureData peaks = studies::figures_of(scene, studies::BranchKind::peaks, curves);
   add_tolerances(scene, results, peaks);
   add(std::move(peaks), "", all);
-  add(studies::figures_of(scene, scene::StudyKind::frf, responses), "responses", all);
+  add(studies::figures_of(scene, studies::BranchKind::responses, responses), "responses", all);
   return all;
 }
 

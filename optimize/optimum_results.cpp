@@ -189,7 +189,7 @@ Value::List texts(const std::vector<std::string>& all) {
 Object facts(const scene::Scene& scene, const OptimumResult& result) {
   const Optimum& found = result.optimum;
   Object all{{"optimum", optimum(scene, result)}};
-  if (result.has_cases()) all.push_back({"criterion", scene::criterion_name(result.problem.criterion)});
+  if (result.has_cases()) all.push_back({"criterion", name(result.problem.criterion)});
   if (!result.problem.scatter.empty()) all.push_back({"scatter_rounds", found.scatter_rounds});
   all.insert(all.end(), {{"algorithm", found.algorithm},
                          {"epigraph", found.epigraph},

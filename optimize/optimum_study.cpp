@@ -1,6 +1,5 @@
 #include <arcslip/optimize/optimum_study.hpp>
 
-#include <arcslip/observables/study_branches.hpp>
 #include <arcslip/optimize/scaled_parameter.hpp>
 #include <arcslip/optimize/watch.hpp>
 
@@ -28,7 +27,7 @@ double rounded(double value) {
 std::vector<observables::ResponseBranch> responses(scene::Scene scene, const OptimumProblem& problem,
                                                    const std::vector<double>& design, double factor,
                                                    const observables::ProgressCallback& progress) {
-  observables::Setting set;
+  std::vector<std::pair<std::string, double>> set;
   try {
     for (std::size_t k = 0; k < design.size(); ++k) {
       const double value = rounded(factor * design[k]);
@@ -38,10 +37,8 @@ std::vector<observables::ResponseBranch> responses(scene::Scene scene, const Opt
   } catch (const scene::ParameterError&) {
     return {};
   }
-  scene::Study frf;
-  frf.from = problem.frequency_from;
-  frf.to = problem.frequency_to;
-  auto branches = observables::frequency_response(scene, frf, progress);
+  auto branches =
+      observables::frequency_response(scene, {problem.frequency_from, problem.frequency_to}, progress);
   for (auto& branch : branches) branch.set = set;
   return branches;
 }
@@ -74,29 +71,17 @@ std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const Optimum
   return all;
 }
 
-OptimumProblem problem_of(const scene::Study& study) {
-  return {study.design, study.frequency_from, study.frequency_to, study.constraints, study.linear_constraints,
-          study.cases,  study.criterion,      study.scatter};
-}
-
 // Tells what is new, and what is done, again and again. False stops, once and for all.
 class Teller {
  public:
-  Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, const char* item,
-         std::size_t of)
+  Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, const char* item)
       : progress_(progress), unit_(scene::to_rad_per_s(scene.frequency_unit)) {
-    told_.branches = static_cast<int>(of);
     told_.item = item;
     told_.share_done = std::numeric_limits<double>::quiet_NaN();
-  }
-
-  void begin(std::size_t k) {
-    told_.branch = static_cast<int>(k);
-    told_.points = 0;
     told_.counted = "evaluations";
-    told_.best = observables::no_value;
     told_.phase = "the first design";
   }
+
   void begin(const char* phase) { told_.phase = phase; }
   const char* phase() const { return told_.phase; }
 
@@ -165,7 +150,7 @@ void end_early(OptimumResult& result, const Watch& watch) {
   result.status = observables::Status::stopped;
 }
 
-OptimumOptions options_of(const scene::SearchSettings& search) {
+OptimumOptions options_of(const SearchSettings& search) {
   OptimumOptions options;
   options.algorithm = search.algorithm;
   options.evaluations = search.evaluations;
@@ -195,58 +180,42 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const C
   return scene;
 }
 
-std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
-                                         const observables::ProgressCallback& progress) {
-  const auto all = observables::combinations(study);
-  Teller teller(progress, scene, "search", all.size());
-  OptimumOptions options = options_of(study.search);
+OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
+                            const observables::ProgressCallback& progress, bool alone) {
+  Teller teller(progress, scene, "search");
+  OptimumOptions options = options_of(settings.search);
   options.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
   options.go_on = [&] { return teller.again(); };
-  const bool limited = !study.constraints.empty() || !study.linear_constraints.empty();
-  std::vector<OptimumResult> results;
-  for (std::size_t k = 0; k < all.size() && teller.go_on; ++k) {
-    scene::Scene with = scene;
-    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
-    OptimumResult result;
-    result.set = all[k];
-    result.problem = problem_of(study);
-    teller.begin(k);
-    Watch watch(options.seconds, options.go_on);
-    result.optimum = optimum(with, result.problem, options);
-    result.status = result.optimum.status;
-    result.stop = result.optimum.stop;
-    watch.begin(teller.phase());
-    if (watch.go_on() && !result.optimum.design.empty())
-      add_curves(result, with, limited, all.size() == 1, watch, teller);
-    if (watch.stopped() && result.status == observables::Status::complete) end_early(result, watch);
-    results.push_back(std::move(result));
-  }
-  return results;
+  const bool limited = !settings.problem.limits.empty() || !settings.problem.linear_limits.empty();
+  OptimumResult result;
+  result.problem = settings.problem;
+  Watch watch(options.seconds, options.go_on);
+  result.optimum = optimum(scene, result.problem, options);
+  result.status = result.optimum.status;
+  result.stop = result.optimum.stop;
+  watch.begin(teller.phase());
+  if (watch.go_on() && !result.optimum.design.empty())
+    add_curves(result, scene, limited, alone, watch, teller);
+  if (watch.stopped() && result.status == observables::Status::complete) end_early(result, watch);
+  return result;
 }
 
-std::vector<OptimumCurveResult> optimum_curve_study(const scene::Scene& scene, const scene::Study& study,
-                                                    const observables::ProgressCallback& progress) {
-  const auto all = observables::combinations(study);
-  Teller teller(progress, scene, "curve", all.size());
-  const ScaledParameter along(study.along->lower, study.along->upper);
+OptimumCurveResult optimum_curve_study(const scene::Scene& scene, const OptimumSettings& settings,
+                                       const observables::ProgressCallback& progress) {
+  Teller teller(progress, scene, "curve");
+  const ScaledParameter along(settings.along->lower, settings.along->upper);
   const double from = along.scaled(along.lower), to = along.scaled(along.upper);
   long count = 0;
-  OptimumCurveOptions options{.search = options_of(study.search), .seconds = study.search.seconds};
+  OptimumCurveOptions options{.search = options_of(settings.search), .seconds = settings.search.seconds};
   options.search.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
   options.search.go_on = [&] { return teller.again(); };
   options.progress = [&](const OptimumPoint& now) {
     return teller.tell(++count, now, (along.scaled(now.along) - from) / (to - from));
   };
-  std::vector<OptimumCurveResult> results;
-  for (std::size_t k = 0; k < all.size() && teller.go_on; ++k) {
-    scene::Scene with = scene;
-    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
-    teller.begin(k);
-    count = 0;
-    results.push_back({{}, {}, all[k], problem_of(study), {}});
-    results.back().curve = optimum_curve(with, results.back().problem, *study.along, options);
-  }
-  return results;
+  OptimumCurveResult result;
+  result.problem = settings.problem;
+  result.curve = optimum_curve(scene, result.problem, *settings.along, options);
+  return result;
 }
 
 }  // namespace arcslip::optimize

@@ -7,11 +7,31 @@
 #include <arcslip/scene/scene.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace arcslip::optimize {
+
+/// Of the search. Algorithms are called by NLopt's own names.
+struct SearchSettings {
+  std::string algorithm{};  // empty: the default, LD_SLSQP
+  std::string local{};      // what AUGLAG and MLSL search with; empty: none
+  int evaluations = 1000;   // designs that are looked at, at most
+  double seconds = 0;       // 0: no limit
+  int population = 0;       // of the stochastic algorithms; 0: their own choice
+  int seed = 1;             // of the stochastic algorithms: the same seed gives the same run
+  friend bool operator==(const SearchSettings&, const SearchSettings&) = default;
+};
+
+/// Of a study.
+struct OptimumSettings {
+  OptimumProblem problem{};
+  SearchSettings search{};
+  std::optional<DesignVariable> along{};  // the optimum is followed over this one, from lower to upper
+  friend bool operator==(const OptimumSettings&, const OptimumSettings&) = default;
+};
 
 /// What figures show of a case.
 struct CaseCurves {
@@ -44,14 +64,14 @@ struct OptimumResult {
 /// The scene in a case of a problem, with what scatters in it.
 scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of);
 
-/// One for each combination of the study's for_each lists, each as if it stood alone. progress:
-/// asked all the time, in all phases (`phase`), with the number of evaluations (`points`) and the least
-/// amplitude (`best`) so far; false stops. Throws as optimum() does.
-std::vector<OptimumResult> optimum_study(const scene::Scene& scene, const scene::Study& study,
-                                         const observables::ProgressCallback& progress = {});
+/// The search and what is shown beside it, of a scene as it is. alone: with responses at half and twice the
+/// optimum. progress: asked all the time, in all phases (`phase`), with the number of evaluations (`points`)
+/// and the least amplitude (`best`) so far; false stops. Throws as optimum() does.
+OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
+                            const observables::ProgressCallback& progress = {}, bool alone = true);
 
-/// The same of a study with "along": the optimum as a curve. Throws as optimum_curve() does.
-std::vector<OptimumCurveResult> optimum_curve_study(const scene::Scene& scene, const scene::Study& study,
-                                                    const observables::ProgressCallback& progress = {});
+/// The same of settings with "along": the optimum as a curve. Throws as optimum_curve() does.
+OptimumCurveResult optimum_curve_study(const scene::Scene& scene, const OptimumSettings& settings,
+                                       const observables::ProgressCallback& progress = {});
 
 }  // namespace arcslip::optimize

@@ -40,7 +40,7 @@ std::string place(const scene::Scene& scene, const observables::ResponsePoint& p
 }
 
 void write_cases(std::ostream& out, const scene::Scene& scene, const OptimumResult& result) {
-  const bool mean = result.problem.criterion == scene::Criterion::mean;
+  const bool mean = result.problem.criterion == Criterion::mean;
   const auto& cases = result.optimum.cases;
   for (std::size_t c = 0; c < std::min(cases.size(), most_cases); ++c)
     out << "    " << case_text(scene, result.problem, cases[c]) << ": " << number(cases[c].amplitude, "%.8e")
@@ -80,7 +80,7 @@ void write_curve(std::ostream& out, const scene::Scene& scene, const OptimumCurv
 
 // "d1.normal_load + 2 d2.normal_load = 6, at most 6"
 void write_sums(std::ostream& out, const OptimumResult& result) {
-  for (const scene::LinearLimit& limit : result.problem.linear_limits) {
+  for (const LinearLimit& limit : result.problem.linear_limits) {
     double sum = 0;
     std::string text;
     for (const auto& [name, weight] : limit.weights) {
@@ -130,7 +130,7 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const Optim
       out << "  the amplitude is largest at the " << (lower ? "lower" : "upper")
           << " end of the window: a wider one may hold a higher peak\n";
   }
-  const bool mean = result.problem.criterion == scene::Criterion::mean && result.optimum.cases.size() > 1;
+  const bool mean = result.problem.criterion == Criterion::mean && result.optimum.cases.size() > 1;
   out << "  " << active << (active == 1 ? " peak is" : " peaks are")
       << (mean ? " the highest of the cases" : " the highest")
       << "; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
@@ -160,7 +160,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
     out << "  " << result.problem.over[k].name << " = "
         << with_unit(scene, result.problem.over[k].name, found.design[k]) << '\n';
   if (result.has_cases()) {
-    out << "  " << scene::criterion_name(result.problem.criterion) << " of " << found.cases.size()
+    out << "  " << name(result.problem.criterion) << " of " << found.cases.size()
         << (found.cases.size() == 1 ? " case = " : " cases = ") << number(found.amplitude, "%.8e") << " m\n";
     write_cases(out, scene, result);
   } else {

@@ -3,6 +3,7 @@
 #include <arcslip/continuation/functions.hpp>
 #include <arcslip/hbm/steady_state.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
 #include <cmath>
 #include <stdexcept>
@@ -113,7 +114,8 @@ Case chan() {
 
 // x'' + 0.1 x' + x + x^3 = 0.1 cos wt
 Case duffing(int order) {
-  scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/bench/auto07p/duffing.json");
+  scene::Scene scene =
+      scene::read_file(ARCSLIP_SOURCE_DIR "/bench/auto07p/duffing.json", studies::catalogue());
   scene.harmonics.order = order;
   const auto model = std::make_shared<const model::Model>(model::build(scene));
   const Options options = window(0.5, 1.6);

@@ -1,10 +1,13 @@
-// The folds of mu + x - x^3 = 0 in mu; then, of a scene file, the peak of every response.
+// The folds of mu + x - x^3 = 0 in mu; then what a scene file asks for.
 #include <arcslip/continuation/functions.hpp>
 #include <arcslip/continuation/tracer.hpp>
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/optimize/studies.hpp>
+#include <arcslip/results/table_writer.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 
 int main(int argc, char** argv) {
   using namespace arcslip::continuation;
@@ -17,8 +20,8 @@ int main(int argc, char** argv) {
   std::printf("%zu points; %s\n", branch.points.size(), branch.stop.message.c_str());
 
   if (argc < 2) return 0;
-  const auto scene = arcslip::scene::read_file(argv[1]);
-  for (const auto& response : arcslip::observables::frequency_response(scene, scene.studies.at(0)))
-    for (const auto& event : response.events)
-      std::printf("%s at %.6f rad/s: %.8e m\n", event.kind.c_str(), event.point.omega, event.point.amplitude);
+  auto catalogue = arcslip::studies::catalogue();
+  arcslip::optimize::add_studies(catalogue);
+  const auto scene = arcslip::scene::read_file(argv[1], catalogue);
+  arcslip::results::write_table(std::cout, arcslip::studies::run(scene));
 }

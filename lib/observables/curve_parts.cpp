@@ -28,22 +28,18 @@ bool is_one_place(const ResponseBranch& part) {
 
 }  // namespace
 
-CurveParts::CurveParts(scene::StudyKind kind, scene::FrequencyUnit unit, OverParameter way, Setting set)
-    : peaks_(kind == scene::StudyKind::peaks),
-      what_(peaks_ ? "resonance peak" : "fold"),
-      unit_(unit),
-      way_(std::move(way)),
-      set_(std::move(set)) {}
+CurveParts::CurveParts(bool peaks, scene::FrequencyUnit unit, OverParameter way)
+    : peaks_(peaks), what_(peaks_ ? "resonance peak" : "fold"), unit_(unit), way_(std::move(way)) {}
 
 ResponseBranch CurveParts::failed(double over, const std::string& message) const {
-  ResponseBranch result = described(*way_.model, set_, way_.name);
+  ResponseBranch result = described(*way_.model, way_.name);
   result.status = Status::failed;
   result.stop = {name(StopReason::start_failed), over, 0, message};
   return result;
 }
 
 ResponseBranch CurveParts::stopped(double over) const {
-  ResponseBranch result = described(*way_.model, set_, way_.name);
+  ResponseBranch result = described(*way_.model, way_.name);
   result.status = Status::stopped;
   result.stop = {name(StopReason::user), over, 0, "stopped by the caller before all curves were found"};
   return result;
@@ -81,7 +77,7 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
     const double end = ends[k];
     double peaks = 0, others = 0;  // arclengths
     const SpecialCurve::At* before = nullptr;
-    ResponseBranch part = described(*way_.model, set_, way_.name);
+    ResponseBranch part = described(*way_.model, way_.name);
     std::vector<double> at_points, at_events;  // arclengths
     for (const auto& at : curve.points) {
       if (!(at.arclength >= begin && at.arclength < end)) continue;
@@ -117,7 +113,7 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
     parts.push_back(std::move(part));
   }
   if (parts.empty()) {
-    parts.push_back(described(*way_.model, set_, way_.name));
+    parts.push_back(described(*way_.model, way_.name));
     finish(parts.back(), curve, true, true);
   }
   return parts;

@@ -14,8 +14,8 @@ namespace arcslip::observables {
 
 class CurveParts {
  public:
-  /// kind: peaks or folds.
-  CurveParts(scene::StudyKind kind, scene::FrequencyUnit unit, OverParameter way, Setting set);
+  /// peaks: of them; else of folds.
+  CurveParts(bool peaks, scene::FrequencyUnit unit, OverParameter way);
 
   /// A curve of peaks turns where a peak meets a minimum of the amplitude over the frequency, which the curve
   /// follows from there to the next turn: that part is left out. A curve of folds is one part.
@@ -37,7 +37,6 @@ class CurveParts {
   std::string what_;
   scene::FrequencyUnit unit_;
   OverParameter way_;
-  Setting set_;
 };
 
 }  // namespace arcslip::observables

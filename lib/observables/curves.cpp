@@ -34,22 +34,20 @@ std::string text(double value) {
   return s.str();
 }
 
-// The curves of one kind over one parameter, for one setting. They begin at the special points of responses
+// The curves of one kind over one parameter. They begin at the special points of responses
 // at some values of the parameter: first both ends of its range, then beside the places where a curve has
 // ended within it, and wherever the range is not looked at from near. Each curve is followed once, from the
 // first response that shows it.
 class Curves {
  public:
-  Curves(scene::StudyKind kind, const scene::Scene& scene, const scene::Study& study, const Setting& set,
-         const ProgressCallback& report, const Progress& progress)
-      : peaks_(kind == scene::StudyKind::peaks),
+  Curves(bool peaks, const scene::Scene& scene, const CurveRange& range, const ProgressCallback& report)
+      : peaks_(peaks),
         unit_(scene.frequency_unit),
         to_rad_per_s_(scene::to_rad_per_s(unit_)),
-        window_{study.frequency_from * to_rad_per_s_, study.frequency_to * to_rad_per_s_},
-        way_(over_parameter(scene, study.over, study.from, study.to)),
-        parts_(kind, unit_, way_, set),
-        report_(report),
-        progress_(progress) {}
+        window_{range.frequency_from * to_rad_per_s_, range.frequency_to * to_rad_per_s_},
+        way_(over_parameter(scene, range.over, range.from, range.to)),
+        parts_(peaks, unit_, way_),
+        report_(report) {}
 
   std::vector<ResponseBranch> run() {
     look_at(0);
@@ -291,33 +289,16 @@ class Curves {
   std::string failure_, unbounded_;
 };
 
-std::vector<ResponseBranch> all_curves(scene::StudyKind kind, const scene::Scene& scene,
-                                       const scene::Study& study, const ProgressCallback& progress) {
-  const auto all = combinations(study);
-  std::vector<ResponseBranch> branches;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    scene::Scene with = scene;
-    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
-    Progress of_branch;
-    of_branch.branch = static_cast<int>(k);
-    of_branch.branches = static_cast<int>(all.size());
-    for (auto& branch : Curves(kind, with, study, all[k], progress, of_branch).run())
-      branches.push_back(std::move(branch));
-    if (branches.back().stop.reason == name(StopReason::user)) break;
-  }
-  return branches;
-}
-
 }  // namespace
 
-std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const scene::Study& study,
+std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
                                             const ProgressCallback& progress) {
-  return all_curves(scene::StudyKind::peaks, scene, study, progress);
+  return Curves(true, scene, range, progress).run();
 }
 
-std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const scene::Study& study,
+std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRange& range,
                                         const ProgressCallback& progress) {
-  return all_curves(scene::StudyKind::folds, scene, study, progress);
+  return Curves(false, scene, range, progress).run();
 }
 
 }  // namespace arcslip::observables

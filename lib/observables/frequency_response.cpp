@@ -20,23 +20,19 @@ constexpr double beyond_display =
 // One branch over the window [from, to], and what has to be known to go on beyond an unbounded peak.
 class Sweep {
  public:
-  Sweep(const scene::Scene& scene, const scene::Study& study, const ProgressCallback& progress, int index,
-        int count)
+  Sweep(const scene::Scene& scene, const FrequencyRange& range, const ProgressCallback& progress)
       : unit_(scene::to_rad_per_s(scene.frequency_unit)),
         frequency_unit_(scene.frequency_unit),
-        lower_(study.from * unit_),
-        upper_(study.to * unit_),
+        lower_(range.from * unit_),
+        upper_(range.to * unit_),
         progress_(progress),
-        index_(index),
-        count_(count),
         model_(std::make_shared<const model::Model>(model::build(scene))) {}
 
-  std::vector<ResponseBranch> run(const Setting& set, bool& stopped) {
+  std::vector<ResponseBranch> run() {
     std::vector<ResponseBranch> branches;
     double from = lower_;
     for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
-      branches.push_back(trace_from(from, set));
-      stopped = branches.back().stop.reason == name(StopReason::user);
+      branches.push_back(trace_from(from));
       if (branches.back().stop.reason != "unbounded" || !(far_side_ < upper_)) break;
       from = far_side_;
     }
@@ -44,9 +40,9 @@ class Sweep {
   }
 
  private:
-  ResponseBranch trace_from(double from, const Setting& set) {
+  ResponseBranch trace_from(double from) {
     const auto began = std::chrono::steady_clock::now();
-    ResponseBranch result = described(*model_, set);
+    ResponseBranch result = described(*model_);
 
     std::vector<std::pair<double, double>> course;  // frequency, |u| in scales
     double last = from;
@@ -73,7 +69,7 @@ class Sweep {
       last = omega;
       return go_on();
     };
-    told_ = {.branch = index_, .branches = count_, .frequency = from / unit_};
+    told_ = {.frequency = from / unit_};
     if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
       end_unbounded(result, on_it, {{from, HUGE_VAL}});
       return result;
@@ -150,7 +146,6 @@ class Sweep {
   scene::FrequencyUnit frequency_unit_;
   double lower_, upper_;
   const ProgressCallback& progress_;
-  int index_, count_;
   std::shared_ptr<const model::Model> model_;
   double far_side_ = 0;
   Progress told_{};
@@ -159,18 +154,9 @@ class Sweep {
 
 }  // namespace
 
-std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const scene::Study& study,
+std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
                                                const ProgressCallback& progress) {
-  const auto all = combinations(study);
-  std::vector<ResponseBranch> branches;
-  bool stopped = false;
-  for (std::size_t k = 0; k < all.size() && !stopped; ++k) {
-    scene::Scene with = scene;
-    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
-    Sweep sweep(with, study, progress, static_cast<int>(k), static_cast<int>(all.size()));
-    for (auto& branch : sweep.run(all[k], stopped)) branches.push_back(std::move(branch));
-  }
-  return branches;
+  return Sweep(scene, range, progress).run();
 }
 
 }  // namespace arcslip::observables

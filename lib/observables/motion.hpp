@@ -2,16 +2,24 @@
 // What a study in time gives: a motion and what an engineer reads off it, as plain data.
 
 #include <arcslip/observables/response.hpp>
-#include <arcslip/scene/scene.hpp>
 #include <arcslip/time/motion.hpp>
 
 #include <complex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace arcslip::observables {
+
+/// How a motion in time is found: by shooting on the period, between exact events where the scene is
+/// piecewise linear (no cubic spring, no massless degree of freedom) and in Newmark's steps elsewhere, or
+/// always in Newmark's steps; or period by period from rest, in Newmark's steps or between exact events.
+enum class TimeMethod { shooting, newmark_shooting, newmark, event_driven };
+
+/// "newmark-shooting", as a scene file writes it.
+std::string_view name(TimeMethod method);
 
 /// What one friction element does over the recorded periods.
 struct ElementMotion {
@@ -29,7 +37,7 @@ struct Motion {
   Stop stop;
   std::vector<std::pair<std::string, double>> set;         // what for_each gave this motion
   std::vector<std::pair<std::string, double>> parameters;  // every other parameter, by its name
-  scene::TimeMethod method = scene::TimeMethod::shooting;
+  TimeMethod method = TimeMethod::shooting;
   std::string integrator;  // "newmark" or "event-driven"
   double omega = 0;        // of the excitation, rad/s
   int steps = 0;           // per period

@@ -70,7 +70,7 @@ double Observer::phase(const continuation::Accepted& now) const {
   return 0;
 }
 
-ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held) {
+ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {
   const auto& at = evaluator_of(now);
   const auto& h = problem_->harmonics();
   ResponsePoint point;
@@ -110,7 +110,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held) 
     point.coefficients.push_back(n == 0 ? 0.0 : x_[h.sine_index(n)]);
   }
   point.unknowns.assign(now.u.data(), now.u.data() + now.u.size());
-  if (held != HeldBy::parameter) {
+  if (maxima) {
     if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
     maxima_->add_to(point, at, x_);
   }

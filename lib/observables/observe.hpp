@@ -22,9 +22,12 @@ class Observer {
 
   const hbm::HbmProblem& problem() const { return *problem_; }
 
-  /// Everything at one point; its maxima, which take longer than all else, only where it is an event or
-  /// another special point: what holds it tells the truncation estimate whose change is asked for.
-  ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::parameter);
+  /// Everything at one point. held: whose change the truncation estimate is asked for. The maxima, which take
+  /// longer than all else, are there at events and other special points, or where they are asked for.
+  ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::parameter) {
+    return observe(now, held, held != HeldBy::parameter);
+  }
+  ResponsePoint observe(const continuation::Accepted& now, HeldBy held, bool maxima);
 
   /// Largest |x| of the observed coordinate, for unknowns u at the parameters of an evaluator.
   Extreme extreme(const hbm::HbmEvaluator& at, continuation::In u);

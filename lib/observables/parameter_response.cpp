@@ -1,10 +1,8 @@
 #include <arcslip/observables/curves.hpp>
 
-#include <arcslip/hbm/steady_state.hpp>
-#include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/over_parameter.hpp>
+#include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/study_branches.hpp>
-#include <arcslip/observables/unbounded.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -18,8 +16,7 @@ using continuation::Crossing;
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double search_ratio = 4;  // of frequencies: the window in which other responses are looked for
-constexpr double same = 1e-6;       // responses that differ by less, relatively, are one
+constexpr double same = 1e-6;  // responses that differ by less, relatively, are one
 
 continuation::Monitor extreme_monitor(const char* kind, Crossing crossing,
                                       const std::shared_ptr<Observer>& observer) {
@@ -37,62 +34,31 @@ std::string text(double value) {
   return s.str();
 }
 
-// Where a spring is cubic, several responses may stand at one frequency: those at which a frequency branch
-// through a wide window passes omega.
-std::vector<Vector> other_responses(const OverParameter& way, double omega, const GoOn& go_on) {
-  const auto& model = *way.model;
-  const bool cubic = std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
-    return element.law == model::Law::cubic_spring &&
-           model.parameters[static_cast<std::size_t>(element.parameters[0])].value != 0;
-  });
-  std::vector<Vector> found;
-  if (!cubic) return found;
-  const FrequencyWindow window{omega / search_ratio, omega * search_ratio};
-  const auto swept = frequency_branch(way.model, window, window.lower, {}, 1, Steps::curve, go_on);
-  const Vector p = hbm::parameters_at(*swept.problem, omega);
-  const auto& points = swept.branch.points;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const auto &a = points[i - 1], &b = points[i];
-    if ((a.parameter < omega) == (b.parameter < omega)) continue;
-    const double share = (omega - a.parameter) / (b.parameter - a.parameter);
-    if (const auto u = hbm::response_near(*swept.problem, p, a.u + share * (b.u - a.u))) found.push_back(*u);
-  }
-  return found;
-}
-
-// The branches over one parameter at one frequency and one setting, each from another response at its
+// The branches over one parameter at one frequency, each from another response at its
 // beginning.
 class Traces {
  public:
-  Traces(const scene::Scene& scene, const scene::Study& study, const Setting& set,
-         const ProgressCallback& report, const Progress& progress)
-      : way_(over_parameter(scene, study.over, study.from, study.to)),
+  Traces(const scene::Scene& scene, const ParameterRange& range, const ProgressCallback& report)
+      : way_(over_parameter(scene, range.over, range.from, range.to)),
         unit_(scene.frequency_unit),
-        omega_(study.frequency_from * scene::to_rad_per_s(unit_)),
-        set_(set),
-        report_(report),
-        progress_(progress) {
-    progress_.frequency = study.frequency_from;
+        omega_(range.frequency * scene::to_rad_per_s(unit_)),
+        report_(report) {
+    progress_.frequency = range.frequency;
   }
 
   std::vector<ResponseBranch> run() {
-    if (const auto growth = unbounded_resonance(way_.model, omega_); growth.unbounded)
-      return {failed("no response is bounded", growth.message)};
-    const GoOn ask = [this] { return go_on(); };
-    const FirstResponse first = first_response(way_.model, omega_, omega_, ask);
+    const ResponsesAt starts = responses_at(way_.model, omega_, [this] { return go_on(); });
     if (stopped_) return {stopped()};
-    if (!first.u) return {failed("no periodic response was found", first.failure)};
-    std::vector<Vector> starts = other_responses(way_, omega_, ask);
-    if (stopped_) return {stopped()};
-    starts.insert(starts.begin(), *first.u);
+    if (!starts.unbounded.empty()) return {failed("no response is bounded", starts.unbounded)};
+    if (starts.u.empty()) return {failed("no periodic response was found", starts.failure)};
     std::vector<Vector> ends;
     std::vector<ResponseBranch> branches;
     bool reached = false;
-    for (const Vector& start : starts) {
+    for (const Vector& start : starts.u) {
       if (std::any_of(ends.begin(), ends.end(),
                       [&](const Vector& end) { return (start - end).norm() <= same * end.norm(); }))
         continue;
-      const auto traced = trace(first.problem, start, branches.emplace_back());
+      const auto traced = trace(starts.problem, start, branches.emplace_back());
       ends.push_back(start);
       if (traced.stop.reason == StopReason::boundary) {
         if (traced.stop.value == way_.from) ends.push_back(traced.points.back().u);
@@ -115,14 +81,14 @@ class Traces {
 
   // Before the first point.
   ResponseBranch stopped() const {
-    ResponseBranch result = described(*way_.model, set_, way_.name);
+    ResponseBranch result = described(*way_.model, way_.name);
     result.status = Status::stopped;
     result.stop = {name(StopReason::user), way_.from, way_.to, "stopped by the caller"};
     return result;
   }
 
   ResponseBranch failed(const std::string& what, const std::string& why) const {
-    ResponseBranch result = described(*way_.model, set_, way_.name);
+    ResponseBranch result = described(*way_.model, way_.name);
     result.status = Status::failed;
     result.stop = {name(StopReason::start_failed), way_.from, 0,
                    what + " at " + way_.name + " = " + text(way_.from) + " and " +
@@ -133,7 +99,7 @@ class Traces {
   continuation::Branch trace(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u,
                              ResponseBranch& result) {
     const auto began = std::chrono::steady_clock::now();
-    result = described(*way_.model, set_, way_.name);
+    result = described(*way_.model, way_.name);
     const auto observer = std::make_shared<Observer>(problem, way_.index);
     std::vector<std::pair<double, double>> course;  // arclength, amplitude
     std::vector<double> at;                         // arclength of the events
@@ -194,7 +160,6 @@ class Traces {
   OverParameter way_;
   scene::FrequencyUnit unit_;
   double omega_;
-  const Setting& set_;
   const ProgressCallback& report_;
   Progress progress_;
   bool stopped_ = false;
@@ -202,21 +167,9 @@ class Traces {
 
 }  // namespace
 
-std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const scene::Study& study,
+std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const ParameterRange& range,
                                                const ProgressCallback& progress) {
-  const auto all = combinations(study);
-  std::vector<ResponseBranch> branches;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    scene::Scene with = scene;
-    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
-    Progress of_branch;
-    of_branch.branch = static_cast<int>(k);
-    of_branch.branches = static_cast<int>(all.size());
-    for (auto& branch : Traces(with, study, all[k], progress, of_branch).run())
-      branches.push_back(std::move(branch));
-    if (branches.back().stop.reason == name(StopReason::user)) break;
-  }
-  return branches;
+  return Traces(scene, range, progress).run();
 }
 
 }  // namespace arcslip::observables

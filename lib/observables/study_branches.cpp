@@ -15,14 +15,11 @@ constexpr std::ptrdiff_t neighbours = 2;  // that are looked at, on each side
 
 using continuation::StopReason;
 
-ResponseBranch described(const model::Model& model, const Setting& set, const std::string& over) {
+ResponseBranch described(const model::Model& model, const std::string& over) {
   ResponseBranch branch;
   branch.over = over;
-  branch.set = set;
   for (const auto& parameter : model.parameters) {
-    const bool is_set =
-        std::any_of(set.begin(), set.end(), [&](const auto& s) { return s.first == parameter.name; });
-    if (parameter.name != "frequency" && parameter.name != over && !is_set)
+    if (parameter.name != "frequency" && parameter.name != over)
       branch.parameters.emplace_back(parameter.name, parameter.value);
   }
   const auto& h = model.harmonics;

@@ -1,10 +1,9 @@
 #pragma once
-// What all studies have in common: the combinations of their lists, and the description of a branch.
+// What all branches of responses have in common: their description, and how they end.
 
 #include <arcslip/continuation/branch.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/observables/response.hpp>
-#include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <string>
@@ -13,16 +12,9 @@
 
 namespace arcslip::observables {
 
-using scene::Setting;
-
-/// Those of the study's for_each lists. Refers to the study.
-inline scene::Combinations combinations(const scene::Study& study) {
-  return scene::Combinations(study);
-}
-
-/// An empty branch of a model: its parameters, harmonics and solver. over: the free parameter, if there is
-/// one in the study.
-ResponseBranch described(const model::Model& model, const Setting& set, const std::string& over = {});
+/// An empty branch of a model: its parameters, harmonics and solver. over: the free parameter, if it is not
+/// the frequency.
+ResponseBranch described(const model::Model& model, const std::string& over = {});
 
 /// Whether the amplitude departs from an extreme at an arclength, on both sides, by more than rounding: it
 /// does not where all friction elements that the free parameter acts on stick, or slip, and nothing changes.

@@ -17,7 +17,6 @@
 namespace arcslip::observables {
 namespace {
 
-using scene::TimeMethod;
 using time::EquationOfMotion;
 using time::PeriodMotion;
 using time::State;
@@ -93,27 +92,22 @@ Integrator event_driven(const EquationOfMotion& equation, long steps, const time
   return result;
 }
 
-/// The motion of one setting.
 class InTime {
  public:
-  InTime(const scene::Scene& scene, const scene::Study& study, const Setting& set,
-         const ProgressCallback& report, const Progress& progress)
-      : settings_(study.time),
+  InTime(const scene::Scene& scene, const TimeSettings& settings, const ProgressCallback& report)
+      : settings_(settings),
         model_(std::make_shared<const model::Model>(model::build(scene))),
-        report_(report),
-        progress_(progress) {
-    const ResponseBranch description = described(*model_, set);
-    motion_.set = set;
-    motion_.parameters = description.parameters;
+        report_(report) {
+    motion_.parameters = described(*model_).parameters;
     motion_.method = settings_.method;
-    motion_.omega = study.frequency_from * scene::to_rad_per_s(scene.frequency_unit);
+    motion_.omega = settings_.frequency * scene::to_rad_per_s(scene.frequency_unit);
     motion_.steps = settings_.steps;
     p_.resize(static_cast<Eigen::Index>(model_->parameters.size()));
     for (std::size_t k = 0; k < model_->parameters.size(); ++k)
       p_[static_cast<Eigen::Index>(k)] = model_->parameters[k].value;
     p_[model::frequency] = motion_.omega;
     equation_ = time::equation_of_motion(*model_, p_);
-    progress_.frequency = study.frequency_from;
+    progress_.frequency = settings_.frequency;
     progress_.item = "motion";
     progress_.counted = "periods";
   }
@@ -282,7 +276,7 @@ class InTime {
     motion_.stop = {reason, value, limit, message};
   }
 
-  scene::TimeSettings settings_;
+  TimeSettings settings_;
   std::shared_ptr<const model::Model> model_;
   const ProgressCallback& report_;
   Progress progress_;
@@ -294,20 +288,23 @@ class InTime {
 
 }  // namespace
 
-std::vector<Motion> motions_in_time(const scene::Scene& scene, const scene::Study& study,
-                                    const ProgressCallback& progress) {
-  const auto all = combinations(study);
-  std::vector<Motion> motions;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    scene::Scene with = scene;
-    for (const auto& [name, value] : all[k]) scene::set(with, name, value);
-    Progress of_motion;
-    of_motion.branch = static_cast<int>(k);
-    of_motion.branches = static_cast<int>(all.size());
-    motions.push_back(InTime(with, study, all[k], progress, of_motion).run());
-    if (motions.back().stop.reason == "user") break;
+std::string_view name(TimeMethod method) {
+  switch (method) {
+    case TimeMethod::shooting:
+      return "shooting";
+    case TimeMethod::newmark_shooting:
+      return "newmark-shooting";
+    case TimeMethod::newmark:
+      return "newmark";
+    case TimeMethod::event_driven:
+      break;
   }
-  return motions;
+  return "event-driven";
+}
+
+Motion motion_in_time(const scene::Scene& scene, const TimeSettings& settings,
+                      const ProgressCallback& progress) {
+  return InTime(scene, settings, progress).run();
 }
 
 }  // namespace arcslip::observables

@@ -102,7 +102,10 @@ void TableWriter::begin(const Header& /*header*/, std::span<const Schema> schema
 }
 
 void TableWriter::curve(const Head& head, std::size_t schema) {
-  if (schema != schema_) finish();
+  if (schema != schema_) {
+    finish();
+    is_apart_ = any_;
+  }
   schema_ = schema;
   head_ = head;
   of_it_.clear();
@@ -118,6 +121,7 @@ void TableWriter::rows(std::size_t table, const Rows& rows) {
 void TableWriter::end(const End& end) {
   const Schema& schema = schemas_[schema_];
   if (schema.shown.empty()) {
+    if (!end.text.empty()) separate();
     out_ << end.text;
     return;
   }
@@ -135,8 +139,15 @@ void TableWriter::end(const End& end) {
   }
 }
 
+void TableWriter::separate() {
+  if (is_apart_) out_ << '\n';
+  is_apart_ = false;
+  any_ = true;
+}
+
 void TableWriter::finish() {
   if (lines_.empty()) return;
+  separate();
   const Schema& schema = schemas_[schema_];
   Row titles;
   for (const Column& column : schema.set) titles.push_back(with_unit(name(column), column.unit));

@@ -24,11 +24,15 @@ class TableWriter : public Sink {
   void finish() override;
 
  private:
+  void separate();
+
   using Cells = std::vector<std::string>;
 
   std::ostream& out_;
   std::vector<Schema> schemas_;
   std::size_t schema_ = 0;    // of the result that is open, and of the lines
+  bool any_ = false;          // of what is written
+  bool is_apart_ = false;     // what comes next is of another kind
   Head head_;                 // of that result
   std::vector<Cells> of_it_;  // its rows so far
   std::vector<Cells> lines_;  // those of all results since the last table

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 namespace {
 
 bool any_value(const std::vector<Part>& parts) {
@@ -86,4 +86,4 @@ void check_ties(const Scene& scene, Faults& faults) {
   }
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

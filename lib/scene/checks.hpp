@@ -3,7 +3,7 @@
 
 #include <arcslip/scene/faults.hpp>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 /// Samples suffice for the order where friction is sampled.
 void check_samples(const Scene& scene, Faults& faults);
@@ -14,4 +14,4 @@ void check_structure(const Scene& scene, Faults& faults);
 /// Tied fields have one value.
 void check_ties(const Scene& scene, Faults& faults);
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

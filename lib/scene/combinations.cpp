@@ -7,7 +7,7 @@ namespace arcslip::scene {
 
 double Combinations::count() const {
   double product = 1;
-  for (const auto& [parameter, values] : study_.for_each) {
+  for (const auto& [parameter, values] : lists_) {
     product *= static_cast<double>(values.size());
   }
   return product;
@@ -19,7 +19,7 @@ std::size_t Combinations::size() const {
 
 Setting Combinations::operator[](std::size_t index) const {
   Setting setting;
-  for (auto list = study_.for_each.rbegin(); list != study_.for_each.rend(); ++list) {
+  for (auto list = lists_.rbegin(); list != lists_.rend(); ++list) {
     const auto& [parameter, values] = *list;
     setting.emplace_back(parameter, values[index % values.size()]);
     index /= values.size();

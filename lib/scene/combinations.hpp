@@ -13,10 +13,10 @@ namespace arcslip::scene {
 using Setting = std::vector<std::pair<std::string, double>>;
 
 /// All combinations of the for_each lists, the last one fastest, each made when it is asked for; one empty
-/// setting where there are none. Refers to the study.
+/// setting where there are none. Refers to the lists.
 class Combinations {
  public:
-  explicit Combinations(const Study& study) : study_(study) {}
+  explicit Combinations(const ValueLists& lists) : lists_(lists) {}
   /// How many there are, which may be more than any integer.
   double count() const;
   /// No more than an int can count.
@@ -24,7 +24,7 @@ class Combinations {
   Setting operator[](std::size_t index) const;
 
  private:
-  const Study& study_;
+  const ValueLists& lists_;
 };
 
 /// What the command runs without being told to.

@@ -23,7 +23,7 @@ std::string lines_of(const std::vector<Fault>& faults) {
 SceneError::SceneError(std::vector<Fault> faults)
     : std::runtime_error(lines_of(faults)), faults_(std::move(faults)) {}
 
-namespace detail {
+namespace file {
 namespace {
 
 constexpr std::size_t most_faults = 1000;
@@ -153,5 +153,5 @@ std::string bound_fault(const Field& field, double value) {
   return "found " + number_text(value) + ", must be " + allowed_text(field);
 }
 
-}  // namespace detail
+}  // namespace file
 }  // namespace arcslip::scene

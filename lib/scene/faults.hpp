@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 /// The faults found so far. Only the first thousand or so are kept, so that no file can exhaust the memory.
 class Faults {
@@ -47,4 +47,4 @@ std::string allowed_text(const Field& field);
 /// "found -1.24, must be at least 0 kg".
 std::string bound_fault(const Field& field, double value);
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -2,7 +2,7 @@
 #include <arcslip/scene/faults.hpp>
 #include <arcslip/scene/json_tree.hpp>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 namespace {
 
 constexpr std::size_t line_width = 110;
@@ -141,4 +141,4 @@ std::string print_tree(const Node& root) {
   return out + '\n';
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -13,7 +13,7 @@
 #include <map>
 #include <utility>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 namespace {
 
 // With long double nlohmann's parser goes on after a number such as 1e999, which is then one fault among the
@@ -228,4 +228,4 @@ std::string described(const Node& node) {
   return node.get<Node::Object>() != nullptr ? "an object" : "null";
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 struct Member;
 
@@ -46,4 +46,4 @@ std::string print_tree(const Node& root);
 /// A value in words: `"abc" (a string)`, `3 (a number)`, `a list`.
 std::string described(const Node& node);
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -1,6 +1,7 @@
 // The parameters of a scene by their names.
 #include <arcslip/scene/faults.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/study_type.hpp>
 
 #include <algorithm>
 #include <array>
@@ -58,8 +59,8 @@ std::vector<Slot<Value>> slots_of(AnyScene& scene, std::string_view name) {
     slots.push_back(find_slot<Value>(scene, member));
     if (slots.back().value == nullptr) {
       const std::vector<std::string> known = parameter_names(scene);
-      throw ParameterError("unknown parameter " + detail::shown(member) + ", must be one of " +
-                           detail::listed(known) + detail::hint(member, known));
+      throw ParameterError("unknown parameter " + file::shown(member) + ", must be one of " +
+                           file::listed(known) + file::hint(member, known));
     }
   }
   return slots;
@@ -98,14 +99,14 @@ void set(Scene& scene, std::string_view parameter, double value) {
   const auto slots = slots_of<double>(scene, parameter);
   for (const Tie& tie : scene.ties) {
     if (std::find(tie.members.begin(), tie.members.end(), parameter) != tie.members.end()) {
-      throw ParameterError("parameter " + detail::quoted(parameter) + " is tied, must be set by its tie " +
-                           detail::quoted(tie.name));
+      throw ParameterError("parameter " + file::quoted(parameter) + " is tied, must be set by its tie " +
+                           file::quoted(tie.name));
     }
   }
   for (const auto& slot : slots) {
-    if (!detail::within(*slot.field, value)) {
-      throw ParameterError("parameter " + detail::quoted(parameter) + ": " +
-                           detail::bound_fault(*slot.field, value));
+    if (!file::within(*slot.field, value)) {
+      throw ParameterError("parameter " + file::quoted(parameter) + ": " +
+                           file::bound_fault(*slot.field, value));
     }
   }
   for (const auto& slot : slots) {
@@ -117,23 +118,8 @@ void set(Scene& scene, std::string_view parameter, double value) {
 }
 
 void drop(Study& study, std::string_view parameter) {
-  const auto is_it = [&](const auto& named) { return named.first == parameter; };
-  std::erase_if(study.for_each, is_it);
-  std::erase_if(study.scatter, [&](const DesignVariable& v) { return v.name == parameter; });
-  std::vector<DesignCase> cases;
-  for (DesignCase& each : study.cases) {
-    const bool dropped = std::erase_if(each.set, is_it) > 0;
-    const auto same = std::find_if(cases.begin(), cases.end(), [&](const DesignCase& other) {
-      return dropped && other.set == each.set && other.response == each.response;
-    });
-    if (same == cases.end()) {
-      cases.push_back(std::move(each));
-    } else {
-      same->weight = study.criterion == Criterion::mean ? same->weight + each.weight
-                                                        : std::max(same->weight, each.weight);
-    }
-  }
-  study.cases = std::move(cases);
+  std::erase_if(study.for_each, [&](const auto& list) { return list.first == parameter; });
+  study.type->drop(parameter, study.settings);
 }
 
 }  // namespace arcslip::scene

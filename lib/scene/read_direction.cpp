@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 namespace {
 
 constexpr std::size_t largest_dofs = 1000;  // matrices are dense
@@ -147,4 +147,4 @@ std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faul
   return direction;
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

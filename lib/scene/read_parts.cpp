@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 namespace {
 
 // Why a name may not be used, or "".
@@ -162,4 +162,4 @@ std::vector<Part> read_parts(const Place& place, const PartType* type, const Dof
   return parts;
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

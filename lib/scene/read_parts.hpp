@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 /// The degrees of freedom. Where their list is at fault, an unknown name may be one of those that could not
 /// be read and is not told.
@@ -53,4 +53,4 @@ std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faul
 std::vector<Part> read_parts(const Place& place, const PartType* type, const Dofs& dofs, Names& names,
                              Faults& faults);
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 /// Reads "ties". Whether the tied fields have one common value is left to check_ties().
 std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults);
-/// Reads "studies". all: the ties that were read, and the names of parts.
+/// Reads "studies", of the kinds of the catalogue. all: the ties that were read, and the names of parts.
 std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Parameters& all,
-                                const Dofs& dofs, Faults& faults);
+                                const Dofs& dofs, const Catalogue& catalogue, Faults& faults);
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -12,7 +12,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 namespace {
 
 constexpr std::size_t chunk = 1 << 16;
@@ -106,4 +106,4 @@ std::string read_text(const std::string& path, const StopRequest& stop) {
   return text;
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 /// All bytes of a stream. Throws SceneError where there are more than largest_size, FileError where the
 /// stream fails.
@@ -17,4 +17,4 @@ std::string read_text(std::istream& in);
 /// Throws the same, FileError where it cannot be opened, and Interrupted.
 std::string read_text(const std::string& path, const StopRequest& stop);
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

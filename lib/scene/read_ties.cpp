@@ -3,7 +3,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 namespace {
 
 constexpr std::string_view members_wanted = "a list of at least one parameter \"part.field\"";
@@ -60,4 +60,4 @@ std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults) {
   return ties;
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 void add_wrong_type(const Place& place, std::string_view must_be, Faults& faults) {
   faults.add(place.pointer, "found " + described(*place.node) + ", must be " + std::string(must_be));
@@ -123,4 +123,4 @@ const Node::List* read_list(const Place& place, std::string_view what, Faults& f
   return list;
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 /// A value and the pointer to where it stands, or to where it should stand when `node` is null.
 struct Place {
@@ -77,4 +77,4 @@ Choice read_choice(const Place& place, const Words& words, Choice otherwise, Fau
   return otherwise;
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

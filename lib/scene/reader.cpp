@@ -6,10 +6,14 @@
 #include <arcslip/scene/read_text.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/scene_file.hpp>
+#include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/words.hpp>
+#include <arcslip/scene/write_values.hpp>
+
+#include <algorithm>
 
 namespace arcslip::scene {
-namespace detail {
+namespace file {
 namespace {
 
 void read_format(const Keys& keys, Faults& faults) {
@@ -58,7 +62,7 @@ std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, Names& nam
   return forces;
 }
 
-Scene read_scene(const Node& node, Faults& faults) {
+Scene read_scene(const Node& node, const Catalogue& catalogue, Faults& faults) {
   Scene scene;
   const Keys root({&node, ""},
                   {"format", "title", "frequency_unit", "structure", "elements", "excitation", "ties",
@@ -114,35 +118,68 @@ Scene read_scene(const Node& node, Faults& faults) {
 
   scene.response = read_response(root.find("response"), dofs, faults);
   scene.studies = read_studies(root.find("studies"), scene.frequency_unit,
-                               Parameters(scene.ties, ties_sound, names), dofs, faults);
+                               Parameters(scene.ties, ties_sound, names), dofs, catalogue, faults);
   return scene;
 }
 
-Scene read_text_of_scene(const std::string& text, const StopRequest& stop) {
-  const Node root = read_tree(text, stop);
+Scene read_scene(const Node& root, const Catalogue& catalogue) {
   Faults faults;
-  Scene scene = read_scene(root, faults);
+  Scene scene = read_scene(root, catalogue, faults);
   faults.raise();
   return scene;
 }
 
+// The kinds of the scene's own studies.
+Catalogue catalogue_of(const Scene& scene) {
+  Catalogue catalogue;
+  for (const Study& study : scene.studies) {
+    if (catalogue.study(study.type->name()) == nullptr) {
+      catalogue.studies.push_back(study.type);
+    }
+  }
+  return catalogue;
+}
+
 }  // namespace
-}  // namespace detail
+}  // namespace file
 
-Scene read(std::istream& in) {
-  return detail::read_text_of_scene(detail::read_text(in), {});
+Scene read(std::istream& in, const Catalogue& catalogue) {
+  return file::read_scene(file::read_tree(file::read_text(in)), catalogue);
 }
 
-Scene read_file(const std::string& path) {
-  return read_file(path, {});
+Scene read_file(const std::string& path, const Catalogue& catalogue) {
+  return read_file(path, catalogue, {});
 }
 
-Scene read_file(const std::string& path, const StopRequest& stop) {
-  return detail::read_text_of_scene(detail::read_text(path, stop), stop);
+Scene read_file(const std::string& path, const Catalogue& catalogue, const StopRequest& stop) {
+  return file::read_scene(file::read_tree(file::read_text(path, stop), stop), catalogue);
 }
 
 void check(const Scene& scene) {
-  detail::read_text_of_scene(write(scene), {});
+  file::read_scene(file::read_tree(write(scene)), file::catalogue_of(scene));
+}
+
+Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::Member>& keys) {
+  file::Node root = file::tree(scene);
+  for (file::Member& section : std::get<file::Node::Object>(root.value)) {
+    if (section.key != "studies") {
+      continue;
+    }
+    auto& studies = std::get<file::Node::List>(section.value.value);
+    auto& object = std::get<file::Node::Object>(studies[study].value);
+    for (const file::Member& key : keys) {
+      const auto own = std::find_if(object.begin(), object.end(),
+                                    [&](const file::Member& member) { return member.key == key.key; });
+      if (key.value.get<std::nullptr_t>() != nullptr) {
+        object.erase(own, own == object.end() ? own : own + 1);
+      } else if (own != object.end()) {
+        own->value = key.value;
+      } else {
+        object.push_back(key);
+      }
+    }
+  }
+  return file::read_scene(file::read_tree(file::print_tree(root)), file::catalogue_of(scene));
 }
 
 }  // namespace arcslip::scene

@@ -1,6 +1,8 @@
 #pragma once
 // A scene: what a user wrote, checked and resolved, as plain data in the user's own units.
 
+#include <arcslip/scene/settings.hpp>
+
 #include <cstddef>
 #include <iosfwd>
 #include <limits>
@@ -14,15 +16,11 @@
 
 namespace arcslip::scene {
 
+class StudyType;  // study_type.hpp
+struct Catalogue;
+
 enum class FrequencyUnit { hertz, radian_per_second };
 enum class Friction { exact, sampled };
-enum class StudyKind { frf, trace, peaks, folds, time, optimum };
-
-/// How a motion in time is found: by shooting on the period, between exact events where the scene is
-/// piecewise linear (no cubic spring, no massless degree of freedom) and in Newmark's steps elsewhere, or
-/// always in Newmark's steps; or period by period from rest, in Newmark's steps or between exact events.
-enum class TimeMethod { shooting, newmark_shooting, newmark, event_driven };
-
 /// One scalar of a part. It is a parameter of the scene under the name "part.field".
 struct Field {
   std::string_view name;
@@ -71,84 +69,16 @@ struct Harmonics {
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
 };
 
-/// Of a study of kind time.
-struct TimeSettings {
-  TimeMethod method = TimeMethod::shooting;
-  int steps = 1000;         // per period: Newmark's, and those of the history
-  int periods = 10'000;     // a transient has at most, those recorded included
-  int recorded = 1;         // periods with history, at the end
-  double tolerance = 1e-9;  // of the state: change over a period that is steady, last correction of shooting
-  friend bool operator==(const TimeSettings&, const TimeSettings&) = default;
-};
+/// Lists of values by the names of parameters; several lists make their product.
+using ValueLists = std::vector<std::pair<std::string, std::vector<double>>>;
 
-/// Of the search of a study of kind optimum. Algorithms are called by NLopt's own names.
-struct SearchSettings {
-  std::string algorithm{};  // empty: the default, LD_SLSQP
-  std::string local{};      // what AUGLAG and MLSL search with; empty: none
-  int evaluations = 1000;   // designs that are looked at, at most
-  double seconds = 0;       // 0: no limit
-  int population = 0;       // of the stochastic algorithms; 0: their own choice
-  int seed = 1;             // of the stochastic algorithms: the same seed gives the same run
-  friend bool operator==(const SearchSettings&, const SearchSettings&) = default;
-};
-
-/// A parameter of a design, and the values it may take.
-struct DesignVariable {
-  std::string name;
-  double lower = 0, upper = 0;
-  friend bool operator==(const DesignVariable&, const DesignVariable&) = default;
-};
-
-/// at_least <= observable <= at_most, at each resonance peak that is watched, those of at least three
-/// quarters of the highest. Observables: the numbers of observables/quantities.hpp that each response has, as
-/// "frequency" (in the scene's unit) and "energy_friction" (J per period); for an element NAME
-/// "NAME.equivalent_stiffness" and "NAME.equivalent_damping", with friction "NAME.stick_percent",
-/// "NAME.energy".
-struct ObservableLimit {
-  std::string observable;
-  double at_least = -std::numeric_limits<double>::infinity();
-  double at_most = std::numeric_limits<double>::infinity();
-  friend bool operator==(const ObservableLimit&, const ObservableLimit&) = default;
-};
-
-/// at_least <= sum of weight * parameter <= at_most; the parameters are those of a design.
-struct LinearLimit {
-  std::vector<std::pair<std::string, double>> weights;
-  double at_least = -std::numeric_limits<double>::infinity();
-  double at_most = std::numeric_limits<double>::infinity();
-  friend bool operator==(const LinearLimit&, const LinearLimit&) = default;
-};
-
-/// One of several circumstances that a design is to serve: a level of the excitation, a sample of what
-/// scatters, a place where the amplitude is read.
-struct DesignCase {
-  std::vector<std::pair<std::string, double>> set;  // parameters and their values
-  double weight = 1;                                // of its amplitude, > 0
-  std::optional<Direction> response{};              // none: the scene's
-  friend bool operator==(const DesignCase&, const DesignCase&) = default;
-};
-
-/// What is to be least: the largest weighted amplitude of all cases, or their weighted mean.
-enum class Criterion { worst, mean };
-
-/// What is to be computed, as data. A for_each list holds a parameter's name and the values it takes;
-/// several lists make their product.
+/// What is to be computed, as data: a kind, its own settings, and values of parameters for which it is
+/// computed again.
 struct Study {
   std::string name;
-  StudyKind kind = StudyKind::frf;
-  double from = 0, to = 0;  // of the frequency in the scene's unit (frf), or of `over`, in its own
-  std::vector<std::pair<std::string, std::vector<double>>> for_each;
-  std::string over{};                           // the parameter of trace, peaks and folds; empty for others
-  double frequency_from = 0, frequency_to = 0;  // trace, time: both the fixed frequency; else the window
-  TimeSettings time{};
-  std::vector<DesignVariable> design{};  // optimum: what it is over, with bounds
-  SearchSettings search{};
-  std::vector<ObservableLimit> constraints{};     // optimum
-  std::vector<LinearLimit> linear_constraints{};  // optimum
-  std::vector<DesignCase> cases{};                // optimum: none is one, the scene as it is
-  Criterion criterion = Criterion::worst;         // optimum, over the cases
-  std::vector<DesignVariable> scatter{};          // optimum, worst: the highest between these bounds counts
-  std::optional<DesignVariable> along{};          // optimum: followed over this one, from lower to upper
+  const StudyType* type = nullptr;
+  Settings settings{};
+  ValueLists for_each{};
   friend bool operator==(const Study&, const Study&) = default;
 };
 
@@ -202,17 +132,14 @@ inline constexpr int largest_depth = 64;                // of nested JSON
 inline constexpr std::size_t largest_size = 64u << 20;  // bytes
 inline constexpr int largest_order = 2000;              // of the harmonics
 inline constexpr int largest_samples = 1'000'000;       // per period
-inline constexpr int largest_steps = 10'000'000;        // per period, and with history in all
-inline constexpr int largest_periods = 100'000'000;     // of a transient
-inline constexpr int largest_search = 100'000'000;      // evaluations, and other whole numbers of a search
-inline constexpr int largest_cases = 1000;              // of a design
 inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 
-/// Reads format "arcslip-scene-1". Throws SceneError with every fault found.
-Scene read(std::istream& in);
+/// Reads format "arcslip-scene-1". catalogue: the kinds of studies that it may hold, as
+/// studies::catalogue(). Throws SceneError with every fault found.
+Scene read(std::istream& in, const Catalogue& catalogue);
 /// The same from a file. Throws FileError where the file cannot be read.
-Scene read_file(const std::string& path);
+Scene read_file(const std::string& path, const Catalogue& catalogue);
 
 /// The resolved scene with every default, in the same format: read(write(s)) gives s again.
 std::string write(const Scene& scene);
@@ -233,25 +160,13 @@ double value(const Scene& scene, std::string_view parameter);
 /// ParameterError where there is no such parameter, where the value is out of its bounds, and where the field
 /// is tied: its tie is to be set then.
 void set(Scene& scene, std::string_view parameter, double value);
-/// Takes a parameter from for_each, cases and scatter. Cases that are the same then become one, with the
-/// largest of their weights (worst) or the sum of them (mean).
+/// Takes a parameter from for_each and from the lists that the study's settings hold.
 void drop(Study& study, std::string_view parameter);
 
 /// Factor from the scene's frequency unit to rad/s.
 double to_rad_per_s(FrequencyUnit unit);
 /// "Hz" or "rad/s".
 std::string_view unit_name(FrequencyUnit unit);
-/// "frf", as a scene file writes it.
-std::string_view kind_name(StudyKind kind);
-/// "newmark-shooting", as a scene file writes it.
-std::string_view method_name(TimeMethod method);
-/// The method of that name, or none.
-std::optional<TimeMethod> method_of(std::string_view name);
-/// "worst", as a scene file writes it.
-std::string_view criterion_name(Criterion criterion);
-/// The criterion of that name, or none.
-std::optional<Criterion> criterion_of(std::string_view name);
-
 /// The known word nearest to `word` (edit distance at most a third of its length, at least 2), or "".
 std::string nearest(std::string_view word, std::span<const std::string> known);
 

@@ -1,14 +1,21 @@
 #pragma once
 
+#include <arcslip/scene/json_tree.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/stop_request.hpp>
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace arcslip::scene {
 
 /// read_file() of a file or a pipe that may take its time. Throws Interrupted where `stop` is asked for
 /// meanwhile.
-Scene read_file(const std::string& path, const StopRequest& stop);
+Scene read_file(const std::string& path, const Catalogue& catalogue, const StopRequest& stop);
+
+/// The scene with these keys of one of its studies, in place of its own or beside them; null: without
+/// that key. Throws SceneError.
+Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::Member>& keys);
 
 }  // namespace arcslip::scene

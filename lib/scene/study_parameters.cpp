@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 namespace {
 
 // What every one of the fields allows.
@@ -103,27 +103,14 @@ Field bounds_of(const std::string& parameter, const std::string& pointer, const 
   return known ? common(fields) : any_number;
 }
 
-bool is_taken(const std::string& parameter, const std::string& pointer, const Study& study, Faults& faults) {
-  const auto is_it = [&](const auto& variable) { return variable.name == parameter; };
-  const bool is_set = std::any_of(study.cases.begin(), study.cases.end(), [&](const DesignCase& each) {
-    return std::any_of(each.set.begin(), each.set.end(),
-                       [&](const auto& value) { return value.first == parameter; });
-  });
-  const bool is_over = std::any_of(study.design.begin(), study.design.end(), is_it);
-  std::string why;
-  if (is_over || (!study.over.empty() && parameter == study.over)) {
-    why = ", which the study is \"over\"";
-  } else if (is_set) {
-    why = ", to which \"cases\" give values";
-  } else if (std::any_of(study.scatter.begin(), study.scatter.end(), is_it)) {
-    why = ", which is in \"scatter\"";
-  } else if (study.along && is_it(*study.along)) {
-    why = ", which the study goes \"along\"";
+bool is_taken(const std::string& parameter, const std::string& pointer, const std::vector<Taken>& taken,
+              Faults& faults) {
+  const auto found = std::find_if(taken.begin(), taken.end(),
+                                  [&](const Taken& each) { return each.parameter == parameter; });
+  if (found != taken.end()) {
+    faults.add(pointer, "found " + shown(parameter) + ", " + found->how + "; must be another parameter");
   }
-  if (!why.empty()) {
-    faults.add(pointer, "found " + shown(parameter) + why + "; must be another parameter");
-  }
-  return !why.empty();
+  return found != taken.end();
 }
 
 Field read_parameter(const Place& place, const Parameters& all, std::string& parameter, Faults& faults) {
@@ -148,15 +135,13 @@ Field read_parameter(const Place& place, const Parameters& all, std::string& par
   return bounds_of(*over, place.pointer, all, faults);
 }
 
-std::vector<std::pair<std::string, std::vector<double>>> read_value_lists(const Place& place,
-                                                                          const Parameters& all,
-                                                                          const Study& study,
-                                                                          Faults& faults) {
-  std::vector<std::pair<std::string, std::vector<double>>> lists;
+ValueLists read_value_lists(const Place& place, const Parameters& all, const std::vector<Taken>& taken,
+                            Faults& faults) {
+  ValueLists lists;
   for (const Member* member : members(place, faults)) {
     const Place item{&member->value, child(place.pointer, member->key)};
     const auto fields = fields_of(member->key, item.pointer, all, faults);
-    if (fields.empty() || !is_taken(member->key, item.pointer, study, faults)) {
+    if (fields.empty() || !is_taken(member->key, item.pointer, taken, faults)) {
       lists.emplace_back(member->key, read_values(item, fields, faults));
     }
   }
@@ -183,4 +168,4 @@ std::pair<double, double> read_pair(const Place& place, const std::string& wante
   return {lower.value_or(0), upper.value_or(0)};
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -1,8 +1,9 @@
 #pragma once
-// The parameters that studies name, and the values and ranges that they give them. Private to scene/.
+// The parameters that studies name, and the values and ranges that they give them.
 
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_values.hpp>
+#include <arcslip/scene/study_type.hpp>
 
 #include <string>
 #include <string_view>
@@ -10,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 /// Where the parameters of a scene are looked up by name.
 struct Parameters {
@@ -35,14 +36,14 @@ Field read_parameter(const Place& place, const Parameters& all, std::string& par
 std::pair<double, double> read_pair(const Place& place, const std::string& wanted, const Field& field,
                                     std::string_view what, Faults& faults);
 
-/// Lists of values by the names of parameters, of which their fields allow each. What the study has already
-/// read under such a name is a fault.
-std::vector<std::pair<std::string, std::vector<double>>> read_value_lists(const Place& place,
-                                                                          const Parameters& all,
-                                                                          const Study& study, Faults& faults);
+/// Lists of values by the names of parameters, of which their fields allow each. A name that is taken is a
+/// fault.
+ValueLists read_value_lists(const Place& place, const Parameters& all, const std::vector<Taken>& taken,
+                            Faults& faults);
 
-/// Tells a fault where the study has this parameter already: over, cases, scatter or along. Then true.
-bool is_taken(const std::string& parameter, const std::string& pointer, const Study& study, Faults& faults);
+/// Tells a fault where the study gives values to this parameter elsewhere. Then true.
+bool is_taken(const std::string& parameter, const std::string& pointer, const std::vector<Taken>& taken,
+              Faults& faults);
 
 /// The bounds of all fields that a parameter sets; any number where a fault is told.
 Field bounds_of(const std::string& parameter, const std::string& pointer, const Parameters& all,
@@ -51,4 +52,4 @@ Field bounds_of(const std::string& parameter, const std::string& pointer, const 
 /// "3 N".
 std::string with_unit(double value, const Field& field);
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace arcslip::scene::detail {
+namespace arcslip::scene::file {
 
 inline constexpr std::string_view format_name = "arcslip-scene-1";
 inline constexpr std::string_view ground = "ground";
@@ -24,20 +24,6 @@ inline constexpr std::array<Word<FrequencyUnit>, 2> frequency_units = {
     {{"Hz", FrequencyUnit::hertz}, {"rad/s", FrequencyUnit::radian_per_second}}};
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
-inline constexpr std::array<Word<StudyKind>, 6> study_kinds = {{{"frf", StudyKind::frf},
-                                                                {"trace", StudyKind::trace},
-                                                                {"peaks", StudyKind::peaks},
-                                                                {"folds", StudyKind::folds},
-                                                                {"time", StudyKind::time},
-                                                                {"optimum", StudyKind::optimum}}};
-inline constexpr std::array<Word<TimeMethod>, 4> time_methods = {
-    {{"shooting", TimeMethod::shooting},
-     {"newmark-shooting", TimeMethod::newmark_shooting},
-     {"newmark", TimeMethod::newmark},
-     {"event-driven", TimeMethod::event_driven}}};
-
-inline constexpr std::array<Word<Criterion>, 2> criteria = {
-    {{"worst", Criterion::worst}, {"mean", Criterion::mean}}};
 
 /// What results call their own quantities, beside which the parameter of a study stands by its name.
 inline constexpr std::array<std::string_view, 24> result_names = {"kind",
@@ -64,22 +50,6 @@ inline constexpr std::array<std::string_view, 24> result_names = {"kind",
                                                                   "peaks",
                                                                   "at_bound",
                                                                   "minimum"};
-
-/// The keys of a study of some kind, in the order in which they are written.
-inline std::vector<std::string> study_keys(StudyKind kind) {
-  if (kind == StudyKind::frf) {
-    return {"name", "kind", "from", "to", "for_each"};
-  }
-  if (kind == StudyKind::time) {
-    return {"name", "kind", "frequency", "method", "steps", "periods", "recorded", "tolerance", "for_each"};
-  }
-  if (kind == StudyKind::optimum) {
-    return {"name",        "kind",    "over",       "bounds", "frequency",   "algorithm", "local",
-            "evaluations", "seconds", "population", "seed",   "constraints", "cases",     "criterion",
-            "scatter",     "along",   "from",       "to",     "for_each"};
-  }
-  return {"name", "kind", "over", "from", "to", "frequency", "for_each"};
-}
 
 template <class Words>
 std::vector<std::string> texts(const Words& words) {
@@ -112,4 +82,4 @@ std::optional<Choice> value_of(const Words& words, std::string_view text) {
   return std::nullopt;
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::scene::file

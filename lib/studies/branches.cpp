@@ -59,27 +59,15 @@ results::Schema schema(const scene::Scene& scene, const std::string& over, const
           .shown_table = "events"};
 }
 
-results::Object solver(const observables::SolverSummary& summary) {
-  return {{"linear_solver", summary.linear_solver},
-          {"unknowns", summary.unknowns},
-          {"points", summary.points},
-          {"rejected_steps", summary.rejected_steps},
-          {"residuals", summary.residuals},
-          {"jacobians", summary.jacobians},
-          {"factorizations", summary.factorizations},
-          {"solves", summary.solves},
-          {"seconds", summary.seconds, "s"}};
-}
-
 results::Result result(const scene::Scene& scene, const ResponseBranch& branch, const Tables& tables,
-                       const Detail& detail) {
+                       const RunOptions& options) {
   results::Result result{tables.schema, {branch.study, branch.kind, named(scene, branch.set)}, {}, {}};
   if (!branch.over.empty()) result.head.facts.push_back({"over", branch.over});
   result.head.facts.push_back({"parameters", named(scene, branch.parameters)});
-  if (detail.coefficients)
+  if (options.coefficients)
     result.head.facts.push_back(
         {"harmonics", results::Value::List(branch.harmonics.begin(), branch.harmonics.end())});
-  if (detail.points) result.tables.push_back(tables.points.rows(branch.points));
+  if (options.points) result.tables.push_back(tables.points.rows(branch.points));
   result.tables.resize(1);
   result.tables.push_back(tables.events.rows(branch.events));
   result.end = {observables::name(branch.status),
@@ -92,12 +80,12 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
 }  // namespace
 
 results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> branches,
-                            const Detail& detail) {
+                            const RunOptions& options) {
   results::Results all{header(scene), {}, {}};
   std::map<std::pair<std::string, bool>, Tables> tables;  // by what tells their columns apart
   const auto tables_of = [&](const ResponseBranch& branch) -> const Tables& {
     const auto [at, is_new] =
-        tables.try_emplace({branch.over, has_maxima(branch)}, scene, branch, detail.coefficients);
+        tables.try_emplace({branch.over, has_maxima(branch)}, scene, branch, options.coefficients);
     if (is_new) {
       at->second.schema = all.schemas.size();
       all.schemas.push_back(schema(scene, branch.over, at->second));
@@ -107,7 +95,7 @@ results::Results results_of(const scene::Scene& scene, std::span<const ResponseB
   for (const ResponseBranch& branch : branches) {
     const Tables& of_branch = tables_of(branch);
     add_columns(scene, branch.set, all.schemas[of_branch.schema].set);
-    all.results.push_back(result(scene, branch, of_branch, detail));
+    all.results.push_back(result(scene, branch, of_branch, options));
   }
   if (branches.empty()) tables_of({});
   return all;

@@ -112,6 +112,18 @@ results::Object stop(const observables::Stop& stop) {
   return {{"reason", stop.reason}, {"value", stop.value}, {"limit", stop.limit}, {"message", stop.message}};
 }
 
+results::Object solver(const observables::SolverSummary& summary) {
+  return {{"linear_solver", summary.linear_solver},
+          {"unknowns", summary.unknowns},
+          {"points", summary.points},
+          {"rejected_steps", summary.rejected_steps},
+          {"residuals", summary.residuals},
+          {"jacobians", summary.jacobians},
+          {"factorizations", summary.factorizations},
+          {"solves", summary.solves},
+          {"seconds", summary.seconds, "s"}};
+}
+
 std::string doubt_of(const observables::ResponseBranch& branch) {
   return branch.doubt.empty()
              ? ""

@@ -5,6 +5,7 @@
 #include <arcslip/observables/response.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/study_type.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <string>
@@ -12,11 +13,7 @@
 
 namespace arcslip::studies {
 
-/// How much of its results a study is to give.
-struct Detail {
-  bool points = true;         // false: for who sees only events and facts, no rows of points and of histories
-  bool coefficients = false;  // points and events with the harmonics of the response: a_n, b_n
-};
+using scene::RunOptions;
 
 /// What is asked of responses beside all that each has.
 struct Asked {
@@ -38,6 +35,7 @@ void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown);
 results::Header header(const scene::Scene& scene);
 
 results::Object stop(const observables::Stop& stop);
+results::Object solver(const observables::SolverSummary& summary);
 
 /// What makes a branch doubtful (ResponseBranch::doubt), as the end of a sentence; empty: nothing.
 std::string doubt_of(const observables::ResponseBranch& branch);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace arcslip::studies {
 namespace {
@@ -20,14 +21,13 @@ using results::FigureLine;
 using results::Range;
 using results::Record;
 using results::Scale;
-using scene::StudyKind;
 
 constexpr double decade = 10;
 
-Record record(const scene::Scene& scene, StudyKind kind, const std::vector<std::string>& friction,
+Record record(const scene::Scene& scene, BranchKind kind, const std::vector<std::string>& friction,
               const ResponsePoint& point) {
   Record values;
-  if (kind != StudyKind::frf) {
+  if (kind != BranchKind::responses) {
     values.push_back(point.over);
   }
   values.push_back(in_scene_unit(scene, point.omega));
@@ -40,7 +40,7 @@ Record record(const scene::Scene& scene, StudyKind kind, const std::vector<std::
 
 /// Amplitudes of frequency responses are shown by their logarithm, which no resonance dwarfs; other columns
 /// where they are positive and span decades.
-void set_ranges(StudyKind kind, FigureData& data) {
+void set_ranges(BranchKind kind, FigureData& data) {
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     FigureColumn& column = data.columns[i];
     column.range = results::full_range(data, i);
@@ -50,18 +50,17 @@ void set_ranges(StudyKind kind, FigureData& data) {
     const bool is_amplitude = i == amplitude_column(kind);
     const Range positive = is_amplitude ? results::range_of(data, i, 0) : column.range;
     if (positive.lower > 0 && positive.upper >= positive.lower &&
-        ((is_amplitude && kind == StudyKind::frf) || positive.upper > decade * positive.lower)) {
+        ((is_amplitude && kind == BranchKind::responses) || positive.upper > decade * positive.lower)) {
       column.scale = Scale::logarithmic;
       column.range = positive;
     }
   }
 }
 
-void set_columns(const scene::Scene& scene, StudyKind kind, const std::vector<std::string>& friction,
-                 std::span<const ResponseBranch> branches, FigureData& data) {
-  if (kind != StudyKind::frf) {
-    const std::string name = branches.empty() ? "" : branches.front().over;
-    data.columns.push_back({results::with_unit(name, name.empty() ? "" : parameter_unit(scene, name))});
+void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<std::string>& friction,
+                 const std::string& over, FigureData& data) {
+  if (kind != BranchKind::responses) {
+    data.columns.push_back({results::with_unit(over, over.empty() ? "" : parameter_unit(scene, over))});
   }
   data.columns.push_back({results::with_unit("frequency", scene::unit_name(scene.frequency_unit))});
   data.columns.push_back({"amplitude (m)"});
@@ -71,7 +70,7 @@ void set_columns(const scene::Scene& scene, StudyKind kind, const std::vector<st
 }
 
 /// A figure for each friction element, with its stick share on one of the axes.
-void add_stick_figures(StudyKind kind, const std::vector<std::string>& friction, Figure first,
+void add_stick_figures(BranchKind kind, const std::vector<std::string>& friction, Figure first,
                        bool over_stick, FigureData& data) {
   for (std::size_t i = 0; i < friction.size(); ++i) {
     Figure figure = first;
@@ -86,17 +85,17 @@ void add_stick_figures(StudyKind kind, const std::vector<std::string>& friction,
   }
 }
 
-void set_figures(StudyKind kind, const std::vector<std::string>& friction, FigureData& data) {
+void set_figures(BranchKind kind, const std::vector<std::string>& friction, FigureData& data) {
   const std::size_t frequency = frequency_column(kind), amplitude = amplitude_column(kind);
   const std::string& over = data.columns.front().label;
   const std::string& frequency_label = data.columns[frequency].label;
   const std::string& amplitude_label = data.columns[amplitude].label;
-  if (kind == StudyKind::peaks) {
+  if (kind == BranchKind::peaks) {
     data.figures = {{"amplitude", 0, amplitude, over, "peak " + amplitude_label},
                     {"frequency", 0, frequency, over, "resonance " + frequency_label}};
     add_stick_figures(kind, friction, {"amplitude_over_stick", 0, amplitude, "", "peak " + amplitude_label},
                       true, data);
-  } else if (kind == StudyKind::folds) {
+  } else if (kind == BranchKind::folds) {
     data.figures = {{"folds", frequency, 0, frequency_label, over}};
   } else {  // responses, also those of optima
     data.figures = {{"amplitude", 0, amplitude, over, amplitude_label}};
@@ -106,11 +105,11 @@ void set_figures(StudyKind kind, const std::vector<std::string>& friction, Figur
 
 }  // namespace
 
-std::size_t frequency_column(StudyKind kind) {
-  return kind == StudyKind::frf ? 0 : 1;
+std::size_t frequency_column(BranchKind kind) {
+  return kind == BranchKind::responses ? 0 : 1;
 }
 
-std::size_t amplitude_column(StudyKind kind) {
+std::size_t amplitude_column(BranchKind kind) {
   return frequency_column(kind) + 1;
 }
 
@@ -118,40 +117,58 @@ FigureLine line_of(const scene::Scene& scene, const std::vector<std::pair<std::s
   return {.label = set_label(scene, set), .heading = assignment(scene, set), .set = set};
 }
 
-FigureData figures_of(const scene::Scene& scene, StudyKind kind, std::span<const ResponseBranch> branches) {
+FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<LineOfBranches> lines) {
   FigureData data;
   data.title = scene.title;
+  std::vector<const ResponseBranch*> branches;
+  for (const LineOfBranches& each : lines) {
+    branches.insert(branches.end(), each.branches.begin(), each.branches.end());
+  }
   const std::vector<std::string> friction = friction_elements(branches);
-  set_columns(scene, kind, friction, branches, data);
-  for (const ResponseBranch& branch : branches) {
-    if (branch.points.empty()) {
-      continue;
-    }
-    if (data.parameters.empty()) {
-      for (const auto& [name, value] : branch.set) {
-        data.parameters.push_back(name);
+  set_columns(scene, kind, friction, branches.empty() ? "" : branches.front()->over, data);
+  for (LineOfBranches& each : lines) {
+    FigureLine line = std::move(each.line);
+    for (const ResponseBranch* branch : each.branches) {
+      if (branch->points.empty()) {
+        continue;
+      }
+      for (const observables::ResponseEvent& event : branch->events) {
+        line.unbounded = line.unbounded || event.point.unbounded;
+        if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) !=
+            results::mark_kinds.end()) {
+          line.marks.push_back({event.kind, record(scene, kind, friction, event.point)});
+        }
+      }
+      std::vector<Record>& part = line.parts.emplace_back();
+      for (const ResponsePoint& point : branch->points) {
+        line.unbounded = line.unbounded || point.unbounded;
+        part.push_back(record(scene, kind, friction, point));
       }
     }
-    auto line = std::find_if(data.lines.begin(), data.lines.end(),
-                             [&](const FigureLine& candidate) { return candidate.set == branch.set; });
-    if (line == data.lines.end()) {
-      line = data.lines.insert(line, line_of(scene, branch.set));
-    }
-    for (const observables::ResponseEvent& event : branch.events) {
-      line->unbounded = line->unbounded || event.point.unbounded;
-      if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) !=
-          results::mark_kinds.end()) {
-        line->marks.push_back({event.kind, record(scene, kind, friction, event.point)});
-      }
-    }
-    std::vector<Record>& part = line->parts.emplace_back();
-    for (const ResponsePoint& point : branch.points) {
-      line->unbounded = line->unbounded || point.unbounded;
-      part.push_back(record(scene, kind, friction, point));
+    if (!line.parts.empty()) {
+      data.lines.push_back(std::move(line));
     }
   }
   set_ranges(kind, data);
   set_figures(kind, friction, data);
+  return data;
+}
+
+FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::span<const ResponseBranch> branches) {
+  std::vector<LineOfBranches> lines;
+  for (const ResponseBranch& branch : branches) {
+    auto line = std::find_if(lines.begin(), lines.end(), [&](const LineOfBranches& candidate) {
+      return candidate.line.set == branch.set;
+    });
+    if (line == lines.end()) {
+      line = lines.insert(line, {line_of(scene, branch.set), {}});
+    }
+    line->branches.push_back(&branch);
+  }
+  FigureData data = figures_of(scene, kind, std::move(lines));
+  for (std::size_t i = 0; !data.lines.empty() && i < data.lines.front().set.size(); ++i) {
+    data.parameters.push_back(data.lines.front().set[i].first);
+  }
   return data;
 }
 

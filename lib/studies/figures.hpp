@@ -14,19 +14,31 @@
 
 namespace arcslip::studies {
 
-/// Of the branches of a study of this kind, a line for each combination of set parameters. Columns: the
-/// parameter of a study over one, the frequency, the amplitude (m), stick (%) of each friction element. Of
+/// What branches are of: responses over the frequency, responses over a parameter, resonance peaks or folds.
+enum class BranchKind { responses, over_parameter, peaks, folds };
+
+/// Of branches of this kind, a line for each combination of set parameters. Columns: the
+/// parameter of branches over one, the frequency, the amplitude (m), stick (%) of each friction element. Of
 /// frequency responses and traces over a parameter: the amplitude and the stick share of each friction
 /// element
 /// ("amplitude", "stick"). Of resonance peaks: their amplitude, their frequency ("frequency"), and the
 /// amplitude over the stick share of each friction element ("amplitude_over_stick"). Of folds: the parameter
 /// over the frequency ("folds").
-results::FigureData figures_of(const scene::Scene& scene, scene::StudyKind kind,
+results::FigureData figures_of(const scene::Scene& scene, BranchKind kind,
                                std::span<const observables::ResponseBranch> branches);
 
+/// The branches behind one line, and the line without anything on it.
+struct LineOfBranches {
+  results::FigureLine line;
+  std::vector<const observables::ResponseBranch*> branches;
+};
+
+/// The same of lines that the caller tells apart.
+results::FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<LineOfBranches> lines);
+
 /// The columns of the frequency, and of the amplitude, in that data.
-std::size_t frequency_column(scene::StudyKind kind);
-std::size_t amplitude_column(scene::StudyKind kind);
+std::size_t frequency_column(BranchKind kind);
+std::size_t amplitude_column(BranchKind kind);
 
 /// The displacement over time ("displacement"), and for each friction element its hysteresis loop
 /// ("hysteresis") and its force over time ("force"), with a line for each motion. Columns: time, displacement

@@ -4,10 +4,10 @@
 
 namespace arcslip::studies {
 
-std::vector<std::string> friction_elements(std::span<const observables::ResponseBranch> branches) {
+std::vector<std::string> friction_elements(std::span<const observables::ResponseBranch* const> branches) {
   std::vector<std::string> names;
-  for (const observables::ResponseBranch& branch : branches) {
-    for (const observables::ResponsePoint& point : branch.points) {
+  for (const observables::ResponseBranch* branch : branches) {
+    for (const observables::ResponsePoint& point : branch->points) {
       for (const observables::ElementResponse& element : point.elements) {
         if (element.has_stick) {
           names.push_back(element.name);

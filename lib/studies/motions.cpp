@@ -48,7 +48,7 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
   results::Value::List multipliers;
   for (const std::complex<double>& multiplier : motion.multipliers)
     multipliers.emplace_back(std::vector<double>{multiplier.real(), multiplier.imag()});
-  results::Object all{{"method", scene::method_name(motion.method)},
+  results::Object all{{"method", name(motion.method)},
                       {"integrator", motion.integrator},
                       {"frequency", motion.omega / scene::to_rad_per_s(scene.frequency_unit),
                        std::string(scene::unit_name(scene.frequency_unit))},
@@ -79,12 +79,12 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
 }  // namespace
 
 results::Results results_of(const scene::Scene& scene, std::span<const Motion> motions,
-                            const Detail& detail) {
+                            const RunOptions& options) {
   results::Results all{header(scene), {}, {}};
   const results::TableOf<Instant> table = history(scene);
   for (const Motion& motion : motions) {
     std::vector<Instant> instants;
-    for (std::size_t i = 0; detail.points && i < motion.history.time.size(); ++i)
+    for (std::size_t i = 0; options.points && i < motion.history.time.size(); ++i)
       instants.push_back({&motion.history, i});
     all.results.push_back(
         {.schema = 0,

@@ -12,6 +12,6 @@ namespace arcslip::studies {
 
 /// docs/results.md tells all that there is.
 results::Results results_of(const scene::Scene& scene, std::span<const observables::Motion> motions,
-                            const Detail& detail = {});
+                            const RunOptions& options = {});
 
 }  // namespace arcslip::studies

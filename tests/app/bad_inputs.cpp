@@ -145,7 +145,7 @@ std::vector<BadInput> make() {
        peaks_scene},
       // motions in time
       bare("optimize without a study", {"optimize", "bare.json", "--frequency", "18", "22"},
-           "the scene has no study of kind optimum, so not all is known: give --over, with bounds"),
+           "the scene has no study of kind optimum, so not all is known: give --over with bounds"),
       bare("time without a frequency", {"time", "bare.json"},
            "the scene has no study of kind time, so not all is known: give --frequency, or add such a study "
            "to "
@@ -153,11 +153,12 @@ std::vector<BadInput> make() {
       line("time at two frequencies", {"time", "scene.json", "--frequency", "18", "22"},
            "argument was not expected: 22"),
       line("time by an unknown method", {"time", "scene.json", "--frequency", "20", "--method", "euler"},
-           "--method euler: must be shooting, newmark-shooting, newmark or event-driven"),
+           "--method euler: found \"euler\", must be one of \"shooting\", \"newmark-shooting\", \"newmark\", "
+           "\"event-driven\""),
       line("time without steps", {"time", "scene.json", "--frequency", "20", "--steps", "0"},
            "--steps 0: found 0, must be an integer from 1 to 10000000"),
       line("half a period of time", {"time", "scene.json", "--frequency", "20", "--periods", "0.5"},
-           "--periods 0.5: must be a whole number, the periods of a transient at most"),
+           "--periods 0.5: must be a whole number, periods of a transient at most"),
       line("more history than a result can hold",
            {"time", "scene.json", "--frequency", "20", "--recorded", "100000"},
            "found 100000 periods of 1000 steps to record, must be at most 10000000 steps together"),

@@ -1,3 +1,4 @@
+#include "catalogue.hpp"
 #include "catch.hpp"
 
 #include "continuation/hopf_problems.hpp"
@@ -53,7 +54,8 @@ TEST_CASE("malloc is counted here") {
 TEST_CASE("a Newton iteration allocates nothing, up to 300 unknowns") {
   for (const char* friction : {"exact", "sampled"})
     for (int order : {1, 7, 55, 151, 299}) {
-      scene::Scene scene = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+      scene::Scene scene =
+          scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json", test_catalogue::whole());
       scene.harmonics.order = order;
       scene.harmonics.samples = 2 * (2 * order + 2);
       if (std::string(friction) == "sampled") scene.harmonics.friction = scene::Friction::sampled;

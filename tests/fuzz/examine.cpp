@@ -1,12 +1,17 @@
 #include "fuzz/examine.hpp"
 
+#include "catalogue.hpp"
 #include "csv_text.hpp"
 
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/time_study.hpp>
+#include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/branches.hpp>
+#include <arcslip/studies/study_of.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -91,7 +96,7 @@ class Examination {
   scene::Scene read() {
     try {
       std::istringstream in(text_);
-      scene::Scene s = scene::read(in);
+      scene::Scene s = scene::read(in, test_catalogue::whole());
       findings_.reached = Reached::read;
       return s;
     } catch (const scene::SceneError& error) {
@@ -115,7 +120,7 @@ class Examination {
     const std::string written = scene::write(s);
     std::istringstream in(written);
     try {
-      const scene::Scene again = scene::read(in);
+      const scene::Scene again = scene::read(in, test_catalogue::whole());
       if (!(again == s)) fault("what is written reads as another scene:\n" + written);
       if (scene::write(again) != written) fault("a scene changes when it is written twice:\n" + written);
       if (scene::hash(again) != scene::hash(s)) fault("a scene that was written has another hash");
@@ -124,35 +129,51 @@ class Examination {
     }
   }
 
+  /// The window in which a study of any kind looks for responses, or one at its frequency.
+  static observables::FrequencyRange window(const scene::Study& study) {
+    const auto range = [](double from, double to) {
+      return observables::FrequencyRange{from, to > from ? to : 1.5 * from};
+    };
+    if (study.type == &studies::frf()) return study.settings.as<observables::FrequencyRange>();
+    if (study.type == &studies::trace()) {
+      const double frequency = study.settings.as<observables::ParameterRange>().frequency;
+      return range(frequency, frequency);
+    }
+    if (study.type == &studies::time()) {
+      const double frequency = study.settings.as<observables::TimeSettings>().frequency;
+      return range(frequency, frequency);
+    }
+    if (study.type == &optimize::optimum_type()) {
+      const auto& problem = study.settings.as<optimize::OptimumSettings>().problem;
+      return range(problem.frequency_from, problem.frequency_to);
+    }
+    const auto& curve = study.settings.as<observables::CurveRange>();
+    return range(curve.frequency_from, curve.frequency_to);
+  }
+
   /// The scene with a study of little work; false: it is too large.
-  static bool make_small(scene::Scene& s, scene::Study& study) {
+  static bool make_small(scene::Scene& s) {
     if (s.dofs.size() > most_dofs || s.elements.size() > most_elements || s.excitation.size() > most_elements)
       return false;
     for (const scene::Part& force : s.excitation)
       if (force.harmonic > highest_order) return false;
     s.harmonics.order = std::min(s.harmonics.order, highest_order);
     s.harmonics.samples = std::min(s.harmonics.samples, most_samples);
-    const bool has_one = !s.studies.empty();
-    study = has_one ? s.studies.front() : scene::Study{};
-    if (!has_one) {
-      study.from = 1, study.to = 10;
-    } else if (study.kind != scene::StudyKind::frf) {
-      study.from = study.frequency_from;
-      study.to = study.frequency_to > study.from ? study.frequency_to : 1.5 * study.from;
+    scene::Study frf{"frf", &studies::frf(), scene::Settings::of(observables::FrequencyRange{1, 10})};
+    if (!s.studies.empty()) {
+      const scene::Study& first = s.studies.front();
+      frf.settings = scene::Settings::of(window(first));
+      std::size_t combinations = 1;
+      for (const auto& [name, values] : first.for_each)
+        combinations = std::min<std::size_t>(combinations * values.size(), most_combinations + 1);
+      if (first.type == frf.type && combinations <= most_combinations) frf.for_each = first.for_each;
     }
-    std::size_t combinations = 1;
-    for (const auto& [name, values] : study.for_each)
-      combinations = std::min<std::size_t>(combinations * values.size(), most_combinations + 1);
-    if (study.kind != scene::StudyKind::frf || combinations > most_combinations) study.for_each.clear();
-    study.kind = scene::StudyKind::frf;
-    study.name = "frf";
-    s.studies = {study};
+    s.studies = {frf};
     return true;
   }
 
   void trace(scene::Scene s) {
-    scene::Study study;
-    if (!make_small(s, study)) return;
+    if (!make_small(s)) return;
     try {
       scene::check(s);
     } catch (const scene::SceneError&) {
@@ -161,8 +182,12 @@ class Examination {
     std::vector<observables::ResponseBranch> branches;
     try {
       long points = 0;
-      branches = observables::frequency_response(
-          s, study, [&](const observables::Progress&) { return ++points % most_points != 0; });
+      const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
+        return observables::frequency_response(at.scene, window(at.scene.studies.front()), tell);
+      };
+      branches = studies::for_each<observables::ResponseBranch>(
+          s, s.studies.front().for_each, compute,
+          [&](const observables::Progress&) { return ++points % most_points != 0; });
     } catch (const std::runtime_error& error) {
       return check_message(error.what());
     }

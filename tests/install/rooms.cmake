@@ -8,7 +8,7 @@ set(elements elements)
 set(model continuation scene elements model)
 set(hbm continuation elements model hbm)
 set(time continuation model hbm time)
-set(observables continuation scene elements model hbm time observables)
+set(observables continuation results scene elements model hbm time observables)
 set(studies results scene observables studies)
 set(output results scene output)
 

@@ -4,6 +4,7 @@
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
+#include "optimize/optima.hpp"
 
 #include <arcslip/optimize/optimum_study.hpp>
 
@@ -11,7 +12,7 @@
 #include <numbers>
 
 using namespace arcslip;
-using scene::Criterion;
+using optimize::Criterion;
 constexpr double pi = std::numbers::pi;
 
 namespace {
@@ -29,7 +30,7 @@ double peak(double p, double f0) {
   return p * p / (p - pi * f0 / 4) / 3500;
 }
 
-optimize::OptimumProblem over_load_in(const std::vector<scene::DesignCase>& cases,
+optimize::OptimumProblem over_load_in(const std::vector<optimize::DesignCase>& cases,
                                       Criterion criterion = Criterion::worst) {
   optimize::OptimumProblem problem = over_load;
   problem.cases = cases;
@@ -265,7 +266,7 @@ TEST_CASE("bounds within which a case is unbounded everywhere leave nothing to b
 
 TEST_CASE("cases that make no sense are told") {
   const scene::Scene s = closed_form();
-  const auto error_of = [&](const scene::DesignCase& one) {
+  const auto error_of = [&](const optimize::DesignCase& one) {
     try {
       optimize::optimum(s, over_load_in({{}, one}));
     } catch (const std::exception& e) {
@@ -290,15 +291,9 @@ TEST_CASE("cases that make no sense are told") {
 }
 
 TEST_CASE("the optimum of one combination depends on no other, to the last bit") {
-  scene::Study study;
-  study.kind = scene::StudyKind::optimum;
-  study.design = {{"damper.normal_load", 0.1, 100}};
-  study.frequency_from = 18;
-  study.frequency_to = 22;
   const scene::Scene s = scenes::paper(3);
   const auto of = [&](const std::vector<double>& forces) {
-    study.for_each = {{"force.cosine", forces}};
-    return optimize::optimum_study(s, study);
+    return optima::of(s, {.problem = over_load}, {{"force.cosine", forces}});
   };
   const auto rising = of({1, 3}), falling = of({3, 1}), alone = of({3});
   REQUIRE(rising.size() == 2);
@@ -312,15 +307,9 @@ TEST_CASE("the optimum of one combination depends on no other, to the last bit")
 }
 
 TEST_CASE("the optimal load grows in proportion to the excitation, and not where a spring hardens") {
-  scene::Study study;
-  study.kind = scene::StudyKind::optimum;
-  study.design = {{"damper.normal_load", 0.1, 100}};
-  study.frequency_from = 18;
-  study.frequency_to = 22;
-  study.for_each = {{"force.cosine", {1, 2, 4}}};
   const auto loads = [&](const scene::Scene& s) {
     std::vector<double> all;
-    for (const auto& result : optimize::optimum_study(s, study)) {
+    for (const auto& result : optima::of(s, {.problem = over_load}, {{"force.cosine", {1, 2, 4}}})) {
       CHECK(result.status == observables::Status::complete);
       if (result.direct.found) CHECK(result.difference_of_design() < 1e-6);
       all.push_back(result.optimum.design[0]);
@@ -341,7 +330,7 @@ TEST_CASE("the optimal load grows in proportion to the excitation, and not where
     scene::set(at, "force.cosine", 4);
     scene::set(at, "damper.normal_load", load);
     double most = 0;
-    for (const auto& branch : observables::frequency_response(at, at.studies[0]))
+    for (const auto& branch : observables::frequency_response(at, scenes::window(at)))
       for (const auto& event : branch.events) most = std::max(most, event.point.amplitude);
     return most;
   };

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "optimize/optima.hpp"
 
 #include <arcslip/optimize/optimum_study.hpp>
 
@@ -11,20 +12,26 @@
 #include <numbers>
 
 using namespace arcslip;
+using optimize::OptimumProblem;
+using optimize::OptimumSettings;
 
 namespace {
 
 scene::Scene example(const std::string& file) {
-  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + file);
+  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + file, test_catalogue::whole());
+}
+
+const OptimumSettings& settings(const scene::Scene& s, std::size_t study) {
+  return s.studies.at(study).settings.as<OptimumSettings>();
 }
 
 // At the scene's own values, and at half and twice these: every watched peak against responses beside it.
-int check_gradients(const scene::Scene& s, const scene::Study& study) {
+int check_gradients(const scene::Scene& s, const OptimumProblem& problem) {
   const auto model = std::make_shared<const model::Model>(model::build(s));
   const double unit = scene::to_rad_per_s(s.frequency_unit);
   std::vector<int> over;
   std::vector<double> own;
-  for (const auto& variable : study.design) {
+  for (const auto& variable : problem.over) {
     over.push_back(model::parameter_index(*model, variable.name));
     own.push_back(scene::value(s, variable.name));
   }
@@ -32,7 +39,7 @@ int check_gradients(const scene::Scene& s, const scene::Study& study) {
   for (const double factor : {0.5, 1.0, 2.0}) {
     std::vector<double> design = own;
     for (double& value : design) value *= factor;
-    optimize::PeakAmplitude peaks(model, over, {study.frequency_from * unit, study.frequency_to * unit});
+    optimize::PeakAmplitude peaks(model, over, {problem.frequency_from * unit, problem.frequency_to * unit});
     const auto here = peaks.trace(design);
     for (std::size_t k = 0; k < design.size(); ++k) {
       const double h = 1e-6 * design[k];
@@ -40,7 +47,7 @@ int check_gradients(const scene::Scene& s, const scene::Study& study) {
       above[k] += h;
       below[k] -= h;
       const auto more = peaks.trace(above), less = peaks.trace(below);
-      CAPTURE(factor, study.design[k].name);
+      CAPTURE(factor, problem.over[k].name);
       REQUIRE(more.peaks.size() == here.peaks.size());
       REQUIRE(less.peaks.size() == here.peaks.size());
       for (std::size_t i = 0; i < here.peaks.size(); ++i) {
@@ -55,13 +62,11 @@ int check_gradients(const scene::Scene& s, const scene::Study& study) {
 }
 
 // The highest peak, or end of the window, in a frequency response of its own.
-double highest(scene::Scene at, const scene::Study& study, const std::vector<double>& design) {
-  for (std::size_t k = 0; k < design.size(); ++k) scene::set(at, study.design[k].name, design[k]);
-  scene::Study frf;
-  frf.from = study.frequency_from;
-  frf.to = study.frequency_to;
+double highest(scene::Scene at, const OptimumProblem& problem, const std::vector<double>& design) {
+  for (std::size_t k = 0; k < design.size(); ++k) scene::set(at, problem.over[k].name, design[k]);
   double most = 0;
-  for (const auto& branch : observables::frequency_response(at, frf)) {
+  for (const auto& branch :
+       observables::frequency_response(at, {problem.frequency_from, problem.frequency_to})) {
     for (const auto& event : branch.events) most = std::max(most, event.point.amplitude);
     for (const auto& point : branch.points) most = std::max(most, point.amplitude);
   }
@@ -75,15 +80,15 @@ TEST_CASE("the examples' optima are certified: gradients cancel, no other respon
     const scene::Scene s = example(file);
     for (const scene::Study& study : s.studies) {
       CAPTURE(file, study.name);
-      const auto results = optimize::optimum_study(s, study);
-      REQUIRE(results.size() == 1);
-      const auto& found = results[0].optimum;
+      CHECK(study.for_each.empty());
+      const auto& settings = study.settings.as<OptimumSettings>();
+      const auto found = optimize::optimum_study(s, settings).optimum;
       CAPTURE(found.stop.message);
       CHECK(found.status == observables::Status::complete);
       CHECK(found.feasible);
       REQUIRE(found.certificate);
       CHECK(found.certificate->others_lower);
-      if (study.constraints.empty()) CHECK(found.certificate->stationarity < 1e-5);
+      if (settings.problem.limits.empty()) CHECK(found.certificate->stationarity < 1e-5);
     }
   }
 }
@@ -91,17 +96,15 @@ TEST_CASE("the examples' optima are certified: gradients cancel, no other respon
 TEST_CASE("less wear costs amplitude: the limit on the energy is met and active") {
   const scene::Scene s = example("two_dampers/scene.json");
   REQUIRE(s.studies.size() == 3);
-  const auto free = optimize::optimum_study(s, s.studies[0])[0].optimum;
-  const auto limited = optimize::optimum_study(s, s.studies[1])[0].optimum;
+  const auto free = optimize::optimum_study(s, settings(s, 0)).optimum;
+  const auto limited = optimize::optimum_study(s, settings(s, 1)).optimum;
   // At both of the peaks that are equally high, in frequency responses of their own.
   const auto energy = [&](const std::vector<double>& loads) {
     scene::Scene at = s;
-    for (std::size_t k = 0; k < loads.size(); ++k) scene::set(at, s.studies[0].design[k].name, loads[k]);
-    scene::Study frf;
-    frf.from = 8;
-    frf.to = 45;
+    for (std::size_t k = 0; k < loads.size(); ++k)
+      scene::set(at, settings(s, 0).problem.over[k].name, loads[k]);
     double highest = 0, most = 0;
-    const auto branches = observables::frequency_response(at, frf);
+    const auto branches = observables::frequency_response(at, {8, 45});
     for (const auto& event : branches.front().events) highest = std::max(highest, event.point.amplitude);
     for (const auto& event : branches.front().events)
       if (event.kind == "peak" && event.point.amplitude > 0.99 * highest)
@@ -122,27 +125,28 @@ TEST_CASE("less wear costs amplitude: the limit on the energy is met and active"
 
 TEST_CASE("the sum of the loads is as large as its limit allows, and no other pair on the limit is better") {
   const scene::Scene s = example("two_dampers/scene.json");
-  const scene::Study& study = s.studies.at(2);
-  REQUIRE(study.linear_constraints.size() == 1);
-  const auto limited = optimize::optimum_study(s, study)[0].optimum;
+  const OptimumProblem& problem = settings(s, 2).problem;
+  REQUIRE(problem.linear_limits.size() == 1);
+  const auto limited = optimize::optimum_study(s, settings(s, 2)).optimum;
   REQUIRE(limited.design.size() == 2);
   CHECK(limited.feasible);
   CHECK(limited.design[0] + limited.design[1] == Approx(2).epsilon(1e-7));
   // in responses of their own: at the optimum, along the limit beside it, and with less load
-  CHECK(highest(s, study, limited.design) == Approx(limited.amplitude).epsilon(1e-9));
+  CHECK(highest(s, problem, limited.design) == Approx(limited.amplitude).epsilon(1e-9));
   for (const double step : {-0.05, -0.01, 0.01, 0.05})
-    CHECK(highest(s, study, {limited.design[0] + step, limited.design[1] - step}) > limited.amplitude);
+    CHECK(highest(s, problem, {limited.design[0] + step, limited.design[1] - step}) > limited.amplitude);
   for (const auto& less : {std::vector{-0.01, 0.0}, std::vector{0.0, -0.01}})
-    CHECK(highest(s, study, {limited.design[0] + less[0], limited.design[1] + less[1]}) > limited.amplitude);
+    CHECK(highest(s, problem, {limited.design[0] + less[0], limited.design[1] + less[1]}) >
+          limited.amplitude);
 }
 
 TEST_CASE(
     "the amplitude of any blade is least: tuned, that of every blade, and mistuned, that of the third") {
   for (const bool tuned : {true, false}) {
     const scene::Scene s = example(tuned ? "blade_row/scene.json" : "blade_row/mistuned.json");
-    const scene::Study& study = s.studies.at(1);
-    REQUIRE(study.cases.size() == 3);
-    const auto found = optimize::optimum_study(s, study)[0].optimum;
+    const OptimumProblem& problem = settings(s, 1).problem;
+    REQUIRE(problem.cases.size() == 3);
+    const auto found = optimize::optimum_study(s, settings(s, 1)).optimum;
     REQUIRE(found.cases.size() == 3);
     CAPTURE(tuned, found.stop.message);
     const auto any = [&](const std::vector<double>& loads) {
@@ -150,7 +154,7 @@ TEST_CASE(
       for (int blade = 0; blade < 3; ++blade) {
         scene::Scene at = s;
         at.response = {{blade, 1.0}};
-        most = std::max(most, highest(at, study, loads));
+        most = std::max(most, highest(at, problem, loads));
       }
       return most;
     };
@@ -161,7 +165,7 @@ TEST_CASE(
         beside[k] *= factor;
         CHECK(any(beside) > found.amplitude);
       }
-    const auto first = optimize::optimum_study(s, s.studies[0])[0].optimum;
+    const auto first = optimize::optimum_study(s, settings(s, 0)).optimum;
     if (tuned) {  // by symmetry all blades move alike, a third of a period apart
       for (std::size_t k = 0; k < 2; ++k) CHECK(found.design[k] == Approx(first.design[k]).epsilon(1e-5));
       for (const auto& each : found.cases) CHECK(each.amplitude == Approx(first.amplitude).epsilon(1e-8));
@@ -177,18 +181,18 @@ TEST_CASE(
 TEST_CASE("one load for four levels: the worst and the mean are least, in responses of each level") {
   const scene::Scene s = example("levels/scene.json");
   for (const std::size_t index : {2, 3}) {
-    const scene::Study& study = s.studies.at(index);
-    CAPTURE(study.name);
-    const auto found = optimize::optimum_study(s, study)[0].optimum;
+    const OptimumProblem& problem = settings(s, index).problem;
+    CAPTURE(s.studies[index].name);
+    const auto found = optimize::optimum_study(s, settings(s, index)).optimum;
     REQUIRE(found.design.size() == 1);
     REQUIRE(found.certificate);
-    const bool mean = study.criterion == scene::Criterion::mean;
+    const bool mean = problem.criterion == optimize::Criterion::mean;
     const auto value = [&](double load) {
       double worst = 0, sum = 0, weights = 0;
-      for (const auto& each : study.cases) {
+      for (const auto& each : problem.cases) {
         scene::Scene at = s;
         scene::set(at, each.set[0].first, each.set[0].second);
-        const double height = each.weight * highest(at, study, {load});
+        const double height = each.weight * highest(at, problem, {load});
         worst = std::max(worst, height);
         sum += height;
         weights += each.weight;
@@ -207,21 +211,21 @@ TEST_CASE("one load for four levels: the worst and the mean are least, in respon
 TEST_CASE(
     "with a contact that is uncertain, no contact between the bounds is worse than the worst that is told") {
   const scene::Scene s = example("levels/scene.json");
-  const scene::Study& study = s.studies.at(4);
-  REQUIRE(study.scatter.size() == 2);
-  const auto found = optimize::optimum_study(s, study)[0].optimum;
+  const OptimumProblem& problem = settings(s, 4).problem;
+  REQUIRE(problem.scatter.size() == 2);
+  const auto found = optimize::optimum_study(s, settings(s, 4)).optimum;
   REQUIRE(found.design.size() == 1);
   const auto worst = [&](double load) {  // on a grid that holds the corners
     double most = 0;
     for (int i = 0; i <= 4; ++i)
       for (int j = 0; j <= 4; ++j) {
         scene::Scene at = s;
-        const auto between = [](const scene::DesignVariable& v, int k) {
+        const auto between = [](const optimize::DesignVariable& v, int k) {
           return v.lower + k * (v.upper - v.lower) / 4;
         };
-        scene::set(at, study.scatter[0].name, between(study.scatter[0], i));
-        scene::set(at, study.scatter[1].name, between(study.scatter[1], j));
-        most = std::max(most, highest(at, study, {load}));
+        scene::set(at, problem.scatter[0].name, between(problem.scatter[0], i));
+        scene::set(at, problem.scatter[1].name, between(problem.scatter[1], j));
+        most = std::max(most, highest(at, problem, {load}));
       }
     return most;
   };
@@ -233,18 +237,18 @@ TEST_CASE("the examples' gradients are differences of responses") {
   for (const char* file : {"two_dampers/scene.json", "blade_row/scene.json", "blade_row/mistuned.json"}) {
     CAPTURE(file);
     const scene::Scene s = example(file);
-    CHECK(check_gradients(s, s.studies[0]) >= 6);
+    CHECK(check_gradients(s, settings(s, 0).problem) >= 6);
   }
   const scene::Scene one = example("levels/scene.json");  // one parameter, one peak
-  CHECK(check_gradients(one, one.studies[0]) == 3);
+  CHECK(check_gradients(one, settings(one, 0).problem) == 3);
 }
 
 TEST_CASE("the optimal load grows with the force in proportion, and less beside a cubic spring") {
   scene::Scene s = example("levels/scene.json");
-  const scene::Study& study = s.studies[0];
+  const scene::Study study = s.studies[0];
   const auto load_over_force = [&](double cubic) {
     scene::set(s, "hardening.stiffness", cubic);
-    const auto results = optimize::optimum_study(s, study);
+    const auto results = optima::of(s, study.settings.as<OptimumSettings>(), study.for_each);
     std::vector<double> ratios;
     for (const auto& result : results) {
       CAPTURE(cubic, result.set[0].second, result.stop.message, result.direct.message);
@@ -300,7 +304,7 @@ TEST_CASE("with one harmonic the optimal loads beside a cubic spring are those o
     }
     return (lower + upper) / 2;
   };
-  const auto results = optimize::optimum_study(s, s.studies[0]);
+  const auto results = optima::of(s, settings(s, 0), s.studies[0].for_each);
   REQUIRE(results.size() == 4);
   for (const auto& result : results) {
     const double force = result.set[0].second;
@@ -326,8 +330,7 @@ TEST_CASE(
       scene::set(s, "force.cosine", force);
       // above pi f0 / (4 mu), below which the resonance is unbounded without the spring
       scene::set(s, "damper.normal_load", 3 * force);
-      const optimize::OptimumProblem problem{
-          {{"damper.normal_load", 1.7 * force, 20 * force}}, 15, 60, {}, {}};
+      const OptimumProblem problem{{{"damper.normal_load", 1.7 * force, 20 * force}}, 15, 60, {}, {}};
       const auto found = optimize::optimum(s, problem);
       CAPTURE(cubic, force, found.stop.message);
       REQUIRE(found.design.size() == 1);
@@ -340,7 +343,7 @@ TEST_CASE(
 TEST_CASE("beside a minimum, a lower design on the way to the end of its tolerance range is taken up") {
   scene::Scene s = example("levels/scene.json");
   scene::set(s, "k.value", 9000);  // the resonance reaches the lower end of the window
-  const optimize::OptimumProblem over_load{{{"damper.normal_load", 0.5, 60}}, 15, 60};
+  const OptimumProblem over_load{{{"damper.normal_load", 0.5, 60}}, 15, 60};
   const auto found = optimize::optimum(s, over_load);
   REQUIRE(found.status == observables::Status::complete);
   CHECK(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
@@ -355,18 +358,15 @@ TEST_CASE("beside a minimum, a lower design on the way to the end of its toleran
 TEST_CASE("where a search cannot keep a limit from its start, designs elsewhere are looked at") {
   scene::Scene s = scenes::paper(15, 3);
   scene::set(s, "c.value", 3);
-  optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
+  OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
   problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});  // stuck, or nearly free
   const auto found = optimize::optimum(s, problem);
   CHECK(found.status == observables::Status::complete);
   CHECK(found.feasible);
   CHECK(found.point.energy_friction <= 1e-4 * (1 + 1e-6));
   scene::set(s, "damper.normal_load", found.design.at(0));
-  scene::Study frf;
-  frf.from = 15;
-  frf.to = 24;
   double highest = 0;
-  for (const auto& branch : observables::frequency_response(s, frf))
+  for (const auto& branch : observables::frequency_response(s, {15, 24}))
     for (const auto& event : branch.events) highest = std::max(highest, event.point.amplitude);
   CHECK(found.amplitude == Approx(highest).epsilon(1e-8));
 }
@@ -374,7 +374,7 @@ TEST_CASE("where a search cannot keep a limit from its start, designs elsewhere 
 TEST_CASE("what a callback throws while other starts are looked at ends the search with its text") {
   scene::Scene s = scenes::paper(15, 3);
   scene::set(s, "c.value", 3);
-  optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
+  OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
   problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});
   const auto whole = optimize::optimum(s, problem);
   for (std::size_t last = 1; last <= whole.evaluations.size(); ++last) {

@@ -19,19 +19,12 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-scene::Study one_load() {
-  scene::Study study;
-  study.kind = scene::StudyKind::optimum;
-  study.design = {{"damper.normal_load", 0.1, 100}};
-  study.frequency_from = 18;
-  study.frequency_to = 22;
-  return study;
-}
+const optimize::OptimumSettings one_load{.problem = {{{"damper.normal_load", 0.1, 100}}, 18, 22}};
 
 // How often each phase asks, where nothing stops it.
-std::map<std::string, long> asked(const scene::Scene& s, const scene::Study& study) {
+std::map<std::string, long> asked(const scene::Scene& s, const optimize::OptimumSettings& settings) {
   std::map<std::string, long> asked;
-  optimize::optimum_study(s, study, [&](const observables::Progress& now) {
+  optimize::optimum_study(s, settings, [&](const observables::Progress& now) {
     ++asked[now.phase];
     return true;
   });
@@ -42,8 +35,7 @@ std::map<std::string, long> asked(const scene::Scene& s, const scene::Study& stu
 
 TEST_CASE("every phase of a search asks at every step of a response, and a stop in any of them is told") {
   const scene::Scene s = scenes::paper(7, 3);
-  const scene::Study study = one_load();
-  const auto times = asked(s, study);
+  const auto times = asked(s, one_load);
   std::set<std::string> phases;
   for (const auto& [phase, count] : times) {
     phases.insert(phase);
@@ -51,18 +43,17 @@ TEST_CASE("every phase of a search asks at every step of a response, and a stop 
     if (phase != "the search") CHECK(count >= 30);  // the peaks of the search are followed, without responses
     for (const long last : {1L, count / 2, count}) {
       long here = 0, after = 0;
-      const auto results =
-          optimize::optimum_study(s, study, [&, name = phase](const observables::Progress& now) {
+      const auto result =
+          optimize::optimum_study(s, one_load, [&, name = phase](const observables::Progress& now) {
             if (here >= last) ++after;
             if (now.phase == name) ++here;
             return here < last;
           });
       CAPTURE(last);
       CHECK(after == 0);  // never asked again
-      REQUIRE(results.size() == 1);
-      CHECK(results[0].status == observables::Status::stopped);
-      CHECK(results[0].stop.reason == "user");
-      CHECK(contains(results[0].stop.message, "it was interrupted in " + phase));
+      CHECK(result.status == observables::Status::stopped);
+      CHECK(result.stop.reason == "user");
+      CHECK(contains(result.stop.message, "it was interrupted in " + phase));
     }
   }
   CHECK(phases == std::set<std::string>{"the first design", "the search", "the verification",
@@ -71,17 +62,17 @@ TEST_CASE("every phase of a search asks at every step of a response, and a stop 
 
 TEST_CASE("a search over cases asks in its curves, and is not complete without them") {
   scene::Scene s = scenes::paper(3, 3);
-  scene::Study study = one_load();
-  study.cases = {{{{"force.cosine", 0.5}}}, {{{"force.cosine", 1}}}};
-  const auto times = asked(s, study);
+  optimize::OptimumSettings settings = one_load;
+  settings.problem.cases = {{{{"force.cosine", 0.5}}}, {{{"force.cosine", 1}}}};
+  const auto times = asked(s, settings);
   REQUIRE(times.contains("the curves of the cases"));
   long here = 0;
-  const auto results = optimize::optimum_study(s, study, [&](const observables::Progress& now) {
+  const auto result = optimize::optimum_study(s, settings, [&](const observables::Progress& now) {
     return now.phase != std::string("the curves of the cases") || ++here < 40;
   });
-  CHECK(results[0].status == observables::Status::stopped);
-  CHECK(results[0].optimum.status == observables::Status::complete);
-  CHECK(contains(results[0].stop.message, "it was interrupted in the curves of the cases; of the search: "));
+  CHECK(result.status == observables::Status::stopped);
+  CHECK(result.optimum.status == observables::Status::complete);
+  CHECK(contains(result.stop.message, "it was interrupted in the curves of the cases; of the search: "));
 }
 
 TEST_CASE("a search that is interrupted far from its best design tells the best, as it was seen there") {
@@ -114,16 +105,10 @@ TEST_CASE("a stop before the first design leaves none, and its reason") {
 
 TEST_CASE("curves of peaks ask while they look for their beginnings, and are stopped there") {
   const scene::Scene s = scenes::paper(7, 3);
-  scene::Study study;
-  study.kind = scene::StudyKind::peaks;
-  study.over = "damper.normal_load";
-  study.from = 0.1;
-  study.to = 100;
-  study.frequency_from = 18;
-  study.frequency_to = 22;
   int asked = 0;
   const auto branches = observables::resonance_peaks(
-      s, study, [&](const observables::Progress& now) { return now.points > 0 || ++asked < 5; });
+      s, {"damper.normal_load", 0.1, 100, 18, 22},
+      [&](const observables::Progress& now) { return now.points > 0 || ++asked < 5; });
   REQUIRE(branches.size() == 1);
   CHECK(asked == 5);
   CHECK(branches[0].status == observables::Status::stopped);

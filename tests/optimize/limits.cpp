@@ -17,11 +17,9 @@ namespace {
 // The highest peak of a frequency response of its own.
 double highest(scene::Scene s, const optimize::OptimumProblem& problem, const std::vector<double>& design) {
   for (std::size_t k = 0; k < design.size(); ++k) scene::set(s, problem.over[k].name, design[k]);
-  scene::Study study;
-  study.from = problem.frequency_from;
-  study.to = problem.frequency_to;
   double most = 0;
-  for (const auto& branch : observables::frequency_response(s, study))
+  for (const auto& branch :
+       observables::frequency_response(s, {problem.frequency_from, problem.frequency_to}))
     for (const auto& event : branch.events)
       if (event.kind == "peak") most = std::max(most, event.point.amplitude);
   return most;
@@ -130,7 +128,7 @@ TEST_CASE("a limit on the frequency holds at the peak, not at an end of the wind
   const double frequency = free.point.omega / scenes::hertz;
   for (const double share : {0.999, 1.001}) {  // the end of the window is nearly as high as the peak
     optimize::OptimumProblem limited = problem;
-    scene::ObservableLimit limit{.observable = "frequency"};
+    optimize::ObservableLimit limit{.observable = "frequency"};
     if (share < 1) {
       limited.frequency_from = share * share * frequency;
       limit.at_least = share * frequency;

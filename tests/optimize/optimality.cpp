@@ -41,7 +41,7 @@ double jacobian_error(const OptimalityData& data, const Vector& z, double sigma)
 
 struct TwoDampers {
   TwoDampers() {
-    const scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/two_dampers/scene.json");
+    const scene::Scene s = scenes::example("two_dampers");
     const auto model = std::make_shared<const model::Model>(model::build(s));
     std::vector<int> over;
     for (const char* name : {"d1.normal_load", "d2.normal_load", "c1.value"})

@@ -22,7 +22,7 @@
 
 using namespace arcslip;
 using namespace arcslip::optimize;
-using Variables = std::vector<scene::DesignVariable>;
+using Variables = std::vector<DesignVariable>;
 constexpr double pi = std::numbers::pi;
 
 namespace {
@@ -37,11 +37,11 @@ scene::Scene paper(int order, double damping) {
 }
 
 scene::Scene levels() {
-  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/levels/scene.json");
+  return scenes::example("levels");
 }
 
 scene::Scene two_dampers(double start = 0.6) {
-  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/two_dampers/scene.json");
+  scene::Scene s = scenes::example("two_dampers");
   scene::set(s, "d1.normal_load", start);
   scene::set(s, "d2.normal_load", start);
   return s;
@@ -69,8 +69,7 @@ void check_complete(const OptimumCurve& curve) {
   REQUIRE(curve.points.size() >= 2);
 }
 
-std::string error_of(const scene::Scene& s, const OptimumProblem& problem,
-                     const scene::DesignVariable& along) {
+std::string error_of(const scene::Scene& s, const OptimumProblem& problem, const DesignVariable& along) {
   try {
     optimum_curve(s, problem, along);
   } catch (const std::exception& e) {
@@ -400,7 +399,7 @@ TEST_CASE("what the progress callback throws ends the curve with what there is")
 }
 
 TEST_CASE("what cannot be followed is refused before anything is computed") {
-  const scene::DesignVariable force{"force.cosine", 1, 2};
+  const DesignVariable force{"force.cosine", 1, 2};
   CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosin", 1, 2}), "force.cosine"));
   CHECK(contains(error_of(paper(1, 0), paper_load, {"damper.normal_load", 1, 2}), "named twice"));
   CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosine", 2, 1}), "must be below"));
@@ -517,11 +516,8 @@ TEST_CASE("a curve of optima ends, and says so, where the highest peak ceases to
     scene::Scene beyond = s;
     scene::set(beyond, "d1.stiffness", 1.1 * last.along);
     scene::set(beyond, "d1.normal_load", load);
-    scene::Study frf;
-    frf.from = 8;
-    frf.to = 45;
     observables::ResponsePoint most;
-    const auto branches = observables::frequency_response(beyond, frf);
+    const auto branches = observables::frequency_response(beyond, {8, 45});
     for (const auto& event : branches.front().events)
       if (event.kind == "peak" && event.point.amplitude > most.amplitude) most = event.point;
     return most;

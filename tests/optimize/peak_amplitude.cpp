@@ -175,8 +175,8 @@ TEST_CASE("random structures: peaks that are followed are those of a new respons
     const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first);
     std::vector<std::string> over;
     for (const auto& element : s.elements) over.push_back(element.name + ".normal_load");
-    PeakAmplitude by_following = peaks_over(s, over, s.studies[0].from, s.studies[0].to);
-    PeakAmplitude anew = peaks_over(s, over, s.studies[0].from, s.studies[0].to);
+    PeakAmplitude by_following = peaks_over(s, over, scenes::window(s).from, scenes::window(s).to);
+    PeakAmplitude anew = peaks_over(s, over, scenes::window(s).from, scenes::window(s).to);
     Design start;
     for (const auto& name : over) start.push_back(scene::value(s, name));
     by_following.trace(start);
@@ -201,17 +201,17 @@ TEST_CASE(
     "random structures in narrow windows: the longer steps of a search see the peaks of a whole curve") {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     scene::Scene s = random_scenes::make(seed, static_cast<random_scenes::Excitation>(seed % 3));
-    auto& study = s.studies[0];
-    study.from += (study.to - study.from) * static_cast<double>(seed % 7) / 10;
-    study.to = study.from * (1.05 + 0.05 * static_cast<double>(seed % 5));
+    auto& window = scenes::window(s);
+    window.from += (window.to - window.from) * static_cast<double>(seed % 7) / 10;
+    window.to = window.from * (1.05 + 0.05 * static_cast<double>(seed % 5));
     double most = 0;
-    for (const auto& branch : observables::frequency_response(s, study)) {
+    for (const auto& branch : observables::frequency_response(s, window)) {
       for (const auto& point : branch.points) most = std::max(most, point.amplitude);
       for (const auto& event : branch.events) most = std::max(most, event.point.amplitude);
     }
     const std::string& element = s.elements[0].name;
-    PeakAmplitude peaks = peaks_over(s, {element + ".normal_load"}, study.from, study.to);
-    CAPTURE(seed, study.from, study.to);
+    PeakAmplitude peaks = peaks_over(s, {element + ".normal_load"}, window.from, window.to);
+    CAPTURE(seed, window.from, window.to);
     const double load = scene::value(s, element + ".normal_load");
     CHECK(peaks.trace(Design{load}).amplitude() == Approx(most).epsilon(1e-9));
   }
@@ -291,7 +291,7 @@ TEST_CASE("second derivatives are the differences of gradients, from full slip t
 }
 
 TEST_CASE("second derivatives of peaks on a chain with two dampers") {
-  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/two_dampers/scene.json");
+  scene::Scene s = scenes::example("two_dampers");
   PeakAmplitude peaks = peaks_over(s, {"d1.normal_load", "d2.normal_load", "c1.value"}, 8, 45);
   for (const Design& design : {Design{2, 2, 0.3}, {0.5, 3, 0.3}, {5, 0.7, 0.1}, {0.1, 0.2, 0.3}}) {
     CAPTURE(design);

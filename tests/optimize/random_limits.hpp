@@ -2,6 +2,7 @@
 // Random searches with limits, the same ones on every machine, and what else says how low they could be.
 
 #include "lib/hbm/random_scenes.hpp"
+#include "lib/hbm/scenes.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/optimum.hpp>
@@ -64,8 +65,8 @@ inline Search make(std::uint64_t seed) {
   Search search{random_scenes::make(seed, static_cast<random_scenes::Excitation>(seed % 3)), {}};
   scene::Scene& s = search.scene;
   auto& problem = search.problem;
-  problem.frequency_from = s.studies[0].from;
-  problem.frequency_to = s.studies[0].to;
+  problem.frequency_from = scenes::window(s).from;
+  problem.frequency_to = scenes::window(s).to;
   std::vector<std::string> names;
   for (const auto& element : s.elements)
     for (const char* field : {".normal_load", ".stiffness"})
@@ -85,7 +86,7 @@ inline Search make(std::uint64_t seed) {
     const bool above = random.share() < 0.3;
     const int kind = random.count(0, 5);
     if (kind <= 2 || here.cases.empty()) {
-      scene::LinearLimit sum;
+      optimize::LinearLimit sum;
       double value = 0;
       for (const auto& variable : problem.over) {
         sum.weights.emplace_back(variable.name, random.between(0.3, 3) / scene::value(s, variable.name));
@@ -99,11 +100,11 @@ inline Search make(std::uint64_t seed) {
             {.observable = "energy_friction", .at_most = factor * here.point.energy_friction});
     } else if (kind == 4) {
       const double frequency = here.point.omega / scene::to_rad_per_s(s.frequency_unit);
-      scene::ObservableLimit limit{.observable = "frequency"};
+      optimize::ObservableLimit limit{.observable = "frequency"};
       (above ? limit.at_least : limit.at_most) = frequency * (1 + random.between(-0.1, 0.1));
       problem.limits.push_back(limit);
     } else {
-      scene::ObservableLimit limit{.observable = s.elements[0].name + ".stick_percent"};
+      optimize::ObservableLimit limit{.observable = s.elements[0].name + ".stick_percent"};
       (above ? limit.at_least : limit.at_most) = random.between(5, 95);
       problem.limits.push_back(limit);
     }
@@ -117,11 +118,9 @@ inline Search make(std::uint64_t seed) {
 inline double excess(const Search& search, const std::vector<double>& design) {
   scene::Scene there = search.scene;
   for (std::size_t k = 0; k < design.size(); ++k) scene::set(there, search.problem.over[k].name, design[k]);
-  scene::Study study;
-  study.from = search.problem.frequency_from;
-  study.to = search.problem.frequency_to;
   std::vector<observables::ResponsePoint> peaks;
-  for (const auto& branch : observables::frequency_response(there, study)) {
+  for (const auto& branch :
+       observables::frequency_response(there, {search.problem.frequency_from, search.problem.frequency_to})) {
     for (const auto& event : branch.events)
       if (event.kind == "peak") peaks.push_back(event.point);
     const auto& points = branch.points;

@@ -52,10 +52,10 @@ inline double highest_peak(arcslip::scene::Scene s, const std::vector<double>& l
                            double to) {
   for (std::size_t i = 0; i < loads.size(); ++i)
     arcslip::scene::set(s, "d" + std::to_string(i) + ".normal_load", loads[i]);
-  s.studies[0].from = from;
-  s.studies[0].to = to;
+  scenes::window(s).from = from;
+  scenes::window(s).to = to;
   double most = 0;
-  for (const auto& branch : arcslip::observables::frequency_response(s, s.studies[0]))
+  for (const auto& branch : arcslip::observables::frequency_response(s, scenes::window(s)))
     for (const auto& event : branch.events) most = std::max(most, event.point.amplitude);
   return most;
 }

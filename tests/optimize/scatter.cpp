@@ -37,7 +37,7 @@ double equal(double a, double b, double q) {
   return q * (a + b) / (a * b);
 }
 
-OptimumProblem with(const std::vector<scene::DesignVariable>& scatter) {
+OptimumProblem with(const std::vector<optimize::DesignVariable>& scatter) {
   OptimumProblem problem = over_load;
   problem.scatter = scatter;
   return problem;
@@ -64,7 +64,7 @@ double highest_of_small(double load, double stiffness) {
   scene::set(s, "d.normal_load", load);
   scene::set(s, "ks.value", stiffness);
   double most = 0;
-  for (const auto& branch : observables::frequency_response(s, s.studies[0]))
+  for (const auto& branch : observables::frequency_response(s, scenes::window(s)))
     for (const auto& event : branch.events) most = std::max(most, event.point.amplitude);
   return most;
 }
@@ -218,7 +218,7 @@ TEST_CASE("what scatters and makes no sense is told") {
         "bounds of \"k.value\" are [2, 1]: the lower must be below the upper");
   CHECK(error_of(with({{"k.valeu", 1, 2}})).find("k.value") != std::string::npos);
   auto mean = with({{"k.value", 1, 2}});
-  mean.criterion = scene::Criterion::mean;
+  mean.criterion = optimize::Criterion::mean;
   CHECK(error_of(mean) == "what scatters counts with its worst, and goes with the criterion worst only");
   auto both = with({{"k.value", 1, 2}});
   both.cases = {{{{"k.value", 1}}}};

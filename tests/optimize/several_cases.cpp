@@ -11,8 +11,8 @@
 #include <numbers>
 
 using namespace arcslip;
+using optimize::Criterion;
 using optimize::Optimum;
-using scene::Criterion;
 
 namespace {
 

@@ -18,7 +18,7 @@ DataFile parts_over_period(const SceneFile& file) {
   DataFile figure{
       "figure_14", "Cosine and sine parts of the friction force over a period", file.name, {}, {}};
   figure.columns = {"angle (rad)", "displacement (m)", "force (N)", "cosine part (N)", "sine part (N)"};
-  const auto branch = response_at(file.scene, file.study("phases").frequency_from);
+  const auto branch = response_at(file.scene, time_settings(file, "phases").frequency);
   const auto& point = branch.points.front();
   const auto history = observables::history(file.scene, branch, point, observables::loop_angles(point, 720));
   const auto& damper = history.elements.front();

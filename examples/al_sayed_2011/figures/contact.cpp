@@ -31,11 +31,11 @@ std::string order_label(const scene::Scene& scene) {
 /// angle, time, displacement, force.
 using Rows = std::vector<std::vector<double>>;
 
-Rows balanced(const scene::Scene& scene, const scene::Study& study, const time::History& beside) {
+Rows balanced(const scene::Scene& scene, double frequency, const time::History& beside) {
   std::vector<double> angles;
-  const double omega = study.frequency_from * scene::to_rad_per_s(scene.frequency_unit);
+  const double omega = frequency * scene::to_rad_per_s(scene.frequency_unit);
   for (const double t : beside.time) angles.push_back(omega * t);
-  const auto branch = response_at(scene, study.frequency_from);
+  const auto branch = response_at(scene, frequency);
   const auto history = observables::history(scene, branch, branch.points.front(), angles);
   Rows rows;
   for (std::size_t k = 0; k < angles.size(); ++k)
@@ -44,11 +44,10 @@ Rows balanced(const scene::Scene& scene, const scene::Study& study, const time::
 }
 
 void add_histories(const SceneFile& file, std::vector<DataFile>& figures) {
-  const scene::Study& study = file.study("history");
-  const auto motions = observables::motions_in_time(file.scene, study);
-  if (motions.size() != 1 || motions.front().status != observables::Status::complete)
+  const auto& settings = time_settings(file, "history");
+  const auto motion = observables::motion_in_time(file.scene, settings);
+  if (motion.status != observables::Status::complete)
     throw std::runtime_error(file.name + ": study history is no steady motion in time");
-  const auto& motion = motions.front();
   const scene::Scene one = with_order(file.scene, 1);
   Rows in_time;
   for (std::size_t k = 0; k < motion.history.time.size(); ++k)
@@ -69,20 +68,18 @@ void add_histories(const SceneFile& file, std::vector<DataFile>& figures) {
     loops.blocks.push_back(loop);
   };
   add("time solution", in_time);
-  add(order_label(file.scene), balanced(file.scene, study, motion.history));
-  add(order_label(one), balanced(one, study, motion.history));
+  add(order_label(file.scene), balanced(file.scene, settings.frequency, motion.history));
+  add(order_label(one), balanced(one, settings.frequency, motion.history));
   figures.push_back(forces);
   figures.push_back(loops);
 }
 
 /// Of the force with one harmonic, at its own peak, from that of all harmonics at theirs.
-observables::ForceDifference error_of_one(const scene::Scene& scene, const scene::Study& window,
+observables::ForceDifference error_of_one(const scene::Scene& scene,
+                                          const observables::FrequencyRange& window,
                                           const std::vector<double>& force) {
   const scene::Scene one = with_order(scene, 1);
-  scene::Study study;
-  study.from = window.kind == scene::StudyKind::peaks ? window.frequency_from : window.from;
-  study.to = window.kind == scene::StudyKind::peaks ? window.frequency_to : window.to;
-  const auto found = observables::frequency_response(one, study);
+  const auto found = observables::frequency_response(one, window);
   if (found.empty()) throw std::runtime_error("no response with one harmonic");
   const auto history = observables::history(one, found.front(), peak(found.front()),
                                             observables::even_angles(angles_of_errors));
@@ -92,23 +89,24 @@ observables::ForceDifference error_of_one(const scene::Scene& scene, const scene
 DataFile errors_over_load(const SceneFile& file) {
   DataFile figure{
       "figure_05", "Error of the force of one harmonic at the resonance peaks", file.name, {}, {}};
-  const auto add = [&](const ResponseBranch& branch, const ResponsePoint& point, const scene::Study& study,
-                       double load, Block& block) {
+  const auto add = [&](const ResponseBranch& branch, const ResponsePoint& point,
+                       const observables::FrequencyRange& window, double load, Block& block) {
     scene::Scene scene = file.scene;
     scene::set(scene, branch.over.empty() ? branch.set.front().first : branch.over, load);
     const auto history =
         observables::history(file.scene, branch, point, observables::even_angles(angles_of_errors));
-    const auto error = error_of_one(scene, study, history.elements.front().series);
+    const auto error = error_of_one(scene, window, history.elements.front().series);
     block.rows.push_back(
         {load, stick.of(point), 100 * error.amplitude, 100 * error.rms, 100 * error.maximum});
   };
   Block curve{"curve of peaks", {}}, chosen{"chosen loads", {}};
   const auto curves = branches(file, "error");
+  const auto window = window_of(file.study("error")), window_at = window_of(file.study("error_at"));
   for (const auto& branch : curves)
     for (const auto& point : branch.points)
-      if (!point.unbounded) add(branch, point, file.study("error"), point.over, curve);
+      if (!point.unbounded) add(branch, point, window, point.over, curve);
   for (const auto& branch : branches(file, "error_at"))
-    add(branch, peak(branch), file.study("error_at"), set_value(branch), chosen);
+    add(branch, peak(branch), window_at, set_value(branch), chosen);
   figure.columns = {over(file, curves.front()).name, stick.name, "error of the largest force (%)",
                     "error in the root mean square (%)", "largest error (%)"};
   figure.blocks = {curve, chosen};

@@ -1,6 +1,9 @@
 #include "studies.hpp"
 
+#include <arcslip/optimize/studies.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/study_of.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <algorithm>
@@ -30,7 +33,9 @@ const scene::Study& SceneFile::study(const std::string& study_name) const {
 }
 
 SceneFile read_scene(const std::string& folder, const std::string& name) {
-  SceneFile file{name, scene::read_file(folder + "/" + name)};
+  scene::Catalogue catalogue = studies::catalogue();
+  optimize::add_studies(catalogue);
+  SceneFile file{name, scene::read_file(folder + "/" + name, catalogue)};
   if (file.scene.elements.empty() || file.scene.elements.front().type != &scene::jenkins_type)
     throw std::runtime_error(name + ": the figures are of a friction element, which has to be the first");
   return file;
@@ -41,15 +46,23 @@ namespace {
 constexpr double coarse = 1;  // % of the period in stick
 constexpr int passes = 2;
 
+bool is_of_peaks(const scene::Study& study) {
+  return study.type == &studies::peaks();
+}
+
+/// Of a scene as it is.
 std::vector<ResponseBranch> run(const scene::Scene& scene, const scene::Study& study) {
-  return study.kind == scene::StudyKind::peaks ? observables::resonance_peaks(scene, study)
-                                               : observables::frequency_response(scene, study);
+  return is_of_peaks(study)
+             ? observables::resonance_peaks(scene, study.settings.as<observables::CurveRange>())
+             : observables::frequency_response(scene, study.settings.as<observables::FrequencyRange>());
 }
 
 std::vector<ResponseBranch> branches(const SceneFile& file, const scene::Study& study) {
-  if (study.kind != scene::StudyKind::peaks && study.kind != scene::StudyKind::frf)
+  if (!is_of_peaks(study) && study.type != &studies::frf())
     throw std::runtime_error(file.name + ": study " + study.name + " has to be of kind frf or peaks");
-  auto found = run(file.scene, study);
+  auto found = studies::for_each<ResponseBranch>(
+      file.scene, study.for_each,
+      [&](const studies::Case& at, const auto& /*progress*/) { return run(at.scene, study); });
   if (found.empty()) throw std::runtime_error(file.name + ": study " + study.name + " has no branch");
   for (const ResponseBranch& branch : found)
     if (branch.status == observables::Status::failed)
@@ -67,7 +80,7 @@ bool is_same(const ResponsePoint& a, const ResponsePoint& b) {
 
 /// Where a point lies in the range of its study.
 double place_of(const SceneFile& file, const scene::Study& study, const ResponsePoint& point) {
-  return study.kind == scene::StudyKind::peaks ? point.over : studies::in_scene_unit(file.scene, point.omega);
+  return is_of_peaks(study) ? point.over : studies::in_scene_unit(file.scene, point.omega);
 }
 
 /// Points between two of a branch, by the same study over that range alone, whose steps are shorter. None
@@ -77,10 +90,15 @@ std::vector<ResponsePoint> between(const SceneFile& file, scene::Study study, co
   const auto place = [&](const ResponsePoint& point) { return place_of(file, study, point); };
   scene::Scene scene = file.scene;
   for (const auto& [name, value] : branch.set) scene::set(scene, name, value);
-  study.for_each.clear();
-  study.from = std::min(place(begin), place(end));
-  study.to = std::max(place(begin), place(end));
-  if (!(study.from < study.to)) return {};
+  const double from = std::min(place(begin), place(end)), to = std::max(place(begin), place(end));
+  if (!(from < to)) return {};
+  if (is_of_peaks(study)) {
+    auto& range = study.settings.as<observables::CurveRange>();
+    range.from = from;
+    range.to = to;
+  } else {
+    study.settings = scene::Settings::of(observables::FrequencyRange{from, to});
+  }
   const auto found = run(scene, study);
   if (found.size() != 1 || found.front().status != observables::Status::complete) return {};
   std::vector<ResponsePoint> points = found.front().points;
@@ -129,6 +147,19 @@ std::vector<ResponseBranch> branches(const SceneFile& file, const std::string& s
   return found;
 }
 
+observables::FrequencyRange window_of(const scene::Study& study) {
+  if (!is_of_peaks(study)) return study.settings.as<observables::FrequencyRange>();
+  const auto& range = study.settings.as<observables::CurveRange>();
+  return {range.frequency_from, range.frequency_to};
+}
+
+const observables::TimeSettings& time_settings(const SceneFile& file, const std::string& name) {
+  const scene::Study& study = file.study(name);
+  if (study.type != &studies::time() || !study.for_each.empty())
+    throw std::runtime_error(file.name + ": study " + name + " has to be of one motion in time");
+  return study.settings.as<observables::TimeSettings>();
+}
+
 const ResponsePoint& peak(const ResponseBranch& branch) {
   const ResponsePoint* found = nullptr;
   for (const auto& event : branch.events) {
@@ -141,11 +172,7 @@ const ResponsePoint& peak(const ResponseBranch& branch) {
 }
 
 ResponseBranch response_at(const scene::Scene& scene, double frequency) {
-  scene::Study study;
-  study.kind = scene::StudyKind::frf;
-  study.from = frequency;
-  study.to = frequency * 1.001;
-  const auto found = observables::frequency_response(scene, study);
+  const auto found = observables::frequency_response(scene, {frequency, frequency * 1.001});
   if (found.empty() || found.front().points.empty())
     throw std::runtime_error("no response was found at " + results::shortest(frequency) + " " +
                              std::string(scene::unit_name(scene.frequency_unit)));

@@ -6,6 +6,7 @@
 
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/response.hpp>
+#include <arcslip/observables/time_study.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <functional>
@@ -31,6 +32,12 @@ SceneFile read_scene(const std::string& folder, const std::string& name);
 /// by more than 1 % of the period from one to the next. Throws std::runtime_error where one failed, or where
 /// there is none.
 std::vector<ResponseBranch> branches(const SceneFile& file, const std::string& study);
+
+/// The frequencies in which it looks for responses or peaks.
+arcslip::observables::FrequencyRange window_of(const arcslip::scene::Study& study);
+
+/// Of a study in time of one motion. Throws std::runtime_error where it is not.
+const arcslip::observables::TimeSettings& time_settings(const SceneFile& file, const std::string& study);
 
 /// The only peak of a frequency response. Throws std::runtime_error where there is not one.
 const ResponsePoint& peak(const ResponseBranch& branch);

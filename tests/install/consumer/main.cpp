@@ -3,6 +3,7 @@
 #include <arcslip/continuation/tracer.hpp>
 #include <arcslip/optimize/minimize.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -30,7 +31,7 @@ bool reads_a_scene() {
     "excitation": [{"name": "force", "at": "blade", "harmonic": 1, "cosine": 1.0}],
     "response": {"at": "blade"},
     "studies": [{"name": "frf", "kind": "frf", "from": 18.0, "to": 22.0}]})");
-  return arcslip::scene::value(arcslip::scene::read(file), "m.value") == 1.24;
+  return arcslip::scene::value(arcslip::scene::read(file, arcslip::studies::catalogue()), "m.value") == 1.24;
 }
 
 bool finds_a_minimum() {

@@ -2,6 +2,9 @@
 
 #include "random.hpp"
 
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/studies/catalogue.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +21,10 @@ namespace {
 scene::Direction tie(int i, bool to_ground) {
   if (i == 0 || to_ground) return {{i, 1.0}};
   return {{i, 1.0}, {i - 1, -1.0}};
+}
+
+scene::Study frf(double from, double to) {
+  return {"frf", &studies::frf(), scene::Settings::of(observables::FrequencyRange{from, to})};
 }
 
 }  // namespace
@@ -53,11 +60,8 @@ scene::Scene make(std::uint64_t seed, Excitation excitation) {
   }
   s.harmonics.order = std::array{3, 5, 7, 9, 15}[static_cast<std::size_t>(random.count(0, 4))];
   s.response = {{random.count(0, masses - 1), 1.0}};
-  scene::Study study;
-  study.name = "frf";
-  study.from = random.between(4, 20);
-  study.to = study.from + random.between(5, 20);
-  s.studies.push_back(study);
+  const double from = random.between(4, 20);
+  s.studies.push_back(frf(from, from + random.between(5, 20)));
   scene::check(s);
   return s;
 }
@@ -108,12 +112,9 @@ scene::Scene hard(std::uint64_t seed) {
   }
   s.harmonics.order = std::array{3, 5, 7}[static_cast<std::size_t>(random.count(0, 2))];
   s.response = {{random.count(0, masses - 1), 1.0}};
-  scene::Study study;
-  study.name = "frf";
   const double frequency = std::sqrt(stiffness / mass);
-  study.from = frequency * random.between(0.1, 0.8) / highest;
-  study.to = study.from + frequency * random.between(0.5, 2);
-  s.studies.push_back(study);
+  const double from = frequency * random.between(0.1, 0.8) / highest;
+  s.studies.push_back(frf(from, from + frequency * random.between(0.5, 2)));
   scene::check(s);
   return s;
 }
@@ -153,11 +154,8 @@ scene::Scene make_hardening(std::uint64_t seed) {
   s.harmonics.order = std::array{3, 5, 7, 9}[static_cast<std::size_t>(random.count(0, 3))];
   s.response = {{random.count(0, masses - 1), 1.0}};
   s.frequency_unit = scene::FrequencyUnit::radian_per_second;
-  scene::Study study;
-  study.name = "frf";
-  study.from = random.between(0.15, 0.6);
-  study.to = study.from + random.between(1, 2.5);
-  s.studies.push_back(study);
+  const double from = random.between(0.15, 0.6);
+  s.studies.push_back(frf(from, from + random.between(1, 2.5)));
   scene::check(s);
   return s;
 }

@@ -1,8 +1,11 @@
 #pragma once
 // Scenes for tests, and single responses of them.
 
+#include "catalogue.hpp"
+
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/study_of.hpp>
 
 #include <numbers>
 #include <sstream>
@@ -16,12 +19,24 @@ inline constexpr double hertz = 2 * std::numbers::pi;
 
 inline scene::Scene parse(const std::string& text) {
   std::istringstream in(text);
-  return scene::read(in);
+  return scene::read(in, test_catalogue::whole());
+}
+
+/// The window of the scene's first study, one of frequency responses.
+inline observables::FrequencyRange& window(scene::Scene& s) {
+  return s.studies.front().settings.as<observables::FrequencyRange>();
+}
+inline const observables::FrequencyRange& window(const scene::Scene& s) {
+  return s.studies.front().settings.as<observables::FrequencyRange>();
+}
+
+inline scene::Scene example(const std::string& name) {
+  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + name + "/scene.json", test_catalogue::whole());
 }
 
 /// The paper's oscillator with one load.
 inline scene::Scene paper(int order, double load = 3) {
-  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  scene::Scene s = example("al_sayed_2011");
   s.harmonics.order = order;
   s.studies.front().for_each.clear();
   scene::set(s, "damper.normal_load", load);
@@ -65,13 +80,21 @@ inline scene::Scene duffing_jenkins(int order = 1) {
   return s;
 }
 
+/// The frequency responses of a scene in its window, for each combination of the lists.
+inline std::vector<observables::ResponseBranch> frequency_responses(
+    const scene::Scene& s, const scene::ValueLists& lists,
+    const observables::ProgressCallback& progress = {}) {
+  const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
+    return observables::frequency_response(at.scene, window(at.scene), tell);
+  };
+  return studies::for_each<observables::ResponseBranch>(s, lists, compute, progress);
+}
+
 /// The response at one frequency, in the scene's unit.
 inline observables::ResponsePoint response_at(scene::Scene s, double frequency) {
-  scene::Study study;
-  study.from = frequency;
-  study.to = 1.001 * frequency;
   const auto branches = observables::frequency_response(
-      s, study, [](const observables::Progress& progress) { return progress.points < 1; });
+      s, {frequency, 1.001 * frequency},
+      [](const observables::Progress& progress) { return progress.points < 1; });
   if (branches.front().points.empty()) throw std::runtime_error(branches.front().stop.message);
   return branches.front().points.front();
 }

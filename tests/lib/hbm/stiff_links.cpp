@@ -60,13 +60,13 @@ TEST_CASE(
     "links of 1e4 to 1e24 times the stiffness of the rest are as good as rigid, by the ratio and rounding") {
   for (const bool even : {false, true}) {
     const scene::Scene limit = rigid(even);
-    const auto expected = observables::frequency_response(limit, limit.studies.front()).front();
+    const auto expected = observables::frequency_response(limit, scenes::window(limit)).front();
     REQUIRE(expected.status == observables::Status::complete);
     REQUIRE(!expected.events.empty());
     for (double link = 1e4; link < 1e25; link *= 100) {
       CAPTURE(even, link);
       const scene::Scene s = linked(link, even);
-      const auto found = observables::frequency_response(s, s.studies.front()).front();
+      const auto found = observables::frequency_response(s, scenes::window(s)).front();
       REQUIRE(found.status == observables::Status::complete);
       REQUIRE(found.events.size() == expected.events.size());
       for (std::size_t k = 0; k < found.events.size(); ++k) {
@@ -81,9 +81,9 @@ TEST_CASE(
 TEST_CASE("springs of 1e-10 of the rest are as good as none") {
   scene::Scene s = linked(1e8, false);
   s.springs.push_back({"soft", &scene::spring_type, {{1, 1.0}}, {1e-10}});
-  const auto with = observables::frequency_response(s, s.studies.front()).front();
+  const auto with = observables::frequency_response(s, scenes::window(s)).front();
   s.springs.pop_back();
-  const auto without = observables::frequency_response(s, s.studies.front()).front();
+  const auto without = observables::frequency_response(s, scenes::window(s)).front();
   REQUIRE(with.events.size() == without.events.size());
   for (std::size_t k = 0; k < with.events.size(); ++k)
     CHECK(std::abs(with.events[k].point.amplitude / without.events[k].point.amplitude - 1) < 1e-8);
@@ -112,7 +112,7 @@ TEST_CASE(
   for (double ratio = 1e-10; ratio < 1e21; ratio *= 100) {
     scene::Scene s = scenes::paper(1, 1);
     scene::set(s, "damper.stiffness", 17890 * ratio);
-    const auto branch = observables::frequency_response(s, s.studies.front()).front();
+    const auto branch = observables::frequency_response(s, scenes::window(s)).front();
     CAPTURE(ratio, branch.stop.message);
     const bool is_named = branch.stop.message.find("damper.stiffness = ") != std::string::npos;
     CHECK(is_named == (ratio > 2e12));

@@ -15,12 +15,12 @@ std::vector<observables::ResponseEvent> folds(const observables::ResponseBranch&
 }
 
 scene::Scene duffing(double damping, double cubic, double force, int order, double to) {
-  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json");
+  scene::Scene s = scenes::example("duffing");
   scene::set(s, "c.value", damping);
   scene::set(s, "hardening.stiffness", cubic);
   scene::set(s, "force.cosine", force);
   s.harmonics.order = order;
-  s.studies.front().to = to;
+  scenes::window(s).to = to;
   return s;
 }
 
@@ -28,7 +28,7 @@ scene::Scene duffing(double damping, double cubic, double force, int order, doub
 
 TEST_CASE("both folds of the Duffing oscillator of NLvib example 01 are found to 1e-9") {
   const scene::Scene s = duffing(0.05, 0.1, 0.18, 15, 1.6);
-  const auto branches = observables::frequency_response(s, s.studies.front());
+  const auto branches = observables::frequency_response(s, scenes::window(s));
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::complete);
   const auto found = folds(branches[0]);
@@ -45,7 +45,7 @@ TEST_CASE(
     "equation") {
   const auto one = folds([] {
     const scene::Scene s = duffing(0.1, 1, 0.1, 1, 2);
-    return observables::frequency_response(s, s.studies.front()).front();
+    return observables::frequency_response(s, scenes::window(s)).front();
   }());
   REQUIRE(one.size() == 2);
   CHECK(std::abs(one[0].point.omega - 1.227095772) < 1e-9);
@@ -54,7 +54,7 @@ TEST_CASE(
   CHECK(std::abs(one[1].point.amplitude - 0.424611125) < 1e-8);
   for (int order : {9, 15, 35}) {
     const scene::Scene s = duffing(0.1, 1, 0.1, order, 2);
-    const auto many = folds(observables::frequency_response(s, s.studies.front()).front());
+    const auto many = folds(observables::frequency_response(s, scenes::window(s)).front());
     REQUIRE(many.size() == 2);
     CHECK(std::abs(many[0].point.omega - 1.2287354913) < 1e-9);
     CHECK(std::abs(many[1].point.omega - 1.1579517117) < 1e-9);
@@ -63,7 +63,7 @@ TEST_CASE(
 
 TEST_CASE("the Jenkins and Duffing oscillator folds where its describing function does") {
   const scene::Scene s = scenes::duffing_jenkins();
-  const auto found = folds(observables::frequency_response(s, s.studies.front()).front());
+  const auto found = folds(observables::frequency_response(s, scenes::window(s)).front());
   REQUIRE(found.size() == 2);
   CHECK(reference::error(found[0].point.omega, 2.1150531362) < 1e-9);
   CHECK(reference::error(found[1].point.omega, 1.5063740448) < 1e-9);

@@ -14,7 +14,7 @@ using namespace arcslip;
 namespace {
 
 std::vector<observables::ResponseBranch> branches_of(const scene::Scene& s) {
-  return observables::frequency_response(s, s.studies.front());
+  return observables::frequency_response(s, scenes::window(s));
 }
 
 // Two masses, of which a slider alone holds the second one; a second harmonic brings in the mean.
@@ -39,7 +39,7 @@ double duffing_defect(double omega, double amplitude, double damping, double cub
 }
 
 scene::Scene softening() {
-  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json");
+  scene::Scene s = scenes::example("duffing");
   scene::set(s, "hardening.stiffness", -0.05);
   scene::set(s, "force.cosine", 0.1);
   s.harmonics.order = 1;
@@ -93,7 +93,7 @@ TEST_CASE("a window that begins on an unbounded resonance begins with its peak")
     for (double load : {0.0, 1.0, 1.5}) {
       scene::Scene s = scenes::paper(7, load);
       scene::set(s, "c.value", 0);
-      s.studies.front().from = resonance * (1 + off);
+      scenes::window(s).from = resonance * (1 + off);
       const auto branches = branches_of(s);
       CAPTURE(off, load);
       REQUIRE(branches.size() == 2);
@@ -110,7 +110,7 @@ TEST_CASE("a window that begins on an unbounded resonance begins with its peak")
 TEST_CASE("a window that begins on an undamped resonance that friction bounds begins with a response") {
   scene::Scene s = scenes::paper(7, 1.6);  // pi f0/(4 mu) = 1.5708 N bounds it
   scene::set(s, "c.value", 0);
-  s.studies.front().from = std::sqrt(17890 / 1.24) / scenes::hertz;
+  scenes::window(s).from = std::sqrt(17890 / 1.24) / scenes::hertz;
   const auto branches = branches_of(s);
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::complete);
@@ -121,7 +121,7 @@ TEST_CASE("a window of twelve decades is traced from end to end") {
   for (double from : {1e-12, 1e-9, 1e-3}) {
     scene::Scene s = softening();
     scene::set(s, "hardening.stiffness", 0.1);
-    s.studies.front().from = from;
+    scenes::window(s).from = from;
     const auto branches = branches_of(s);
     CAPTURE(from);
     CHECK(branches[0].status == observables::Status::complete);
@@ -133,7 +133,7 @@ TEST_CASE("a window of twelve decades is traced from end to end") {
 TEST_CASE("a branch that turns back and leaves the window where it began has not covered it") {
   // The folds of the closed form lie at 0.93657 rad/s, which is met first, and at 0.90145 rad/s.
   scene::Scene s = softening();
-  s.studies.front().from = 0.92;
+  scenes::window(s).from = 0.92;
   const auto branches = branches_of(s);
   REQUIRE(branches.size() == 1);
   const auto& branch = branches[0];
@@ -149,6 +149,6 @@ TEST_CASE("a branch that turns back and leaves the window where it began has not
   for (const auto& point : branch.points)
     CHECK(std::abs(duffing_defect(point.omega, point.amplitude, 0.05, -0.05, 0.1)) < 1e-9);
 
-  s.studies.front().from = 0.5;
+  scenes::window(s).from = 0.5;
   CHECK(branches_of(s)[0].status == observables::Status::complete);
 }

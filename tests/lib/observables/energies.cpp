@@ -33,7 +33,7 @@ double imbalance(const observables::ResponseBranch& branch) {
 // The resonance peak of the paper's oscillator at one load.
 ResponsePoint peak_at(double load, int order = 55) {
   scene::Scene s = scenes::paper(order, load);
-  const auto branch = observables::frequency_response(s, s.studies.front()).front();
+  const auto branch = observables::frequency_response(s, scenes::window(s)).front();
   if (branch.events.size() != 1) throw std::runtime_error("not one peak");
   return branch.events.front().point;
 }
@@ -71,8 +71,8 @@ TEST_CASE("what the excitation puts in, friction and dampers take out, at every 
                                                            {"three masses, mean", scenes::chain(6, true)},
                                                            {"cubic spring", scenes::duffing_jenkins(5)}};
   scene::Scene low = scenes::paper(101, 0.1);
-  low.studies.front().from = 0.2;
-  low.studies.front().to = 2;
+  scenes::window(low).from = 0.2;
+  scenes::window(low).to = 2;
   all.emplace_back("low frequencies", low);
   scene::Scene forces = scenes::chain(5, false);  // two in one harmonic
   forces.excitation.push_back(forces.excitation.front());
@@ -105,7 +105,7 @@ TEST_CASE("what the excitation puts in, friction and dampers take out, at every 
   }
   for (const auto& [name, s] : all) {
     CAPTURE(name);
-    for (const auto& branch : observables::frequency_response(s, s.studies.front())) {
+    for (const auto& branch : observables::frequency_response(s, scenes::window(s))) {
       CHECK(branch.points.size() > 10);
       CHECK(imbalance(branch) < 1e-10);
     }
@@ -118,7 +118,7 @@ TEST_CASE("random structures: the energies balance within the tolerance of Newto
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       const scene::Scene s = random_scenes::make(seed, excitation);
       CAPTURE(seed);
-      for (const auto& branch : observables::frequency_response(s, s.studies.front()))
+      for (const auto& branch : observables::frequency_response(s, scenes::window(s)))
         CHECK(imbalance(branch) < 1e-9);
     }
 }

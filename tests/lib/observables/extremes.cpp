@@ -1,5 +1,7 @@
 #include "lib/observables/extremes.hpp"
 
+#include <arcslip/observables/frequency_response.hpp>
+
 #include <cmath>
 #include <numbers>
 
@@ -32,8 +34,7 @@ std::function<void(Scene&)> window(double from, double to, std::vector<std::pair
                                    int order = 15) {
   return [=](Scene& scene) {
     set(values, order)(scene);
-    scene.studies.front().from = from;
-    scene.studies.front().to = to;
+    scene.studies.front().settings.as<arcslip::observables::FrequencyRange>() = {from, to};
   };
 }
 

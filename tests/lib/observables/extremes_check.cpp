@@ -15,7 +15,7 @@ void check(const Extreme& extreme) {
   CAPTURE(extreme.name);
   scene::Scene s = scenes::paper(15);
   extreme.change(s);
-  const auto branches = observables::frequency_response(s, s.studies.front());
+  const auto branches = observables::frequency_response(s, scenes::window(s));
   REQUIRE(branches.size() == extreme.reasons.size());
   const observables::ResponsePoint* highest = nullptr;
   int peaks = 0, unbounded = 0;

@@ -22,11 +22,11 @@ TEST_CASE("f0 and Fn scaled together scale the response and nothing else") {
 }
 
 TEST_CASE("a cubic spring bounds what is undamped") {
-  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json");
+  scene::Scene s = scenes::example("duffing");
   scene::set(s, "c.value", 0);
-  s.studies.front().to = 3;
+  scenes::window(s).to = 3;
   s.harmonics.order = 1;
-  const auto branches = observables::frequency_response(s, s.studies.front());
+  const auto branches = observables::frequency_response(s, scenes::window(s));
   for (const auto& event : branches.front().events) CHECK_FALSE(event.point.unbounded);
   for (const auto& point : branches.front().points) CHECK(std::isfinite(point.amplitude));
 }

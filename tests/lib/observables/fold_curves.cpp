@@ -15,20 +15,8 @@ using observables::ResponseBranch;
 
 namespace {
 
-scene::Study folds_over(const std::string& parameter, double from, double to, double lower, double upper) {
-  scene::Study study;
-  study.name = "folds";
-  study.kind = scene::StudyKind::folds;
-  study.over = parameter;
-  study.from = from;
-  study.to = to;
-  study.frequency_from = lower;
-  study.frequency_to = upper;
-  return study;
-}
-
 scene::Scene duffing(double force) {
-  scene::Scene s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json");
+  scene::Scene s = scenes::example("duffing");
   scene::set(s, "c.value", 0.1);
   scene::set(s, "hardening.stiffness", 1);
   scene::set(s, "force.cosine", force);
@@ -39,7 +27,7 @@ scene::Scene duffing(double force) {
 }  // namespace
 
 TEST_CASE("both folds of the Duffing oscillator lie on one curve over the force, with a cusp between them") {
-  const auto branches = observables::fold_curves(duffing(1), folds_over("force.cosine", 0.1, 0.01, 0.5, 2));
+  const auto branches = observables::fold_curves(duffing(1), {"force.cosine", 0.1, 0.01, 0.5, 2});
   REQUIRE(branches.size() == 1);
   const ResponseBranch& curve = branches[0];
   CHECK(curve.status == observables::Status::complete);
@@ -56,7 +44,7 @@ TEST_CASE("both folds of the Duffing oscillator lie on one curve over the force,
 
 TEST_CASE("a fold curve of the Duffing oscillator solves dg/dA = 0 of its closed form") {
   // g^2 = A^2 ((1 - w^2 + 3/4 A^2)^2 + 0.01 w^2), and at folds in w its derivative by A^2 vanishes.
-  const auto branches = observables::fold_curves(duffing(1), folds_over("force.cosine", 0.06, 0.3, 0.5, 4));
+  const auto branches = observables::fold_curves(duffing(1), {"force.cosine", 0.06, 0.3, 0.5, 4});
   REQUIRE(branches.size() == 2);
   for (const ResponseBranch& curve : branches) {
     CAPTURE(curve.stop.message);
@@ -73,7 +61,7 @@ TEST_CASE("a fold curve of the Duffing oscillator solves dg/dA = 0 of its closed
 
 TEST_CASE("folds of the Jenkins and Duffing oscillator over the load, and where they turn in the frequency") {
   const auto branches =
-      observables::fold_curves(scenes::duffing_jenkins(), folds_over("d.normal_load", 0.8, 3, 0.5, 4));
+      observables::fold_curves(scenes::duffing_jenkins(), {"d.normal_load", 0.8, 3, 0.5, 4});
   REQUIRE(branches.size() >= 2);
   CHECK(std::abs(branches[0].points.front().omega - 2.1150531362) < 1e-9);
   CHECK(std::abs(branches[1].points.front().omega - 1.5063740448) < 1e-9);

@@ -20,21 +20,14 @@ constexpr double pi = std::numbers::pi;
 namespace {
 
 ResponsePoint peak_of(const scene::Scene& s) {
-  const auto branch = observables::frequency_response(s, s.studies.front()).front();
+  const auto branch = observables::frequency_response(s, scenes::window(s)).front();
   if (branch.events.size() != 1) throw std::runtime_error("not one peak");
   return branch.events.front().point;
 }
 
 ResponseBranch peaks_over_load(scene::Scene s, double from, double to, double damping = 0.134) {
   scene::set(s, "c.value", damping);
-  scene::Study study;
-  study.kind = scene::StudyKind::peaks;
-  study.over = "damper.normal_load";
-  study.from = from;
-  study.to = to;
-  study.frequency_from = 18;
-  study.frequency_to = 22;
-  return observables::resonance_peaks(s, study).front();
+  return observables::resonance_peaks(s, {"damper.normal_load", from, to, 18, 22}).front();
 }
 
 std::complex<double> fundamental(const std::vector<double>& values) {
@@ -94,7 +87,7 @@ TEST_CASE(
 
 TEST_CASE("several masses: the parts balance the excitation, and contact is what the force histories say") {
   const scene::Scene s = scenes::chain(9, false);
-  const auto branch = observables::frequency_response(s, s.studies.front()).front();
+  const auto branch = observables::frequency_response(s, scenes::window(s)).front();
   const auto angles = observables::even_angles(4096);
   for (std::size_t k = 0; k < branch.points.size(); k += 10) {
     const ResponsePoint& point = branch.points[k];
@@ -169,10 +162,7 @@ TEST_CASE("at 3.14 N without damping Eqs. 26 and 27 of the paper fail for maxima
 TEST_CASE("theta_0 is where x turns at its largest, theta_star where f has fallen by 2 mu Fn") {
   for (double load : {0.5, 1.0, 3.0}) {
     const scene::Scene s = scenes::paper(55, load);
-    scene::Study study;
-    study.from = 20;
-    study.to = 20.01;
-    const auto branch = observables::frequency_response(s, study).front();
+    const auto branch = observables::frequency_response(s, {20, 20.01}).front();
     const auto& point = branch.points.front();
     const auto& damper = point.elements[0];
     const auto history =
@@ -193,7 +183,7 @@ TEST_CASE("there is no theta_star without slip, nor with many phases of slip") {
 
 TEST_CASE("maxima over the period are those of densely sampled histories") {
   const scene::Scene s = scenes::paper(15, 3);
-  const auto branch = observables::frequency_response(s, s.studies.front()).front();
+  const auto branch = observables::frequency_response(s, scenes::window(s)).front();
   const ResponsePoint& peak = branch.events.front().point;
   const auto history = observables::history(s, branch, peak, observables::even_angles(40000));
   const auto largest = [](const std::vector<double>& values) {

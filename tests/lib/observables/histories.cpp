@@ -21,11 +21,9 @@ constexpr double pi = std::numbers::pi;
 namespace {
 
 ResponseBranch beginning_at(const scene::Scene& s, double frequency) {
-  scene::Study study;
-  study.from = frequency;
-  study.to = 1.001 * frequency;
   return observables::frequency_response(
-             s, study, [](const observables::Progress& progress) { return progress.points < 1; })
+             s, {frequency, 1.001 * frequency},
+             [](const observables::Progress& progress) { return progress.points < 1; })
       .front();
 }
 
@@ -123,12 +121,8 @@ TEST_CASE("cosine and sine parts make the series, and the first is even in the a
 
 TEST_CASE("a history follows what its branch sets and is over") {
   scene::Scene s = scenes::paper(15);
-  scene::Study study;
-  study.kind = scene::StudyKind::frf;
-  study.from = 20;
-  study.to = 20.01;
-  study.for_each = {{"damper.normal_load", {1, 2}}};
-  for (const auto& branch : observables::frequency_response(s, study)) {
+  scenes::window(s) = {20, 20.01};
+  for (const auto& branch : scenes::frequency_responses(s, {{"damper.normal_load", {1, 2}}})) {
     const History history =
         observables::history(s, branch, branch.points.front(), observables::even_angles(360));
     CHECK(reference::error(largest(history.elements[0].force), 0.5 * branch.set[0].second) < 1e-12);
@@ -137,14 +131,7 @@ TEST_CASE("a history follows what its branch sets and is over") {
 
 TEST_CASE("on a curve of peaks over the load each history has its own load") {
   const scene::Scene s = scenes::paper(15);
-  scene::Study study;
-  study.kind = scene::StudyKind::peaks;
-  study.over = "damper.normal_load";
-  study.from = 2;
-  study.to = 6;
-  study.frequency_from = 18;
-  study.frequency_to = 22;
-  const auto curve = observables::resonance_peaks(s, study).front();
+  const auto curve = observables::resonance_peaks(s, {"damper.normal_load", 2, 6, 18, 22}).front();
   REQUIRE(curve.events.size() == 1);
   for (const ResponsePoint* point :
        {&curve.points.front(), &curve.events.front().point, &curve.points.back()}) {
@@ -195,7 +182,7 @@ TEST_CASE("no history is made of an unbounded response, nor of a point of anothe
 
 TEST_CASE("the point nearest in frequency is chosen, and none of an empty branch") {
   const scene::Scene s = scenes::paper(3, 3);
-  const auto branch = observables::frequency_response(s, s.studies.front()).front();
+  const auto branch = observables::frequency_response(s, scenes::window(s)).front();
   const auto* point = observables::point_at_frequency(branch, 20 * scenes::hertz);
   REQUIRE(point);
   for (const auto& other : branch.points)
@@ -222,7 +209,7 @@ struct AtPeak {
 
 AtPeak at_peak(int order, double load) {
   const scene::Scene s = scenes::paper(order, load);
-  const auto branch = observables::frequency_response(s, s.studies.front()).front();
+  const auto branch = observables::frequency_response(s, scenes::window(s)).front();
   if (branch.events.size() != 1) throw std::runtime_error("not one peak");
   const ResponsePoint& peak = branch.events.front().point;
   return {peak, observables::history(s, branch, peak, observables::even_angles(7200))};

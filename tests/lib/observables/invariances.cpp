@@ -1,5 +1,7 @@
 #include "lib/observables/invariances.hpp"
 
+#include "lib/hbm/scenes.hpp"
+
 #include <arcslip/model/model.hpp>
 
 #include <algorithm>
@@ -84,8 +86,8 @@ Variant faster(const Scene& s, double factor) {
   variant.frequency = factor;
   for (Part& mass : variant.scene.masses) mass.values[0] /= factor * factor;
   for (Part& damper : variant.scene.dampers) damper.values[0] /= factor;
-  variant.scene.studies.front().from *= factor;
-  variant.scene.studies.front().to *= factor;
+  observables::FrequencyRange& range = scenes::window(variant.scene);
+  range = {range.from * factor, range.to * factor};
   return variant;
 }
 
@@ -147,9 +149,9 @@ std::vector<Variant> all(const Scene& s, std::uint64_t seed) {
 }
 
 Response response(const Variant& variant) {
-  const auto& study = variant.scene.studies.front();
+  const auto& range = scenes::window(variant.scene);
   const double unit = scene::to_rad_per_s(variant.scene.frequency_unit);
-  const observables::FrequencyWindow window{study.from * unit, study.to * unit};
+  const observables::FrequencyWindow window{range.from * unit, range.to * unit};
   Response result;
   const auto record = [&](observables::Observer& observer, const continuation::Accepted& now,
                           const continuation::Event* event) {
@@ -172,9 +174,9 @@ Response response(const Scene& s) {
 }
 
 Response in_short_steps(const Scene& s) {
-  const auto& study = s.studies.front();
+  const auto& range = scenes::window(s);
   const double unit = scene::to_rad_per_s(s.frequency_unit);
-  const double lower = study.from * unit, upper = study.to * unit, width = upper - lower;
+  const double lower = range.from * unit, upper = range.to * unit, width = upper - lower;
   Response result;
   const auto first =
       observables::first_response(std::make_shared<const model::Model>(model::build(s)), lower, width);

@@ -97,12 +97,12 @@ double excess_at(const hbm::HbmProblem& problem, const continuation::Accepted& n
 
 // How many nonsmooth peaks a response has; at each of them an element is at its slip limit.
 int check_nonsmooth_peaks(const scene::Scene& s) {
-  const auto& study = s.studies.front();
+  const auto& window = scenes::window(s);
   const double unit = scene::to_rad_per_s(s.frequency_unit);
   int peaks = 0;
   observables::frequency_branch(
-      std::make_shared<const model::Model>(model::build(s)), {study.from * unit, study.to * unit},
-      study.from * unit,
+      std::make_shared<const model::Model>(model::build(s)), {window.from * unit, window.to * unit},
+      window.from * unit,
       [&](observables::Observer& observer, const continuation::Accepted& now,
           const continuation::Event* event) {
         if (!event || event->monitor != "peak" || !event->nonsmooth || !event->located) return true;
@@ -140,11 +140,11 @@ TEST_CASE("a response that symmetry holds at 0 has no peaks, and costs as many p
     "excitation": [{"name": "f", "at": "c", "cosine": 1}, {"name": "g", "at": "c", "harmonic": 3, "cosine": 0.3}],
     "harmonics": {"order": 5}, "response": {"direction": {"a": 1, "b": -1}},
     "studies": [{"kind": "frf", "from": 0.3, "to": 2.2}]})");
-  const auto at_rest = observables::frequency_response(s, s.studies.front()).front();
+  const auto at_rest = observables::frequency_response(s, scenes::window(s)).front();
   CHECK(at_rest.status == observables::Status::complete);
   CHECK(at_rest.events.empty());
   s.response = {{0, 1.0}};
-  const auto moving = observables::frequency_response(s, s.studies.front()).front();
+  const auto moving = observables::frequency_response(s, scenes::window(s)).front();
   CHECK(moving.status == observables::Status::complete);
   // Steps end elsewhere where the peaks of the other response are resolved: a few points more or less.
   CHECK(static_cast<double>(at_rest.points.size()) <= 1.02 * static_cast<double>(moving.points.size()));

@@ -14,7 +14,7 @@ TEST_CASE("resonance peaks at every load from 0.01 N to 500 N are exact to 5e-8 
   for (const auto& exact : peaks) {
     const double load = exact["normal_load"];
     const scene::Scene s = scenes::paper(55, load);
-    const auto branches = observables::frequency_response(s, s.studies.front());
+    const auto branches = observables::frequency_response(s, scenes::window(s));
     CAPTURE(load);
     REQUIRE(branches.size() == 1);
     CHECK(branches[0].status == observables::Status::complete);
@@ -49,7 +49,7 @@ TEST_CASE(
     "slip") {
   scene::Scene s = scenes::paper(1, pi);
   scene::set(s, "c.value", 0);
-  const auto branches = observables::frequency_response(s, s.studies.front());
+  const auto branches = observables::frequency_response(s, scenes::window(s));
   REQUIRE(branches.size() == 1);
   REQUIRE(branches[0].events.size() == 1);
   const auto& peak = branches[0].events[0].point;

@@ -14,15 +14,8 @@ using observables::ResponseBranch;
 
 namespace {
 
-scene::Study over(const std::string& parameter, double frequency, double from, double to) {
-  scene::Study study;
-  study.name = "trace";
-  study.kind = scene::StudyKind::trace;
-  study.over = parameter;
-  study.from = from;
-  study.to = to;
-  study.frequency_from = study.frequency_to = frequency;
-  return study;
+observables::ParameterRange over(const std::string& parameter, double frequency, double from, double to) {
+  return {parameter, from, to, frequency};
 }
 
 std::vector<observables::ResponseEvent> events(const ResponseBranch& branch, const std::string& kind) {
@@ -85,24 +78,24 @@ TEST_CASE("the Jenkins and Duffing oscillator folds in the load where its descri
   // Below the first fold and above the second there are two responses of large amplitude beside the small
   // one.
   const auto s = scenes::duffing_jenkins();
-  for (const auto& [study, fold] : {std::pair(over("d.normal_load", 2, 0.5, 3), 0.9169049045),
+  for (const auto& [range, fold] : {std::pair(over("d.normal_load", 2, 0.5, 3), 0.9169049045),
                                     std::pair(over("d.normal_load", 2, 3, 0.5), 1.6884695203)}) {
-    const auto branches = observables::parameter_response(s, study);
+    const auto branches = observables::parameter_response(s, range);
     CAPTURE(fold);
     REQUIRE(branches.size() == 2);
     for (const auto& branch : branches) CHECK(branch.status == observables::Status::complete);
     CHECK(events(branches[0], "fold").empty());
-    CHECK(branches[0].points.back().over == study.to);
+    CHECK(branches[0].points.back().over == range.to);
     const auto folds = events(branches[1], "fold");
     REQUIRE(folds.size() == 1);
     CHECK(std::abs(folds[0].point.over - fold) < 1e-9);
     CHECK_FALSE(folds[0].nonsmooth);
-    CHECK(branches[1].points.back().over == study.from);
+    CHECK(branches[1].points.back().over == range.from);
   }
 }
 
 TEST_CASE("through full stick, where the load moves nothing, no branch over the load is lost") {
-  const auto s = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing_jenkins/scene.json");
+  const auto s = scenes::example("duffing_jenkins");
   for (const int order : {5, 15})
     for (const double frequency : {1.2, 1.6, 2.0}) {
       CAPTURE(order, frequency);
@@ -137,11 +130,12 @@ TEST_CASE("a parameter that is not there, or may not take the value, is refused 
 }
 
 TEST_CASE("a branch over a parameter ends with the callback, and no other is begun") {
-  scene::Study study = over("damper.normal_load", 20, 1, 3);
-  study.for_each = {{"c.value", {0.1, 0.2}}};
+  const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
+    return observables::parameter_response(at.scene, over("damper.normal_load", 20, 1, 3), tell);
+  };
   double share = 0;
-  const auto branches =
-      observables::parameter_response(scenes::paper(1), study, [&](const observables::Progress& progress) {
+  const auto branches = studies::for_each<ResponseBranch>(
+      scenes::paper(1), {{"c.value", {0.1, 0.2}}}, compute, [&](const observables::Progress& progress) {
         CHECK(progress.share_done >= share);
         CHECK(progress.branches == 2);
         share = progress.share_done;
@@ -156,9 +150,9 @@ TEST_CASE("a branch over a parameter ends with the callback, and no other is beg
 TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each") {
   scene::Scene s = scenes::paper(7);
   s.elements.push_back({"h", &scene::cubic_spring_type, {{0, 1.0}}, {1e9}});
-  const auto study = over("damper.normal_load", 20, 1, 100);
+  const auto range = over("damper.normal_load", 20, 1, 100);
   long asked = 0, before_points = 0;
-  observables::parameter_response(s, study, [&](const observables::Progress& now) {
+  observables::parameter_response(s, range, [&](const observables::Progress& now) {
     ++asked;
     if (now.points == 0) ++before_points;
     return true;
@@ -167,7 +161,7 @@ TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each
   for (const long last : {1L, 10L, before_points / 2, before_points, (before_points + asked) / 2}) {
     long here = 0;
     const auto branches = observables::parameter_response(
-        s, study, [&](const observables::Progress&) { return ++here < last; });
+        s, range, [&](const observables::Progress&) { return ++here < last; });
     CAPTURE(last);
     CHECK(here == last);  // never asked again
     REQUIRE(branches.size() == 1);
@@ -180,16 +174,12 @@ TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each
 TEST_CASE("no study speaks of a Jacobian to the user of a scene") {
   scene::Scene s = scenes::paper(7, 3);
   scene::set(s, "damper.stiffness", 1e32);
-  auto study = over("damper.normal_load", 20, 1, 100);
-  for (const auto& branch : observables::parameter_response(s, study)) {
+  for (const auto& branch : observables::parameter_response(s, over("damper.normal_load", 20, 1, 100))) {
     CAPTURE(branch.stop.message);
     CHECK(branch.stop.message.find("Jacobian") == std::string::npos);
     CHECK(branch.stop.message.find("make damper.stiffness smaller") != std::string::npos);
   }
-  study.kind = scene::StudyKind::peaks;
-  study.frequency_from = 18;
-  study.frequency_to = 22;
-  for (const auto& branch : observables::resonance_peaks(s, study)) {
+  for (const auto& branch : observables::resonance_peaks(s, {"damper.normal_load", 1, 100, 18, 22})) {
     CAPTURE(branch.stop.message);
     CHECK(branch.stop.message.find("Jacobian") == std::string::npos);
     CHECK(branch.stop.message.find("make damper.stiffness smaller") != std::string::npos);

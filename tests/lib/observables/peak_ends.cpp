@@ -11,6 +11,8 @@
 #include <cmath>
 
 using namespace arcslip;
+using observables::CurveRange;
+using observables::FrequencyRange;
 using observables::ResponseBranch;
 using observables::ResponsePoint;
 
@@ -38,21 +40,16 @@ scene::Scene second_and_third() {
     "studies": [{"name": "frf", "kind": "frf", "from": 0.07893333620391295, "to": 0.6894580823190402}]})");
 }
 
-scene::Study peaks_over(const scene::Scene& s, const std::string& over, double from, double to) {
-  scene::Study study = s.studies.front();
-  study.kind = scene::StudyKind::peaks;
-  study.over = over;
-  study.frequency_from = study.from;
-  study.frequency_to = study.to;
-  study.from = from;
-  study.to = to;
-  return study;
+CurveRange peaks_over(const scene::Scene& s, const std::string& over, double from, double to) {
+  const FrequencyRange& window = scenes::window(s);
+  return {over, from, to, window.from, window.to};
 }
 
-std::vector<ResponsePoint> peaks_of(scene::Scene s, const std::string& over, double value, scene::Study frf) {
+std::vector<ResponsePoint> peaks_of(scene::Scene s, const std::string& over, double value,
+                                    const FrequencyRange& window) {
   scene::set(s, over, value);
   std::vector<ResponsePoint> peaks;
-  for (const ResponseBranch& branch : observables::frequency_response(s, frf))
+  for (const ResponseBranch& branch : observables::frequency_response(s, window))
     for (const auto& event : branch.events)
       if (event.kind == "peak") peaks.push_back(event.point);
   return peaks;
@@ -63,10 +60,10 @@ std::vector<ResponsePoint> peaks_of(scene::Scene s, const std::string& over, dou
 bool is_peak(const scene::Scene& s, const std::string& over, const ResponsePoint& point) {
   const double frequency = point.omega / scene::to_rad_per_s(s.frequency_unit);
   for (const double width : {2e-2, 1e-4, 1e-6}) {
-    scene::Study frf = s.studies.front();
-    frf.from = std::max(frf.from, (1 - width) * frequency);
-    frf.to = std::min(frf.to, (1 + width) * frequency);
-    for (const ResponsePoint& peak : peaks_of(s, over, point.over, frf))
+    FrequencyRange window = scenes::window(s);
+    window.from = std::max(window.from, (1 - width) * frequency);
+    window.to = std::min(window.to, (1 + width) * frequency);
+    for (const ResponsePoint& peak : peaks_of(s, over, point.over, window))
       if (std::abs(peak.omega / point.omega - 1) < 1e-5 &&
           std::abs(peak.amplitude / point.amplitude - 1) < 1e-7)
         return true;
@@ -93,8 +90,8 @@ int curves_with(const std::vector<ResponseBranch>& curves, const ResponsePoint& 
 
 /// Every curve is whole, and its points are peaks, but for those nearer than `beside` to its ends, relative;
 /// each peak of responses between is on one curve.
-void check_curves(const scene::Scene& s, const scene::Study& study, std::size_t every, double beside = 0) {
-  const auto curves = observables::resonance_peaks(s, study);
+void check_curves(const scene::Scene& s, const CurveRange& range, std::size_t every, double beside = 0) {
+  const auto curves = observables::resonance_peaks(s, range);
   for (const ResponseBranch& curve : curves) {
     CAPTURE(curve.stop.message);
     CHECK(curve.status == observables::Status::complete);
@@ -105,12 +102,12 @@ void check_curves(const scene::Scene& s, const scene::Study& study, std::size_t 
       if (is_end(curve.points[i], curve.points.front()) || is_end(curve.points[i], curve.points.back()))
         continue;
       CAPTURE(curve.points[i].over, curve.points[i].omega);
-      CHECK(is_peak(s, study.over, curve.points[i]));
+      CHECK(is_peak(s, range.over, curve.points[i]));
     }
   }
   for (const double share : {0.07, 0.27, 0.47, 0.67, 0.87}) {
-    const double over = study.from * std::pow(study.to / study.from, share);
-    for (const ResponsePoint& peak : peaks_of(s, study.over, over, s.studies.front())) {
+    const double over = range.from * std::pow(range.to / range.from, share);
+    for (const ResponsePoint& peak : peaks_of(s, range.over, over, scenes::window(s))) {
       CAPTURE(over, peak.omega);
       CHECK(curves_with(curves, peak, over) == 1);
     }
@@ -150,10 +147,8 @@ TEST_CASE(
 TEST_CASE(
     "beyond full stick, where the load moves nothing, a curve of peaks takes large steps over 16 decades") {
   const scene::Scene s = scenes::paper(9);
-  scene::Study study = peaks_over(s, "damper.normal_load", 0.01, 145887082697502.3);
-  study.frequency_from = 18;
-  study.frequency_to = 22;
-  const auto curves = observables::resonance_peaks(s, study);
+  const auto curves =
+      observables::resonance_peaks(s, {"damper.normal_load", 0.01, 145887082697502.3, 18, 22});
   REQUIRE(curves.size() == 1);
   CHECK(curves.front().status == observables::Status::complete);
   CHECK(curves.front().points.size() < 1000);

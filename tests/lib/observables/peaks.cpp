@@ -13,22 +13,21 @@
 #include <complex>
 
 using namespace arcslip;
+using observables::CurveRange;
 using observables::ResponseBranch;
 using observables::ResponsePoint;
 constexpr double pi = std::numbers::pi;
 
 namespace {
 
-scene::Study over_load(double from, double to) {
-  scene::Study study;
-  study.name = "peaks";
-  study.kind = scene::StudyKind::peaks;
-  study.over = "damper.normal_load";
-  study.from = from;
-  study.to = to;
-  study.frequency_from = 18;
-  study.frequency_to = 22;
-  return study;
+CurveRange over_load(double from, double to) {
+  return {"damper.normal_load", from, to, 18, 22};
+}
+
+/// In the window of the scene.
+CurveRange over(const scene::Scene& s, const std::string& parameter, double from, double to) {
+  const auto& window = scenes::window(s);
+  return {parameter, from, to, window.from, window.to};
 }
 
 ResponseBranch paper_peaks(int order, double from = 0.01, double to = 500, double damping = 0.134) {
@@ -151,16 +150,12 @@ double distance(const ResponsePoint& a, const ResponsePoint& b) {
 
 // Every curve that comes to `load` ends in a peak of the frequency response there. Returns how many there
 // are.
-int compare(const scene::Scene& s, const std::string& over, double from, double load, int& corners) {
-  scene::Study study = over_load(from, load);
-  study.over = over;
-  study.frequency_from = s.studies[0].from;
-  study.frequency_to = s.studies[0].to;
+int compare(const scene::Scene& s, const std::string& parameter, double from, double load, int& corners) {
   scene::Scene at = s;
-  scene::set(at, over, load);
-  const auto frf = observables::frequency_response(at, at.studies[0]).front();
+  scene::set(at, parameter, load);
+  const auto frf = observables::frequency_response(at, scenes::window(at)).front();
   int compared = 0;
-  for (const auto& curve : observables::resonance_peaks(s, study)) {
+  for (const auto& curve : observables::resonance_peaks(s, over(s, parameter, from, load))) {
     CAPTURE(curve.stop.message);
     corners += static_cast<int>(events(curve, "corner").size());
     if (curve.points.empty() || curve.points.back().over != load) continue;
@@ -219,12 +214,8 @@ scene::Scene absorber() {
     "studies": [{"kind": "frf", "from": 0.6, "to": 1.4}]})");
 }
 
-scene::Study peaks_of(const scene::Scene& s, double from, double to) {
-  scene::Study study = over_load(from, to);
-  study.over = "d1.normal_load";
-  study.frequency_from = s.studies[0].from;
-  study.frequency_to = s.studies[0].to;
-  return study;
+CurveRange peaks_of(const scene::Scene& s, double from, double to) {
+  return over(s, "d1.normal_load", from, to);
 }
 
 /// How many curves have this peak, by the chords between their points.
@@ -245,15 +236,15 @@ int curves_with(const std::vector<ResponseBranch>& curves, const ResponsePoint& 
 }
 
 /// Each peak of the responses between is on one curve, and on one only. Returns how many there are.
-int check_between(const scene::Scene& s, const scene::Study& study) {
-  const auto curves = observables::resonance_peaks(s, study);
+int check_between(const scene::Scene& s, const CurveRange& range) {
+  const auto curves = observables::resonance_peaks(s, range);
   int peaks = 0;
   constexpr int loads = 9;
   for (int k = 0; k < loads; ++k) {
-    const double load = study.from * std::pow(study.to / study.from, (k + 0.4) / loads);
+    const double load = range.from * std::pow(range.to / range.from, (k + 0.4) / loads);
     scene::Scene at = s;
-    scene::set(at, study.over, load);
-    for (const auto& branch : observables::frequency_response(at, s.studies[0]))
+    scene::set(at, range.over, load);
+    for (const auto& branch : observables::frequency_response(at, scenes::window(s)))
       for (const auto& peak : events(branch, "peak")) {
         CAPTURE(load, peak.point.omega / scenes::hertz);
         CHECK(curves_with(curves, peak.point, load) == 1);
@@ -305,12 +296,9 @@ TEST_CASE(
 
 TEST_CASE("a peak that meets a minimum of the amplitude ends there, and the curve says so") {
   const scene::Scene s = random_scenes::make(4, random_scenes::Excitation::first);
-  scene::Study study = over_load(0.1, 1);
-  study.over = "d1.normal_load";
-  study.frequency_from = s.studies[0].from;
-  study.frequency_to = s.studies[0].to;
+  const CurveRange range = peaks_of(s, 0.1, 1);
   bool ended = false;
-  for (const auto& curve : observables::resonance_peaks(s, study)) {
+  for (const auto& curve : observables::resonance_peaks(s, range)) {
     if (curve.stop.reason != "fold") continue;
     ended = true;
     CHECK(curve.status == observables::Status::complete);
@@ -321,8 +309,8 @@ TEST_CASE("a peak that meets a minimum of the amplitude ends there, and the curv
     // Beyond there is one peak less than before.
     const auto peaks = [&](double load) {
       scene::Scene at = s;
-      scene::set(at, study.over, load);
-      return events(observables::frequency_response(at, at.studies[0]).front(), "peak").size();
+      scene::set(at, range.over, load);
+      return events(observables::frequency_response(at, scenes::window(at)).front(), "peak").size();
     };
     const double back = curve.points.front().over < last ? 0.99 : 1.01;
     CHECK(peaks(back * last) == peaks(last / back) + 1);
@@ -331,9 +319,9 @@ TEST_CASE("a peak that meets a minimum of the amplitude ends there, and the curv
 }
 
 TEST_CASE("a peak that leaves the window of the frequency ends at its edge") {
-  scene::Study study = over_load(0.1, 10);
-  study.frequency_to = 20;
-  const auto branch = observables::resonance_peaks(scenes::paper(15), study).front();
+  CurveRange range = over_load(0.1, 10);
+  range.frequency_to = 20;
+  const auto branch = observables::resonance_peaks(scenes::paper(15), range).front();
   CHECK(branch.status == observables::Status::complete);
   CHECK(branch.stop.reason == "boundary");
   CHECK(reference::error(branch.points.back().omega, 20 * scenes::hertz) < 1e-11);
@@ -341,9 +329,9 @@ TEST_CASE("a peak that leaves the window of the frequency ends at its edge") {
 }
 
 TEST_CASE("where there is no peak in the window, the study says so") {
-  scene::Study study = over_load(0.1, 10);
-  study.frequency_from = 21.5;
-  const auto branches = observables::resonance_peaks(scenes::paper(15), study);
+  CurveRange range = over_load(0.1, 10);
+  range.frequency_from = 21.5;
+  const auto branches = observables::resonance_peaks(scenes::paper(15), range);
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::failed);
   CHECK(branches[0].stop.reason == "start_failed");
@@ -351,10 +339,12 @@ TEST_CASE("where there is no peak in the window, the study says so") {
 }
 
 TEST_CASE("a study of peaks ends with the callback, and no other curve is begun") {
-  scene::Study study = over_load(0.1, 10);
-  study.for_each = {{"c.value", {0.1, 0.2}}};
-  const auto branches = observables::resonance_peaks(
-      scenes::paper(1), study, [](const observables::Progress& progress) { return progress.points < 5; });
+  const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
+    return observables::resonance_peaks(at.scene, over_load(0.1, 10), tell);
+  };
+  const auto branches = studies::for_each<ResponseBranch>(
+      scenes::paper(1), {{"c.value", {0.1, 0.2}}}, compute,
+      [](const observables::Progress& progress) { return progress.points < 5; });
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::stopped);
   CHECK(branches[0].stop.reason == "user");
@@ -365,14 +355,8 @@ TEST_CASE(
     "a peak that another instant of the period surpasses ends there: the response has it before, not "
     "beyond") {
   const scene::Scene s = random_scenes::make(5, random_scenes::Excitation::first_and_second);
-  scene::Study study = s.studies.front();
-  study.kind = scene::StudyKind::peaks;
-  study.over = "d1.normal_load";
-  study.frequency_from = study.from;
-  study.frequency_to = study.to;
-  study.from = 1;
-  study.to = 3;
-  const auto branches = observables::resonance_peaks(s, study);
+  const CurveRange range = peaks_of(s, 1, 3);
+  const auto branches = observables::resonance_peaks(s, range);
   const auto surpassed = std::find_if(branches.begin(), branches.end(), [](const ResponseBranch& branch) {
     return branch.stop.reason == "fold" && events(branch, "fold").empty();
   });
@@ -381,11 +365,10 @@ TEST_CASE(
   const ResponsePoint& end = surpassed->points.back();
   const auto has_peak = [&](double load) {
     scene::Scene with = s;
-    scene::set(with, study.over, load);
-    scene::Study frf = s.studies.front();
-    frf.from = end.omega / scenes::hertz * 0.99;
-    frf.to = end.omega / scenes::hertz * 1.01;
-    const auto branch = observables::frequency_response(with, frf).front();
+    scene::set(with, range.over, load);
+    const auto branch = observables::frequency_response(
+                            with, {end.omega / scenes::hertz * 0.99, end.omega / scenes::hertz * 1.01})
+                            .front();
     return std::any_of(branch.events.begin(), branch.events.end(), [&](const auto& event) {
       return event.kind == "peak" && std::abs(event.point.omega / end.omega - 1) < 1e-3;
     });

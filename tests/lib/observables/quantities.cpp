@@ -75,7 +75,7 @@ TEST_CASE("JSON has the quantities of the table, with their values, and no other
     scene::Scene s = scenes::paper(5, 3);
     if (with_spring)
       s.elements.push_back({"h", &scene::cubic_spring_type, s.elements[0].direction, {1e6}, 1});
-    const auto branches = observables::frequency_response(s, s.studies[0]);
+    const auto branches = observables::frequency_response(s, scenes::window(s));
     std::stringstream text;
     results::write_json(text, studies::results_of(s, branches));
     const auto branch = nlohmann::json::parse(text.str())["branches"][0];
@@ -109,7 +109,7 @@ TEST_CASE("the parameter of a study has no name by which points have a quantity"
     const std::string_view top = each.path.substr(0, each.path.find('.'));
     if (top == "frequency") continue;  // which no parameter of a scene is called
     CAPTURE(std::string(top));
-    CHECK(std::count(scene::detail::result_names.begin(), scene::detail::result_names.end(), top) == 1);
+    CHECK(std::count(scene::file::result_names.begin(), scene::file::result_names.end(), top) == 1);
   }
 }
 

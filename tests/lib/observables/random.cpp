@@ -81,8 +81,7 @@ void check_scenes(random_scenes::Excitation excitation) {
   for (std::uint64_t seed = 0; seed < scenes_of_each_kind(); ++seed) {
     CAPTURE(seed);
     const scene::Scene s = random_scenes::make(seed, excitation);
-    const auto& study = s.studies.front();
-    const auto branches = observables::frequency_response(s, study);
+    const auto branches = observables::frequency_response(s, scenes::window(s));
     REQUIRE(branches.size() == 1);
     const ResponseBranch& branch = branches.front();
     CAPTURE(branch.stop.message);
@@ -98,11 +97,9 @@ void check_scenes(random_scenes::Excitation excitation) {
   }
 }
 
-std::vector<double> peaks_within(const scene::Scene& s, scene::Study study, double from, double to) {
-  study.from = from;
-  study.to = to;
+std::vector<double> peaks_within(const scene::Scene& s, const observables::FrequencyRange& range) {
   std::vector<double> found;
-  for (const ResponseBranch& branch : observables::frequency_response(s, study))
+  for (const ResponseBranch& branch : observables::frequency_response(s, range))
     for (const auto& event : branch.events)
       if (event.kind == "peak") found.push_back(event.point.omega);
   return found;
@@ -111,12 +108,10 @@ std::vector<double> peaks_within(const scene::Scene& s, scene::Study study, doub
 /// Whether the frequency response has a peak there, at this value of the parameter.
 bool is_peak(scene::Scene s, const std::string& over, const ResponsePoint& point) {
   scene::set(s, over, point.over);
-  scene::Study study = s.studies.front();
-  study.for_each.clear();
+  const auto& window = scenes::window(s);
   const double frequency = point.omega / scenes::hertz;
-  study.from = std::max(study.from, 0.98 * frequency);
-  study.to = std::min(study.to, 1.02 * frequency);
-  const auto branches = observables::frequency_response(s, study);
+  const auto branches = observables::frequency_response(
+      s, {std::max(window.from, 0.98 * frequency), std::min(window.to, 1.02 * frequency)});
   return std::any_of(branches.begin(), branches.end(), [&](const ResponseBranch& branch) {
     return std::any_of(branch.events.begin(), branch.events.end(), [&](const auto& event) {
       return event.kind == "peak" && std::abs(event.point.omega / point.omega - 1) < 1e-5 &&
@@ -132,14 +127,10 @@ TEST_CASE(
   long curves = 0, failed = 0, turns = 0;
   for (std::uint64_t seed = 0; seed < scenes_of_each_kind(); ++seed) {
     const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first);
-    scene::Study study = s.studies.front();
-    study.kind = scene::StudyKind::peaks;
-    study.over = s.elements.front().name + ".normal_load";
-    study.frequency_from = study.from;
-    study.frequency_to = study.to;
-    study.from = 0.01;
-    study.to = 100;
-    for (const ResponseBranch& branch : observables::resonance_peaks(s, study)) {
+    const auto& window = scenes::window(s);
+    const std::string load = s.elements.front().name + ".normal_load";
+    for (const ResponseBranch& branch :
+         observables::resonance_peaks(s, {load, 0.01, 100, window.from, window.to})) {
       if (branch.points.empty()) continue;  // there is no peak in the window
       ++curves;
       failed += branch.status != observables::Status::complete;
@@ -156,7 +147,7 @@ TEST_CASE(
             branch.points.begin() + 1, branch.points.end() - 1,
             [&](const auto& p, const auto& q) { return std::abs(p.over - over) < std::abs(q.over - over); });
         CAPTURE(point.over, point.omega / scenes::hertz);
-        CHECK(is_peak(s, study.over, point));
+        CHECK(is_peak(s, load, point));
       }
     }
   }
@@ -170,14 +161,11 @@ TEST_CASE(
   long curves = 0, failed = 0;
   for (std::uint64_t seed = 0; seed < scenes_of_each_kind() / 4; ++seed) {
     const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first_and_second);
-    scene::Study study = s.studies.front();
-    study.kind = scene::StudyKind::peaks;
-    study.over = s.elements.front().name + ".normal_load";
-    study.frequency_from = study.from;
-    study.frequency_to = study.to;
-    study.from = 0.1 * s.elements.front().values[2];
-    study.to = 100 * study.from;
-    for (const ResponseBranch& branch : observables::resonance_peaks(s, study)) {
+    const auto& window = scenes::window(s);
+    const double from = 0.1 * s.elements.front().values[2];
+    const observables::CurveRange range{s.elements.front().name + ".normal_load", from, 100 * from,
+                                        window.from, window.to};
+    for (const ResponseBranch& branch : observables::resonance_peaks(s, range)) {
       ++curves;
       failed += branch.status != observables::Status::complete;
     }
@@ -194,11 +182,12 @@ TEST_CASE("random structures: a response has the peaks that a trace with a tenth
   for (std::uint64_t seed = 0; seed < scenes_of_each_kind(); ++seed)
     for (const auto kind : {Excitation::first, Excitation::first_and_third, Excitation::first_and_second}) {
       const scene::Scene s = random_scenes::make(seed, kind);
-      const scene::Study& study = s.studies.front();
-      const auto found = peaks_within(s, study, study.from, study.to);
+      const auto& window = scenes::window(s);
+      const auto found = peaks_within(s, window);
       for (int part = 0; part < parts; ++part)
-        for (const double peak : peaks_within(s, study, std::lerp(study.from, study.to, part / (1.0 * parts)),
-                                              std::lerp(study.from, study.to, (part + 1) / (1.0 * parts)))) {
+        for (const double peak :
+             peaks_within(s, {std::lerp(window.from, window.to, part / (1.0 * parts)),
+                              std::lerp(window.from, window.to, (part + 1) / (1.0 * parts))})) {
           ++peaks;
           missed += std::none_of(found.begin(), found.end(),
                                  [&](double other) { return std::abs(other / peak - 1) < 1e-5; });

@@ -1,6 +1,8 @@
 #pragma once
 // Events of one response found again in another that differs little from it.
 
+#include "lib/hbm/scenes.hpp"
+
 #include <arcslip/observables/frequency_response.hpp>
 
 #include <cmath>
@@ -8,7 +10,7 @@
 namespace same_event {
 
 inline arcslip::observables::ResponseBranch response(const arcslip::scene::Scene& s) {
-  return arcslip::observables::frequency_response(s, s.studies.front()).front();
+  return arcslip::observables::frequency_response(s, scenes::window(s)).front();
 }
 
 /// The event of the same kind that is nearest, relative to its frequency and amplitude; null: none within 1

@@ -48,7 +48,7 @@ Peaks peaks_of(const scene::Scene& s, const observables::FrequencyWindow& window
 
 observables::FrequencyWindow window_of(const scene::Scene& s) {
   const double unit = scene::to_rad_per_s(s.frequency_unit);
-  return {s.studies[0].from * unit, s.studies[0].to * unit};
+  return {scenes::window(s).from * unit, scenes::window(s).to * unit};
 }
 
 Vector parameters(const Peaks& peaks) {

@@ -9,7 +9,7 @@ using namespace arcslip;
 
 TEST_CASE("an observed mass that no element touches has the peaks of its own motion") {
   const scene::Scene s = scenes::chain(7, false);
-  const auto branches = observables::frequency_response(s, s.studies.front());
+  const auto branches = observables::frequency_response(s, scenes::window(s));
   REQUIRE(branches.size() == 1);
   const auto& branch = branches[0];
   CHECK(branch.status == observables::Status::complete);
@@ -28,7 +28,7 @@ TEST_CASE("an observed mass that no element touches has the peaks of its own mot
 
 TEST_CASE("forces of an even harmonic bring in the mean and all harmonics") {
   const scene::Scene s = scenes::chain(6, true);
-  const auto branches = observables::frequency_response(s, s.studies.front());
+  const auto branches = observables::frequency_response(s, scenes::window(s));
   CHECK(branches[0].harmonics == std::vector<int>{0, 1, 2, 3, 4, 5, 6});
   CHECK(branches[0].status == observables::Status::complete);
   CHECK(branches[0].solver.unknowns == 2 * 13);
@@ -51,7 +51,7 @@ TEST_CASE("a structure without elements answers linearly, through all of its res
       "dampers": [{"name": "c", "at": "a", "value": 0.01}]},
     "excitation": [{"name": "f", "at": "a", "cosine": 1}], "harmonics": {"order": 1}, "response": {"at": "b"},
     "studies": [{"kind": "frf", "from": 0.2, "to": 2.5}]})");
-  const auto branch = observables::frequency_response(s, s.studies.front()).front();
+  const auto branch = observables::frequency_response(s, scenes::window(s)).front();
   CHECK(branch.status == observables::Status::complete);
   CHECK(branch.events.size() == 2);
   for (const auto& point : branch.points) {
@@ -63,9 +63,9 @@ TEST_CASE("a structure without elements answers linearly, through all of its res
 }
 
 TEST_CASE("two combinations of two lists are four branches, the last list fastest") {
-  scene::Scene s = scenes::paper(1);
-  s.studies.front().for_each = {{"c.value", {0.1, 0.2}}, {"damper.normal_load", {2, 3}}};
-  const auto branches = observables::frequency_response(s, s.studies.front());
+  const scene::Scene s = scenes::paper(1);
+  const auto branches =
+      scenes::frequency_responses(s, {{"c.value", {0.1, 0.2}}, {"damper.normal_load", {2, 3}}});
   REQUIRE(branches.size() == 4);
   CHECK(branches[1].set[0] == std::pair<std::string, double>{"c.value", 0.1});
   CHECK(branches[1].set[1] == std::pair<std::string, double>{"damper.normal_load", 3});
@@ -73,17 +73,16 @@ TEST_CASE("two combinations of two lists are four branches, the last list fastes
 }
 
 TEST_CASE("the progress callback sees every point and stops the study") {
-  scene::Scene s = scenes::paper(1);
-  s.studies.front().for_each = {{"damper.normal_load", {1, 2, 3}}};
+  const scene::Scene s = scenes::paper(1);
   double last = 0;
-  const auto branches =
-      observables::frequency_response(s, s.studies.front(), [&](const observables::Progress& progress) {
-        if (progress.branch == 0) {
-          CHECK(progress.share_done >= last);
-          last = progress.share_done;
-        }
-        return progress.branch == 0 || progress.points < 10;
-      });
+  const auto branches = scenes::frequency_responses(s, {{"damper.normal_load", {1, 2, 3}}},
+                                                    [&](const observables::Progress& progress) {
+                                                      if (progress.branch == 0) {
+                                                        CHECK(progress.share_done >= last);
+                                                        last = progress.share_done;
+                                                      }
+                                                      return progress.branch == 0 || progress.points < 10;
+                                                    });
   REQUIRE(branches.size() == 2);
   CHECK(last == 1);
   CHECK(branches[1].status == observables::Status::stopped);

@@ -104,8 +104,8 @@ bool same_ends(const invariances::Response& one, const invariances::Response& ot
 /// is the same one, and goes on below.
 bool turns_back(const scene::Scene& s, const observables::ResponseBranch& branch) {
   if (!has_cubic_spring(s) || branch.stop.reason != "boundary" || branch.points.size() < 3) return false;
-  const auto& study = s.studies.front();
-  const double unit = scene::to_rad_per_s(s.frequency_unit), from = study.from * unit;
+  const auto& window = scenes::window(s);
+  const double unit = scene::to_rad_per_s(s.frequency_unit), from = window.from * unit;
   if (branch.points.back().omega != from) return false;
   int folds = 0, same_folds = 0;
   bool goes_on = false;
@@ -119,7 +119,7 @@ bool turns_back(const scene::Scene& s, const observables::ResponseBranch& branch
     return !goes_on;
   };
   observables::frequency_branch(std::make_shared<const model::Model>(model::build(s)),
-                                {0.9 * from, study.to * unit}, from, beyond);
+                                {0.9 * from, window.to * unit}, from, beyond);
   return folds % 2 == 1 && same_folds == folds && goes_on;
 }
 
@@ -166,10 +166,10 @@ TEST_CASE("random structures with sampled friction have the same responses in al
   for (std::uint64_t seed = seeds.first; seed < seeds.end; ++seed) {
     const scene::Scene s = structure(seed);
     if (!is_sampled(s)) continue;
-    const auto& study = s.studies.front();
+    const auto& window = scenes::window(s);
     const auto all = variants(s, seed);
     for (const double part : {0.2, 0.5, 0.8}) {
-      const double frequency = study.from + part * (study.to - study.from);
+      const double frequency = window.from + part * (window.to - window.from);
       const double amplitude = scenes::response_at(s, frequency).amplitude;
       for (const auto& variant : all) {
         CAPTURE(seed, frequency, amplitude, variant.name);
@@ -185,7 +185,7 @@ TEST_CASE("responses of random structures reach the end of their windows, with b
   for (std::uint64_t seed = seeds.first; seed < seeds.end; ++seed) {
     const scene::Scene s = structure(seed);
     CAPTURE(seed, s.elements.size(), is_sampled(s));
-    for (const auto& branch : observables::frequency_response(s, s.studies.front())) {
+    for (const auto& branch : observables::frequency_response(s, scenes::window(s))) {
       CAPTURE(branch.stop.message);
       CHECK((branch.status == observables::Status::complete || turns_back(s, branch)));
       check_energies(branch);
@@ -200,22 +200,18 @@ TEST_CASE("harmonic balance of random structures is their motion in time") {
   for (std::uint64_t seed = seeds.first; seed < seeds.end; seed += structures::beside_time) {
     scene::Scene s = structure(seed);
     Random random(seed);
-    const auto branches = observables::frequency_response(s, s.studies.front());
+    const auto branches = observables::frequency_response(s, scenes::window(s));
     const auto is_fold = [](const auto& event) { return event.kind == "fold"; };
     if (branches.size() != 1 || std::any_of(branches[0].events.begin(), branches[0].events.end(), is_fold))
       continue;
-    const auto& study = s.studies.front();
-    const double frequency = study.from + random.between(0.1, 0.9) * (study.to - study.from);
+    const auto& window = scenes::window(s);
+    const double frequency = window.from + random.between(0.1, 0.9) * (window.to - window.from);
     CAPTURE(seed, frequency, is_sampled(s));
     s.harmonics.order = 41;
     s.harmonics.samples = 4096;
     const auto balance = scenes::response_at(s, frequency);
     if (balance.truncation_flagged) continue;
-    scene::Study time;
-    time.kind = scene::StudyKind::time;
-    time.frequency_from = time.frequency_to = frequency;
-    time.time.steps = 4000;
-    const auto motion = observables::motions_in_time(s, time).front();
+    const auto motion = observables::motion_in_time(s, {.frequency = frequency, .steps = 4000});
     CAPTURE(motion.stop.message, motion.integrator);
     CHECK(motion.status == observables::Status::complete);
     if (motion.stable && !*motion.stable) continue;

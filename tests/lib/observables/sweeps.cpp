@@ -23,7 +23,7 @@ TEST_CASE("resonance peaks are exact to 5e-9 with 101 harmonics, at every load")
     const double load = exact["normal_load"];
     if (!full() && load != 2 && load != 3 && load != 100) continue;
     const scene::Scene s = scenes::paper(101, load);
-    const auto branches = observables::frequency_response(s, s.studies.front());
+    const auto branches = observables::frequency_response(s, scenes::window(s));
     REQUIRE(branches[0].events.size() == 1);
     const auto& peak = branches[0].events[0].point;
     CAPTURE(load);
@@ -48,9 +48,9 @@ TEST_CASE("every extreme that takes long ends as it should") {
 
 TEST_CASE("low frequencies with many slip phases: 0.1 Hz to 1 Hz at 0.1 N, order past the resonance") {
   scene::Scene s = scenes::paper(full() ? 251 : 101, 0.1);
-  s.studies.front().from = full() ? 0.1 : 0.25;
-  s.studies.front().to = full() ? 1 : 0.4;
-  const auto branches = observables::frequency_response(s, s.studies.front());
+  scenes::window(s).from = full() ? 0.1 : 0.25;
+  scenes::window(s).to = full() ? 1 : 0.4;
+  const auto branches = observables::frequency_response(s, scenes::window(s));
   CHECK(branches[0].status == observables::Status::complete);
   std::size_t most = 0;
   for (const auto& point : branches[0].points) {

@@ -14,7 +14,7 @@ TEST_CASE("the truncation estimate is the error of the amplitude within a factor
       const double load = exact["normal_load"], amplitude = exact["amplitude"];
       if (load == 500) continue;  // full stick: no error
       const scene::Scene s = scenes::paper(order, load);
-      const auto peak = observables::frequency_response(s, s.studies.front()).front().events.at(0).point;
+      const auto peak = observables::frequency_response(s, scenes::window(s)).front().events.at(0).point;
       const double error = std::abs(peak.amplitude - amplitude);
       if (error < 2e-11 * amplitude) continue;  // the digits of the reference
       CAPTURE(order, load, error / amplitude);
@@ -67,17 +67,17 @@ TEST_CASE("at folds the estimate is the error of their amplitude within a factor
     }
   };
   for (int order : {3, 5, 7}) {
-    scene::Scene duffing = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json");
+    scene::Scene duffing = scenes::example("duffing");
     duffing.harmonics.order = order;
     check(duffing);
   }
   for (int order : {5, 9, 15})
     for (double load : {0.3, 0.5, 0.8, 1.2, 2.0, 2.5}) {
-      scene::Scene both = scene::read_file(ARCSLIP_SOURCE_DIR "/examples/duffing_jenkins/scene.json");
+      scene::Scene both = scenes::example("duffing_jenkins");
       both.harmonics.order = order;
       scene::set(both, "damper.normal_load", load);
-      both.studies.front().from = 1;
-      both.studies.front().to = 3.5;
+      scenes::window(both).from = 1;
+      scenes::window(both).to = 3.5;
       check(both);
     }
   CHECK(folds > 30);

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 using namespace arcslip;
-using scene::StudyKind;
+using studies::BranchKind;
 using support::content;
 using support::TemporaryFolder;
 
@@ -43,7 +43,7 @@ void write_program(const std::string& path, const std::string& script) {
   support::fs::permissions(path, support::fs::perms::owner_all);
 }
 
-output::Figures drawn(const scene::Scene& scene, StudyKind kind,
+output::Figures drawn(const scene::Scene& scene, BranchKind kind,
                       const std::vector<observables::ResponseBranch>& branches, const std::string& folder,
                       const std::string& name) {
   return output::draw_figures(studies::figures_of(scene, kind, branches), folder, name);
@@ -58,7 +58,7 @@ TEST_CASE("figures come as whole SVG and PNG, amplitude and stick share") {
   }
   const TemporaryFolder folder;
   const std::vector branches{support::branch(1), support::branch(3)};
-  const auto figures = drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+  const auto figures = drawn(support::scene(), BranchKind::responses, branches, folder.path(), "frf");
   CHECK(figures.problem.empty());
   CHECK(figures.sources == std::vector<std::string>{folder / "frf.dat", folder / "frf.gp"});
   CHECK(figures.images == std::vector<std::string>{folder / "frf_amplitude.svg", folder / "frf_amplitude.png",
@@ -88,7 +88,7 @@ TEST_CASE("no name or title runs a command or breaks a figure") {
   auto scene = support::scene(evil);
   scene.elements[0].name = evil;
   branch.set = {{evil + ".normal_load", 3}};
-  const auto figures = drawn(scene, StudyKind::frf, std::vector{branch}, folder.path(), evil);
+  const auto figures = drawn(scene, BranchKind::responses, std::vector{branch}, folder.path(), evil);
   CHECK(figures.problem == "");
   CHECK(figures.images.size() == 6);
   CHECK_FALSE(support::fs::exists(folder / "broken"));
@@ -129,7 +129,7 @@ TEST_CASE("results that are hard to draw are drawn") {
     for (std::size_t i = 0; i < branches.size(); ++i) {
       branches[i].set[0].second = static_cast<double>(i);
     }
-    const auto figures = drawn(support::scene(), StudyKind::frf, branches, folder.path(), name);
+    const auto figures = drawn(support::scene(), BranchKind::responses, branches, folder.path(), name);
     CHECK(figures.problem == "");
     CHECK(figures.images.size() == (name == "no_friction" ? 2 : 4));
   }
@@ -159,7 +159,7 @@ TEST_CASE("a study over a parameter that is hard to draw is drawn") {
   for (auto& point : unbounded.points) {
     point.unbounded = true;
   }
-  for (const StudyKind kind : {StudyKind::trace, StudyKind::peaks, StudyKind::folds}) {
+  for (const BranchKind kind : {BranchKind::over_parameter, BranchKind::peaks, BranchKind::folds}) {
     for (const auto& branch : {one_point, at_zero, negative, nearly_constant, unbounded}) {
       CAPTURE(static_cast<int>(kind), branch.points[0].over, branch.points[0].unbounded);
       const TemporaryFolder folder;
@@ -174,7 +174,8 @@ TEST_CASE("branches without a point give data and a reason, and no figure") {
   const TemporaryFolder folder;
   auto branch = support::branch();
   branch.points.clear();
-  const auto figures = drawn(support::scene(), StudyKind::frf, std::vector{branch}, folder.path(), "frf");
+  const auto figures =
+      drawn(support::scene(), BranchKind::responses, std::vector{branch}, folder.path(), "frf");
   CHECK(figures.problem == "there is no point to draw, so there is no figure");
   CHECK(figures.images.empty());
   CHECK(folder.files() == 2);
@@ -184,7 +185,7 @@ TEST_CASE("without gnuplot there are the data, the script and a plain message") 
   const TemporaryFolder folder;
   const SearchPath nothing("/nonexistent");
   const auto figures =
-      drawn(support::scene(), StudyKind::frf, std::vector{support::branch()}, folder.path(), "frf");
+      drawn(support::scene(), BranchKind::responses, std::vector{support::branch()}, folder.path(), "frf");
   CHECK(figures.problem.find("figures need gnuplot (Debian package gnuplot-nox)") == 0);
   CHECK(figures.images.empty());
   CHECK(folder.files() == 2);
@@ -205,7 +206,7 @@ TEST_CASE("a gnuplot that fails, is killed or stops half way leaves a message an
     write_program(programs / "gnuplot", c.script);
     const SearchPath path(programs.path() + ":/usr/bin:/bin");
     const auto figures =
-        drawn(support::scene(), StudyKind::frf, std::vector{support::branch()}, folder.path(), "frf");
+        drawn(support::scene(), BranchKind::responses, std::vector{support::branch()}, folder.path(), "frf");
     CHECK(figures.problem.find(c.message) == 0);
     CHECK(figures.images.empty());
     CHECK(folder.files() == 2);
@@ -218,7 +219,7 @@ TEST_CASE("what a failing gnuplot says is told") {
   write_program(programs / "gnuplot", "echo no such terminal >&2; exit 3");
   const SearchPath path(programs.path() + ":/usr/bin:/bin");
   const auto figures =
-      drawn(support::scene(), StudyKind::frf, std::vector{support::branch()}, folder.path(), "frf");
+      drawn(support::scene(), BranchKind::responses, std::vector{support::branch()}, folder.path(), "frf");
   CHECK(figures.problem.find("\nno such terminal") != std::string::npos);
 }
 
@@ -243,7 +244,7 @@ TEST_CASE("images of an earlier run are removed where the new ones cannot be dra
   const TemporaryFolder folder;
   const SearchPath nothing("/nonexistent");
   const std::vector branches{support::branch()};
-  drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+  drawn(support::scene(), BranchKind::responses, branches, folder.path(), "frf");
   // As if they had been drawn, with one that the present figures do not have.
   const std::string script = content(folder / "frf.gp");
   output::write_file(folder / "frf.gp", [&](std::ostream& out) {
@@ -251,7 +252,7 @@ TEST_CASE("images of an earlier run are removed where the new ones cannot be dra
   });
   for (const char* image : {"frf_amplitude.svg", "frf_stick.png", "frf_stick_other.svg", "frf_mine.svg"})
     output::write_file(folder / image, [](std::ostream& out) { out << "</svg>"; });
-  const auto figures = drawn(support::scene(), StudyKind::frf, branches, folder.path(), "frf");
+  const auto figures = drawn(support::scene(), BranchKind::responses, branches, folder.path(), "frf");
   CHECK(figures.problem.find("; those of an earlier run are removed") != std::string::npos);
   CHECK(folder.files() == 3);
   CHECK(support::fs::exists(folder / "frf_mine.svg"));
@@ -262,7 +263,8 @@ TEST_CASE("the data of a figure has a block for each line and its marks") {
   const SearchPath nothing("/nonexistent");
   auto second = support::branch();  // goes on beyond a cut: the same line
   second.events.clear();
-  drawn(support::scene(), StudyKind::frf, std::vector{support::branch(), second}, folder.path(), "frf");
+  drawn(support::scene(), BranchKind::responses, std::vector{support::branch(), second}, folder.path(),
+        "frf");
   const std::string data = content(folder / "frf.dat");
   CHECK(data.find(
             "# frequency (Hz), amplitude (m), damper stick (%)\n# damper.normal_load = 3 N\n1 0.01 100\n") ==
@@ -277,7 +279,7 @@ TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitu
   }
   const TemporaryFolder folder;
   const auto figures =
-      drawn(support::scene(), StudyKind::peaks, std::vector{support::peaks()}, folder.path(), "peaks");
+      drawn(support::scene(), BranchKind::peaks, std::vector{support::peaks()}, folder.path(), "peaks");
   CHECK(figures.problem.empty());
   CHECK(figures.images ==
         std::vector<std::string>{folder / "peaks_amplitude.svg", folder / "peaks_amplitude.png",
@@ -302,7 +304,7 @@ TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitu
 
 TEST_CASE("bands lie behind the curve over the parameter, named in the key, and not over the stick share") {
   const TemporaryFolder folder;
-  auto data = studies::figures_of(support::scene(), StudyKind::peaks, std::vector{support::peaks()});
+  auto data = studies::figures_of(support::scene(), BranchKind::peaks, std::vector{support::peaks()});
   data.lines[0].bands = {{"within 5 %", {2.5, 6}}, {"within 1 %", {3.25, 5}}};
   data.lines[0].marks[0].label = "4.0 N";
   const auto figures = output::draw_figures(data, folder.path(), "x");
@@ -338,17 +340,17 @@ TEST_CASE("bands lie behind the curve over the parameter, named in the key, and 
 TEST_CASE(
     "a trace is drawn as amplitude and stick share, a curve of folds as the parameter over the frequency") {
   const SearchPath nothing("/nonexistent");
-  const auto script_of = [](StudyKind kind) {
+  const auto script_of = [](BranchKind kind) {
     const TemporaryFolder folder;
     drawn(support::scene(), kind, std::vector{support::peaks()}, folder.path(), "x");
     return content(folder / "x.gp");
   };
-  const std::string trace = script_of(StudyKind::trace);
+  const std::string trace = script_of(BranchKind::over_parameter);
   CHECK(trace.find("set output 'x_amplitude.svg'") != std::string::npos);
   CHECK(trace.find("set output 'x_stick.svg'") != std::string::npos);
   CHECK(trace.find("data index 0 using 1:3 with lines") != std::string::npos);
   CHECK(trace.find("data index 1 using 1:4 with points") != std::string::npos);
-  const std::string folds = script_of(StudyKind::folds);
+  const std::string folds = script_of(BranchKind::folds);
   CHECK(folds.find("set output 'x_folds.svg'") != std::string::npos);
   CHECK(folds.find("data index 0 using 2:1 with lines") != std::string::npos);
   CHECK(folds.find("set xlabel 'frequency (Hz)'") != std::string::npos);
@@ -363,7 +365,7 @@ TEST_CASE("an axis of a parameter is logarithmic where it is positive over more 
     branch.points[0].over = first;
     branch.points.resize(2);
     branch.events.clear();
-    drawn(support::scene(), StudyKind::peaks, std::vector{branch}, folder.path(), "x");
+    drawn(support::scene(), BranchKind::peaks, std::vector{branch}, folder.path(), "x");
     return content(folder / "x.gp");
   };
   CHECK(script_of(0.01).find("\nset logscale x") != std::string::npos);
@@ -380,7 +382,7 @@ TEST_CASE("the data of a study over a parameter begin with it, and have a block 
   auto branch = support::peaks();
   branch.events.push_back(branch.events[0]);
   branch.events[1].kind = "fold";
-  drawn(support::scene(), StudyKind::peaks, std::vector{branch}, folder.path(), "x");
+  drawn(support::scene(), BranchKind::peaks, std::vector{branch}, folder.path(), "x");
   const std::string data = content(folder / "x.dat");
   CHECK(
       data.find(

@@ -3,6 +3,7 @@
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -54,7 +55,7 @@ inline arcslip::scene::Scene scene(const std::string& title = "A slider") {
                   "normal_load": 3}],
     "excitation": [{"name": "force", "at": "x", "harmonic": 1, "cosine": 1}], "response": {"at": "x"},
     "studies": [{"name": "frf", "kind": "frf", "from": 1, "to": 2}]})");
-  arcslip::scene::Scene scene = arcslip::scene::read(text);
+  arcslip::scene::Scene scene = arcslip::scene::read(text, arcslip::studies::catalogue());
   scene.title = title;
   return scene;
 }

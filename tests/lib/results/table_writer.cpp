@@ -58,7 +58,7 @@ TEST_CASE("people see facts of each result, a row for each, or its own text") {
   results.schemas[0].shown = {{"best", {"best", "x"}, "%.3f"}, {"none", {"nothing"}}};
   results.results[1].end.text = "in its own words\n";
   CHECK(written(results) ==
-        "load (N)   best  none     thing\n     2.5  1.500     -  complete\nin its own words\n");
+        "load (N)   best  none     thing\n     2.5  1.500     -  complete\n\nin its own words\n");
 }
 
 TEST_CASE("what commands a terminal is escaped in a table") {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "bad_scenes.hpp"
+#include "catalogue.hpp"
 #include "catch.hpp"
 
 using namespace arcslip::scene;
@@ -12,9 +13,17 @@ using namespace arcslip::scene::test;
 
 namespace {
 
+Scene read_stream(std::istream& in) {
+  return read(in, test_catalogue::whole());
+}
+
+Scene read_path(const std::string& path) {
+  return read_file(path, test_catalogue::whole());
+}
+
 std::vector<Fault> faults_of(std::istream& in) {
   try {
-    read(in);
+    read_stream(in);
   } catch (const SceneError& error) {
     return error.faults();
   }
@@ -145,8 +154,8 @@ TEST_CASE("all faults of cases, of what scatters and of settings of a search are
   }
   const std::vector<std::string> expected = {"/studies/0/local",
                                              "/studies/0/evaluations",
-                                             "/studies/0/seed",
                                              "/studies/0/seconds",
+                                             "/studies/0/seed",
                                              "/studies/0/constraints/0/sum/d.normal_laod",
                                              "/studies/0/constraints/0/sum/m.value",
                                              "/studies/0/constraints/1",
@@ -159,9 +168,9 @@ TEST_CASE("all faults of cases, of what scatters and of settings of a search are
                                              "/studies/0/cases/1/wieght",
                                              "/studies/0/cases/1/response/at",
                                              "/studies/0/cases/2",
+                                             "/studies/0/criterion",
                                              "/studies/0/scatter/c.value",
                                              "/studies/0/scatter/k2.value/1",
-                                             "/studies/0/criterion",
                                              "/studies/0/along",
                                              "/studies/0/from",
                                              "/studies/0/for_each/c.value"};
@@ -223,41 +232,41 @@ TEST_CASE("more than five million values are refused before the memory is full")
 }
 
 TEST_CASE("a file that is not there is an error that names it") {
-  CHECK_THROWS_WITH(read_file("/nowhere/scene.json"),
+  CHECK_THROWS_WITH(read_path("/nowhere/scene.json"),
                     "cannot open /nowhere/scene.json: No such file or directory");
-  CHECK_THROWS_AS(read_file("/nowhere/scene.json"), FileError);
+  CHECK_THROWS_AS(read_path("/nowhere/scene.json"), FileError);
 }
 
 TEST_CASE("a folder is not read as a scene") {
   const std::string folder = std::filesystem::temp_directory_path().string();
-  CHECK_THROWS_WITH(read_file(folder), folder + " is a directory, must be a scene file");
+  CHECK_THROWS_WITH(read_path(folder), folder + " is a directory, must be a scene file");
 }
 
 TEST_CASE("a stream that has failed is a file error and not an empty scene") {
   std::istringstream in(good_scene());
   in.setstate(std::ios::failbit);
-  CHECK_THROWS_AS(read(in), FileError);
+  CHECK_THROWS_AS(read_stream(in), FileError);
   std::istringstream broken(good_scene());
   broken.setstate(std::ios::badbit);
-  CHECK_THROWS_AS(read(broken), FileError);
+  CHECK_THROWS_AS(read_stream(broken), FileError);
 }
 
 TEST_CASE("a regular file above 64 MB is refused by its size") {
   const TemporaryFile file("[");
   std::filesystem::resize_file(file.path(), largest_size + 1);  // sparse: nothing is written
-  CHECK_THROWS_WITH(read_file(file.path()), "found a file of 67108865 bytes, a scene must be at most 64 MB");
-  CHECK_THROWS_AS(read_file(file.path()), SceneError);
+  CHECK_THROWS_WITH(read_path(file.path()), "found a file of 67108865 bytes, a scene must be at most 64 MB");
+  CHECK_THROWS_AS(read_path(file.path()), SceneError);
 }
 
 TEST_CASE("a scene is read from a file as from a stream") {
   const TemporaryFile file(good_scene());
   std::istringstream in(good_scene());
-  CHECK(read_file(file.path()) == read(in));
+  CHECK(read_path(file.path()) == read_stream(in));
 }
 
 TEST_CASE("a scene that was changed in code is checked as its file would be") {
   std::istringstream in(good_scene());
-  Scene scene = read(in);
+  Scene scene = read_stream(in);
   CHECK_NOTHROW(check(scene));
   scene.harmonics.order = 3000;
   scene.masses[0].values[0] = -2;

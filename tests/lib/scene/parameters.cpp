@@ -1,3 +1,4 @@
+#include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -5,6 +6,7 @@
 #include <sstream>
 
 #include "bad_scenes.hpp"
+#include "catalogue.hpp"
 #include "catch.hpp"
 
 using namespace arcslip::scene;
@@ -14,7 +16,7 @@ namespace {
 
 Scene read_text(const std::string& text) {
   std::istringstream in(text);
-  return read(in);
+  return read(in, test_catalogue::whole());
 }
 
 Scene tied_scene() {
@@ -61,27 +63,28 @@ TEST_CASE("a parameter that is set has the value and is swept no more") {
 
 TEST_CASE(
     "a parameter that is set is dropped from cases and scatter, and cases that are the same become one") {
+  using namespace arcslip::optimize;
   using Set = std::vector<std::pair<std::string, double>>;
-  const auto study_after_set = [](Criterion criterion) {
+  const auto problem_after_set = [](Criterion criterion) {
     Scene scene = tied_scene();
-    Study study{"best", StudyKind::optimum, 0, 0, {}};
-    study.criterion = criterion;
-    study.scatter = {{"load", 1, 2}, {"m.value", 1, 2}};
-    study.cases = {{Set{{"m.value", 1}, {"load", 1}}, 2, {}},
-                   {Set{{"m.value", 2}, {"load", 1}}, 3, {}},
-                   {Set{{"load", 2}}, 4, {}},
-                   {Set{{"m.value", 1}, {"load", 1}}, 5, Direction{{0, 2}}}};
-    scene.studies = {study};
+    OptimumSettings settings;
+    settings.problem.criterion = criterion;
+    settings.problem.scatter = {{"load", 1, 2}, {"m.value", 1, 2}};
+    settings.problem.cases = {{Set{{"m.value", 1}, {"load", 1}}, 2, {}},
+                              {Set{{"m.value", 2}, {"load", 1}}, 3, {}},
+                              {Set{{"load", 2}}, 4, {}},
+                              {Set{{"m.value", 1}, {"load", 1}}, 5, Direction{{0, 2}}}};
+    scene.studies = {{"best", &optimum_type(), Settings::of(settings)}};
     set(scene, "m.value", 4);
-    return scene.studies[0];
+    return scene.studies[0].settings.as<OptimumSettings>().problem;
   };
   for (const Criterion criterion : {Criterion::worst, Criterion::mean}) {
-    const Study study = study_after_set(criterion);
-    CHECK(study.scatter == std::vector<DesignVariable>{{"load", 1, 2}});
-    REQUIRE(study.cases.size() == 3);
-    CHECK(study.cases[0] == DesignCase{Set{{"load", 1}}, criterion == Criterion::worst ? 3.0 : 5.0, {}});
-    CHECK(study.cases[1] == DesignCase{Set{{"load", 2}}, 4, {}});
-    CHECK(study.cases[2] == DesignCase{Set{{"load", 1}}, 5, Direction{{0, 2}}});
+    const OptimumProblem problem = problem_after_set(criterion);
+    CHECK(problem.scatter == std::vector<DesignVariable>{{"load", 1, 2}});
+    REQUIRE(problem.cases.size() == 3);
+    CHECK(problem.cases[0] == DesignCase{Set{{"load", 1}}, criterion == Criterion::worst ? 3.0 : 5.0, {}});
+    CHECK(problem.cases[1] == DesignCase{Set{{"load", 2}}, 4, {}});
+    CHECK(problem.cases[2] == DesignCase{Set{{"load", 1}}, 5, Direction{{0, 2}}});
   }
 }
 
@@ -146,11 +149,11 @@ TEST_CASE("each type of element is known by its name and describes its fields") 
 }
 
 TEST_CASE("combinations of for_each are made one at a time, the last list fastest, however many there are") {
-  Study study;
-  CHECK(Combinations(study).count() == 1);
-  CHECK(Combinations(study)[0].empty());
-  study.for_each = {{"a", {1, 2}}, {"b", {3, 4, 5}}};
-  const Combinations six(study);
+  ValueLists lists;
+  CHECK(Combinations(lists).count() == 1);
+  CHECK(Combinations(lists)[0].empty());
+  lists = {{"a", {1, 2}}, {"b", {3, 4, 5}}};
+  const Combinations six(lists);
   REQUIRE(six.size() == 6);
   CHECK(six[0] == Setting{{"a", 1}, {"b", 3}});
   CHECK(six[1] == Setting{{"a", 1}, {"b", 4}});
@@ -158,10 +161,10 @@ TEST_CASE("combinations of for_each are made one at a time, the last list fastes
 
   std::vector<double> thousand(1000);
   for (std::size_t i = 0; i < thousand.size(); ++i) thousand[i] = static_cast<double>(i);
-  study.for_each = {{"a", thousand}, {"b", thousand}, {"c", thousand}};
-  CHECK(Combinations(study).count() == 1e9);
-  CHECK(Combinations(study)[123'456'789] == Setting{{"a", 123}, {"b", 456}, {"c", 789}});
-  study.for_each.emplace_back("d", thousand);
-  CHECK(Combinations(study).count() == 1e12);
-  CHECK(Combinations(study).size() == static_cast<std::size_t>(std::numeric_limits<int>::max()));
+  lists = {{"a", thousand}, {"b", thousand}, {"c", thousand}};
+  CHECK(Combinations(lists).count() == 1e9);
+  CHECK(Combinations(lists)[123'456'789] == Setting{{"a", 123}, {"b", 456}, {"c", 789}});
+  lists.emplace_back("d", thousand);
+  CHECK(Combinations(lists).count() == 1e12);
+  CHECK(Combinations(lists).size() == static_cast<std::size_t>(std::numeric_limits<int>::max()));
 }

@@ -1,3 +1,5 @@
+#include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/time_study.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <cstdlib>
@@ -5,22 +7,29 @@
 #include <sstream>
 
 #include "bad_scenes.hpp"
+#include "catalogue.hpp"
 #include "catch.hpp"
 
 using namespace arcslip::scene;
 using namespace arcslip::scene::test;
+using arcslip::observables::CurveRange;
+using arcslip::observables::FrequencyRange;
+using arcslip::observables::ParameterRange;
+using arcslip::observables::TimeMethod;
+using arcslip::observables::TimeSettings;
 
 namespace {
 
 Scene read_text(const std::string& text) {
   std::istringstream in(text);
-  return read(in);
+  return read(in, test_catalogue::whole());
 }
 
 }  // namespace
 
 TEST_CASE("the scene of the paper is read with the paper's numbers") {
-  const Scene scene = read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json");
+  const Scene scene =
+      read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json", test_catalogue::whole());
   CHECK(scene.title == "Blade to ground with a friction damper (Al Sayed et al. 2011)");
   CHECK(scene.frequency_unit == FrequencyUnit::hertz);
   CHECK(scene.dofs == std::vector<std::string>{"blade"});
@@ -34,8 +43,7 @@ TEST_CASE("the scene of the paper is read with the paper's numbers") {
   CHECK(value(scene, "force.cosine") == 1.0);
   CHECK(scene.response == Direction{{0, 1.0}});
   REQUIRE(scene.studies.size() == 3);
-  CHECK(scene.studies[0].from == 18.0);
-  CHECK(scene.studies[0].to == 22.0);
+  CHECK(scene.studies[0].settings.as<FrequencyRange>() == FrequencyRange{18.0, 22.0});
   REQUIRE(scene.studies[0].for_each.size() == 1);
   CHECK(scene.studies[0].for_each[0].first == "damper.normal_load");
   CHECK(scene.studies[0].for_each[0].second ==
@@ -126,20 +134,15 @@ TEST_CASE("a study over a parameter has its range, and one frequency or a window
         {"kind": "trace", "over": "k.value", "from": -5, "to": 5, "frequency": 1.5, "for_each": {"m.value": [1, 2]}},
         {"kind": "folds", "over": "d.normal_load", "from": 0, "to": 5, "frequency": [0.5, 2.5]},)"));
   const Study& trace = scene.studies[0];
-  CHECK(trace.kind == StudyKind::trace);
+  CHECK(trace.type == &arcslip::studies::trace());
   CHECK(trace.name == "trace");
-  CHECK(trace.over == "k.value");
-  CHECK(trace.from == -5);
-  CHECK(trace.to == 5);
-  CHECK(trace.frequency_from == 1.5);
-  CHECK(trace.frequency_to == 1.5);
+  CHECK(trace.settings.as<ParameterRange>() == ParameterRange{"k.value", -5, 5, 1.5});
   CHECK(trace.for_each.size() == 1);
   const Study& folds = scene.studies[1];
-  CHECK(folds.kind == StudyKind::folds);
-  CHECK(folds.over == "d.normal_load");
-  CHECK(folds.frequency_from == 0.5);
-  CHECK(folds.frequency_to == 2.5);
-  CHECK(scene.studies[2].over.empty());
+  CHECK(folds.type == &arcslip::studies::folds());
+  CHECK(folds.settings.as<CurveRange>() == CurveRange{"d.normal_load", 0, 5, 0.5, 2.5});
+  CHECK(scene.studies[2].type == &arcslip::studies::frf());
+  CHECK(scene.studies[2].settings.as<FrequencyRange>() == FrequencyRange{1, 2});
 }
 
 TEST_CASE("a study in time has one frequency and its settings, with defaults") {
@@ -148,17 +151,30 @@ TEST_CASE("a study in time has one frequency and its settings, with defaults") {
         {"kind": "time", "frequency": 1.5},
         {"kind": "time", "frequency": 2, "method": "event-driven", "steps": 64, "periods": 7, "recorded": 3,
          "tolerance": 0, "for_each": {"m.value": [1, 2]}},)"));
-  CHECK(scene.studies[0].kind == StudyKind::time);
+  CHECK(scene.studies[0].type == &arcslip::studies::time());
   CHECK(scene.studies[0].name == "time");
-  CHECK(scene.studies[0].frequency_from == 1.5);
-  CHECK(scene.studies[0].time == TimeSettings{});
-  CHECK(scene.studies[0].time.method == TimeMethod::shooting);
-  CHECK(scene.studies[0].time.steps == 1000);
-  CHECK(scene.studies[1].time == TimeSettings{TimeMethod::event_driven, 64, 7, 3, 0});
+  const auto& first = scene.studies[0].settings.as<TimeSettings>();
+  CHECK(first == TimeSettings{.frequency = 1.5});
+  CHECK(first.method == TimeMethod::shooting);
+  CHECK(first.steps == 1000);
+  CHECK(scene.studies[1].settings.as<TimeSettings>() ==
+        TimeSettings{2, TimeMethod::event_driven, 64, 7, 3, 0});
   CHECK(scene.studies[1].for_each.size() == 1);
-  CHECK(method_name(TimeMethod::newmark_shooting) == "newmark-shooting");
-  CHECK(method_of("event-driven") == TimeMethod::event_driven);
-  CHECK_FALSE(method_of("newmrak"));
+}
+
+TEST_CASE("each method in time is read by its name, and no other") {
+  const auto with_method = [](const std::string& method) {
+    return read_text(good_scene_with(
+        "\"studies\": [", R"("studies": [{"kind": "time", "frequency": 1.5, "method": ")" + method + "\"},"));
+  };
+  for (const TimeMethod method :
+       {TimeMethod::shooting, TimeMethod::newmark_shooting, TimeMethod::newmark, TimeMethod::event_driven}) {
+    const Scene scene = with_method(std::string(name(method)));
+    CHECK(scene.studies[0].settings.as<TimeSettings>().method == method);
+  }
+  CHECK(name(TimeMethod::newmark_shooting) == "newmark-shooting");
+  CHECK(name(TimeMethod::event_driven) == "event-driven");
+  CHECK_THROWS_AS(with_method("newmrak"), SceneError);
 }
 
 TEST_CASE("the range of a tie must suit each of its fields") {
@@ -169,7 +185,7 @@ TEST_CASE("the range of a tie must suit each of its fields") {
         R"("ties": {"t": ["k.value", "d.stiffness"]}, "studies": [{"kind": "trace", "over": "t", "from": )" +
             from + R"(, "to": 5, "frequency": 1},)");
   };
-  CHECK(read_text(with_load_from("1")).studies[0].from == 1);
+  CHECK(read_text(with_load_from("1")).studies[0].settings.as<ParameterRange>().from == 1);
   CHECK_THROWS_WITH(read_text(with_load_from("-1")), "/studies/0/from: found -1, must be above 0 N/m");
 }
 

@@ -1,3 +1,4 @@
+#include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <cmath>
@@ -5,6 +6,7 @@
 #include <sstream>
 
 #include "bad_scenes.hpp"
+#include "catalogue.hpp"
 #include "catch.hpp"
 
 using namespace arcslip::scene;
@@ -14,7 +16,7 @@ namespace {
 
 Scene read_text(const std::string& text) {
   std::istringstream in(text);
-  return read(in);
+  return read(in, test_catalogue::whole());
 }
 
 // A scene with one of everything.
@@ -81,13 +83,14 @@ TEST_CASE("what is written is read as the same scene") {
 
 TEST_CASE("lists of values for cases make their product, the last list fastest") {
   const Scene scene = read_text(full_scene);
-  const Study& study = scene.studies[8];
-  REQUIRE(study.name == "levels");
-  REQUIRE(study.cases.size() == 6);
+  REQUIRE(scene.studies[8].name == "levels");
+  const auto& cases = scene.studies[8].settings.as<arcslip::optimize::OptimumSettings>().problem.cases;
+  REQUIRE(cases.size() == 6);
+  using arcslip::optimize::DesignCase;
   using Set = std::vector<std::pair<std::string, double>>;
-  CHECK(study.cases[0] == DesignCase{Set{{"f.sine", 1}, {"n.stiffness", 0}}, 1, {}});
-  CHECK(study.cases[2] == DesignCase{Set{{"f.sine", 1}, {"n.stiffness", 1e20}}, 1, {}});
-  CHECK(study.cases[3] == DesignCase{Set{{"f.sine", 2}, {"n.stiffness", 0}}, 1, {}});
+  CHECK(cases[0] == DesignCase{Set{{"f.sine", 1}, {"n.stiffness", 0}}, 1, {}});
+  CHECK(cases[2] == DesignCase{Set{{"f.sine", 1}, {"n.stiffness", 1e20}}, 1, {}});
+  CHECK(cases[3] == DesignCase{Set{{"f.sine", 2}, {"n.stiffness", 0}}, 1, {}});
 }
 
 TEST_CASE("a study of an optimum is written with its cases, what scatters, and what it goes along") {

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 namespace {
 
 Json written(const scene::Scene& scene, const std::vector<observables::ResponseBranch>& branches,
-             const studies::Detail& options = {}) {
+             const scene::RunOptions& options = {}) {
   std::ostringstream text;
   results::write_json(text, studies::results_of(scene, branches, options));
   return Json::parse(text.str());

@@ -75,7 +75,7 @@ TEST_CASE("a motion in JSON has its status, numbers, multipliers, elements and h
   Motion named = motion();
   named.study = "loops";
   named.kind = "time";
-  named.method = scene::TimeMethod::newmark_shooting;
+  named.method = observables::TimeMethod::newmark_shooting;
   const Json json = written({motion(5), named});
   CHECK(json["format"] == "arcslip-time-1");
   CHECK(json["scene_hash"] == scene::hash(scene));
@@ -163,7 +163,10 @@ TEST_CASE("figures of motions are the displacement, and the loop and the force o
   Motion two = motion();
   two.history.elements.push_back(two.history.elements.front());
   two.history.elements.back().name = "b/c";
-  const auto more = output::image_names(studies::figures_of(scene, std::vector{two}), "t");
+  scene::Scene of_two = scene;
+  of_two.elements.push_back(of_two.elements.front());
+  of_two.elements.back().name = "b/c";
+  const auto more = output::image_names(studies::figures_of(of_two, std::vector{two}), "t");
   REQUIRE(more.size() == 5);
   CHECK(more[3] == "t_hysteresis_2_b_c");
 }

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
+#include "lib/hbm/scenes.hpp"
 #include "lib/time/beside_exact.hpp"
 
 #include <cmath>
@@ -21,8 +22,8 @@ std::uint64_t scenes_of_each_kind() {
 }
 
 double frequency(const scene::Scene& s, double part) {
-  const auto& study = s.studies.front();
-  return study.from + part * (study.to - study.from);
+  const auto& window = scenes::window(s);
+  return window.from + part * (window.to - window.from);
 }
 
 // Forces within their limits, and sliders that move only at the limit: no event was missed.

@@ -1,32 +1,29 @@
+#include "catalogue.hpp"
 #include "catch.hpp"
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/studies/study_of.hpp>
 
 #include <cmath>
 #include <sstream>
 
 using namespace arcslip;
 using observables::Motion;
-using observables::motions_in_time;
+using observables::motion_in_time;
 using observables::Status;
-using scene::TimeMethod;
+using observables::TimeMethod;
+using observables::TimeSettings;
 
 namespace {
 
 scene::Scene example(const std::string& name) {
-  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + name + "/scene.json");
+  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + name + "/scene.json", test_catalogue::whole());
 }
 
-scene::Study at(double frequency, TimeMethod method = TimeMethod::shooting, int steps = 200) {
-  scene::Study study;
-  study.name = "time";
-  study.kind = scene::StudyKind::time;
-  study.frequency_from = study.frequency_to = frequency;
-  study.time.method = method;
-  study.time.steps = steps;
-  return study;
+TimeSettings at(double frequency, TimeMethod method = TimeMethod::shooting, int steps = 200) {
+  return {.frequency = frequency, .method = method, .steps = steps};
 }
 
 scene::Scene paper(double normal_load, double damping = 0.134) {
@@ -45,16 +42,13 @@ scene::Scene massless(double cubic) {
     "elements": [{"name": "damper", "type": "jenkins", "at": "tip", "stiffness": 1, "friction_coefficient": 0.5,
                   "normal_load": 1}, {"name": "cubic", "type": "cubic_spring", "at": "tip", "stiffness": 0}],
     "excitation": [{"name": "force", "at": "mass", "harmonic": 1, "cosine": 1}], "harmonics": {"order": 151}, "response": {"at": "mass"}})");
-  scene::Scene scene = scene::read(text);
+  scene::Scene scene = scene::read(text, test_catalogue::whole());
   scene::set(scene, "cubic.stiffness", cubic);
   return scene;
 }
 
 double by_harmonic_balance(const scene::Scene& scene, double frequency) {
-  scene::Study study;
-  study.from = frequency;
-  study.to = frequency * 1.001;
-  return observables::frequency_response(scene, study).at(0).points.at(0).amplitude;
+  return observables::frequency_response(scene, {frequency, frequency * 1.001}).at(0).points.at(0).amplitude;
 }
 
 }  // namespace
@@ -63,9 +57,7 @@ TEST_CASE("a study in time gives the exact motions of the paper's oscillator by 
   for (const auto& entry : reference::exact("fixed_frequency")) {
     const double hertz = entry["frequency_hz"], load = entry["normal_load"];
     CAPTURE(hertz, load);
-    const auto motions = motions_in_time(paper(load), at(hertz));
-    REQUIRE(motions.size() == 1);
-    const Motion& motion = motions[0];
+    const Motion motion = motion_in_time(paper(load), at(hertz));
     CHECK(motion.status == Status::complete);
     CHECK(motion.stop.reason == "periodic");
     CHECK(motion.integrator == "event-driven");
@@ -83,10 +75,10 @@ TEST_CASE("a study in time gives the exact motions of the paper's oscillator by 
 
 TEST_CASE("shooting in Newmark's steps gives what Newmark's transient comes to") {
   for (const double load : {1.0, 3.0}) {
-    const Motion shot = motions_in_time(paper(load), at(20, TimeMethod::newmark_shooting)).at(0);
-    auto study = at(20, TimeMethod::newmark);
-    study.time.tolerance = 1e-12;
-    const Motion marched = motions_in_time(paper(load), study).at(0);
+    const Motion shot = motion_in_time(paper(load), at(20, TimeMethod::newmark_shooting));
+    TimeSettings settings = at(20, TimeMethod::newmark);
+    settings.tolerance = 1e-12;
+    const Motion marched = motion_in_time(paper(load), settings);
     CHECK(shot.stop.reason == "periodic");
     CHECK(marched.stop.reason == "steady");
     CHECK(reference::error(shot.amplitude, marched.amplitude) < 1e-10);
@@ -94,7 +86,7 @@ TEST_CASE("shooting in Newmark's steps gives what Newmark's transient comes to")
     CHECK(marched.periods > 100);
   }
   // full stick with hardly any damping: a transient takes 7000 periods
-  const Motion stuck = motions_in_time(paper(500), at(20.9, TimeMethod::newmark_shooting, 1000)).at(0);
+  const Motion stuck = motion_in_time(paper(500), at(20.9, TimeMethod::newmark_shooting, 1000));
   CHECK(stuck.status == Status::complete);
   CHECK(stuck.multipliers.size() == 2);
   CHECK(std::abs(stuck.multipliers[0]) ==
@@ -107,7 +99,7 @@ TEST_CASE("the Duffing oscillator in time is that of harmonic balance with many 
   const double balance = by_harmonic_balance(scene, 0.9);
   double last = 0;
   for (const int steps : {250, 500, 1000}) {
-    const Motion motion = motions_in_time(scene, at(0.9, TimeMethod::shooting, steps)).at(0);
+    const Motion motion = motion_in_time(scene, at(0.9, TimeMethod::shooting, steps));
     CHECK(motion.integrator == "newmark");
     CHECK(motion.status == Status::complete);
     const double error = reference::error(motion.amplitude, balance);
@@ -122,24 +114,24 @@ TEST_CASE("a massless degree of freedom with friction in time is that of harmoni
     CAPTURE(cubic);
     const scene::Scene scene = massless(cubic);
     const double balance = by_harmonic_balance(scene, 1.4);
-    const Motion motion = motions_in_time(scene, at(1.4, TimeMethod::shooting, 4000)).at(0);
+    const Motion motion = motion_in_time(scene, at(1.4, TimeMethod::shooting, 4000));
     CHECK(motion.integrator == "newmark");
     CHECK(motion.status == Status::complete);
     CHECK(motion.elements.at(0).stick_percent < 100);
     CHECK(reference::error(motion.amplitude, balance) < 100.0 / (4000.0 * 4000.0));
   }
-  const Motion refused = motions_in_time(massless(0), at(1.4, TimeMethod::event_driven)).at(0);
+  const Motion refused = motion_in_time(massless(0), at(1.4, TimeMethod::event_driven));
   CHECK(refused.status == Status::failed);
   CHECK(refused.stop.reason == "massless");
   CHECK(refused.stop.message.find("take the method newmark") != std::string::npos);
-  const Motion cubic = motions_in_time(massless(0.7), at(1.4, TimeMethod::event_driven)).at(0);
+  const Motion cubic = motion_in_time(massless(0.7), at(1.4, TimeMethod::event_driven));
   CHECK(cubic.stop.reason == "not_piecewise_linear");
 }
 
 TEST_CASE("a contact too stiff for exact events is left to Newmark's steps") {
   scene::Scene scene = paper(0.3);
   scene::set(scene, "damper.stiffness", 1e16);
-  const Motion motion = motions_in_time(scene, at(18)).at(0);
+  const Motion motion = motion_in_time(scene, at(18));
   CHECK(motion.status == Status::complete);
   CHECK(motion.integrator == "newmark");
 }
@@ -149,29 +141,35 @@ TEST_CASE("where no motion is bounded none is found, and that is said") {
   const double resonance = std::sqrt(17890 / 1.24) / (2 * std::acos(-1.0));
   scene::Scene scene = paper(1, 0);
   for (const auto method : {TimeMethod::shooting, TimeMethod::newmark_shooting}) {
-    const Motion motion = motions_in_time(scene, at(resonance, method)).at(0);
+    const Motion motion = motion_in_time(scene, at(resonance, method));
     CHECK(motion.status == Status::failed);
     CHECK(motion.stop.reason == "unbounded");
     CHECK_FALSE(motion.stop.message.empty());
     CHECK(motion.history.time.size() == 201);
   }
   scene::set(scene, "k.value", -20000);  // softer than its damper can hold
-  const Motion runaway = motions_in_time(scene, at(20, TimeMethod::newmark)).at(0);
+  const Motion runaway = motion_in_time(scene, at(20, TimeMethod::newmark));
   CHECK(runaway.status == Status::failed);
   CHECK(runaway.stop.reason == "not_finite");
   CHECK(runaway.history.time.size() > 1);
 }
 
 TEST_CASE("a study in time has a motion for each combination, and a stop keeps what there is") {
-  scene::Study study = at(20, TimeMethod::newmark, 50);
-  study.for_each = {{"damper.normal_load", {1, 2, 3}}, {"c.value", {1, 2}}};
+  TimeSettings settings = at(20, TimeMethod::newmark, 50);
+  const scene::ValueLists lists = {{"damper.normal_load", {1, 2, 3}}, {"c.value", {1, 2}}};
   const scene::Scene scene = example("al_sayed_2011");
-  const auto all = motions_in_time(scene, study);
+  const auto motions = [&](const observables::ProgressCallback& progress) {
+    const auto compute = [&](const studies::Case& each, const observables::ProgressCallback& tell) {
+      return std::vector{motion_in_time(each.scene, settings, tell)};
+    };
+    return studies::for_each<Motion>(scene, lists, compute, progress);
+  };
+  const auto all = motions({});
   REQUIRE(all.size() == 6);
   CHECK(all[3].set == std::vector<std::pair<std::string, double>>{{"damper.normal_load", 2}, {"c.value", 2}});
   CHECK(all[3].parameters.front().first == "m.value");
   long told = 0;
-  const auto some = motions_in_time(scene, study, [&](const observables::Progress& progress) {
+  const auto some = motions([&](const observables::Progress& progress) {
     CHECK(std::string(progress.item) == "motion");
     CHECK(progress.branches == 6);
     CHECK(progress.share_done <= 1);
@@ -185,8 +183,8 @@ TEST_CASE("a study in time has a motion for each combination, and a stop keeps w
   CHECK(some[1].periods == 6);
   CHECK(told > 6);
   for (const auto method : {TimeMethod::shooting, TimeMethod::newmark_shooting, TimeMethod::event_driven}) {
-    study.time.method = method;
-    const auto none = motions_in_time(scene, study, [](const observables::Progress&) { return false; });
+    settings.method = method;
+    const auto none = motions([](const observables::Progress&) { return false; });
     REQUIRE(none.size() == 1);
     CHECK(none[0].stop.reason == "user");
   }

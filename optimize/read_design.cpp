@@ -1,10 +1,14 @@
-#include <arcslip/scene/read_design.hpp>
+#include <arcslip/optimize/read_settings.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <tuple>
 
-namespace arcslip::scene::detail {
+namespace arcslip::optimize {
+
+using namespace scene::file;
+using scene::Field;
+
 namespace {
 
 std::pair<double, double> read_limits(const Keys& keys, Faults& faults) {
@@ -20,11 +24,12 @@ std::pair<double, double> read_limits(const Keys& keys, Faults& faults) {
   return {at_least, at_most};
 }
 
-std::vector<std::pair<std::string, double>> read_sum(const Place& place, const Study& study, Faults& faults) {
+std::vector<std::pair<std::string, double>> read_sum(const Place& place, const OptimumProblem& problem,
+                                                     Faults& faults) {
   const std::size_t before = faults.count();
   std::vector<std::pair<std::string, double>> weights;
   std::vector<std::string> known;
-  for (const DesignVariable& variable : study.design) {
+  for (const DesignVariable& variable : problem.over) {
     known.push_back(variable.name);
   }
   for (const Member* member : members(place, faults)) {
@@ -49,7 +54,9 @@ std::vector<std::pair<std::string, double>> read_sum(const Place& place, const S
 
 }  // namespace
 
-void read_design(const Keys& keys, const Parameters& all, Study& study, Faults& faults) {
+void read_design(const Reading& reading, OptimumProblem& problem) {
+  const Keys& keys = reading.keys;
+  Faults& faults = reading.faults;
   constexpr std::string_view names = "a list of at least one parameter \"part.field\" or tie";
   constexpr std::string_view pairs = "a list of pairs [lower, upper], one for each parameter of \"over\"";
   const Place over = keys.require("over", std::string(names), faults);
@@ -67,8 +74,8 @@ void read_design(const Keys& keys, const Parameters& all, Study& study, Faults& 
   for (std::size_t i = 0; parameters != nullptr && i < parameters->size(); ++i) {
     const Place item{&(*parameters)[i], child(over.pointer, i)};
     DesignVariable variable;
-    const Field field = read_parameter(item, all, variable.name, faults);
-    const bool again = std::any_of(study.design.begin(), study.design.end(),
+    const Field field = read_parameter(item, reading.parameters, variable.name, faults);
+    const bool again = std::any_of(problem.over.begin(), problem.over.end(),
                                    [&](const DesignVariable& other) { return other.name == variable.name; });
     if (again && !variable.name.empty()) {
       faults.add(item.pointer, "found " + shown(variable.name) + " again, must be named once");
@@ -78,11 +85,13 @@ void read_design(const Keys& keys, const Parameters& all, Study& study, Faults& 
           read_pair({&(*ranges)[i], child(bounds.pointer, i)},
                     "a pair [lower, upper], each " + allowed_text(field), field, "bound", faults);
     }
-    study.design.push_back(std::move(variable));
+    problem.over.push_back(std::move(variable));
   }
 }
 
-void read_constraints(const Place& place, Study& study, Faults& faults) {
+void read_constraints(const Reading& reading, OptimumProblem& problem) {
+  const Place place = reading.keys.find("constraints");
+  Faults& faults = reading.faults;
   if (place.node == nullptr) {
     return;
   }
@@ -100,13 +109,13 @@ void read_constraints(const Place& place, Study& study, Faults& faults) {
     }
     const auto [at_least, at_most] = read_limits(keys, faults);
     if (keys.has("sum")) {
-      study.linear_constraints.push_back({read_sum(keys.find("sum"), study, faults), at_least, at_most});
+      problem.linear_limits.push_back({read_sum(keys.find("sum"), problem, faults), at_least, at_most});
     } else {
       constexpr std::string_view wanted = "a string, such as \"energy_friction\" or \"damper.stick_percent\"";
-      study.constraints.push_back(
+      problem.limits.push_back(
           {read_string(keys.find("observable"), wanted, faults).value_or(""), at_least, at_most});
     }
   }
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::optimize

@@ -1,0 +1,155 @@
+#include <arcslip/observables/responses_at.hpp>
+
+#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/observables/study_branches.hpp>
+#include <arcslip/observables/unbounded.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::StopReason;
+using continuation::Vector;
+
+constexpr double search_ratio = 4;  // of frequencies: the window in which other responses are looked for
+constexpr double same = 1e-6;       // responses that differ by less, relatively, are one
+
+bool has_cubic_spring(const model::Model& model) {
+  return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
+    return element.law == model::Law::cubic_spring &&
+           model.parameters[static_cast<std::size_t>(element.parameters[0])].value != 0;
+  });
+}
+
+// Those at which a frequency branch through a wide window passes omega.
+std::vector<Vector> other_responses(const std::shared_ptr<const model::Model>& model, double omega,
+                                    const GoOn& go_on) {
+  std::vector<Vector> found;
+  if (!has_cubic_spring(*model)) return found;
+  const FrequencyWindow window{omega / search_ratio, omega * search_ratio};
+  const auto swept = frequency_branch(model, window, window.lower, {}, 1, Steps::curve, go_on);
+  const Vector p = hbm::parameters_at(*swept.problem, omega);
+  const auto& points = swept.branch.points;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto &a = points[i - 1], &b = points[i];
+    if ((a.parameter < omega) == (b.parameter < omega)) continue;
+    const double share = (omega - a.parameter) / (b.parameter - a.parameter);
+    if (const auto u = hbm::response_near(*swept.problem, p, a.u + share * (b.u - a.u))) found.push_back(*u);
+  }
+  return found;
+}
+
+class Points {
+ public:
+  Points(const scene::Scene& scene, const PointSettings& settings, const ProgressCallback& report)
+      : scene_(scene),
+        settings_(settings),
+        omega_(settings.frequency * scene::to_rad_per_s(scene.frequency_unit)),
+        model_(std::make_shared<const model::Model>(model::build(scene))),
+        report_(report) {
+    progress_.frequency = settings.frequency;
+    progress_.item = "response";
+  }
+
+  std::vector<PointResponse> run() {
+    const ResponsesAt found = responses_at(model_, omega_, [this] { return go_on(); });
+    if (stopped_) return {ended(Status::stopped, "user", "stopped by the caller")};
+    if (!found.unbounded.empty())
+      return {
+          ended(Status::failed, "unbounded", "no response is bounded " + place() + ": " + found.unbounded)};
+    if (found.u.empty())
+      return {ended(Status::failed, name(StopReason::start_failed),
+                    "no periodic response was found " + place() + ": " + found.failure)};
+    std::vector<PointResponse> all;
+    for (const Vector& u : found.u) all.push_back(at(found.problem, u));
+    return all;
+  }
+
+ private:
+  bool go_on() {
+    if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
+    return !stopped_;
+  }
+
+  std::string place() const { return "at " + frequency_text(omega_, scene_.frequency_unit); }
+
+  PointResponse ended(Status status, const std::string& reason, const std::string& message) const {
+    const ResponseBranch description = described(*model_);
+    PointResponse result;
+    result.status = status;
+    result.stop = {reason, settings_.frequency, 0, message};
+    result.parameters = description.parameters;
+    result.harmonics = description.harmonics;
+    result.solver = description.solver;
+    return result;
+  }
+
+  // The first point of a branch that begins there, which is corrected and observed as every other one.
+  PointResponse at(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u) {
+    const auto began = std::chrono::steady_clock::now();
+    Observer observer(problem);
+    std::optional<ResponsePoint> point;
+    continuation::Options options;
+    options.lower = omega_;
+    options.upper = omega_ * search_ratio;
+    options.check_jacobian = false;
+    const auto branch =
+        continuation::trace(problem, {u, hbm::parameters_at(*problem, omega_), model::frequency, 1}, options,
+                            {}, [&](const continuation::Accepted& now, const continuation::Event*) {
+                              point = observer.observe(now, HeldBy::parameter, true);
+                              return false;
+                            });
+    PointResponse result = ended(Status::complete, "solved", "the response was found " + place());
+    result.solver.unknowns = problem->size();
+    add(branch.counts, result.solver);
+    if (!point) {
+      result.status = Status::failed;
+      result.stop.reason = name(branch.stop.reason);
+      result.stop.message = branch.stop.message;
+      return result;
+    }
+    result.point = std::move(*point);
+    result.history = history(scene_, {}, result.point, loop_angles(result.point, settings_.steps));
+    result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return result;
+  }
+
+  const scene::Scene& scene_;
+  PointSettings settings_;
+  double omega_;
+  std::shared_ptr<const model::Model> model_;
+  const ProgressCallback& report_;
+  Progress progress_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega, const GoOn& go_on) {
+  ResponsesAt found;
+  const auto stopped = [&] { return go_on && !go_on(); };
+  if (const auto growth = unbounded_resonance(model, omega); growth.unbounded) {
+    found.unbounded = growth.message;
+    return found;
+  }
+  const FirstResponse first = first_response(model, omega, omega, go_on);
+  found.problem = first.problem;
+  found.failure = first.failure;
+  if (stopped() || !first.u) return found;
+  found.u.push_back(*first.u);
+  for (Vector& u : other_responses(model, omega, go_on)) {
+    const auto is_same = [&](const Vector& other) { return (u - other).norm() <= same * other.norm(); };
+    if (std::none_of(found.u.begin(), found.u.end(), is_same)) found.u.push_back(std::move(u));
+  }
+  return found;
+}
+
+std::vector<PointResponse> point_responses(const scene::Scene& scene, const PointSettings& settings,
+                                           const ProgressCallback& progress) {
+  return Points(scene, settings, progress).run();
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,224 @@
+#include <arcslip/scene/json_schema.hpp>
+
+#include <arcslip/scene/study_type.hpp>
+#include <arcslip/scene/words.hpp>
+#include <arcslip/scene/write_values.hpp>
+
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace arcslip::scene {
+namespace file {
+namespace {
+
+using Object = Node::Object;
+
+Node of(Object members) {
+  return {std::move(members)};
+}
+
+Node of_type(std::string_view type) {
+  return of({{"type", node(type)}});
+}
+
+Node list_of(Node item, int least = 0) {
+  Object list{{"type", node("array")}, {"items", std::move(item)}};
+  if (least > 0) {
+    list.push_back({"minItems", node(least)});
+  }
+  return of(std::move(list));
+}
+
+/// An object whose members have any names.
+Node map_of(Node value) {
+  return of({{"type", node("object")}, {"additionalProperties", std::move(value)}});
+}
+
+/// An object with these keys and no others.
+Object object_of(Object properties, const std::vector<std::string>& required) {
+  Object object{{"type", node("object")}, {"properties", of(std::move(properties))}};
+  if (!required.empty()) {
+    object.push_back({"required", node(required)});
+  }
+  object.push_back({"additionalProperties", {false}});
+  return object;
+}
+
+void add_bounds(double lower, bool lower_open, double upper, Object& number) {
+  if (std::isfinite(lower)) {
+    number.push_back({lower_open ? "exclusiveMinimum" : "minimum", node(lower)});
+  }
+  if (std::isfinite(upper)) {
+    number.push_back({"maximum", node(upper)});
+  }
+}
+
+std::string with_unit(std::string_view text, std::string_view unit) {
+  std::string all(text);
+  if (!unit.empty() && unit != "-") {
+    all.append(" (").append(unit).append(")");
+  }
+  return all;
+}
+
+Node number_of(const Field& field) {
+  Object number{{"type", node("number")}, {"description", node(with_unit(field.help, field.unit))}};
+  add_bounds(field.lower, field.lower_open, field.upper, number);
+  if (field.default_value) {
+    number.push_back({"default", node(*field.default_value)});
+  }
+  return of(std::move(number));
+}
+
+/// The keys that say where something acts, and that one of them must be there.
+void add_place(Object& properties) {
+  properties.push_back({"at", of_type("string")});
+  properties.push_back({"between", list_of(of_type("string"), 2)});
+  properties.push_back({"direction", map_of(of_type("number"))});
+}
+
+Node one_place() {
+  Node::List choices;
+  for (const char* key : {"at", "between", "direction"}) {
+    choices.push_back(of({{"required", node(std::vector<std::string>{key})}}));
+  }
+  return {std::move(choices)};
+}
+
+Node part_of(const PartType& type, bool with_type) {
+  Object properties{{"name", of_type("string")}};
+  std::vector<std::string> required{"name"};
+  if (with_type) {
+    properties.push_back({"type", of({{"const", node(type.name)}})});
+    required.emplace_back("type");
+  }
+  add_place(properties);
+  if (&type == &force_type) {
+    properties.push_back({"harmonic", of({{"type", node("integer")},
+                                          {"minimum", node(1)},
+                                          {"maximum", node(largest_order)},
+                                          {"default", node(Part{}.harmonic)},
+                                          {"description", node("of the force")}})});
+  }
+  for (const Field& field : type.fields) {
+    properties.push_back({std::string(field.name), number_of(field)});
+    if (!field.default_value) {
+      required.emplace_back(field.name);
+    }
+  }
+  Object object = object_of(std::move(properties), required);
+  object.push_back({"oneOf", one_place()});
+  return of(std::move(object));
+}
+
+template <class Words>
+Node word_of_list(const Words& words) {
+  return of({{"enum", node(texts(words))}});
+}
+
+/// What the value of a key may be.
+Object value_of_key(const Key& key) {
+  switch (key.type) {
+    case KeyType::number:
+    case KeyType::whole: {
+      Object number{{"type", node(key.type == KeyType::whole ? "integer" : "number")}};
+      add_bounds(key.lower, key.lower_open, key.upper, number);
+      return number;
+    }
+    case KeyType::frequency:
+      return {{"type", node("number")}, {"exclusiveMinimum", node(0)}};
+    case KeyType::value:
+      return {{"type", node("number")}};
+    case KeyType::window:
+      return {{"type", node("array")},
+              {"items", of({{"type", node("number")}, {"exclusiveMinimum", node(0)}})},
+              {"minItems", node(2)},
+              {"maxItems", node(2)}};
+    case KeyType::word:
+      return {{"enum", node(key.words)}};
+    case KeyType::text:
+    case KeyType::parameter:
+    case KeyType::followed:
+      return {{"type", node("string")}};
+    case KeyType::parameters:
+      return {{"type", node("array")}, {"items", of_type("string")}, {"minItems", node(1)}};
+    case KeyType::other:
+      break;
+  }
+  return std::get<Object>(read_tree(key.schema.empty() ? "{}" : key.schema).value);
+}
+
+Node study_of(const StudyType& type) {
+  Object properties{
+      {"name", of({{"type", node("string")}, {"minLength", node(1)}, {"maxLength", node(100)}})},
+      {"kind", of({{"const", node(type.name())}})}};
+  std::vector<std::string> required{"kind"};
+  for (const Key& key : type.keys()) {
+    Object value = value_of_key(key);
+    const std::string unit = key.unit == "frequency"   ? "the scene's unit"
+                             : key.unit == "parameter" ? "the parameter's unit"
+                                                       : key.unit;
+    value.push_back({"description", node(with_unit(key.help, unit))});
+    if (!key.otherwise.empty()) {
+      value.push_back({"default", read_tree(key.otherwise)});
+    }
+    properties.push_back({key.name, of(std::move(value))});
+    if (key.required) {
+      required.push_back(key.name);
+    }
+  }
+  properties.push_back({"for_each", map_of(list_of(of_type("number"), 1))});
+  Object study = object_of(std::move(properties), required);
+  study.push_back({"title", node(type.help())});
+  return of(std::move(study));
+}
+
+Node schema_of(const Catalogue& catalogue) {
+  Object structure{{"dofs", list_of(of_type("string"), 1)},
+                   {"masses", list_of(part_of(mass_type, false))},
+                   {"springs", list_of(part_of(spring_type, false))},
+                   {"dampers", list_of(part_of(damper_type, false))}};
+  Node::List elements, studies;
+  for (const PartType* type : element_types()) {
+    elements.push_back(part_of(*type, true));
+  }
+  for (const StudyType* type : catalogue.studies) {
+    studies.push_back(study_of(*type));
+  }
+  Object place;
+  add_place(place);
+  Object response = object_of(std::move(place), {});
+  response.push_back({"oneOf", one_place()});
+  Object samples{{"type", node("integer")}, {"default", node(Harmonics{}.samples)}};
+  add_bounds(1, false, largest_samples, samples);
+  Object order{{"type", node("integer")}, {"default", node(Harmonics{}.order)}};
+  add_bounds(1, false, largest_order, order);
+  Object root = object_of({{"format", of({{"const", node(format_name)}})},
+                           {"title", of_type("string")},
+                           {"frequency_unit", word_of_list(frequency_units)},
+                           {"structure", of(object_of(std::move(structure), {"dofs"}))},
+                           {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
+                           {"excitation", list_of(part_of(force_type, false), 1)},
+                           {"ties", map_of(list_of(of_type("string"), 1))},
+                           {"harmonics", of(object_of({{"order", of(std::move(order))},
+                                                       {"friction", word_of_list(friction_methods)},
+                                                       {"samples", of(std::move(samples))}},
+                                                      {}))},
+                           {"response", of(std::move(response))},
+                           {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
+                          {"format", "structure", "excitation"});
+  Object schema{{"$schema", node("https://json-schema.org/draft/2020-12/schema")},
+                {"title", node("Arcslip scene")}};
+  schema.insert(schema.end(), root.begin(), root.end());
+  return of(std::move(schema));
+}
+
+}  // namespace
+}  // namespace file
+
+std::string json_schema(const Catalogue& catalogue) {
+  return file::print_tree(file::schema_of(catalogue));
+}
+
+}  // namespace arcslip::scene

@@ -1,0 +1,83 @@
+#include <arcslip/scene/study_keys.hpp>
+
+#include <limits>
+
+namespace arcslip::scene {
+namespace file {
+namespace {
+
+// Beyond it the square of a frequency, times a mass, may be no number any more.
+constexpr double largest_frequency = 1e100;
+
+void check_frequency(double value, const std::string& pointer, const Reading& reading) {
+  if (value > largest_frequency) {
+    reading.faults.add(pointer, "found " + number_text(value) + ", must be at most " +
+                                    with_unit(largest_frequency, reading.frequency) +
+                                    ": numbers with its square would overflow");
+  }
+}
+
+}  // namespace
+
+std::pair<double, double> read_range(const Reading& reading, const Field& field) {
+  const std::string wanted = allowed_text(field);
+  const auto from = read_number(reading.keys.require("from", wanted, reading.faults), field, reading.faults);
+  const Place to_place = reading.keys.require("to", wanted, reading.faults);
+  const auto to = read_number(to_place, field, reading.faults);
+  if (from && to && !(*from < *to)) {
+    reading.faults.add(to_place.pointer, "found " + number_text(*to) + ", must be above \"from\", which is " +
+                                             with_unit(*from, field));
+  }
+  return {from.value_or(0), to.value_or(0)};
+}
+
+std::pair<double, double> read_frequency_range(const Reading& reading) {
+  const auto range = read_range(reading, reading.frequency);
+  check_frequency(range.first, reading.keys.find("from").pointer, reading);
+  check_frequency(range.second, reading.keys.find("to").pointer, reading);
+  return range;
+}
+
+RangeOver read_range_over(const Reading& reading) {
+  constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
+  RangeOver range;
+  const Place over = reading.keys.require("over", std::string(wanted), reading.faults);
+  const Field field = read_parameter(over, reading.parameters, range.over, reading.faults);
+  std::tie(range.from, range.to) = read_range(reading, field);
+  return range;
+}
+
+std::pair<double, double> read_window(const Reading& reading) {
+  const std::string wanted =
+      "a window [lower, upper] of two frequencies, each " + allowed_text(reading.frequency);
+  const Place place = reading.keys.require("frequency", wanted, reading.faults);
+  const auto window = read_pair(place, wanted, reading.frequency, "end", reading.faults);
+  check_frequency(window.first, child(place.pointer, std::size_t{0}), reading);
+  check_frequency(window.second, child(place.pointer, std::size_t{1}), reading);
+  return window;
+}
+
+double read_frequency(const Reading& reading) {
+  const std::string wanted = "one frequency, " + allowed_text(reading.frequency);
+  const Place place = reading.keys.require("frequency", wanted, reading.faults);
+  if (place.node != nullptr && place.node->get<Node::List>() != nullptr) {
+    add_wrong_type(place, wanted, reading.faults);
+    return 0;
+  }
+  const double frequency = read_number(place, reading.frequency, reading.faults).value_or(0);
+  check_frequency(frequency, place.pointer, reading);
+  return frequency;
+}
+
+}  // namespace file
+
+const StudyType* Catalogue::study(std::string_view name) const {
+  for (const StudyType* type : studies) {
+    if (type->name() == name) {
+      return type;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace arcslip::scene

@@ -1,0 +1,237 @@
+#pragma once
+// The keys of one kind of study: for each what it is called, what it may be and where its value goes, in one
+// place. Reader, writer, options of a command and documentation follow from it.
+//
+//   struct Window { std::string over; double from = 0, to = 0, lower = 0, upper = 0; };
+//   KeysOf<Window> keys;
+//   keys.add(range_over(&Window::over, &Window::from, &Window::to, "the parameter that is varied"));
+//   keys.add(window(&Window::lower, &Window::upper, "where peaks are looked for"));
+
+#include <arcslip/scene/read_parts.hpp>
+#include <arcslip/scene/read_values.hpp>
+#include <arcslip/scene/study_parameters.hpp>
+#include <arcslip/scene/study_type.hpp>
+#include <arcslip/scene/words.hpp>
+#include <arcslip/scene/write_values.hpp>
+
+#include <functional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace arcslip::scene::file {
+
+/// A study's object while it is read, and what its values refer to.
+struct Reading {
+  const Keys& keys;
+  const Field& frequency;  // in the scene's unit
+  const Parameters& parameters;
+  const Dofs& dofs;
+  Faults& faults;
+};
+
+/// Some keys of a study that are read and written together.
+template <class Settings>
+struct KeyGroup {
+  std::vector<Key> keys;
+  std::function<void(const Reading&, Settings&)> read;
+  std::function<void(const Settings&, const Scene&, Node::Object&)> write;
+  std::function<void(const Settings&, std::vector<Taken>&)> taken{};  // parameters that get values here
+  std::function<void(std::string_view, Settings&)> drop{};            // a parameter from lists of values
+};
+
+// The groups that need no more than to know where their values go. Each leaves a value that is not there, or
+// not as it must be, as it was.
+
+/// "from" and "to" in the unit of the scene's frequencies, from < to.
+std::pair<double, double> read_frequency_range(const Reading& reading);
+/// "over", a parameter, and "from" and "to", of its values.
+struct RangeOver {
+  std::string over;
+  double from = 0, to = 0;
+};
+RangeOver read_range_over(const Reading& reading);
+/// "frequency": a window [lower, upper], or one.
+std::pair<double, double> read_window(const Reading& reading);
+double read_frequency(const Reading& reading);
+/// "from" and "to" of a field.
+std::pair<double, double> read_range(const Reading& reading, const Field& field);
+
+template <class S>
+KeyGroup<S> frequency_range(double S::*from, double S::*to) {
+  return {{{"from", KeyType::frequency, "frequency", "above 0", "", true, "first frequency"},
+           {"to", KeyType::frequency, "frequency", "above \"from\"", "", true, "last frequency"}},
+          [=](const Reading& reading, S& s) { std::tie(s.*from, s.*to) = read_frequency_range(reading); },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({"from", node(s.*from)});
+            to_file.push_back({"to", node(s.*to)});
+          }};
+}
+
+template <class S>
+KeyGroup<S> range_over(std::string S::*over, double S::*from, double S::*to) {
+  return {{{"over", KeyType::parameter, "", "a parameter \"part.field\" or a tie", "", true,
+            "the parameter that is varied"},
+           {"from", KeyType::value, "parameter", "what the parameter may be", "", true,
+            "first value of the parameter"},
+           {"to", KeyType::value, "parameter", "above \"from\"", "", true, "last value of the parameter"}},
+          [=](const Reading& reading, S& s) {
+            const RangeOver range = read_range_over(reading);
+            s.*over = range.over;
+            s.*from = range.from;
+            s.*to = range.to;
+          },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({"over", node(s.*over)});
+            to_file.push_back({"from", node(s.*from)});
+            to_file.push_back({"to", node(s.*to)});
+          },
+          [=](const S& s, std::vector<Taken>& all) {
+            if (!(s.*over).empty()) all.push_back({s.*over, "which the study is \"over\""});
+          }};
+}
+
+template <class S>
+KeyGroup<S> window(double S::*lower, double S::*upper) {
+  return {{{"frequency", KeyType::window, "frequency", "[lower, upper], 0 < lower < upper", "", true,
+            "the window of frequencies"}},
+          [=](const Reading& reading, S& s) { std::tie(s.*lower, s.*upper) = read_window(reading); },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({"frequency", node(std::vector{s.*lower, s.*upper})});
+          }};
+}
+
+template <class S>
+KeyGroup<S> one_frequency(double S::*frequency, std::string help) {
+  return {{{"frequency", KeyType::frequency, "frequency", "above 0", "", true, std::move(help)}},
+          [=](const Reading& reading, S& s) { s.*frequency = read_frequency(reading); },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({"frequency", node(s.*frequency)});
+          }};
+}
+
+/// A number with a default. field: its name, unit and bounds.
+template <class S>
+KeyGroup<S> number(double S::*value, const Field& field, std::string help) {
+  const std::string name(field.name);
+  return {{{name, KeyType::number, std::string(field.unit), allowed_text(field), json_text(node(S{}.*value)),
+            false, std::move(help), field.lower, field.upper, field.lower_open}},
+          [=](const Reading& reading, S& s) {
+            s.*value = read_number(reading.keys.find(name), field, reading.faults).value_or(s.*value);
+          },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({name, node(s.*value)});
+          }};
+}
+
+/// A whole number with a default.
+template <class S>
+KeyGroup<S> whole(const std::string& name, int S::*value, int lower, int upper, std::string help) {
+  return {{{name, KeyType::whole, "-",
+            "an integer from " + std::to_string(lower) + " to " + std::to_string(upper),
+            json_text(node(S{}.*value)), false, std::move(help), static_cast<double>(lower),
+            static_cast<double>(upper)}},
+          [=](const Reading& reading, S& s) {
+            s.*value = read_integer(reading.keys.find(name), lower, upper, reading.faults).value_or(s.*value);
+          },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({name, node(s.*value)});
+          }};
+}
+
+/// A text that may be absent. what: "a string, the name of an algorithm of NLopt".
+template <class S>
+KeyGroup<S> text(const std::string& name, std::string S::*value, const std::string& what,
+                 std::string otherwise, std::string help) {
+  return {{{name, KeyType::text, "", what, std::move(otherwise), false, std::move(help)}},
+          [=](const Reading& reading, S& s) {
+            s.*value = read_string(reading.keys.find(name), what, reading.faults).value_or("");
+          },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            if (!(s.*value).empty()) to_file.push_back({name, node(s.*value)});
+          }};
+}
+
+/// One of a few words with a default.
+template <class S, class Choice, class Words>
+KeyGroup<S> word(const std::string& name, Choice S::*value, const Words& words, std::string help) {
+  return {{{name, KeyType::word, "", "one of " + listed(texts(words)),
+            json_text(node(word_of(words, S{}.*value))), false, std::move(help), 0, 0, false, texts(words)}},
+          [=](const Reading& reading, S& s) {
+            s.*value = read_choice(reading.keys.find(name), words, s.*value, reading.faults);
+          },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({name, node(word_of(words, s.*value))});
+          }};
+}
+
+/// Keys of settings within settings.
+template <class S, class Part>
+KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {
+  KeyGroup<S> all{
+      group.keys, [=](const Reading& reading, S& s) { group.read(reading, s.*part); },
+      [=](const S& s, const Scene& scene, Node::Object& to_file) { group.write(s.*part, scene, to_file); }};
+  if (group.taken) all.taken = [=](const S& s, std::vector<Taken>& taken) { group.taken(s.*part, taken); };
+  if (group.drop) all.drop = [=](std::string_view parameter, S& s) { group.drop(parameter, s.*part); };
+  return all;
+}
+
+template <class S>
+class KeysOf {
+ public:
+  void add(KeyGroup<S> group) { groups_.push_back(std::move(group)); }
+  /// What must hold of several values together; called when all are read.
+  void check(std::function<void(const Reading&, S&)> check) { check_ = std::move(check); }
+
+  std::vector<Key> keys() const {
+    std::vector<Key> all;
+    for (const auto& group : groups_) all.insert(all.end(), group.keys.begin(), group.keys.end());
+    return all;
+  }
+  S read(const Reading& from) const {
+    S settings;
+    for (const auto& group : groups_) group.read(from, settings);
+    if (check_) check_(from, settings);
+    return settings;
+  }
+  void write(const S& settings, const Scene& scene, Node::Object& to) const {
+    for (const auto& group : groups_) group.write(settings, scene, to);
+  }
+  std::vector<Taken> taken(const S& settings) const {
+    std::vector<Taken> all;
+    for (const auto& group : groups_)
+      if (group.taken) group.taken(settings, all);
+    return all;
+  }
+  void drop(std::string_view parameter, S& settings) const {
+    for (const auto& group : groups_)
+      if (group.drop) group.drop(parameter, settings);
+  }
+
+ private:
+  std::vector<KeyGroup<S>> groups_;
+  std::function<void(const Reading&, S&)> check_;
+};
+
+/// The part of a StudyType that its keys decide.
+template <class S>
+class KeyedStudy : public StudyType {
+ public:
+  explicit KeyedStudy(KeysOf<S> keys) : keys_(std::move(keys)) {}
+  std::vector<Key> keys() const override { return keys_.keys(); }
+  Settings defaults() const override { return Settings::of(S{}); }
+  Settings read(const Reading& from) const override { return Settings::of(keys_.read(from)); }
+  void write(const Settings& settings, const Scene& scene, Node::Object& to) const override {
+    keys_.write(settings.as<S>(), scene, to);
+  }
+  std::vector<Taken> taken(const Settings& settings) const override { return keys_.taken(settings.as<S>()); }
+  void drop(std::string_view parameter, Settings& settings) const override {
+    keys_.drop(parameter, settings.as<S>());
+  }
+
+ private:
+  KeysOf<S> keys_;
+};
+
+}  // namespace arcslip::scene::file

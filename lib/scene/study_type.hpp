@@ -1,0 +1,110 @@
+#pragma once
+// A kind of study: what its settings are called in a scene file, and what it computes. Kinds stand in a
+// Catalogue, which whoever reads a scene passes; the reader, the writer and the command know none by name.
+
+#include <arcslip/results/figure.hpp>
+#include <arcslip/results/progress.hpp>
+#include <arcslip/results/result.hpp>
+#include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/settings.hpp>
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace arcslip::scene {
+
+struct Scene;
+struct Study;
+
+namespace file {
+struct Reading;
+}
+
+/// What the value of a key is.
+enum class KeyType {
+  number,
+  whole,
+  text,
+  word,        // one of a few
+  frequency,   // in the scene's unit
+  window,      // [lower, upper] of frequencies
+  parameter,   // the name of one
+  value,       // of the parameter that the key "over" names
+  parameters,  // a list of names, and beside it one of their pairs [lower, upper] under the key "bounds"
+  followed,    // the name of a parameter, and beside it its range under the keys "from" and "to"
+  other        // lists and objects
+};
+
+/// One key of a study, as a scene file, an option of a command, a page of documentation and a JSON Schema
+/// have it.
+struct Key {
+  std::string name;
+  KeyType type = KeyType::other;
+  std::string unit;     // "s", "-"; "frequency", "parameter": that of the scene's frequencies, of a parameter
+  std::string allowed;  // "an integer from 1 to 10000000"
+  std::string otherwise;  // the default, as JSON; "": the key is required, or what it says is not there
+  bool required = false;
+  std::string help;
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false;           // of numbers: the lower bound itself is not allowed
+  std::vector<std::string> words{};  // of KeyType::word
+  std::string_view schema{};         // of KeyType::other: the JSON Schema of its value
+};
+
+/// A parameter to which a study itself gives values, and how: `which the study is "over"`.
+struct Taken {
+  std::string parameter, how;
+};
+
+/// How much of its results a study is to give.
+struct RunOptions {
+  bool points = true;         // false: for who sees only events and facts, no rows of points and of histories
+  bool coefficients = false;  // points and events with the harmonics of the response: a_n, b_n
+  bool figures = false;
+  results::ProgressCallback progress{};  // false stops: what is computed so far is kept
+};
+
+/// What a study has computed.
+struct Outcome {
+  results::Results results;
+  std::vector<results::FigureData>
+      figures;  // each has a name of its own; with one there may be nothing on it
+};
+
+class StudyType {
+ public:
+  virtual ~StudyType() = default;
+
+  virtual std::string_view name() const = 0;  // "frf", as a scene file writes it
+  virtual std::string_view verb() const { return name(); }
+  virtual std::string_view help() const = 0;  // one line
+
+  /// Those between "kind" and "for_each", in the order of a file.
+  virtual std::vector<Key> keys() const = 0;
+  virtual Settings defaults() const = 0;
+  virtual Settings read(const file::Reading& from) const = 0;
+  virtual void write(const Settings& settings, const Scene& scene, file::Node::Object& to) const = 0;
+
+  virtual std::vector<Taken> taken(const Settings& settings) const = 0;
+  /// Takes a parameter from lists of values; from what the study is over it cannot be taken.
+  virtual void drop(std::string_view parameter, Settings& settings) const = 0;
+
+  /// The list in which a document holds the results of such a study: "branches".
+  virtual std::string_view list(const Settings& settings) const = 0;
+  /// Whether results can hold the harmonics of responses (RunOptions::coefficients).
+  virtual bool has_harmonics() const { return true; }
+  /// One after the other for each combination of the study's for_each lists, each as if it stood alone.
+  virtual Outcome run(const Scene& scene, const Study& study, const RunOptions& options) const = 0;
+};
+
+/// The kinds of studies that a reader knows. They outlive every scene.
+struct Catalogue {
+  std::vector<const StudyType*> studies;
+
+  /// The kind of that name, or null.
+  const StudyType* study(std::string_view name) const;
+};
+
+}  // namespace arcslip::scene

@@ -1,0 +1,25 @@
+#pragma once
+// The kinds of studies of responses, and running them: from a scene to its results.
+//
+//   const auto scene = scene::read_file("scene.json", studies::catalogue());
+//   results::write_json(out, studies::run(scene));
+
+#include <arcslip/results/result.hpp>
+#include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/study_type.hpp>
+
+namespace arcslip::studies {
+
+const scene::StudyType& frf();    // frequency responses; settings: observables::FrequencyRange
+const scene::StudyType& trace();  // responses over a parameter; observables::ParameterRange
+const scene::StudyType& peaks();  // resonance peaks over a parameter; observables::CurveRange
+const scene::StudyType& folds();  // folds over a parameter; observables::CurveRange
+const scene::StudyType& time();   // motions in time; observables::TimeSettings
+
+/// All of them.
+scene::Catalogue catalogue();
+
+/// The results of every study of a scene.
+results::Results run(const scene::Scene& scene, const scene::RunOptions& options = {});
+
+}  // namespace arcslip::studies

@@ -1,0 +1,75 @@
+#include <arcslip/observables/time_study.hpp>
+#include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/motions.hpp>
+#include <arcslip/studies/study_of.hpp>
+
+#include <array>
+
+namespace arcslip::studies {
+namespace {
+
+using observables::Motion;
+using observables::TimeMethod;
+using observables::TimeSettings;
+using scene::file::Reading;
+
+constexpr int most_steps = 10'000'000;     // per period, and with history in all
+constexpr int most_periods = 100'000'000;  // of a transient
+
+constexpr std::array methods = {TimeMethod::shooting, TimeMethod::newmark_shooting, TimeMethod::newmark,
+                                TimeMethod::event_driven};
+
+std::vector<scene::file::Word<TimeMethod>> method_words() {
+  std::vector<scene::file::Word<TimeMethod>> words;
+  for (const TimeMethod method : methods) words.push_back({name(method), method});
+  return words;
+}
+
+void check_history(const Reading& reading, TimeSettings& time) {
+  const double instants = static_cast<double>(time.steps) * time.recorded;
+  if (instants > most_steps)
+    reading.faults.add(reading.keys.find(reading.keys.has("recorded") ? "recorded" : "steps").pointer,
+                       "found " + std::to_string(time.recorded) + " periods of " +
+                           std::to_string(time.steps) + " steps to record, must be at most " +
+                           std::to_string(most_steps) + " steps together");
+}
+
+scene::file::KeysOf<TimeSettings> keys() {
+  using namespace scene::file;
+  KeysOf<TimeSettings> keys;
+  keys.add(one_frequency(&TimeSettings::frequency, "the frequency of the excitation"));
+  keys.add(
+      word("method", &TimeSettings::method, method_words(),
+           "shooting (the periodic motion, exact where the scene is piecewise linear), newmark-shooting, "
+           "or period by period from rest: newmark, event-driven"));
+  keys.add(whole("steps", &TimeSettings::steps, 1, most_steps, "steps per period"));
+  keys.add(whole("periods", &TimeSettings::periods, 1, most_periods, "periods of a transient at most"));
+  keys.add(whole("recorded", &TimeSettings::recorded, 1, most_periods, "periods with history, at the end"));
+  keys.add(number(&TimeSettings::tolerance, {.name = "tolerance", .unit = "-", .lower = 0, .upper = 1},
+                  "of the state: change over a period that is steady, or last correction of shooting; 0: no "
+                  "transient ends before its periods"));
+  keys.check(check_history);
+  return keys;
+}
+
+}  // namespace
+
+const scene::StudyType& time() {
+  static const StudyOf<TimeSettings, Motion> type(
+      {.name = "time",
+       .list = "motions",
+       .help = "motions in time at one frequency: steady, or from rest, with their loops",
+       .keys = keys(),
+       .compute =
+           [](const Case& at, const TimeSettings& settings, const results::ProgressCallback& progress) {
+             return std::vector{observables::motion_in_time(at.scene, settings, progress)};
+           },
+       .results = results_of,
+       .figures = [](const scene::Scene& scene,
+                     std::span<const Motion> motions) { return std::vector{figures_of(scene, motions)}; },
+       .harmonics = false});
+  return type;
+}
+
+}  // namespace arcslip::studies

@@ -1,0 +1,294 @@
+#include <arcslip/optimize/studies.hpp>
+
+#include <arcslip/optimize/optimum_figures.hpp>
+#include <arcslip/optimize/optimum_results.hpp>
+#include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/optimize/read_settings.hpp>
+#include <arcslip/studies/study_of.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace arcslip::optimize {
+namespace {
+
+using namespace scene::file;
+using scene::Key;
+using scene::KeyType;
+using scene::Taken;
+
+constexpr int largest_search = 100'000'000;  // evaluations, and other whole numbers of a search
+
+const std::array criteria = {Word<Criterion>{name(Criterion::worst), Criterion::worst},
+                             Word<Criterion>{name(Criterion::mean), Criterion::mean}};
+
+Node pair_of(const DesignVariable& variable) {
+  return node(std::vector{variable.lower, variable.upper});
+}
+
+void write_design(const OptimumProblem& problem, const scene::Scene& /*scene*/, Node::Object& to) {
+  std::vector<std::string> over;
+  Node::List bounds;
+  for (const DesignVariable& variable : problem.over) {
+    over.push_back(variable.name);
+    bounds.push_back(pair_of(variable));
+  }
+  to.push_back({"over", node(over)});
+  to.push_back({"bounds", {std::move(bounds)}});
+}
+
+void add_limits(double at_least, double at_most, Node::Object& object) {
+  if (std::isfinite(at_least)) object.push_back({"at_least", node(at_least)});
+  if (std::isfinite(at_most)) object.push_back({"at_most", node(at_most)});
+}
+
+Node node_of(const std::vector<std::pair<std::string, double>>& values) {
+  Node::Object object;
+  for (const auto& [name, value] : values) object.push_back({name, node(value)});
+  return {std::move(object)};
+}
+
+void write_constraints(const OptimumProblem& problem, const scene::Scene& /*scene*/, Node::Object& to) {
+  Node::List list;
+  for (const ObservableLimit& limit : problem.limits) {
+    Node::Object each = {{"observable", node(limit.observable)}};
+    add_limits(limit.at_least, limit.at_most, each);
+    list.push_back({std::move(each)});
+  }
+  for (const LinearLimit& limit : problem.linear_limits) {
+    Node::Object each = {{"sum", node_of(limit.weights)}};
+    add_limits(limit.at_least, limit.at_most, each);
+    list.push_back({std::move(each)});
+  }
+  to.push_back({"constraints", {std::move(list)}});
+}
+
+void write_cases(const OptimumProblem& problem, const scene::Scene& scene, Node::Object& to) {
+  if (problem.cases.empty()) return;
+  Node::List list;
+  for (const DesignCase& each : problem.cases) {
+    Node::Object object = {{"set", node_of(each.set)}, {"weight", node(each.weight)}};
+    if (each.response)
+      object.push_back({"response", {Node::Object{place_member(*each.response, scene.dofs)}}});
+    list.push_back({std::move(object)});
+  }
+  to.push_back({"cases", {std::move(list)}});
+}
+
+void write_scatter(const OptimumProblem& problem, const scene::Scene& /*scene*/, Node::Object& to) {
+  Node::Object scatter;
+  for (const DesignVariable& variable : problem.scatter)
+    scatter.push_back({variable.name, pair_of(variable)});
+  to.push_back({"scatter", {std::move(scatter)}});
+}
+
+// Cases that are the same then become one, with the largest of their weights (worst) or their sum (mean).
+void drop_from(std::string_view parameter, OptimumProblem& problem) {
+  std::erase_if(problem.scatter, [&](const DesignVariable& v) { return v.name == parameter; });
+  std::vector<DesignCase> cases;
+  for (DesignCase& each : problem.cases) {
+    const bool dropped =
+        std::erase_if(each.set, [&](const auto& named) { return named.first == parameter; }) > 0;
+    const auto same = std::find_if(cases.begin(), cases.end(), [&](const DesignCase& other) {
+      return dropped && other.set == each.set && other.response == each.response;
+    });
+    if (same == cases.end())
+      cases.push_back(std::move(each));
+    else
+      same->weight = problem.criterion == Criterion::mean ? same->weight + each.weight
+                                                          : std::max(same->weight, each.weight);
+  }
+  problem.cases = std::move(cases);
+}
+
+void read_along(const Reading& reading, OptimumSettings& settings) {
+  const Place place = reading.keys.find("along");
+  for (const char* key : {"from", "to"})
+    if (place.node == nullptr && reading.keys.has(key))
+      reading.faults.add(reading.keys.find(key).pointer, "found the key " + quoted(key) +
+                                                             " without \"along\", the parameter of which it "
+                                                             "is a value");
+  if (place.node == nullptr) return;
+  DesignVariable along;
+  const scene::Field field = read_parameter(place, reading.parameters, along.name, reading.faults);
+  std::vector<std::string> beside;
+  for (const char* key : {"constraints", "cases", "scatter"}) {
+    const Place other = reading.keys.find(key);
+    const auto* list = other.node != nullptr ? other.node->get<Node::List>() : nullptr;
+    const auto* object = other.node != nullptr ? other.node->get<Node::Object>() : nullptr;
+    if ((list != nullptr && !list->empty()) || (object != nullptr && !object->empty()))
+      beside.emplace_back(key);
+  }
+  if (!beside.empty())
+    reading.faults.add(place.pointer, "found \"along\" beside " + listed(beside) +
+                                          ", with which no optimum is followed; must stand without");
+  const bool is_other =
+      !beside.empty() || is_taken(along.name, place.pointer, taken(settings.problem), reading.faults);
+  std::tie(along.lower, along.upper) = read_range(reading, field);
+  if (!is_other) settings.along = std::move(along);
+}
+
+constexpr std::string_view bounds_schema =
+    R"({"type": "array", "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}})";
+constexpr std::string_view scatter_schema =
+    R"({"type": "object", "additionalProperties":
+        {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}})";
+constexpr std::string_view constraints_schema = R"({"type": "array", "items": {
+    "type": "object",
+    "properties": {"observable": {"type": "string"},
+                   "sum": {"type": "object", "additionalProperties": {"type": "number"}},
+                   "at_least": {"type": "number"}, "at_most": {"type": "number"}},
+    "additionalProperties": false,
+    "oneOf": [{"required": ["observable"]}, {"required": ["sum"]}],
+    "anyOf": [{"required": ["at_least"]}, {"required": ["at_most"]}]}})";
+constexpr std::string_view cases_schema = R"({"oneOf": [
+    {"type": "array", "minItems": 1, "items": {
+       "type": "object",
+       "properties": {"set": {"type": "object", "additionalProperties": {"type": "number"}},
+                      "weight": {"type": "number", "exclusiveMinimum": 0},
+                      "response": {"type": "object"}},
+       "additionalProperties": false}},
+    {"type": "object", "minProperties": 1,
+     "additionalProperties": {"type": "array", "items": {"type": "number"}, "minItems": 1}}]})";
+constexpr std::string_view number_schema = R"({"type": "number"})";
+
+Key with_schema(Key key, std::string_view schema) {
+  key.schema = schema;
+  return key;
+}
+
+KeysOf<OptimumSettings> keys() {
+  using S = OptimumSettings;
+  const auto of_problem = [](KeyGroup<OptimumProblem> group) {
+    return within(&S::problem, std::move(group));
+  };
+  const auto of_search = [](KeyGroup<SearchSettings> group) { return within(&S::search, std::move(group)); };
+  constexpr const char* algorithm = "a string, the name of an algorithm of NLopt";
+  KeysOf<S> keys;
+  keys.add(of_problem({{{"over", KeyType::parameters, "", "parameters \"part.field\" or ties", "", true,
+                         "the parameters that are chosen"},
+                        with_schema({"bounds", KeyType::other, "parameter", "a pair [lower, upper] for each",
+                                     "", true, "lower and upper bound of each"},
+                                    bounds_schema)},
+                       read_design,
+                       write_design,
+                       [](const OptimumProblem& problem, std::vector<Taken>& all) { all = taken(problem); },
+                       drop_from}));
+  keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
+  keys.add(of_search(text("algorithm", &SearchSettings::algorithm, algorithm, "\"LD_SLSQP\"",
+                          "an algorithm of NLopt, by its own name")));
+  keys.add(of_search(text("local", &SearchSettings::local, algorithm, "",
+                          "the algorithm inside MLSL and AUGLAG, as LN_BOBYQA")));
+  keys.add(of_search(whole("evaluations", &SearchSettings::evaluations, 1, largest_search,
+                           "designs to be looked at, at most")));
+  keys.add(of_search(
+      number(&SearchSettings::seconds,
+             {.name = "seconds", .unit = "s", .lower = 0, .upper = std::numeric_limits<double>::infinity()},
+             "time for the search, at most; 0: no limit")));
+  keys.add(of_search(whole("population", &SearchSettings::population, 0, largest_search,
+                           "of the stochastic algorithms; 0: their own choice")));
+  keys.add(of_search(whole("seed", &SearchSettings::seed, 0, largest_search,
+                           "of the stochastic algorithms: the same seed gives the same run")));
+  keys.add(of_problem({{with_schema({"constraints", KeyType::other, "", "a list of objects", "[]", false,
+                                     "limits on observables of the peaks, and on sums of parameters"},
+                                    constraints_schema)},
+                       read_constraints,
+                       write_constraints}));
+  keys.add(of_problem({{with_schema({"cases", KeyType::other, "", "a list of objects, or lists of values", "",
+                                     false, "circumstances that one design is to serve"},
+                                    cases_schema)},
+                       read_cases,
+                       write_cases}));
+  keys.add(of_problem(word("criterion", &OptimumProblem::criterion, criteria,
+                           "what is to be least of the cases: the worst of their amplitudes, or their "
+                           "weighted mean")));
+  keys.add(
+      of_problem({{with_schema({"scatter", KeyType::other, "parameter", "pairs [lower, upper] by parameter",
+                                "{}", false, "parameters that scatter, of which the worst values count"},
+                               scatter_schema)},
+                  read_scatter,
+                  write_scatter}));
+  keys.add({{{"along", KeyType::followed, "", "a parameter \"part.field\" or a tie", "", false,
+              "a parameter over which the optimum is followed"},
+             with_schema({"from", KeyType::other, "parameter", "what the parameter may be", "", false,
+                          "first value of that parameter"},
+                         number_schema),
+             with_schema({"to", KeyType::other, "parameter", "above \"from\"", "", false,
+                          "last value of that parameter"},
+                         number_schema)},
+            read_along,
+            [](const S& settings, const scene::Scene&, Node::Object& to) {
+              if (!settings.along) return;
+              to.push_back({"along", node(settings.along->name)});
+              to.push_back({"from", node(settings.along->lower)});
+              to.push_back({"to", node(settings.along->upper)});
+            },
+            [](const S& settings, std::vector<Taken>& all) {
+              if (settings.along) all.push_back({settings.along->name, "which the study goes \"along\""});
+            }});
+  keys.check([](const Reading& reading, S& settings) { check_criterion(reading, settings.problem); });
+  return keys;
+}
+
+class OptimumStudy : public KeyedStudy<OptimumSettings> {
+ public:
+  using KeyedStudy::KeyedStudy;
+  std::string_view name() const override { return "optimum"; }
+  std::string_view verb() const override { return "optimize"; }
+  std::string_view help() const override {
+    return "the values of parameters for which the highest resonance peak is least";
+  }
+  std::string_view list(const scene::Settings& settings) const override {
+    return settings.as<OptimumSettings>().along ? "optimum_curves" : "optima";
+  }
+  scene::Outcome run(const scene::Scene& scene, const scene::Study& study,
+                     const scene::RunOptions& options) const override {
+    const auto& settings = study.settings.as<OptimumSettings>();
+    if (settings.along)
+      return studies::run_items<OptimumCurveResult>(
+          scene, study, options,
+          [&](const studies::Case& at, const results::ProgressCallback& progress) {
+            return std::vector{optimum_curve_study(at.scene, settings, progress)};
+          },
+          [&](std::span<const OptimumCurveResult> curves) { return results_of(scene, curves); },
+          [&](std::span<const OptimumCurveResult> curves) { return std::vector{figures_of(scene, curves)}; });
+    return studies::run_items<OptimumResult>(
+        scene, study, options,
+        [&](const studies::Case& at, const results::ProgressCallback& progress) {
+          return std::vector{optimum_study(at.scene, settings, progress, at.alone)};
+        },
+        [&](std::span<const OptimumResult> optima) { return results_of(scene, optima); },
+        [&](std::span<const OptimumResult> optima) { return figures_of(scene, optima); });
+  }
+};
+
+}  // namespace
+
+std::string_view name(Criterion criterion) {
+  return criterion == Criterion::worst ? "worst" : "mean";
+}
+
+std::vector<Taken> taken(const OptimumProblem& problem) {
+  std::vector<Taken> all;
+  for (const DesignVariable& variable : problem.over)
+    all.push_back({variable.name, "which the study is \"over\""});
+  for (const DesignCase& each : problem.cases)
+    for (const auto& value : each.set) all.push_back({value.first, "to which \"cases\" give values"});
+  for (const DesignVariable& variable : problem.scatter)
+    all.push_back({variable.name, "which is in \"scatter\""});
+  return all;
+}
+
+const scene::StudyType& optimum_type() {
+  static const OptimumStudy type(keys());
+  return type;
+}
+
+void add_studies(scene::Catalogue& catalogue) {
+  catalogue.studies.push_back(&optimum_type());
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,15 @@
+#pragma once
+// The kind of study "optimum", for a catalogue.
+//
+//   scene::Catalogue catalogue = studies::catalogue();
+//   optimize::add_studies(catalogue);
+
+#include <arcslip/scene/study_type.hpp>
+
+namespace arcslip::optimize {
+
+const scene::StudyType& optimum_type();  // settings: OptimumSettings
+
+void add_studies(scene::Catalogue& catalogue);
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,21 @@
+#pragma once
+// Optima for each combination of lists of values.
+
+#include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/studies/study_of.hpp>
+
+#include <vector>
+
+namespace optima {
+
+inline std::vector<arcslip::optimize::OptimumResult> of(const arcslip::scene::Scene& scene,
+                                                        const arcslip::optimize::OptimumSettings& settings,
+                                                        const arcslip::scene::ValueLists& lists) {
+  using namespace arcslip;
+  const auto compute = [&](const studies::Case& at, const results::ProgressCallback& progress) {
+    return std::vector{optimize::optimum_study(at.scene, settings, progress, at.alone)};
+  };
+  return studies::for_each<optimize::OptimumResult>(scene, lists, compute);
+}
+
+}  // namespace optima

@@ -1,0 +1,184 @@
+// Every kind of study that the command knows: its keys in files, in documentation and in the JSON Schema.
+#include "catch.hpp"
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/optimize/studies.hpp>
+#include <arcslip/scene/json_schema.hpp>
+#include <arcslip/scene/study_type.hpp>
+#include <arcslip/studies/catalogue.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+using namespace arcslip;
+using Json = nlohmann::json;
+
+namespace {
+
+scene::Catalogue all_kinds() {
+  scene::Catalogue catalogue = studies::catalogue();
+  optimize::add_studies(catalogue);
+  return catalogue;
+}
+
+/// What docs/scene.md says of the keys of a kind.
+std::string rows(const scene::StudyType& type) {
+  std::string text;
+  for (const scene::Key& key : type.keys()) {
+    const std::string unit = key.unit == "frequency"   ? "the scene's"
+                             : key.unit == "parameter" ? "the parameter's"
+                             : key.unit == "-"         ? ""
+                                                       : key.unit;
+    text += "| `" + key.name + "` | " + unit + " | " + key.allowed + " | " +
+            (key.required            ? "required"
+             : key.otherwise.empty() ? "none"
+                                     : "`" + key.otherwise + "`") +
+            " | " + key.help + " |\n";
+  }
+  return text;
+}
+
+/// A study of each kind over what a scene with one damper has.
+std::string studies_of_all_kinds() {
+  return R"([
+    {"kind": "frf", "from": 1, "to": 2},
+    {"kind": "trace", "over": "damper.normal_load", "from": 1, "to": 2, "frequency": 20},
+    {"kind": "peaks", "over": "damper.normal_load", "from": 1, "to": 2, "frequency": [18, 22]},
+    {"kind": "folds", "over": "damper.normal_load", "from": 1, "to": 2, "frequency": [18, 22]},
+    {"kind": "time", "frequency": 20},
+    {"kind": "optimum", "over": ["damper.normal_load"], "bounds": [[1, 2]], "frequency": [18, 22]},
+    {"kind": "optimum", "over": ["damper.normal_load"], "bounds": [[1, 2]], "frequency": [18, 22],
+     "along": "force.cosine", "from": 1, "to": 2, "algorithm": "G_MLSL", "local": "LN_BOBYQA"},
+    {"kind": "optimum", "over": ["damper.normal_load"], "bounds": [[1, 2]], "frequency": [18, 22],
+     "cases": [{"set": {"force.cosine": 2}, "weight": 0.5, "response": {"at": "blade"}}],
+     "scatter": {"damper.friction_coefficient": [0.4, 0.6]},
+     "constraints": [{"observable": "energy_friction", "at_most": 1},
+                     {"sum": {"damper.normal_load": 1}, "at_least": 0.5}]}])";
+}
+
+scene::Scene scene_with_all_kinds() {
+  Json json = Json::parse(scene::write(scenes::paper(5, 3)));
+  json["studies"] = Json::parse(studies_of_all_kinds());
+  std::istringstream file(json.dump());
+  return scene::read(file, all_kinds());
+}
+
+}  // namespace
+
+TEST_CASE("the documentation of scenes has a row for every key of every kind of study") {
+  std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/scene.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const scene::StudyType* type : all_kinds().studies) {
+    const std::string wanted = rows(*type);
+    INFO("the table of " << type->name() << " is to be:\n" << wanted);
+    CHECK(text.str().find(wanted) != std::string::npos);
+    CHECK(text.str().find("### `" + std::string(type->name()) + "`") != std::string::npos);
+  }
+}
+
+TEST_CASE("a study is written with the keys of its kind, in their order, and read as it was") {
+  const scene::Scene scene = scene_with_all_kinds();
+  std::set<const scene::StudyType*> seen;
+  const auto written = nlohmann::ordered_json::parse(scene::write(scene));
+  for (std::size_t i = 0; i < scene.studies.size(); ++i) {
+    const scene::StudyType& type = *scene.studies[i].type;
+    seen.insert(&type);
+    std::vector<std::string> known{"name", "kind"};
+    for (const scene::Key& key : type.keys()) known.push_back(key.name);
+    known.emplace_back("for_each");
+    std::size_t next = 0;
+    for (const auto& [key, value] : written["studies"][i].items()) {
+      CAPTURE(type.name(), key);
+      const auto found = std::find(known.begin() + static_cast<std::ptrdiff_t>(next), known.end(), key);
+      REQUIRE(found != known.end());
+      next = static_cast<std::size_t>(found - known.begin()) + 1;
+    }
+    for (const scene::Key& key : type.keys())
+      if (key.required) CHECK(written["studies"][i].contains(key.name));
+  }
+  CHECK(seen.size() == all_kinds().studies.size());
+  std::istringstream again(scene::write(scene));
+  CHECK(scene::read(again, all_kinds()) == scene);
+}
+
+TEST_CASE("defaults of keys are those of the settings") {
+  const scene::Scene scene = scene_with_all_kinds();
+  for (const scene::StudyType* type : all_kinds().studies) {
+    scene::file::Node::Object keys;
+    type->write(type->defaults(), scene, keys);
+    for (const scene::Key& key : type->keys()) {
+      CAPTURE(type->name(), key.name);
+      const auto own =
+          std::find_if(keys.begin(), keys.end(), [&](const auto& member) { return member.key == key.name; });
+      if (key.required || key.otherwise.empty() || own == keys.end()) continue;
+      CHECK(Json::parse(scene::file::print_tree(own->value)) == Json::parse(key.otherwise));
+    }
+  }
+}
+
+TEST_CASE("the JSON Schema has the keys of every kind, and those that are required") {
+  const Json schema = Json::parse(scene::json_schema(all_kinds()));
+  const Json& kinds = schema["properties"]["studies"]["items"]["oneOf"];
+  REQUIRE(kinds.size() == all_kinds().studies.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const scene::StudyType& type = *all_kinds().studies[i];
+    CHECK(kinds[i]["properties"]["kind"]["const"] == type.name());
+    CHECK(kinds[i]["additionalProperties"] == false);
+    std::set<std::string> known{"name", "kind", "for_each"}, required{"kind"};
+    for (const scene::Key& key : type.keys()) {
+      known.insert(key.name);
+      if (key.required) required.insert(key.name);
+    }
+    std::set<std::string> found;
+    for (const auto& [key, value] : kinds[i]["properties"].items()) found.insert(key);
+    CHECK(found == known);
+    CHECK(kinds[i]["required"].get<std::set<std::string>>() == required);
+  }
+  const Json& steps = kinds[4]["properties"]["steps"];
+  CHECK(steps["type"] == "integer");
+  CHECK(steps["minimum"] == 1);
+  CHECK(steps["default"] == 1000);
+  CHECK(kinds[4]["properties"]["method"]["enum"].size() == 4);
+  CHECK(kinds[4]["properties"]["tolerance"]["maximum"] == 1);
+}
+
+TEST_CASE("settings compare by value, and are those of their own kind alone") {
+  const scene::Scene scene = scene_with_all_kinds();
+  scene::Scene other = scene;
+  CHECK(other == scene);
+  other.studies[0].settings.as<observables::FrequencyRange>().to = 3;
+  CHECK_FALSE(other == scene);
+  CHECK_THROWS_AS(other.studies[0].settings.as<observables::CurveRange>(), std::bad_any_cast);
+  CHECK_FALSE(scene.studies[2].settings == scene.studies[4].settings);
+  CHECK(scene::Settings() == scene::Settings());
+}
+
+TEST_CASE("what a study is over, or gives values to, is told; only lists can be dropped") {
+  const scene::Scene scene = scene_with_all_kinds();
+  const auto names = [&](std::size_t i) {
+    std::set<std::string> all;
+    for (const scene::Taken& each : scene.studies[i].type->taken(scene.studies[i].settings))
+      all.insert(each.parameter);
+    return all;
+  };
+  CHECK(names(0).empty());
+  CHECK(names(2) == std::set<std::string>{"damper.normal_load"});
+  CHECK(names(6) == std::set<std::string>{"damper.normal_load", "force.cosine"});
+  CHECK(names(7) ==
+        std::set<std::string>{"damper.normal_load", "force.cosine", "damper.friction_coefficient"});
+  scene::Scene dropped = scene;
+  for (const char* parameter : {"damper.friction_coefficient", "force.cosine", "damper.normal_load"})
+    scene::drop(dropped.studies[7], parameter);
+  const auto& problem = dropped.studies[7].settings.as<optimize::OptimumSettings>().problem;
+  CHECK(problem.scatter.empty());
+  CHECK(problem.cases[0].set.empty());
+  CHECK(problem.over.size() == 1);
+}
