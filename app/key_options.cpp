@@ -2,6 +2,8 @@
 
 #include "option_values.hpp"
 
+#include <arcslip/scene/write_values.hpp>
+
 namespace arcslip::app {
 namespace {
 
@@ -58,76 +60,70 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
-std::variant<Node, std::vector<ParameterRange>> value(const Key& key, const std::string& option,
-                                                      const std::vector<std::string>& texts) {
+bool has_ranges(const Key& key) {
+  return key.type == KeyType::parameters || key.type == KeyType::followed;
+}
+
+std::vector<ParameterRange> ranges_of(const std::string& option, const std::vector<std::string>& texts) {
+  std::vector<ParameterRange> ranges;
+  for (const std::string& text : texts) ranges.push_back(parameter_range(option, text));
+  return ranges;
+}
+
+Node node_of(const Key& key, const std::string& option, const std::vector<std::string>& texts) {
+  using scene::file::node;
   const std::string& first = texts.front();
   switch (key.type) {
     case KeyType::number:
-      return Node{*number(option, first, "a number, " + key.allowed)};
+      return node(*number(option, first, "a number, " + key.allowed));
     case KeyType::value:
-      return Node{*number(option, first, "a value of the parameter, a finite number")};
+      return node(*number(option, first, "a value of the parameter, a finite number"));
     case KeyType::whole:
-      return Node{static_cast<double>(*whole_number(option, first, key.help))};
+      return node(*whole_number(option, first, key.help));
     case KeyType::frequency:
-      return Node{*frequency(option, first)};
-    case KeyType::window: {
-      Node::List list;
-      for (const double each : frequencies(texts)) list.push_back({each});
-      return Node{std::move(list)};
-    }
-    case KeyType::parameters:
-    case KeyType::followed: {
-      std::vector<ParameterRange> ranges;
-      for (const std::string& text : texts) ranges.push_back(parameter_range(option, text));
-      return ranges;
-    }
+      return node(*frequency(option, first));
+    case KeyType::window:
+      return node(frequencies(texts));
     case KeyType::parameter:
       if (first.empty()) {
         throw UsageError(option + " needs the name of a parameter, such as " + option +
                          " damper.normal_load");
       }
       break;
-    case KeyType::text:
-    case KeyType::word:
-    case KeyType::other:
+    default:
       break;
   }
-  return Node{first};
+  return node(std::string_view(first));
 }
 
 }  // namespace
 
-KeyTexts with_options(const std::vector<Key>& keys) {
-  KeyTexts texts;
-  for (const Key& key : keys) {
-    if (key.type != KeyType::other) texts.push_back({key, {}});
-  }
-  return texts;
+std::string KeyOption::type_name() const {
+  return app::type_name(key);
 }
 
-void add_key_options(KeyTexts& keys, CLI::App& verb) {
-  for (auto& [key, texts] : keys) {
-    CLI::Option* option = verb.add_option("--" + key.name, texts, help(key));
-    option->type_name(type_name(key))->allow_extra_args(false);  // what follows may be the scene
-    if (key.type == KeyType::window) {
-      option->expected(2);
-    } else if (key.type == KeyType::parameters) {
-      option->expected(1)->take_all();
-    } else {
-      option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-    }
-  }
+std::string KeyOption::help() const {
+  return app::help(key);
 }
 
-std::vector<GivenKey> given_keys(const KeyTexts& keys, const CLI::App& verb) {
-  std::vector<GivenKey> given;
-  for (const auto& [key, texts] : keys) {
-    const std::string option = "--" + key.name;
-    if (verb.get_option(option)->count() > 0 && !texts.empty()) {
-      given.push_back({key, option + joined(texts), value(key, option, texts)});
-    }
+GivenKey KeyOption::given() const {
+  GivenKey given{key, name() + joined(texts), {}};
+  if (has_ranges(key)) {
+    given.value = ranges_of(name(), texts);
+  } else {
+    given.value = node_of(key, name(), texts);
   }
   return given;
+}
+
+std::vector<KeyOption> options_of(const std::vector<Key>& keys) {
+  std::vector<KeyOption> options;
+  for (const Key& key : keys) {
+    if (key.type != KeyType::other) {
+      options.push_back({key});
+    }
+  }
+  return options;
 }
 
 }  // namespace arcslip::app

@@ -5,24 +5,24 @@
 
 #include <arcslip/scene/study_type.hpp>
 
-#include <CLI/CLI.hpp>
-
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace arcslip::app {
 
-/// Keys and what stands behind their options, as texts until all is read.
-using KeyTexts = std::vector<std::pair<scene::Key, std::vector<std::string>>>;
+/// A key and what stands behind its option, which has the name of the key, as texts until all is read.
+struct KeyOption {
+  scene::Key key;
+  std::vector<std::string> texts{};
 
-/// Those of the keys that have an option: all but lists and objects. It has the name of the key.
-KeyTexts with_options(const std::vector<scene::Key>& keys);
+  std::string name() const { return "--" + key.name; }
+  std::string type_name() const;  // "NAME.FIELD"
+  std::string help() const;
+  /// What the user gave. Throws UsageError for texts that are no such value.
+  GivenKey given() const;
+};
 
-/// Adds an option for each. Refers to the texts, which must stay where they are.
-void add_key_options(KeyTexts& keys, CLI::App& verb);
-
-/// Those that the user gave. Throws UsageError for texts that are no such value.
-std::vector<GivenKey> given_keys(const KeyTexts& keys, const CLI::App& verb);
+/// Those of the keys that have an option: all but lists and objects.
+std::vector<KeyOption> options_of(const std::vector<scene::Key>& keys);
 
 }  // namespace arcslip::app

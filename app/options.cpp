@@ -24,7 +24,7 @@ constexpr const char *run = "run", *check = "check";
 struct Verb {
   std::string name, help;
   const scene::StudyType* type = nullptr;  // none: run, check
-  KeyTexts keys{};
+  std::vector<KeyOption> keys{};
 };
 
 /// "from" and "to" of a kind that has a range of frequencies.
@@ -43,11 +43,11 @@ std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
 std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
   std::vector<Verb> verbs{{run, "every study of the scene: results and figures"}};
   for (const scene::StudyType* type : catalogue.studies) {
-    verbs.push_back({std::string(type->verb()), std::string(type->help()), type, with_options(type->keys())});
+    verbs.push_back({std::string(type->verb()), std::string(type->help()), type});
   }
   for (scene::Key key : range_keys(catalogue)) {
     key.help += " of frequency responses";
-    verbs.front().keys.push_back({key, {}});
+    verbs.front().keys.push_back({key});
   }
   verbs.push_back({check, "validate; print the resolved scene with every default"});
   return verbs;
@@ -67,12 +67,11 @@ struct Texts {
   std::string harmonics, combinations;
 };
 
-CLI::App* add_verb(CLI::App& app, const Verb& text, Options& options, Texts& texts) {
-  CLI::App* verb = app.add_subcommand(text.name, text.help);
+/// What every verb takes that takes a scene.
+void add_scene_options(CLI::App* verb, Options& options, Texts& texts) {
   verb->add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-1)")
       ->required()
       ->type_name("");
-  verb->group("Verbs");
   verb->footer(std::string(exit_codes));
   verb->add_option("--set", texts.set,
                    "give a parameter a value, as damper.normal_load=3; replaces its values in for_each, "
@@ -81,11 +80,25 @@ CLI::App* add_verb(CLI::App& app, const Verb& text, Options& options, Texts& tex
       ->allow_extra_args(false)
       ->type_name("NAME.FIELD=VALUE");
   verb->add_option("--harmonics", texts.harmonics, "highest harmonic of the balance")->type_name("N");
-  return verb;
+}
+
+/// Refers to the option, which must stay where it is.
+void add_key_option(CLI::App& verb, KeyOption& of) {
+  CLI::Option* option = verb.add_option(of.name(), of.texts, of.help());
+  option->type_name(of.type_name())->allow_extra_args(false);  // what follows may be the scene
+  if (of.key.type == scene::KeyType::window) {
+    option->expected(2);
+  } else if (of.key.type == scene::KeyType::parameters) {
+    option->expected(1)->take_all();
+  } else {
+    option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  }
 }
 
 void add_study_options(CLI::App& verb, Verb& of, Options& options, Texts& texts) {
-  add_key_options(of.keys, verb);
+  for (KeyOption& option : of.keys) {
+    add_key_option(verb, option);
+  }
   verb.add_option("--out", options.out,
                   std::string("folder for results and figures (default: ") +
                       (of.name == run ? "out/<name of the scene file>)" : "none are written)"))
@@ -157,8 +170,16 @@ std::variant<Options, Information> parse(int argc, const char* const* argv,
   std::vector<Verb> verbs = verbs_of(catalogue);
   std::map<const CLI::App*, const Verb*> verb_of;
   for (Verb& each : verbs) {
-    CLI::App* verb = add_verb(app, each, options, texts);
+    CLI::App* verb = app.add_subcommand(each.name, each.help);
+    verb->group("Verbs");
     verb_of.emplace(verb, &each);
+    if (argc < 2 || each.name != argv[1]) {
+      continue;  // nobody asks for its options
+    }
+    if (each.type != nullptr) {
+      each.keys = options_of(each.type->keys());
+    }
+    add_scene_options(verb, options, texts);
     if (each.name == check) {
       verb->add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
     } else {
@@ -198,7 +219,11 @@ std::variant<Options, Information> parse(int argc, const char* const* argv,
   }
   options.harmonics = whole_number("--harmonics", texts.harmonics, "the highest harmonic");
   options.combinations = whole_number("--combinations", texts.combinations, "the combinations at most");
-  options.keys = given_keys(chosen.keys, *verb);
+  for (const KeyOption& option : chosen.keys) {
+    if (given(*verb, option.name())) {
+      options.keys.push_back(option.given());
+    }
+  }
   check_consistent(options, given(*verb, "--json"), given(*verb, "--csv"), given(*verb, "--out"));
   return options;
 }
