@@ -7,7 +7,7 @@
 namespace arcslip::studies {
 
 scene::Catalogue catalogue() {
-  return {{&frf(), &trace(), &peaks(), &folds(), &time()}};
+  return {{&frf(), &trace(), &peaks(), &folds(), &time(), &point()}};
 }
 
 results::Results run(const scene::Scene& scene, const scene::RunOptions& options) {

@@ -15,6 +15,7 @@ const scene::StudyType& trace();  // responses over a parameter; observables::Pa
 const scene::StudyType& peaks();  // resonance peaks over a parameter; observables::CurveRange
 const scene::StudyType& folds();  // folds over a parameter; observables::CurveRange
 const scene::StudyType& time();   // motions in time; observables::TimeSettings
+const scene::StudyType& point();  // responses at one frequency; observables::PointSettings
 
 /// All of them.
 scene::Catalogue catalogue();

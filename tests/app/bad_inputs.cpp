@@ -56,7 +56,7 @@ std::vector<BadInput> make() {
       // the command line
       line("no verb", {}, "Give a verb and a scene"),
       line("an unknown verb", {"fry", "scene.json"},
-           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, time, optimize or check"),
+           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, time, point, optimize or check"),
       line("no scene", {"run"}, "SCENE is required"),
       line("an unknown option", {"frf", "scene.json", "--harmonic", "3"},
            "The following arguments were not expected: 3 --harmonic"),

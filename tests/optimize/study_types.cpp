@@ -60,7 +60,8 @@ std::string studies_of_all_kinds() {
      "cases": [{"set": {"force.cosine": 2}, "weight": 0.5, "response": {"at": "blade"}}],
      "scatter": {"damper.friction_coefficient": [0.4, 0.6]},
      "constraints": [{"observable": "energy_friction", "at_most": 1},
-                     {"sum": {"damper.normal_load": 1}, "at_least": 0.5}]}])";
+                     {"sum": {"damper.normal_load": 1}, "at_least": 0.5}]},
+    {"kind": "point", "frequency": 20}])";
 }
 
 scene::Scene scene_with_all_kinds() {

@@ -1,0 +1,143 @@
+// The study "point": the responses at one frequency, with everything that is known of them.
+#include <arcslip/observables/motion.hpp>
+#include <arcslip/observables/responses_at.hpp>
+#include <arcslip/results/table_of.hpp>
+#include <arcslip/results/text.hpp>
+#include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/columns.hpp>
+#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/study_of.hpp>
+
+#include <optional>
+
+namespace arcslip::studies {
+namespace {
+
+using observables::PointResponse;
+using observables::PointSettings;
+
+constexpr int most_steps = 10'000'000;
+
+scene::file::KeysOf<PointSettings> keys() {
+  scene::file::KeysOf<PointSettings> keys;
+  keys.add(scene::file::one_frequency(&PointSettings::frequency, "the frequency of the excitation"));
+  keys.add(scene::file::whole("steps", &PointSettings::steps, 1, most_steps, "instants of the history"));
+  return keys;
+}
+
+/// One instant of a history.
+struct Instant {
+  const observables::History* history;
+  std::size_t i;
+};
+
+results::TableOf<Instant> history(const scene::Scene& scene) {
+  using observables::ElementHistory;
+  results::TableOf<Instant> table;
+  table.add({"time"}, "s", "of the period",
+            [](const Instant& at) { return at.history->angle[at.i] / at.history->omega; });
+  table.add({"angle"}, "rad", "omega times it", [](const Instant& at) { return at.history->angle[at.i]; });
+  table.add({"displacement"}, "m", "of the response",
+            [](const Instant& at) { return at.history->displacement[at.i]; });
+  table.add({"velocity"}, "m/s", "of the response",
+            [](const Instant& at) { return at.history->velocity[at.i]; });
+  const auto add = [&](std::size_t e, const char* key, const char* unit, const char* help,
+                       std::vector<double> ElementHistory::*member) {
+    table.add({"elements", scene.elements[e].name, key}, unit, help,
+              [e, member](const Instant& at) { return (at.history->elements[e].*member)[at.i]; });
+  };
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
+    add(e, "displacement", "m", "of the element", &ElementHistory::displacement);
+    add(e, "velocity", "m/s", "of the element", &ElementHistory::velocity);
+    add(e, "force", "N", "of the law, against the motion", &ElementHistory::force);
+    add(e, "series", "N", "the same by the harmonics kept", &ElementHistory::series);
+  }
+  return table;
+}
+
+std::vector<Instant> instants(const PointResponse& response, const scene::RunOptions& options) {
+  std::vector<Instant> all;
+  for (std::size_t i = 0; options.points && i < response.history.angle.size(); ++i)
+    all.push_back({&response.history, i});
+  return all;
+}
+
+results::Object facts(const scene::Scene& scene, const PointResponse& response) {
+  results::Object all;
+  if (response.status == observables::Status::complete) {
+    const auto table = responses(scene, {.maxima = true, .coefficients = true});
+    all = results::object(table.columns(), table.rows(std::vector{response.point}), 0);
+  }
+  all.push_back({"harmonics", results::Value::List(response.harmonics.begin(), response.harmonics.end())});
+  all.push_back({"solver", solver(response.solver)});
+  return all;
+}
+
+results::Results results_of(const scene::Scene& scene, std::span<const PointResponse> all,
+                            const scene::RunOptions& options) {
+  results::Results found{header(scene), {}, {}};
+  const results::TableOf<Instant> table = history(scene);
+  std::vector<results::Shown> shown{
+      {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
+      {"A_max (m)", {"amplitude"}, "%.8e"},
+      {"phase (rad)", {"phase"}, "%.6f"}};
+  add_stick(scene, shown);
+  shown.insert(shown.end(), {{"E_friction (J)", {"energy_friction"}, "%.6e"},
+                             {"E_viscous (J)", {"energy_viscous"}, "%.6e"},
+                             {"truncation (m)", {"truncation_estimate"}, "%.1e"}});
+  results::Schema schema{.format = "arcslip-responses-1",
+                         .list = "responses",
+                         .noun = "response",
+                         .tables = {{"history", table.columns(), {"elements"}, true}},
+                         .shown = std::move(shown)};
+  for (const PointResponse& each : all) {
+    add_columns(scene, each.set, schema.set);
+    found.results.push_back({.schema = 0,
+                             .head = {each.study,
+                                      each.kind,
+                                      named(scene, each.set),
+                                      {{"parameters", named(scene, each.parameters)}}},
+                             .tables = {table.rows(instants(each, options))},
+                             .end = {observables::name(each.status), stop(each.stop), facts(scene, each)}});
+  }
+  found.schemas.push_back(std::move(schema));
+  return found;
+}
+
+/// As a motion in time, whose figures show the same.
+observables::Motion motion_of(const PointResponse& response) {
+  observables::Motion motion;
+  motion.set = response.set;
+  motion.history.displacement = response.history.displacement;
+  motion.history.velocity = response.history.velocity;
+  for (const double angle : response.history.angle)
+    motion.history.time.push_back(angle / response.history.omega);
+  for (const observables::ElementHistory& element : response.history.elements)
+    motion.history.elements.push_back({element.name, element.displacement, element.force, {}});
+  return motion;
+}
+
+}  // namespace
+
+const scene::StudyType& point() {
+  static const StudyOf<PointSettings, PointResponse> type(
+      {.name = "point",
+       .list = "responses",
+       .help = "the responses at one frequency, with all that is known of them and their loops",
+       .keys = keys(),
+       .compute =
+           [](const Case& at, const PointSettings& settings, const results::ProgressCallback& progress) {
+             return observables::point_responses(at.scene, settings, progress);
+           },
+       .results = results_of,
+       .figures =
+           [](const scene::Scene& scene, std::span<const PointResponse> all) {
+             std::vector<observables::Motion> motions;
+             for (const PointResponse& each : all) motions.push_back(motion_of(each));
+             return std::vector{figures_of(scene, motions)};
+           },
+       .harmonics = false});
+  return type;
+}
+
+}  // namespace arcslip::studies
