@@ -229,7 +229,7 @@ ExitCode Writing::code(ExitCode otherwise) const {
 }
 
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     const scene::Outcome& result, Writing& writing) {
+                                     const StudyResult& result, Writing& writing) {
   std::vector<std::string> paths;
   std::vector<File> all{
       {files.path(".scene.json"), [&](std::ostream& out) { out << scene::write(scene); }},

@@ -3,8 +3,9 @@
 
 #include "exit_code.hpp"
 
+#include <arcslip/results/figure.hpp>
+#include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/scene/study_type.hpp>
 
 #include <functional>
 #include <iosfwd>
@@ -14,6 +15,12 @@
 #include <vector>
 
 namespace arcslip::app {
+
+/// What a study has computed.
+struct StudyResult {
+  results::Results results;
+  std::vector<results::FigureData> figures;
+};
 
 /// The files of one study in a folder: NAME.scene.json, NAME.json, NAME.csv with those beside it, and the
 /// figures.
@@ -91,6 +98,6 @@ class Writing {
 /// Writes the files and figures of a study; what an earlier run has left of this study is removed. Returns
 /// the paths of what is there; tells on standard error what is missing, and why.
 std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     const scene::Outcome& result, Writing& writing);
+                                     const StudyResult& result, Writing& writing);
 
 }  // namespace arcslip::app

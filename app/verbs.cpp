@@ -54,8 +54,9 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
 }
 
 /// Throws where one table would have to hold results of different kinds.
-void check_one_table(const Options& options, const std::vector<scene::Study>& studies) {
-  const auto list = [](const scene::Study& study) { return study.type->list(study.settings); };
+void check_one_table(const Options& options, const scene::Scene& scene,
+                     const std::vector<scene::Study>& studies) {
+  const auto list = [&](const scene::Study& study) { return study.type->schema(scene, study, {}).list; };
   for (const scene::Study& study : studies) {
     if (!options.csv.empty() && list(study) != list(studies.front())) {
       throw UsageError("--csv holds one table, but the results of the studies \"" + studies.front().name +
@@ -97,8 +98,8 @@ void tell_partial(Interruption& interruption) {
   }
 }
 
-scene::Outcome compute_visibly(const scene::Scene& scene, const scene::Study& study, const Options& options,
-                               Interruption& interruption) {
+StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study, const Options& options,
+                            Interruption& interruption) {
   ProgressLine line(options.quiet, std::string(scene::unit_name(scene.frequency_unit)));
   const auto progress = [&](const results::Progress& now) {
     if (!interrupted()) {
@@ -110,16 +111,18 @@ scene::Outcome compute_visibly(const scene::Scene& scene, const scene::Study& st
     return false;
   };
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
-  scene::Outcome outcome =
-      study.type->run(scene, study, {has_files, options.coefficients, !options.out.empty(), progress});
+  const scene::RunOptions how{has_files, options.coefficients, !options.out.empty(), progress};
+  results::Collector collector;
+  collector.begin(studies::header(scene), std::vector{study.type->schema(scene, study, how)});
+  std::vector<results::FigureData> figures = study.type->run(scene, study, how, 0, collector);
   line.clear();
   tell_partial(interruption);
-  return outcome;
+  return {std::move(collector.results), std::move(figures)};
 }
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const Options& options) {
-  check_one_table(options, studies);
+  check_one_table(options, scene, studies);
   check_combinations(options, studies);
   const std::vector<StudyFiles> files = study_files(options.out, studies);
   const std::optional<ResultsFolder> held = prepare_places(options, studies, files);
@@ -137,7 +140,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       continue;
     }
     any_begun = true;
-    scene::Outcome result = compute_visibly(scene, studies[i], options, interruption);
+    StudyResult result = compute_visibly(scene, studies[i], options, interruption);
     for (const std::string& sentence : results::early_ends(result.results)) {
       code = ExitCode::stopped_early;
       tell(sentence);

@@ -50,6 +50,11 @@ struct OptimumProblem {
   friend bool operator==(const OptimumProblem&, const OptimumProblem&) = default;
 };
 
+/// Several circumstances, by cases or by what scatters.
+inline bool has_cases(const OptimumProblem& problem) {
+  return !problem.cases.empty() || !problem.scatter.empty();
+}
+
 struct OptimumProgress {
   int evaluations = 0;
   std::span<const double> design;  // of the last one

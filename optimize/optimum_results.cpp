@@ -6,6 +6,7 @@
 #include <arcslip/studies/columns.hpp>
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -213,13 +214,13 @@ std::string doubt(const OptimumResult& result) {
   return {};
 }
 
-TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult& result) {
+TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumProblem& problem,
+                             const std::string& along) {
   TableOf<OptimumPoint> table;
-  const std::string& along = result.curve.along;
   table.add({along}, studies::parameter_unit(scene, along), "the parameter, here",
             [](const OptimumPoint& at) { return at.along; });
   add_design(
-      scene, result.problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
+      scene, problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
   table.add({"amplitude"}, "m", "A_max", [](const OptimumPoint& at) { return at.amplitude; });
   table.add({"peaks"}, "", "those that are active", [&scene](const OptimumPoint& at) {
     Value::List peaks;
@@ -230,8 +231,8 @@ TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult
                                 {"weight", peak.weight}});
     return peaks;
   });
-  for (std::size_t k = 0; k < result.problem.over.size(); ++k)
-    table.add({"at_bound", result.problem.over[k].name}, "", "`lower`, `inside`, `upper`",
+  for (std::size_t k = 0; k < problem.over.size(); ++k)
+    table.add({"at_bound", problem.over[k].name}, "", "`lower`, `inside`, `upper`",
               [k](const OptimumPoint& at) {
                 return k < at.at_bound.size() ? std::optional(place_at_bound(at.at_bound[k])) : std::nullopt;
               });
@@ -240,7 +241,8 @@ TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumCurveResult
   return table;
 }
 
-TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumCurveResult& result) {
+TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumProblem& problem,
+                             const std::string& along) {
   const auto of_peak = [](const OptimumEvent& event, double value) {
     return event.omega > 0 ? std::optional(value) : std::nullopt;
   };
@@ -258,69 +260,61 @@ TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumCurveResult
   table.add({"nonsmooth"}, "", "at another event", [](const OptimumEvent& event) { return event.nonsmooth; });
   table.add({"after"}, "", "index of the point before it",
             [](const OptimumEvent& event) { return event.after; });
-  table.add(points(scene, result), [](const OptimumEvent& event) { return &event.point; }, {"point"});
+  table.add(points(scene, problem, along), [](const OptimumEvent& event) { return &event.point; }, {"point"});
   return table;
 }
 
 }  // namespace
 
-results::Results results_of(const scene::Scene& scene, std::span<const OptimumResult> optima) {
-  const OptimumResult none;
-  const OptimumResult& first = optima.empty() ? none : optima.front();  // all have the same columns
+studies::Described<OptimumResult> described_optima(const scene::Scene& scene, const OptimumProblem& problem) {
+  const auto of_course = std::make_shared<const TableOf<Evaluation>>(course(scene, problem));
+  const auto of_cases = std::make_shared<const TableOf<CaseResult>>(cases(scene, problem));
   results::Schema schema{.format = "arcslip-optimum-1",
                          .list = "optima",
                          .noun = "search",
-                         .tables = {{"course", course(scene, first.problem).columns()}},
+                         .tables = {{"course", of_course->columns()}},
                          .beside = {"optimum", "algorithm", "evaluations", "stop"}};
-  if (first.has_cases())
-    schema.tables.push_back({"cases", cases(scene, first.problem).columns(), {"elements"}});
-  results::Results all{studies::header(scene), {}, {}};
-  for (const OptimumResult& each : optima) {
-    studies::add_columns(scene, each.set, schema.set);
-    all.results.push_back({.schema = 0,
-                           .head = {each.study, each.kind, studies::named(scene, each.set)},
-                           .tables = {course(scene, each.problem).rows(each.optimum.evaluations)},
-                           .end = {observables::name(each.status), studies::stop(each.stop),
-                                   facts(scene, each), doubt(each), text_of(scene, each)}});
-    if (each.has_cases())
-      all.results.back().tables.push_back(cases(scene, each.problem).rows(each.optimum.cases));
-  }
-  all.schemas.push_back(std::move(schema));
-  return all;
+  if (has_cases(problem)) schema.tables.push_back({"cases", of_cases->columns(), {"elements"}});
+  return {std::move(schema), [&scene, of_course, of_cases](const OptimumResult& each) {
+            results::Result result{.schema = 0,
+                                   .head = {each.study, each.kind, studies::named(scene, each.set)},
+                                   .tables = {of_course->rows(each.optimum.evaluations)},
+                                   .end = {observables::name(each.status), studies::stop(each.stop),
+                                           facts(scene, each), doubt(each), text_of(scene, each)}};
+            if (each.has_cases()) result.tables.push_back(of_cases->rows(each.optimum.cases));
+            return result;
+          }};
 }
 
-results::Results results_of(const scene::Scene& scene, std::span<const OptimumCurveResult> curves) {
-  results::Schema schema{.format = "arcslip-optimum-curves-1",
-                         .list = "optimum_curves",
-                         .noun = "curve",
-                         .tables = {{"points", {}, {"elements"}}, {"events", {}}}};
-  results::Results all{studies::header(scene), {}, {}};
-  for (const OptimumCurveResult& each : curves) {
-    const OptimumCurve& curve = each.curve;
-    const TableOf<OptimumPoint> of_points = points(scene, each);
-    const TableOf<OptimumEvent> of_events = events(scene, each);
-    schema.tables[0].columns = of_points.columns();  // all have the same
-    schema.tables[1].columns = of_events.columns();
-    studies::add_columns(scene, each.set, schema.set);
-    all.results.push_back(
-        {.schema = 0,
-         .head = {each.study, each.kind, studies::named(scene, each.set), {{"along", curve.along}}},
-         .tables = {of_points.rows(curve.points), of_events.rows(curve.events)},
-         .end = {observables::name(curve.status),
-                 studies::stop(curve.stop),
-                 {{"notes", texts(curve.notes)},
-                  {"pieces", curve.work.pieces},
-                  {"evaluations", curve.work.evaluations},
-                  {"hessians", curve.work.hessians},
-                  {"responses", curve.work.peaks.responses},
-                  {"followed", curve.work.peaks.followed},
-                  {"factorizations", curve.work.peaks.factorizations},
-                  {"seconds", curve.work.seconds, "s"}},
-                 "",
-                 text_of(scene, each)}});
-  }
-  all.schemas.push_back(std::move(schema));
-  return all;
+studies::Described<OptimumCurveResult> described_curves(const scene::Scene& scene,
+                                                        const OptimumProblem& problem,
+                                                        const std::string& along) {
+  const auto of_points = std::make_shared<const TableOf<OptimumPoint>>(points(scene, problem, along));
+  const auto of_events = std::make_shared<const TableOf<OptimumEvent>>(events(scene, problem, along));
+  results::Schema schema{
+      .format = "arcslip-optimum-curves-1",
+      .list = "optimum_curves",
+      .noun = "curve",
+      .tables = {{"points", of_points->columns(), {"elements"}}, {"events", of_events->columns()}}};
+  return {std::move(schema), [&scene, of_points, of_events](const OptimumCurveResult& each) {
+            const OptimumCurve& curve = each.curve;
+            return results::Result{
+                .schema = 0,
+                .head = {each.study, each.kind, studies::named(scene, each.set), {{"along", curve.along}}},
+                .tables = {of_points->rows(curve.points), of_events->rows(curve.events)},
+                .end = {observables::name(curve.status),
+                        studies::stop(curve.stop),
+                        {{"notes", texts(curve.notes)},
+                         {"pieces", curve.work.pieces},
+                         {"evaluations", curve.work.evaluations},
+                         {"hessians", curve.work.hessians},
+                         {"responses", curve.work.peaks.responses},
+                         {"followed", curve.work.peaks.followed},
+                         {"factorizations", curve.work.peaks.factorizations},
+                         {"seconds", curve.work.seconds, "s"}},
+                        "",
+                        text_of(scene, each)}};
+          }};
 }
 
 }  // namespace arcslip::optimize

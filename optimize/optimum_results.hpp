@@ -4,15 +4,17 @@
 
 #include <arcslip/optimize/optimum_curve_result.hpp>
 #include <arcslip/optimize/optimum_study.hpp>
-#include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/described.hpp>
 
-#include <span>
+#include <string>
 
 namespace arcslip::optimize {
 
 /// docs/results.md tells all that there is. The optima, and the curves, of one study.
-results::Results results_of(const scene::Scene& scene, std::span<const OptimumResult> optima);
-results::Results results_of(const scene::Scene& scene, std::span<const OptimumCurveResult> curves);
+studies::Described<OptimumResult> described_optima(const scene::Scene& scene, const OptimumProblem& problem);
+studies::Described<OptimumCurveResult> described_curves(const scene::Scene& scene,
+                                                        const OptimumProblem& problem,
+                                                        const std::string& along);
 
 }  // namespace arcslip::optimize

@@ -54,7 +54,7 @@ struct OptimumResult {
   std::vector<CaseCurves> curves{};  // of the highest dozen of several cases, in their order
 
   /// Whether the problem says so, by cases or by what scatters.
-  bool has_cases() const { return !problem.cases.empty() || !problem.scatter.empty(); }
+  bool has_cases() const { return optimize::has_cases(problem); }
 
   /// Relative difference of the two ways in parameter and amplitude; NaN where there is only one.
   double difference_of_design() const;

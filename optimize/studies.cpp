@@ -241,26 +241,31 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
   std::string_view help() const override {
     return "the values of parameters for which the highest resonance peak is least";
   }
-  std::string_view list(const scene::Settings& settings) const override {
-    return settings.as<OptimumSettings>().along ? "optimum_curves" : "optima";
+  results::Schema schema(const scene::Scene& scene, const scene::Study& study,
+                         const scene::RunOptions& /*options*/) const override {
+    const auto& settings = study.settings.as<OptimumSettings>();
+    return studies::with_set(scene, study,
+                             settings.along
+                                 ? described_curves(scene, settings.problem, settings.along->name).schema
+                                 : described_optima(scene, settings.problem).schema);
   }
-  scene::Outcome run(const scene::Scene& scene, const scene::Study& study,
-                     const scene::RunOptions& options) const override {
+  std::vector<results::FigureData> run(const scene::Scene& scene, const scene::Study& study,
+                                       const scene::RunOptions& options, std::size_t schema,
+                                       results::Sink& sink) const override {
     const auto& settings = study.settings.as<OptimumSettings>();
     if (settings.along)
-      return studies::run_items<OptimumCurveResult>(
-          scene, study, options,
+      return studies::run_items(
+          scene, study, options, described_curves(scene, settings.problem, settings.along->name), schema,
+          sink,
           [&](const studies::Case& at, const results::ProgressCallback& progress) {
             return std::vector{optimum_curve_study(at.scene, settings, progress)};
           },
-          [&](std::span<const OptimumCurveResult> curves) { return results_of(scene, curves); },
           [&](std::span<const OptimumCurveResult> curves) { return std::vector{figures_of(scene, curves)}; });
-    return studies::run_items<OptimumResult>(
-        scene, study, options,
+    return studies::run_items(
+        scene, study, options, described_optima(scene, settings.problem), schema, sink,
         [&](const studies::Case& at, const results::ProgressCallback& progress) {
           return std::vector{optimum_study(at.scene, settings, progress, at.alone)};
         },
-        [&](std::span<const OptimumResult> optima) { return results_of(scene, optima); },
         [&](std::span<const OptimumResult> optima) { return figures_of(scene, optima); });
   }
 };

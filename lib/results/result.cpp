@@ -53,6 +53,36 @@ void append(Results more, Results& all) {
   std::move(more.schemas.begin(), more.schemas.end(), std::back_inserter(all.schemas));
 }
 
+namespace {
+
+// Puts rows of the same columns behind others.
+void append(const Rows& more, Rows& all) {
+  for (std::size_t c = 0; c < all.columns.size(); ++c) {
+    Cells& to = all.columns[c];
+    const Cells& from = more.columns[c];
+    if (!to.absent.empty() || !from.absent.empty()) {
+      to.absent.resize(all.count, false);
+      to.absent.insert(to.absent.end(), from.absent.begin(), from.absent.end());
+      to.absent.resize(all.count + more.count, false);
+    }
+    std::visit(
+        [&](auto& list) {
+          const auto& others = std::get<std::decay_t<decltype(list)>>(from.of);
+          list.insert(list.end(), others.begin(), others.end());
+        },
+        to.of);
+  }
+  all.count += more.count;
+}
+
+}  // namespace
+
+void hand(const Result& result, std::size_t schema, Sink& sink) {
+  sink.curve(result.head, schema);
+  for (std::size_t t = 0; t < result.tables.size(); ++t) sink.rows(t, result.tables[t]);
+  sink.end(result.end);
+}
+
 void replay(const Results& results, Sink& sink) {
   sink.begin(results.header, results.schemas);
   for (auto schema = results.schemas.begin(); schema != results.schemas.end(); ++schema) {
@@ -60,13 +90,32 @@ void replay(const Results& results, Sink& sink) {
     if (std::find_if(results.schemas.begin(), schema, in_list) != schema)
       continue;  // done with the first of them
     for (const Result& result : results.results) {
-      if (!in_list(results.schemas[result.schema])) continue;
-      sink.curve(result.head, result.schema);
-      for (std::size_t t = 0; t < result.tables.size(); ++t) sink.rows(t, result.tables[t]);
-      sink.end(result.end);
+      if (in_list(results.schemas[result.schema])) hand(result, result.schema, sink);
     }
   }
   sink.finish();
+}
+
+void Collector::begin(const Header& header, std::span<const Schema> schemas) {
+  results = {header, {schemas.begin(), schemas.end()}, {}};
+}
+
+void Collector::curve(const Head& head, std::size_t schema) {
+  results.results.push_back({schema, head, {}, {}});
+  results.results.back().tables.resize(results.schemas[schema].tables.size());
+}
+
+void Collector::rows(std::size_t table, const Rows& rows) {
+  Rows& all = results.results.back().tables[table];
+  if (all.count == 0) {
+    all = rows;
+  } else {
+    append(rows, all);
+  }
+}
+
+void Collector::end(const End& end) {
+  results.results.back().end = end;
 }
 
 }  // namespace arcslip::results

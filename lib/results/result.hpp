@@ -128,7 +128,22 @@ Object object(std::span<const Column> columns, const Rows& rows, std::size_t row
 /// Puts results of the same header behind others.
 void append(Results more, Results& all);
 
+/// Hands one of them to a sink, as of this schema.
+void hand(const Result& result, std::size_t schema, Sink& sink);
+
 /// Hands all of it to a sink: those of one list after the other.
 void replay(const Results& results, Sink& sink);
+
+/// A sink that keeps all that it is given.
+class Collector : public Sink {
+ public:
+  void begin(const Header& header, std::span<const Schema> schemas) override;
+  void curve(const Head& head, std::size_t schema) override;
+  void rows(std::size_t table, const Rows& rows) override;
+  void end(const End& end) override;
+  void finish() override {}
+
+  Results results;
+};
 
 }  // namespace arcslip::results

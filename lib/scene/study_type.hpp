@@ -66,13 +66,6 @@ struct RunOptions {
   results::ProgressCallback progress{};  // false stops: what is computed so far is kept
 };
 
-/// What a study has computed.
-struct Outcome {
-  results::Results results;
-  std::vector<results::FigureData>
-      figures;  // each has a name of its own; with one there may be nothing on it
-};
-
 class StudyType {
  public:
   virtual ~StudyType() = default;
@@ -91,12 +84,17 @@ class StudyType {
   /// Takes a parameter from lists of values; from what the study is over it cannot be taken.
   virtual void drop(std::string_view parameter, Settings& settings) const = 0;
 
-  /// The list in which a document holds the results of such a study: "branches".
-  virtual std::string_view list(const Settings& settings) const = 0;
+  /// What all results of the study look like.
+  virtual results::Schema schema(const Scene& scene, const Study& study, const RunOptions& options) const = 0;
   /// Whether results can hold the harmonics of responses (RunOptions::coefficients).
   virtual bool has_harmonics() const { return true; }
-  /// One after the other for each combination of the study's for_each lists, each as if it stood alone.
-  virtual Outcome run(const Scene& scene, const Study& study, const RunOptions& options) const = 0;
+  /// Hands the results to the sink as they are there, as of the schema with this index, which the sink knows:
+  /// one after the other for each combination of the study's for_each lists, each as if it stood alone.
+  /// Returns the figures that were asked for, each with a name of its own; with one there may be nothing on
+  /// it.
+  virtual std::vector<results::FigureData> run(const Scene& scene, const Study& study,
+                                               const RunOptions& options, std::size_t schema,
+                                               results::Sink& sink) const = 0;
 };
 
 /// The kinds of studies that a reader knows. They outlive every scene.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace arcslip::studies {
@@ -19,8 +20,8 @@ bool has_maxima(const ResponseBranch& branch) {
 
 /// The tables of branches with the same columns.
 struct Tables {
-  Tables(const scene::Scene& scene, const ResponseBranch& branch, bool coefficients)
-      : points(responses(scene, {branch.over, has_maxima(branch), coefficients})) {
+  Tables(const scene::Scene& scene, const std::string& over, bool maxima, bool coefficients)
+      : points(responses(scene, {over, maxima, coefficients})) {
     events.add({"kind"}, "", "`peak`, `fold` and so on",
                [](const ResponseEvent& event) { return event.kind; });
     events.add({"nonsmooth"}, "", "at a kink of the branch",
@@ -29,13 +30,12 @@ struct Tables {
                [](const ResponseEvent& event) { return event.located; });
     events.add({"after"}, "", "index of the point before it",
                [](const ResponseEvent& event) { return event.after; });
-    events.add(responses(scene, {branch.over, true, coefficients}),
+    events.add(responses(scene, {over, true, coefficients}),
                [](const ResponseEvent& event) { return &event.point; });
   }
 
   results::TableOf<ResponsePoint> points;
   results::TableOf<ResponseEvent> events;
-  std::size_t schema = 0;
 };
 
 std::vector<results::Shown> shown(const scene::Scene& scene, const std::string& over) {
@@ -61,7 +61,7 @@ results::Schema schema(const scene::Scene& scene, const std::string& over, const
 
 results::Result result(const scene::Scene& scene, const ResponseBranch& branch, const Tables& tables,
                        const RunOptions& options) {
-  results::Result result{tables.schema, {branch.study, branch.kind, named(scene, branch.set)}, {}, {}};
+  results::Result result{0, {branch.study, branch.kind, named(scene, branch.set)}, {}, {}};
   if (!branch.over.empty()) result.head.facts.push_back({"over", branch.over});
   result.head.facts.push_back({"parameters", named(scene, branch.parameters)});
   if (options.coefficients)
@@ -79,26 +79,32 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
 
 }  // namespace
 
-results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> branches,
+Described<ResponseBranch> branches(const scene::Scene& scene, const std::string& over, bool maxima,
+                                   const RunOptions& options) {
+  const auto tables = std::make_shared<const Tables>(scene, over, maxima, options.coefficients);
+  return {schema(scene, over, *tables), [&scene, tables, options](const ResponseBranch& branch) {
+            return result(scene, branch, *tables, options);
+          }};
+}
+
+results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> all,
                             const RunOptions& options) {
-  results::Results all{header(scene), {}, {}};
-  std::map<std::pair<std::string, bool>, Tables> tables;  // by what tells their columns apart
-  const auto tables_of = [&](const ResponseBranch& branch) -> const Tables& {
-    const auto [at, is_new] =
-        tables.try_emplace({branch.over, has_maxima(branch)}, scene, branch, options.coefficients);
+  results::Results found{header(scene), {}, {}};
+  std::map<std::pair<std::string, bool>, std::size_t> index;  // of schemas, by what tells their columns apart
+  std::vector<Described<ResponseBranch>> described;
+  for (const ResponseBranch& branch : all) {
+    const bool maxima = has_maxima(branch);
+    const auto [at, is_new] = index.try_emplace({branch.over, maxima}, described.size());
     if (is_new) {
-      at->second.schema = all.schemas.size();
-      all.schemas.push_back(schema(scene, branch.over, at->second));
+      described.push_back(branches(scene, branch.over, maxima, options));
+      found.schemas.push_back(described.back().schema);
     }
-    return at->second;
-  };
-  for (const ResponseBranch& branch : branches) {
-    const Tables& of_branch = tables_of(branch);
-    add_columns(scene, branch.set, all.schemas[of_branch.schema].set);
-    all.results.push_back(result(scene, branch, of_branch, options));
+    add_columns(scene, branch.set, found.schemas[at->second].set);
+    found.results.push_back(described[at->second].result(branch));
+    found.results.back().schema = at->second;
   }
-  if (branches.empty()) tables_of({});
-  return all;
+  if (all.empty()) found.schemas.push_back(branches(scene, "", false, options).schema);
+  return found;
 }
 
 }  // namespace arcslip::studies

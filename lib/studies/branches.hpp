@@ -5,13 +5,20 @@
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/columns.hpp>
+#include <arcslip/studies/described.hpp>
 
 #include <span>
+#include <string>
 
 namespace arcslip::studies {
 
-/// docs/results.md tells all that there is.
-results::Results results_of(const scene::Scene& scene, std::span<const observables::ResponseBranch> branches,
+/// Of a study. over: the parameter that its branches are over, if it is not the frequency; maxima: its points
+/// have them. docs/results.md tells all that there is.
+Described<observables::ResponseBranch> branches(const scene::Scene& scene, const std::string& over,
+                                                bool maxima, const RunOptions& options);
+
+/// Of branches that are there, of any studies.
+results::Results results_of(const scene::Scene& scene, std::span<const observables::ResponseBranch> all,
                             const RunOptions& options = {});
 
 }  // namespace arcslip::studies

@@ -22,5 +22,8 @@ scene::Catalogue catalogue();
 
 /// The results of every study of a scene.
 results::Results run(const scene::Scene& scene, const scene::RunOptions& options = {});
+/// The same, each handed to the sink as soon as it is there, and forgotten; studies whose results stand in
+/// one list of a document one after the other.
+void run(const scene::Scene& scene, const scene::RunOptions& options, results::Sink& sink);
 
 }  // namespace arcslip::studies

@@ -23,14 +23,14 @@ scene::file::KeysOf<CurveRange> keys() {
 const scene::StudyType& peaks() {
   static const StudyOf<CurveRange, ResponseBranch> type(
       {.name = "peaks",
-       .list = "branches",
        .help = "resonance peaks over a parameter, with the least and the greatest",
        .keys = keys(),
        .compute =
            [](const Case& at, const CurveRange& range, const results::ProgressCallback& progress) {
              return observables::resonance_peaks(at.scene, range, progress);
            },
-       .results = results_of,
+       .results = [](const scene::Scene& scene, const CurveRange& range,
+                     const scene::RunOptions& options) { return branches(scene, range.over, true, options); },
        .figures =
            [](const scene::Scene& scene, std::span<const ResponseBranch> branches) {
              return std::vector{figures_of(scene, BranchKind::peaks, branches)};
@@ -41,14 +41,14 @@ const scene::StudyType& peaks() {
 const scene::StudyType& folds() {
   static const StudyOf<CurveRange, ResponseBranch> type(
       {.name = "folds",
-       .list = "branches",
        .help = "folds of the frequency response over a parameter, with their cusps",
        .keys = keys(),
        .compute =
            [](const Case& at, const CurveRange& range, const results::ProgressCallback& progress) {
              return observables::fold_curves(at.scene, range, progress);
            },
-       .results = results_of,
+       .results = [](const scene::Scene& scene, const CurveRange& range,
+                     const scene::RunOptions& options) { return branches(scene, range.over, true, options); },
        .figures =
            [](const scene::Scene& scene, std::span<const ResponseBranch> branches) {
              return std::vector{figures_of(scene, BranchKind::folds, branches)};

@@ -21,14 +21,14 @@ scene::file::KeysOf<FrequencyRange> keys() {
 const scene::StudyType& frf() {
   static const StudyOf<FrequencyRange, ResponseBranch> type(
       {.name = "frf",
-       .list = "branches",
        .help = "frequency responses, with their peaks and folds",
        .keys = keys(),
        .compute =
            [](const Case& at, const FrequencyRange& range, const results::ProgressCallback& progress) {
              return observables::frequency_response(at.scene, range, progress);
            },
-       .results = results_of,
+       .results = [](const scene::Scene& scene, const FrequencyRange&,
+                     const scene::RunOptions& options) { return branches(scene, "", false, options); },
        .figures =
            [](const scene::Scene& scene, std::span<const ResponseBranch> branches) {
              return std::vector{figures_of(scene, BranchKind::responses, branches)};

@@ -4,6 +4,7 @@
 #include <arcslip/results/text.hpp>
 
 #include <complex>
+#include <memory>
 #include <utility>
 
 namespace arcslip::studies {
@@ -78,23 +79,8 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
 
 }  // namespace
 
-results::Results results_of(const scene::Scene& scene, std::span<const Motion> motions,
-                            const RunOptions& options) {
-  results::Results all{header(scene), {}, {}};
-  const results::TableOf<Instant> table = history(scene);
-  for (const Motion& motion : motions) {
-    std::vector<Instant> instants;
-    for (std::size_t i = 0; options.points && i < motion.history.time.size(); ++i)
-      instants.push_back({&motion.history, i});
-    all.results.push_back(
-        {.schema = 0,
-         .head = {motion.study,
-                  motion.kind,
-                  named(scene, motion.set),
-                  {{"parameters", named(scene, motion.parameters)}}},
-         .tables = {table.rows(instants)},
-         .end = {observables::name(motion.status), stop(motion.stop), facts(scene, motion)}});
-  }
+Described<Motion> motions(const scene::Scene& scene, const RunOptions& options) {
+  const auto table = std::make_shared<const results::TableOf<Instant>>(history(scene));
   std::vector<results::Shown> shown{
       {"method", {"method"}},
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
@@ -107,11 +93,26 @@ results::Results results_of(const scene::Scene& scene, std::span<const Motion> m
   results::Schema schema{.format = "arcslip-time-1",
                          .list = "motions",
                          .noun = "motion",
-                         .tables = {{"history", table.columns(), {"elements"}, true}},
+                         .tables = {{"history", table->columns(), {"elements"}, true}},
                          .shown = std::move(shown)};
-  for (const Motion& motion : motions) add_columns(scene, motion.set, schema.set);
-  all.schemas.push_back(std::move(schema));
-  return all;
+  return {std::move(schema), [&scene, table, points = options.points](const Motion& motion) {
+            std::vector<Instant> instants;
+            for (std::size_t i = 0; points && i < motion.history.time.size(); ++i)
+              instants.push_back({&motion.history, i});
+            return results::Result{
+                .schema = 0,
+                .head = {motion.study,
+                         motion.kind,
+                         named(scene, motion.set),
+                         {{"parameters", named(scene, motion.parameters)}}},
+                .tables = {table->rows(instants)},
+                .end = {observables::name(motion.status), stop(motion.stop), facts(scene, motion)}};
+          }};
+}
+
+results::Results results_of(const scene::Scene& scene, std::span<const Motion> all,
+                            const RunOptions& options) {
+  return collected(scene, motions(scene, options), all);
 }
 
 }  // namespace arcslip::studies

@@ -5,13 +5,17 @@
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/columns.hpp>
+#include <arcslip/studies/described.hpp>
 
 #include <span>
 
 namespace arcslip::studies {
 
-/// docs/results.md tells all that there is.
-results::Results results_of(const scene::Scene& scene, std::span<const observables::Motion> motions,
+/// Of a study. docs/results.md tells all that there is.
+Described<observables::Motion> motions(const scene::Scene& scene, const RunOptions& options);
+
+/// Of motions that are there.
+results::Results results_of(const scene::Scene& scene, std::span<const observables::Motion> all,
                             const RunOptions& options = {});
 
 }  // namespace arcslip::studies

@@ -8,7 +8,7 @@
 #include <arcslip/studies/figures.hpp>
 #include <arcslip/studies/study_of.hpp>
 
-#include <optional>
+#include <memory>
 
 namespace arcslip::studies {
 namespace {
@@ -73,10 +73,9 @@ results::Object facts(const scene::Scene& scene, const PointResponse& response) 
   return all;
 }
 
-results::Results results_of(const scene::Scene& scene, std::span<const PointResponse> all,
-                            const scene::RunOptions& options) {
-  results::Results found{header(scene), {}, {}};
-  const results::TableOf<Instant> table = history(scene);
+Described<PointResponse> described(const scene::Scene& scene, const PointSettings& /*settings*/,
+                                   const scene::RunOptions& options) {
+  const auto table = std::make_shared<const results::TableOf<Instant>>(history(scene));
   std::vector<results::Shown> shown{
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
       {"A_max (m)", {"amplitude"}, "%.8e"},
@@ -88,20 +87,18 @@ results::Results results_of(const scene::Scene& scene, std::span<const PointResp
   results::Schema schema{.format = "arcslip-responses-1",
                          .list = "responses",
                          .noun = "response",
-                         .tables = {{"history", table.columns(), {"elements"}, true}},
+                         .tables = {{"history", table->columns(), {"elements"}, true}},
                          .shown = std::move(shown)};
-  for (const PointResponse& each : all) {
-    add_columns(scene, each.set, schema.set);
-    found.results.push_back({.schema = 0,
-                             .head = {each.study,
-                                      each.kind,
-                                      named(scene, each.set),
-                                      {{"parameters", named(scene, each.parameters)}}},
-                             .tables = {table.rows(instants(each, options))},
-                             .end = {observables::name(each.status), stop(each.stop), facts(scene, each)}});
-  }
-  found.schemas.push_back(std::move(schema));
-  return found;
+  return {std::move(schema), [&scene, table, options](const PointResponse& response) {
+            return results::Result{
+                .schema = 0,
+                .head = {response.study,
+                         response.kind,
+                         named(scene, response.set),
+                         {{"parameters", named(scene, response.parameters)}}},
+                .tables = {table->rows(instants(response, options))},
+                .end = {observables::name(response.status), stop(response.stop), facts(scene, response)}};
+          }};
 }
 
 /// As a motion in time, whose figures show the same.
@@ -122,14 +119,13 @@ observables::Motion motion_of(const PointResponse& response) {
 const scene::StudyType& point() {
   static const StudyOf<PointSettings, PointResponse> type(
       {.name = "point",
-       .list = "responses",
        .help = "the responses at one frequency, with all that is known of them and their loops",
        .keys = keys(),
        .compute =
            [](const Case& at, const PointSettings& settings, const results::ProgressCallback& progress) {
              return observables::point_responses(at.scene, settings, progress);
            },
-       .results = results_of,
+       .results = described,
        .figures =
            [](const scene::Scene& scene, std::span<const PointResponse> all) {
              std::vector<observables::Motion> motions;

@@ -7,6 +7,8 @@
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_keys.hpp>
 #include <arcslip/scene/study_type.hpp>
+#include <arcslip/studies/columns.hpp>
+#include <arcslip/studies/described.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <algorithm>
@@ -24,13 +26,12 @@ struct Case {
   bool alone = true;          // there is no other
 };
 
-/// What compute(Case, progress) gives for each combination of the lists, each item with what was set for it.
-/// After a stop by the callback no further combination is begun.
-template <class Item, class Compute>
-std::vector<Item> for_each(const scene::Scene& scene, const scene::ValueLists& lists, const Compute& compute,
-                           const results::ProgressCallback& progress = {}) {
+/// Calls each(item) with what compute(Case, progress) gives for each combination of the lists, each item with
+/// what was set for it. After a stop by the callback no further combination is begun.
+template <class Compute, class Each>
+void for_each(const scene::Scene& scene, const scene::ValueLists& lists, const Compute& compute,
+              const results::ProgressCallback& progress, const Each& each) {
   const scene::Combinations all(lists);
-  std::vector<Item> items;
   bool go_on = true;
   for (std::size_t k = 0; k < all.size() && go_on; ++k) {
     const scene::Setting set = all[k];
@@ -42,44 +43,61 @@ std::vector<Item> for_each(const scene::Scene& scene, const scene::ValueLists& l
       go_on = go_on && (!progress || progress(now));
       return go_on;
     };
-    std::vector<Item> found = compute(Case{with, all.size() == 1}, tell);
-    for (Item& item : found) {
+    auto found = compute(Case{with, all.size() == 1}, tell);
+    for (auto& item : found) {
       item.set = set;
       if constexpr (requires { item.parameters; })
         std::erase_if(item.parameters, [&](const auto& parameter) {
           return std::any_of(set.begin(), set.end(),
-                             [&](const auto& each) { return each.first == parameter.first; });
+                             [&](const auto& value) { return value.first == parameter.first; });
         });
-      items.push_back(std::move(item));
+      each(std::move(item));
     }
   }
+}
+
+/// All items together.
+template <class Item, class Compute>
+std::vector<Item> for_each(const scene::Scene& scene, const scene::ValueLists& lists, const Compute& compute,
+                           const results::ProgressCallback& progress = {}) {
+  std::vector<Item> items;
+  for_each(scene, lists, compute, progress, [&](Item&& item) { items.push_back(std::move(item)); });
   return items;
 }
 
-/// All of a study by functions: compute() as for for_each(); results(items) and figures(items).
-template <class Item, class Compute, class ResultsOf, class FiguresOf>
-scene::Outcome run_items(const scene::Scene& scene, const scene::Study& study,
-                         const scene::RunOptions& options, const Compute& compute,
-                         const ResultsOf& results_of, const FiguresOf& figures_of) {
-  std::vector<Item> items = for_each<Item>(scene, study.for_each, compute, options.progress);
-  for (Item& item : items) {
+/// With the columns of what for_each gives.
+inline results::Schema with_set(const scene::Scene& scene, const scene::Study& study,
+                                results::Schema schema) {
+  NamedValues set;
+  for (const auto& [parameter, values] : study.for_each) set.emplace_back(parameter, 0);
+  add_columns(scene, set, schema.set);
+  return schema;
+}
+
+/// StudyType::run() by functions: compute() as for for_each(), figures(items). Items are kept only where
+/// figures are asked for.
+template <class Item, class Compute, class FiguresOf>
+std::vector<results::FigureData> run_items(const scene::Scene& scene, const scene::Study& study,
+                                           const scene::RunOptions& options, const Described<Item>& described,
+                                           std::size_t schema, results::Sink& sink, const Compute& compute,
+                                           const FiguresOf& figures_of) {
+  std::vector<Item> kept;
+  for_each(scene, study.for_each, compute, options.progress, [&](Item&& item) {
     item.study = study.name;
     item.kind = study.type->name();
-  }
-  const std::span<const Item> all = items;
-  scene::Outcome outcome{results_of(all), {}};
-  if (options.figures) outcome.figures = figures_of(all);
-  return outcome;
+    results::hand(described.result(item), schema, sink);
+    if (options.figures) kept.push_back(std::move(item));
+  });
+  return options.figures ? figures_of(std::span<const Item>(kept)) : std::vector<results::FigureData>();
 }
 
 /// A kind that computes items of one type.
 template <class S, class Item>
 struct KindOf {
-  std::string_view name, list, help;
+  std::string_view name, help;
   scene::file::KeysOf<S> keys;
   std::vector<Item> (*compute)(const Case& at, const S& settings, const results::ProgressCallback& progress);
-  results::Results (*results)(const scene::Scene& scene, std::span<const Item> items,
-                              const scene::RunOptions& options);
+  Described<Item> (*results)(const scene::Scene& scene, const S& settings, const scene::RunOptions& options);
   std::vector<results::FigureData> (*figures)(const scene::Scene& scene, std::span<const Item> items);
   bool harmonics = true;  // results can hold those of responses
 };
@@ -90,16 +108,20 @@ class StudyOf : public scene::file::KeyedStudy<S> {
   explicit StudyOf(KindOf<S, Item> kind) : scene::file::KeyedStudy<S>(kind.keys), kind_(std::move(kind)) {}
   std::string_view name() const override { return kind_.name; }
   std::string_view help() const override { return kind_.help; }
-  std::string_view list(const scene::Settings& /*settings*/) const override { return kind_.list; }
   bool has_harmonics() const override { return kind_.harmonics; }
-  scene::Outcome run(const scene::Scene& scene, const scene::Study& study,
-                     const scene::RunOptions& options) const override {
-    const auto compute = [&](const Case& at, const results::ProgressCallback& progress) {
-      return kind_.compute(at, study.settings.as<S>(), progress);
-    };
-    return run_items<Item>(
-        scene, study, options, compute,
-        [&](std::span<const Item> items) { return kind_.results(scene, items, options); },
+  results::Schema schema(const scene::Scene& scene, const scene::Study& study,
+                         const scene::RunOptions& options) const override {
+    return with_set(scene, study, kind_.results(scene, study.settings.as<S>(), options).schema);
+  }
+  std::vector<results::FigureData> run(const scene::Scene& scene, const scene::Study& study,
+                                       const scene::RunOptions& options, std::size_t schema,
+                                       results::Sink& sink) const override {
+    const S& settings = study.settings.as<S>();
+    return run_items(
+        scene, study, options, kind_.results(scene, settings, options), schema, sink,
+        [&](const Case& at, const results::ProgressCallback& progress) {
+          return kind_.compute(at, settings, progress);
+        },
         [&](std::span<const Item> items) { return kind_.figures(scene, items); });
   }
 

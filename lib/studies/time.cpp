@@ -58,14 +58,14 @@ scene::file::KeysOf<TimeSettings> keys() {
 const scene::StudyType& time() {
   static const StudyOf<TimeSettings, Motion> type(
       {.name = "time",
-       .list = "motions",
        .help = "motions in time at one frequency: steady, or from rest, with their loops",
        .keys = keys(),
        .compute =
            [](const Case& at, const TimeSettings& settings, const results::ProgressCallback& progress) {
              return std::vector{observables::motion_in_time(at.scene, settings, progress)};
            },
-       .results = results_of,
+       .results = [](const scene::Scene& scene, const TimeSettings&,
+                     const scene::RunOptions& options) { return motions(scene, options); },
        .figures = [](const scene::Scene& scene,
                      std::span<const Motion> motions) { return std::vector{figures_of(scene, motions)}; },
        .harmonics = false});

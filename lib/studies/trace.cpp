@@ -22,14 +22,16 @@ scene::file::KeysOf<ParameterRange> keys() {
 const scene::StudyType& trace() {
   static const StudyOf<ParameterRange, ResponseBranch> type(
       {.name = "trace",
-       .list = "branches",
        .help = "responses over a parameter at a fixed frequency, with their extremes and folds",
        .keys = keys(),
        .compute =
            [](const Case& at, const ParameterRange& range, const results::ProgressCallback& progress) {
              return observables::parameter_response(at.scene, range, progress);
            },
-       .results = results_of,
+       .results =
+           [](const scene::Scene& scene, const ParameterRange& range, const scene::RunOptions& options) {
+             return branches(scene, range.over, false, options);
+           },
        .figures =
            [](const scene::Scene& scene, std::span<const ResponseBranch> branches) {
              return std::vector{figures_of(scene, BranchKind::over_parameter, branches)};

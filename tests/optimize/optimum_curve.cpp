@@ -428,7 +428,8 @@ TEST_CASE("result files tell every point of the curve and every event") {
   result.curve = optimum_curve(s, result.problem, {"force.cosine", 1, 8});
   const std::vector<OptimumCurveResult> results = {result};
   std::ostringstream text;
-  const results::Results all = results_of(s, results);
+  const results::Results all =
+      studies::collected<OptimumCurveResult>(s, described_curves(s, result.problem, "force.cosine"), results);
   results::write_json(text, all);
   const auto document = nlohmann::json::parse(text.str());
   CHECK(document["format"] == "arcslip-optimum-curves-1");
