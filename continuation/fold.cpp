@@ -74,7 +74,7 @@ EventData describe(const Accepted& now) {
 
 Monitor fold_monitor() {
   Monitor monitor;
-  monitor.name = "fold";
+  monitor.name = fold_event;
   monitor.value = [](const Accepted& now) { return now.tangent[now.tangent.size() - 1]; };
   monitor.quantity = [](const Accepted& now) { return now.parameter; };
   monitor.quantity_is_parameter = true;

@@ -86,6 +86,7 @@ struct Monitor {
 /// fold dp/ds jumps. A branch that turns where another one crosses it, as the arms of a pitchfork do, has no
 /// fold there: F_p lies in the range of J, and it is a branch point (branch_point_monitor()).
 Monitor fold_monitor();
+inline constexpr const char* fold_event = "fold";  // its name, and so that of its events
 
 /// The unknown u[index] has the value: terminal, a bound of an unknown, as of the second parameter on a curve
 /// of special points, which is an unknown there. (The free parameter's own bounds are Options::lower, upper

@@ -299,7 +299,7 @@ std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int
 }
 
 Monitor cusp_monitor() {
-  return {"cusp", [](const Accepted& now) { return stationary(now).second_derivative_of_q(); }};
+  return {cusp_event, [](const Accepted& now) { return stationary(now).second_derivative_of_q(); }};
 }
 
 Monitor bogdanov_takens_monitor() {

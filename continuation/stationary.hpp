@@ -54,6 +54,7 @@ std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int
 /// On a curve of folds, zero at cusps: the second derivative of p_along on the branch through the fold.
 /// Its value on any curve of stationary points is the second derivative of q along the branch.
 Monitor cusp_monitor();
+inline constexpr const char* cusp_event = "cusp";  // its name, and so that of its events
 
 /// On a curve of folds of u' = F, zero at Bogdanov-Takens points: w . v of the null vectors J v = 0, w J = 0.
 /// Needs transposed solves; without, its value is never zero.

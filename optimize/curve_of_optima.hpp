@@ -41,7 +41,7 @@ class CurveOfOptima {
   std::size_t size() const { return problem_.over.size(); }
   const ScaledParameter& sigma() const { return scaled_.back(); }
   std::string place(double s) const { return text(along_.name, " = ", sigma().value(s)); }
-  bool end(observables::Status status, std::string reason, std::string message);
+  bool end(observables::Status status, const results::Reason& reason, std::string message);
   bool end_interrupted();
   // The first optimum, by search, and its active set.
   bool begin();
@@ -65,9 +65,8 @@ class CurveOfOptima {
   void keep(const continuation::Branch& branch, const std::map<double, Seen>& seen);
   double distance(const OptimumPoint& a, const OptimumPoint& b) const;
   double way_since_response(const OptimumPoint& at);
-  // The active set that goes on where this one ends.
-  void change(const std::string& monitor, const std::vector<Inequality>& may_change,
-              const OptimalityEvaluator& at);
+  // The active set that goes on where this one ends. which: of may_change; its size: another peak joins.
+  void change(std::size_t which, const std::vector<Inequality>& may_change, const OptimalityEvaluator& at);
   // A turn in s from one piece to the next. before: dsigma of the last tangent.
   void note_turn(double before, const OptimumPoint& at);
   // The way in which the inequality that has changed holds more and more.

@@ -1,6 +1,7 @@
 // Where one piece of a curve of optima ends and another begins, and the responses that say whether it may.
 
 #include <arcslip/optimize/curve_of_optima.hpp>
+#include <arcslip/optimize/reasons.hpp>
 
 #include <algorithm>
 #include <array>
@@ -28,7 +29,7 @@ void CurveOfOptima::guard() {
     mark_ = curve_.points.back();
     idle_ = 0;
   } else if (++idle_ == most_idle) {
-    end(Status::stopped, "no_progress",
+    end(Status::stopped, reasons::no_progress,
         text("at ", place(here_.sigma), " ", most_idle,
              " pieces of the curve came one after the other within ", progress, " of the logarithms"));
   } else if (!watch_.go_on()) {
@@ -36,26 +37,25 @@ void CurveOfOptima::guard() {
   }
 }
 
-void CurveOfOptima::change(const std::string& monitor, const std::vector<Inequality>& may_change,
+void CurveOfOptima::change(std::size_t which, const std::vector<Inequality>& may_change,
                            const OptimalityEvaluator& at) {
-  const bool joins = monitor == "peak_joins";
-  const Inequality what = joins ? Inequality{Kind::peak, *at.highest_other()}
-                                : may_change[static_cast<std::size_t>(std::stoul(monitor.substr(7)))];
+  const Inequality what =
+      which < may_change.size() ? may_change[which] : Inequality{Kind::peak, *at.highest_other()};
   OptimumEvent event{"", "", 0, false, point(at), curve_.points.size() - 1};
   const double before = here_.tangent[here_.z.size()];
   const bool was_active = std::find(may_change.begin(), may_change.end(), what) != may_change.end() &&
                           (what.kind == Kind::peak || here_.active.held[what.index] == what.side);
   if (what.kind == Kind::bound) {
-    event.kind = was_active ? "bound_left" : "bound_reached";
+    event.kind = was_active ? event_kinds::bound_left : event_kinds::bound_reached;
     event.parameter = problem_.over[what.index].name;
   } else {
-    event.kind = was_active ? "peak_leaves" : "peak_joins";
+    event.kind = was_active ? event_kinds::peak_leaves : event_kinds::peak_joins;
     event.omega = peaks_.state().peaks[what.index].omega();
   }
   curve_.events.push_back(std::move(event));
   const auto next_set = exchanged(here_.active, what, at);
   if (!next_set) {
-    end(Status::stopped, "no_exchange",
+    end(Status::stopped, reasons::no_exchange,
         "at " + place(here_.sigma) + ": no set of active peaks and bounds goes on from here");
     return;
   }
@@ -73,7 +73,7 @@ void CurveOfOptima::change(const std::string& monitor, const std::vector<Inequal
 
 void CurveOfOptima::note_turn(double before, const OptimumPoint& at) {
   if (before * here_.tangent[here_.z.size()] < 0)
-    curve_.events.push_back({"turning_point", "", 0, true, at, curve_.points.size() - 1});
+    curve_.events.push_back({event_kinds::turning_point, "", 0, true, at, curve_.points.size() - 1});
 }
 
 void CurveOfOptima::orient(const Inequality& watched) {
@@ -94,7 +94,7 @@ void CurveOfOptima::orient(const Inequality& watched) {
   }
   if (!known || slack[0] == slack[1] || !go(0)) {
     if (const auto flat = without_influence()) return end_flat(problem_.over[*flat].name);
-    end(Status::stopped, "no_exchange",
+    end(Status::stopped, reasons::no_exchange,
         "at " + place(here_.sigma) +
             ": the active peaks and bounds change, and there is no single optimum beyond");
     return;
@@ -104,7 +104,7 @@ void CurveOfOptima::orient(const Inequality& watched) {
 }
 
 void CurveOfOptima::end_flat(const std::string& parameter) {
-  end(Status::stopped, "flat",
+  end(Status::stopped, reasons::flat,
       text("at ", place(here_.sigma), ": from there on the highest peak does not depend on ", parameter,
            ", of which a range of values is as good: no single optimum is left"));
 }
@@ -135,8 +135,8 @@ void CurveOfOptima::verify() {
     }
     if (state.unbounded)
       return static_cast<void>(
-          end(Status::stopped, "unbounded", "at " + place(here_.sigma) + ": " + state.message));
-    end(Status::stopped, "other_peak",
+          end(Status::stopped, reasons::unbounded, "at " + place(here_.sigma) + ": " + state.message));
+    end(Status::stopped, reasons::other_peak,
         text("at ", place(here_.sigma), " the response has a peak of ", state.amplitude(),
              " m above that of ", level, " m which was followed, and it came up in between"));
     return;
@@ -144,7 +144,7 @@ void CurveOfOptima::verify() {
   const auto found = find_again(peaks_.state(), here_.peaks, same_level);
   if (found.empty())
     return static_cast<void>(
-        end(Status::stopped, "lost_peak",
+        end(Status::stopped, reasons::lost_peak,
             "at " + place(here_.sigma) + " a new response does not have the peaks that were followed"));
   here_.active.peaks = found;
   set_safe();
@@ -169,7 +169,7 @@ void CurveOfOptima::go_back() {
   peaks_.trace(here_.design);
   const auto found = find_again(peaks_.state(), here_.peaks, same_level);
   if (found.empty())
-    end(Status::stopped, "lost_peak",
+    end(Status::stopped, reasons::lost_peak,
         "at " + place(here_.sigma) + " a new response does not have the peaks that were followed");
   else
     here_.active.peaks = found;
@@ -178,7 +178,7 @@ void CurveOfOptima::go_back() {
 void CurveOfOptima::lost(const continuation::Stop& stop) {
   const std::string where = "at " + place(here_.sigma) + ": ";
   if (here_.tangent.size() == 0 || here_.design.empty())
-    return static_cast<void>(end(Status::failed, continuation::name(stop.reason), where + stop.message));
+    return static_cast<void>(end(Status::failed, observables::reason_of(stop.reason), where + stop.message));
   verify();
   if (ended_ || rewound_) return;
   const Standing last = here_;
@@ -191,7 +191,7 @@ void CurveOfOptima::lost(const continuation::Stop& stop) {
       }
   here_ = last;
   if (!flat_.empty()) return end_flat(flat_);
-  end(Status::stopped, "lost_peak",
+  end(Status::stopped, reasons::lost_peak,
       where + "the active peaks cannot be followed, and no optimum near by goes on beyond: " + stop.message);
 }
 
@@ -250,8 +250,8 @@ bool CurveOfOptima::same_kinds(const std::vector<KnownPeak>& before, const Optim
 void CurveOfOptima::changed(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at) {
   for (std::size_t i = 0; i < before.size(); ++i)
     if (before[i].kind != at.active_peaks()[i].kind)
-      curve_.events.push_back(
-          {"peak_changes", "", at.active_peaks()[i].omega(), false, point(at), curve_.points.size() - 1});
+      curve_.events.push_back({event_kinds::peak_changes, "", at.active_peaks()[i].omega(), false, point(at),
+                               curve_.points.size() - 1});
 }
 
 }  // namespace arcslip::optimize

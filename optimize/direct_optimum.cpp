@@ -1,4 +1,5 @@
 #include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/optimize/design_space.hpp>
 #include <arcslip/optimize/optimum.hpp>
 #include <arcslip/optimize/peak_amplitude.hpp>
@@ -23,7 +24,8 @@ std::string least_minimum(const scene::Scene& scene, const OptimumProblem& probl
   std::string higher;
   for (const auto& curve : result.curves)
     for (const auto& event : curve.events) {
-      if (event.kind != "minimum" || (result.found && event.point.amplitude >= result.point.amplitude))
+      if (event.kind != observables::event_kinds::minimum ||
+          (result.found && event.point.amplitude >= result.point.amplitude))
         continue;
       const double highest = peaks.trace(std::span(&event.point.over, 1)).amplitude();
       if (!(highest > (1 + as_high) * event.point.amplitude)) {

@@ -84,6 +84,7 @@ struct Result {
   double seconds = 0;
   Reason reason = Reason::failed;
   std::string message;             // the reason as one sentence, with its numbers
+  std::string cause;               // the beginning of it, without the evaluations and what was best
   std::vector<std::string> notes;  // what was changed in the input: a start that was moved into the bounds
 };
 

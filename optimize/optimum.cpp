@@ -1,6 +1,7 @@
 #include <arcslip/optimize/optimum.hpp>
 
 #include <arcslip/optimize/interrupted.hpp>
+#include <arcslip/optimize/reasons.hpp>
 #include <arcslip/optimize/release.hpp>
 #include <arcslip/optimize/search.hpp>
 #include <arcslip/optimize/start.hpp>
@@ -62,7 +63,7 @@ Optimum Search::run() {
     } catch (const std::exception& thrown) {
       more = false;
       result_.status = Status::failed;
-      result_.stop.reason = name(Reason::objective_failed);
+      result_.stop.reason = reasons::objective_failed;
       result_.stop.message = text("it threw \"", thrown.what(), "\"", after());
     }
   }
@@ -100,7 +101,7 @@ void Search::search() {
       minimize_once();
       if (watch_.stopped()) return;
       if (result_.status == Status::failed && best().value == stuck_value_ &&
-          result_.stop.reason != name(Reason::objective_failed))
+          result_.stop.reason != reasons::objective_failed)
         std::tie(result_.status, result_.stop) = before;  // the optimum is still that of the round before
       came_up_ = false;
       if (!verify() && !release()) break;
@@ -119,7 +120,7 @@ void Search::begin() {
     start_ = start.design;
     reference_ = cases().value();
   } else if (!interrupted()) {
-    const bool flat = start.fault.reason == "flat";
+    const bool flat = start.fault.reason == reasons::flat;
     result_.status = flat ? Status::complete : Status::failed;
     result_.stop.reason = start.fault.reason;
     result_.stop.message = flat ? "the amplitude does not depend on " + space().names() +
@@ -179,13 +180,12 @@ void Search::minimize_once() {
       found.reason == Reason::evaluation_limit && static_cast<int>(count()) < options_.evaluations;
   if (by != Ends::no || short_run) {
     found.reason = by == Ends::vanishes || by == Ends::settles ? Reason::converged : Reason::rounding;
-    found.message = by == Ends::vanishes  ? text("no entry of d ln A / d ln p is above ", small_gradient)
-                    : by == Ends::settles ? text("d ln A / d ln p left is ", candidate_.left.stationarity)
-                                          : text(algorithm_.name, " made no more progress");
-    found.message += " after ";
+    found.cause = by == Ends::vanishes  ? text("no entry of d ln A / d ln p is above ", small_gradient)
+                  : by == Ends::settles ? text("d ln A / d ln p left is ", candidate_.left.stationarity)
+                                        : text(algorithm_.name, " made no more progress");
   }
   result_.stop = {};
-  result_.stop.reason = name(found.reason);
+  result_.stop.reason = reason_of(found.reason);
   result_.stop.message = sentence(found);
   result_.status = is_converged(found.reason) || found.reason == Reason::rounding ? Status::complete
                    : found.reason == Reason::evaluation_limit                     ? Status::stopped
@@ -252,7 +252,7 @@ bool Search::gradient_vanishes() {
 std::string Search::sentence(const Result& found) {
   if (found.reason == Reason::evaluation_limit)
     return text("the limit of ", options_.evaluations, " evaluations was reached");
-  return found.message.substr(0, found.message.rfind(" after ")) + after();
+  return found.cause + after();
 }
 
 bool Search::verify() {
@@ -315,7 +315,7 @@ void Search::retreat() {
 
 void Search::stop_at_higher_peak() {
   result_.status = Status::stopped;
-  result_.stop.reason = "other_peak";
+  result_.stop.reason = reasons::other_peak;
   result_.stop.message = text(
       "the response at the best design had a higher peak than was followed, or one "
       "at which a limit is exceeded, in ",
@@ -369,7 +369,7 @@ bool Search::add_worst_scatter() {
   if (result_.scatter_rounds < options_.scatter_rounds) return true;
   trials_.evaluate(start_);
   result_.status = Status::stopped;
-  result_.stop.reason = "scatter_limit";
+  result_.stop.reason = reasons::scatter_limit;
   result_.stop.message = text("the worst of what scatters was higher still after ", result_.scatter_rounds,
                               " rounds and ", count(), " evaluations");
   return false;

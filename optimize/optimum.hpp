@@ -105,13 +105,8 @@ struct CaseResult {
 
 struct Optimum {
   observables::Status status = observables::Status::failed;
-  /// reason: the name of a Reason, or "flat" (the amplitude does not depend on the design), "unbounded" (it
-  /// is infinite wherever it was looked at), "no_response", "scatter_limit" (the worst of what scatters was
-  /// still higher after scatter_rounds), "infeasible" (no design that keeps the limits was found),
-  /// "other_peak" (the responses had higher peaks than could be followed), "lower_beside" (each of several
-  /// minima had a lower design beside it), "not_stationary" (no algorithm came to a design at which the
-  /// conditions of a minimum hold: most_stationarity, most_complementarity). Complete: the certificate holds,
-  /// and all of it was made.
+  /// reason: of reasons::of_optima; scatter_limit: after OptimumOptions::scatter_rounds; not_stationary:
+  /// most_stationarity, most_complementarity. Complete: the certificate holds, and all of it was made.
   observables::Stop stop;
   std::vector<double> design;        // best so far; empty where there is none
   double amplitude = 0;              // of the criterion there, m: A_max where there is one case of weight 1

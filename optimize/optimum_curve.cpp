@@ -1,4 +1,5 @@
 #include <arcslip/optimize/curve_of_optima.hpp>
+#include <arcslip/optimize/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,14 @@ constexpr double u_turn = -0.9;          // cosine of the tangents before and af
 constexpr double smallest_step = 1e-8;
 constexpr double same_point = 1e-9;  // of y and sigma
 
+// Of the monitor of an inequality that may change.
+std::string change_name(std::size_t i) {
+  return text("change ", i);
+}
+
 bool is_change(const Event& event) {
-  return event.monitor.starts_with("change") || event.monitor == "peak_joins";
+  return event.monitor != event_kinds::minimum && event.monitor != event_kinds::maximum &&
+         event.monitor != event_kinds::turning_point;
 }
 
 std::vector<KnownPeak> peaks_of(const OptimumPoint& point) {
@@ -34,9 +41,13 @@ std::vector<KnownPeak> peaks_of(const OptimumPoint& point) {
   return all;
 }
 
-// What has ended a piece. An extremum or a turn may stand at the same place, after it.
-const std::string& last_change(const continuation::Branch& branch) {
-  return std::find_if(branch.events.rbegin(), branch.events.rend(), is_change)->monitor;
+// Which of `count` inequalities has ended a piece; count: another peak joins. An extremum or a turn may stand
+// at the same place, after it.
+std::size_t last_change(const continuation::Branch& branch, std::size_t count) {
+  const auto last = std::find_if(branch.events.rbegin(), branch.events.rend(), is_change);
+  std::size_t i = 0;
+  while (i < count && last->monitor != change_name(i)) ++i;
+  return i;
 }
 
 }  // namespace
@@ -71,7 +82,7 @@ OptimumCurve CurveOfOptima::run() {
   } catch (const Interrupted&) {
     end_interrupted();
   } catch (const std::exception& thrown) {
-    end(Status::failed, name(Reason::objective_failed),
+    end(Status::failed, reasons::objective_failed,
         text("it threw \"", thrown.what(), "\" at ", place(here_.sigma)));
   }
   finish();
@@ -89,9 +100,9 @@ OptimumProblem CurveOfOptima::with_along(OptimumProblem problem, const DesignVar
   return problem;
 }
 
-bool CurveOfOptima::end(Status status, std::string reason, std::string message) {
+bool CurveOfOptima::end(Status status, const results::Reason& reason, std::string message) {
   curve_.status = status;
-  curve_.stop.reason = std::move(reason);
+  curve_.stop.reason = reason;
   curve_.stop.message = std::move(message);
   ended_ = true;
   return false;
@@ -115,14 +126,14 @@ bool CurveOfOptima::begin() {
   watch_.begin("the curve");
   const Optimum& first = curve_.start;
   const std::string where = text("at ", along_.name, " = ", along_.lower, ": ");
-  if (first.status != Status::complete || first.stop.reason == "flat" || first.design.empty())
+  if (first.status != Status::complete || first.stop.reason == reasons::flat || first.design.empty())
     return end(first.status == Status::complete ? Status::failed : first.status, first.stop.reason,
                where + first.stop.message);
   std::vector<double> design = first.design;
   design.push_back(along_.lower);
   const PeakState& state = peaks_.trace(design);
   if (state.peaks.empty() || !state.complete)
-    return end(Status::failed, "no_response", where + state.message);
+    return end(Status::failed, reasons::no_response, where + state.message);
   reference_ = state.amplitude();
   here_.sigma = sigma().scaled(along_.lower);
   here_.active.held.assign(size(), 0);
@@ -134,7 +145,7 @@ bool CurveOfOptima::begin() {
       if (side * (scaled_[k].scaled(scaled_[k].bound(side)) - scaled_[k].scaled(design[k])) < nearly_bound)
         here_.active.held[k] = side;
   if (!hold_flat(design))
-    return end(Status::failed, "flat",
+    return end(Status::failed, reasons::flat,
                text(where, "the amplitude does not depend on ", flat_,
                     " there, but does between there and its bounds: which value to follow is not told"));
   return settle(design);
@@ -167,7 +178,7 @@ bool CurveOfOptima::settle(const std::vector<double>& design) {
     set_safe();
     return true;
   }
-  return end(Status::failed, "no_exchange",
+  return end(Status::failed, reasons::no_exchange,
              text("at ", along_.name, " = ", along_.lower,
                   ": the optimum was found, but no set of equally high peaks satisfies its equations; it may "
                   "sit at a kink, or a parameter may have no influence"));
@@ -200,21 +211,23 @@ void CurveOfOptima::piece() {
   std::vector<Monitor> monitors;
   for (std::size_t i = 0; i < may_change.size(); ++i)
     monitors.push_back(
-        {.name = text("change ", i),
+        {.name = change_name(i),
          .value = [each = may_change[i]](const Accepted& now) { return evaluator(now).slack(each); },
          .crossing = continuation::Crossing::falling,
          .terminal = true});
-  monitors.push_back({.name = "peak_joins",
+  monitors.push_back({.name = event_kinds::peak_joins,
                       .value = [](const Accepted& now) { return evaluator(now).distance_of_others(); },
                       .crossing = continuation::Crossing::falling,
                       .terminal = true});
   const auto slope = [tau](const Accepted& now) { return now.tangent[tau]; };
   const auto level = [tau](const Accepted& now) { return now.u[tau]; };
   using continuation::Crossing;
-  monitors.push_back({.name = "minimum", .value = slope, .crossing = Crossing::rising, .quantity = level});
-  monitors.push_back({.name = "maximum", .value = slope, .crossing = Crossing::falling, .quantity = level});
+  monitors.push_back(
+      {.name = event_kinds::minimum, .value = slope, .crossing = Crossing::rising, .quantity = level});
+  monitors.push_back(
+      {.name = event_kinds::maximum, .value = slope, .crossing = Crossing::falling, .quantity = level});
   Monitor turn = continuation::fold_monitor();
-  turn.name = "turning_point";
+  turn.name = event_kinds::turning_point;
   monitors.push_back(turn);
 
   continuation::Options options;
@@ -266,7 +279,7 @@ void CurveOfOptima::piece() {
   const std::vector<std::size_t> indices = here_.active.peaks;
   const auto end_of_piece = at_last_point();
   if (!end_of_piece) {
-    end(Status::stopped, "lost_peak",
+    end(Status::stopped, reasons::lost_peak,
         "at " + place(here_.sigma) + " a new response does not have the peaks that were followed");
     return;
   }
@@ -283,13 +296,13 @@ void CurveOfOptima::piece() {
       verify();
       if (ended_ || rewound_) return;
       if (last.parameter >= options.upper)
-        end(Status::complete, "boundary", "the optimum was followed up to " + place(last.parameter));
+        end(Status::complete, reasons::boundary, "the optimum was followed up to " + place(last.parameter));
       else
-        end(Status::stopped, "turned_back",
+        end(Status::stopped, reasons::turned_back,
             "the curve of optima turned back, and left the range at " + place(last.parameter));
       return;
     case StopReason::event:
-      change(last_change(branch), may_change, at);
+      change(last_change(branch, may_change.size()), may_change, at);
       return;
     case StopReason::user:
       if (watch_.stopped())
@@ -322,14 +335,15 @@ std::unique_ptr<OptimalityEvaluator> CurveOfOptima::at_last_point() {
 }
 
 void CurveOfOptima::stop_with(const continuation::Stop& stop) {
-  end(Status::stopped, continuation::name(stop.reason), "at " + place(here_.sigma) + ": " + stop.message);
+  end(Status::stopped, observables::reason_of(stop.reason), "at " + place(here_.sigma) + ": " + stop.message);
 }
 
 void CurveOfOptima::end_at_u_turn(continuation::Branch& branch) {
   for (std::size_t i = 0; i < branch.events.size(); ++i) {
     const Event& event = branch.events[i];
     const std::size_t after = event.after;
-    if (event.monitor != "turning_point" || !event.nonsmooth || after + 1 >= branch.points.size() ||
+    if (event.monitor != event_kinds::turning_point || !event.nonsmooth ||
+        after + 1 >= branch.points.size() ||
         branch.points[after].tangent.dot(branch.points[after + 1].tangent) > u_turn)
       continue;
     branch.stop = {StopReason::step_too_small, 0, 0, "the curve turns round and comes back on itself"};
@@ -354,7 +368,8 @@ void CurveOfOptima::keep(const continuation::Branch& branch, const std::map<doub
   for (const Event& event : branch.events) {
     const Seen* at = find(event.point.arclength);
     // Along the curve the amplitude is stationary at turning points, too, where over s it is not.
-    const bool only_turns = event.monitor != "turning_point" && at && std::abs(at->slope) > flat_slope;
+    const bool only_turns =
+        event.monitor != event_kinds::turning_point && at && std::abs(at->slope) > flat_slope;
     if (!is_change(event) && !only_turns && at)
       curve_.events.push_back({event.monitor, "", 0, event.nonsmooth, at->point, index[event.after]});
   }

@@ -18,6 +18,7 @@
 // not followed, the way since the last response is gone again with more of them. If that does not tell whence
 // the peak came, the curve ends there and says so: it never jumps.
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/optimize/optimum.hpp>
 
 #include <functional>
@@ -42,10 +43,22 @@ struct OptimumPoint {
   bool minimum = true;        // false: a saddle; the second-order condition does not hold
 };
 
+/// Kinds of events of a curve of optima.
+namespace event_kinds {
+
+using observables::event_kinds::maximum;
+using observables::event_kinds::minimum;                       // of the amplitude over s
+inline constexpr const char* turning_point = "turning_point";  // in s
+inline constexpr const char* bound_reached = "bound_reached";  // the active set changes
+inline constexpr const char* bound_left = "bound_left";
+inline constexpr const char* peak_joins = "peak_joins";
+inline constexpr const char* peak_leaves = "peak_leaves";
+inline constexpr const char* peak_changes = "peak_changes";  // an active peak becomes one of another kind
+
+}  // namespace event_kinds
+
 struct OptimumEvent {
-  /// "minimum", "maximum": of the amplitude over s. "turning_point": in s. "bound_reached", "bound_left",
-  /// "peak_joins", "peak_leaves": of the active set. "peak_changes": the kind of an active peak.
-  std::string kind;
+  std::string kind;        // of event_kinds
   std::string parameter;   // of a bound
   double omega = 0;        // of the peak that joins, leaves or changes, rad/s
   bool nonsmooth = false;  // of a turning point: at another event, where the active set changes
@@ -65,15 +78,8 @@ struct OptimumCurveWork {
 struct OptimumCurve {
   /// complete: up to the upper end of the range. stopped: right as far as it goes.
   observables::Status status = observables::Status::failed;
-  /// reason: that of the first optimum where it is none, the name of a continuation::StopReason,
-  /// "objective_failed" where something threw (the progress callback, too), or
-  ///   other_peak   a response has a higher peak than those that are followed
-  ///   lost_peak    an active peak vanished, or sits at a kink of another kind, or the optimum jumps there
-  ///   turned_back  the curve left the range at its lower end, beyond a turning point
-  ///   flat         the highest peak ceases to depend on a parameter of the design
-  ///   no_exchange  no active set goes on where the last one ends
-  ///   no_progress  active sets follow one another at one place
-  ///   unbounded    a resonance grows without bound
+  /// reason: of reasons::of_optimum_curves, that of the first optimum where it is none, or that of the
+  /// continuation. objective_failed: something threw (the progress callback, too).
   observables::Stop stop;
   std::string along;
   Optimum start;  // the first optimum

@@ -26,7 +26,8 @@ observables::ResponseBranch branch_of(const OptimumCurveResult& result) {
 
 // What figure a kind of events is marked with; empty: none.
 std::string mark_of(const std::string& kind) {
-  return kind == "turning_point" ? "turn" : kind == "minimum" || kind == "maximum" ? kind : "";
+  if (kind == event_kinds::turning_point) return observables::event_kinds::turn;
+  return kind == event_kinds::minimum || kind == event_kinds::maximum ? kind : "";
 }
 
 results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResult& result) {

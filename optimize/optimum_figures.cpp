@@ -1,4 +1,5 @@
 // The figures of optima.
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/optimize/case_label.hpp>
 #include <arcslip/optimize/optimum_figures.hpp>
 #include <arcslip/results/text.hpp>
@@ -48,7 +49,8 @@ void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> re
     line.bands = bands(result->optimum);
     if (!line.label.empty()) continue;
     for (results::FigureMark& mark : line.marks)
-      if (mark.kind == "minimum") mark.label = value_label(scene, result->problem, mark.record[0]);
+      if (mark.kind == observables::event_kinds::minimum)
+        mark.label = value_label(scene, result->problem, mark.record[0]);
   }
 }
 
@@ -144,7 +146,8 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseL
     }
     if (std::isfinite(value)) curve.push_back(record(at, value));
   }
-  criterion.marks.push_back({"minimum", record(result.optimum.design[0], result.optimum.amplitude), best});
+  criterion.marks.push_back(
+      {observables::event_kinds::minimum, record(result.optimum.design[0], result.optimum.amplitude), best});
   criterion.bands = bands(result.optimum);
   for (results::FigureLine& line : data.lines) line.marks.clear();
   data.lines.push_back(std::move(criterion));

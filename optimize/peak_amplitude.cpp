@@ -1,5 +1,6 @@
 #include <arcslip/optimize/peak_amplitude.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/unbounded.hpp>
 #include <arcslip/optimize/follower.hpp>
 #include <arcslip/optimize/peak_unknowns.hpp>
@@ -112,7 +113,7 @@ PeakState PeakAmplitude::response(std::span<const double> design) {
   };
   found.peaks.push_back({PeakKind::lower_end, place(points.front())});
   for (const continuation::Event& event : traced.branch.events)
-    if (event.monitor == "peak")
+    if (event.monitor == observables::event_kinds::peak)
       found.peaks.push_back({event.nonsmooth ? PeakKind::kink : PeakKind::resonance, place(event.point)});
   if (found.complete) {
     found.upper_end = points.back().u;

@@ -1,39 +1,45 @@
 #include <arcslip/optimize/reason.hpp>
 
+#include <arcslip/optimize/reasons.hpp>
+
 #include <nlopt.h>
 
 namespace arcslip::optimize {
 
-const char* name(Reason reason) {
+std::string_view name(Reason reason) {
+  return reason_of(reason).code;
+}
+
+results::Reason reason_of(Reason reason) {
   switch (reason) {
     case Reason::converged:
-      return "converged";
+      return reasons::converged;
     case Reason::converged_value:
-      return "converged_value";
+      return reasons::converged_value;
     case Reason::converged_step:
-      return "converged_step";
+      return reasons::converged_step;
     case Reason::target:
-      return "target";
+      return reasons::target;
     case Reason::evaluation_limit:
-      return "evaluation_limit";
+      return reasons::evaluation_limit;
     case Reason::time_limit:
-      return "time_limit";
+      return reasons::time_limit;
     case Reason::user:
-      return "user";
+      return reasons::user;
     case Reason::rounding:
-      return "rounding";
+      return reasons::rounding;
     case Reason::objective_failed:
-      return "objective_failed";
+      return reasons::objective_failed;
     case Reason::not_finite:
-      return "not_finite";
+      return reasons::not_finite;
     case Reason::invalid_arguments:
-      return "invalid_arguments";
+      return reasons::invalid_arguments;
     case Reason::out_of_memory:
-      return "out_of_memory";
+      return reasons::out_of_memory;
     case Reason::failed:
-      return "failed";
+      break;
   }
-  return "failed";
+  return reasons::failed;
 }
 
 bool is_converged(Reason reason) {

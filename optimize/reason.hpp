@@ -1,6 +1,8 @@
 #pragma once
 // Why a minimisation ended.
 
+#include <string_view>
+
 namespace arcslip::optimize {
 
 /// Converged (the result is a minimum to the tolerances that were asked for):
@@ -40,7 +42,7 @@ enum class Reason {
 };
 
 /// "converged_value" and so on.
-const char* name(Reason reason);
+std::string_view name(Reason reason);
 
 /// True for the first group.
 bool is_converged(Reason reason);

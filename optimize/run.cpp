@@ -159,7 +159,8 @@ Result Run::result(int nlopt_result, const char* nlopt_message) const {
   r.evaluations = evaluations_;
   r.seconds = seconds();
   r.reason = interrupted_.value_or(reason_of(nlopt_result));
-  r.message = message(r, nlopt_message);
+  r.cause = cause(r, nlopt_message);
+  r.message = message(r);
   return r;
 }
 
@@ -170,43 +171,46 @@ std::string Run::blamed_name() const {
   return "the progress callback";
 }
 
-std::string Run::message(const Result& r, const char* nlopt_message) const {
-  const Tolerances& t = options_.tolerances;
-  const std::string& algorithm = options_.algorithm;
-  const std::string said = nlopt_message ? text(": ", nlopt_message) : "";
+std::string Run::message(const Result& r) const {
   const std::string excess = r.feasible ? "" : text(", where a constraint is exceeded by ", best_excess_);
   const std::string best = r.x.empty() ? "; no evaluation succeeded"
                                        : text("; the best value is ", r.value, " at ", text_of(r.x), excess);
-  const std::string after =
-      text(" after ", r.evaluations, r.evaluations == 1 ? " evaluation" : " evaluations", best);
+  if (r.reason == Reason::evaluation_limit) return r.cause + best;
+  return r.cause + text(" after ", r.evaluations, r.evaluations == 1 ? " evaluation" : " evaluations", best);
+}
+
+std::string Run::cause(const Result& r, const char* nlopt_message) const {
+  const Tolerances& t = options_.tolerances;
+  const std::string& algorithm = options_.algorithm;
+  const std::string said = nlopt_message ? text(": ", nlopt_message) : "";
   switch (r.reason) {
     case Reason::converged:
-      return algorithm + " found a minimum" + after;
+      return algorithm + " found a minimum";
     case Reason::converged_value:
-      return "a step changed the value by less than " + tolerance(t.f_relative, t.f_absolute) + after;
+      return "a step changed the value by less than " + tolerance(t.f_relative, t.f_absolute);
     case Reason::converged_step:
-      return "a step changed the variables by less than " + tolerance(t.x_relative, t.x_absolute) + after;
+      return "a step changed the variables by less than " + tolerance(t.x_relative, t.x_absolute);
     case Reason::target:
-      return text("the value reached the target ", options_.target, after);
+      return text("the value reached the target ", options_.target);
     case Reason::evaluation_limit:
-      return text("the limit of ", options_.evaluations, " evaluations was reached", best);
+      return text("the limit of ", options_.evaluations, " evaluations was reached");
     case Reason::time_limit:
-      return text("the limit of ", options_.seconds, " s was reached at ", r.seconds, " s", after);
+      return text("the limit of ", options_.seconds, " s was reached at ", r.seconds, " s");
     case Reason::user:
-      return "the progress callback stopped the run" + after;
+      return "the progress callback stopped the run";
     case Reason::rounding:
-      return "rounding errors left no progress" + after;
+      return "rounding errors left no progress";
     case Reason::objective_failed:
-      return blamed_name() + " threw \"" + what(thrown_) + "\"" + after;
+      return blamed_name() + " threw \"" + what(thrown_) + "\"";
     case Reason::not_finite:
       return (odd_entry_ ? text("entry ", *odd_entry_, " of the gradient of ") : "") + blamed_name() +
-             text(" is ", odd_) + after;
+             text(" is ", odd_);
     case Reason::invalid_arguments:
-      return "NLopt refused to run " + algorithm + said + after;
+      return "NLopt refused to run " + algorithm + said;
     case Reason::out_of_memory:
-      return algorithm + " found no memory" + after;
+      return algorithm + " found no memory";
     case Reason::failed:
-      return algorithm + " gave up" + said + after;
+      return algorithm + " gave up" + said;
   }
   return "";
 }

@@ -33,7 +33,8 @@ class Run {
   void interrupt(Reason reason, std::size_t blamed = 0) noexcept;
   double seconds() const noexcept;
   std::string blamed_name() const;
-  std::string message(const Result& r, const char* nlopt_message) const;
+  std::string cause(const Result& r, const char* nlopt_message) const;
+  std::string message(const Result& r) const;
 
   const Problem& problem_;
   const Options& options_;

@@ -1,5 +1,6 @@
 // Whether what a search has come to is a minimum, and where it goes on if not.
 
+#include <arcslip/optimize/reasons.hpp>
 #include <arcslip/optimize/search.hpp>
 #include <arcslip/optimize/text.hpp>
 
@@ -33,7 +34,7 @@ constexpr std::array ladder = {"LD_CCSAQ", "LD_SLSQP", "LN_COBYLA", "LD_SLSQP"};
 
 bool Search::goes_on() {
   if (stood_ && result_.status == Status::failed && best().value == stood_->first &&
-      result_.stop.reason != name(Reason::objective_failed))
+      result_.stop.reason != reasons::objective_failed)
     std::tie(result_.status, result_.stop) = stood_->second;  // it led to nothing
   stood_.reset();
   if (result_.status == Status::complete && interrupted()) return false;
@@ -43,11 +44,11 @@ bool Search::goes_on() {
     if (find_feasible() || look_elsewhere()) return true;
     if (interrupted()) return false;
     result_.status = Status::stopped;
-    result_.stop.reason = "infeasible";
+    result_.stop.reason = reasons::infeasible;
     result_.stop.message = "no design that keeps within the limits was found: " + result_.stop.message;
     return false;
   }
-  if (result_.stop.reason == "flat") return false;
+  if (result_.stop.reason == reasons::flat) return false;
   if (!stand_at_best()) return false;
   if (const Balance left = balance_here(); !is_stationary(left)) return refine(left);
   if (look_elsewhere()) return true;
@@ -90,7 +91,7 @@ bool Search::refine(const Balance& left) {
   if (look_elsewhere()) return true;
   if (interrupted()) return false;
   result_.status = Status::stopped;
-  result_.stop.reason = "not_stationary";
+  result_.stop.reason = reasons::not_stationary;
   result_.stop.message = text("no algorithm came to a minimum: d ln A / d ln p left is ", left.stationarity,
                               " (at most ", most_stationarity, "), complementarity ", left.complementarity,
                               " (at most ", most_complementarity, ")", after()) +
@@ -227,7 +228,7 @@ bool Search::passed_lower() {
   if (best().excess > 0 || !(best().value < (1 - gain) * value)) return false;
   if (restarts_++ == most_restarts) {
     result_.status = Status::stopped;
-    result_.stop.reason = "lower_beside";
+    result_.stop.reason = reasons::lower_beside;
     result_.stop.message = text("there was a lower design beside each of ", most_restarts, " minima");
     return false;
   }

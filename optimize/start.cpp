@@ -1,5 +1,7 @@
 #include <arcslip/optimize/start.hpp>
 
+#include <arcslip/optimize/reasons.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,13 +27,13 @@ Fault fault(Trials& trials) {
   const Cases& cases = trials.cases();
   for (std::size_t c = 0; c < cases.size(); ++c) {
     const PeakState& state = cases.state(c);
-    if (state.unbounded) return {"unbounded", trials.where(c) + state.message};
+    if (state.unbounded) return {reasons::unbounded, trials.where(c) + state.message};
     if (state.peaks.empty())
-      return {"no_response", trials.where(c) + "no response was found there: " + state.message};
+      return {reasons::no_response, trials.where(c) + "no response was found there: " + state.message};
   }
   for (std::size_t g = 0; g < cases.groups(); ++g)
     if (!is_flat(cases, cases.highest_of(g))) return {};
-  return {"flat", "no friction element slips there, so that the amplitude stays as it is"};
+  return {reasons::flat, "no friction element slips there, so that the amplitude stays as it is"};
 }
 
 }  // namespace
@@ -44,7 +46,7 @@ Start find_start(Trials& trials, const std::vector<double>& given, std::vector<s
     trials.evaluate(start.design, attempt >= 0);
     const Fault here = fault(trials);
     if (attempt < 0) start.fault = here;
-    if (here.reason.empty()) {
+    if (here.reason.code.empty()) {
       if (attempt >= 0)
         notes.push_back("the start " + space.text(given) + " was moved to " + space.text(start.design) +
                         ": " + start.fault.message);

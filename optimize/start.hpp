@@ -2,16 +2,18 @@
 // Where a search begins. Not installed.
 
 #include <arcslip/optimize/trials.hpp>
+#include <arcslip/results/reason.hpp>
 
 #include <string>
 #include <vector>
 
 namespace arcslip::optimize {
 
-/// What is wrong with a design as a start. Reason "unbounded", "no_response" or "flat" (no parameter moves
-/// the amplitude, since no friction element slips); both empty: nothing.
+/// What is wrong with a design as a start. Reason unbounded, no_response or flat (no parameter moves the
+/// amplitude, since no friction element slips); none: nothing.
 struct Fault {
-  std::string reason, message;
+  results::Reason reason;
+  std::string message;
 };
 
 struct Start {

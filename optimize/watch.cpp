@@ -1,6 +1,6 @@
 #include <arcslip/optimize/watch.hpp>
 
-#include <arcslip/optimize/reason.hpp>
+#include <arcslip/optimize/reasons.hpp>
 #include <arcslip/optimize/text.hpp>
 
 namespace arcslip::optimize {
@@ -15,7 +15,7 @@ bool Watch::go_on() {
   if (ask_ && !ask_()) {
     stop();
   } else if (limit_ > 0 && seconds() >= limit_) {
-    reason_ = name(Reason::time_limit);
+    reason_ = reasons::time_limit;
     stopped_phase_ = phase_;
     stopped_at_ = seconds();
   }
@@ -28,7 +28,7 @@ bool Watch::go_on_within() {
 
 void Watch::stop() {
   if (stopped()) return;
-  reason_ = name(Reason::user);
+  reason_ = reasons::user;
   stopped_phase_ = phase_;
   stopped_at_ = seconds();
 }
@@ -36,11 +36,11 @@ void Watch::stop() {
 observables::Stop Watch::why() const {
   observables::Stop stop;
   stop.reason = reason_;
-  if (reason_ == name(Reason::time_limit)) {
+  if (reason_ == reasons::time_limit) {
     stop.value = stopped_at_;
     stop.limit = limit_;
     stop.message = text("the limit of ", limit_, " s was reached at ", stopped_at_, " s in ", stopped_phase_);
-  } else if (!reason_.empty()) {
+  } else if (stopped()) {
     stop.message = text("it was interrupted in ", stopped_phase_);
   }
   return stop;

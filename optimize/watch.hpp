@@ -28,8 +28,8 @@ class Watch {
   /// As if the user had said so.
   void stop();
 
-  bool stopped() const { return !reason_.empty(); }
-  /// What stops it, with the phase; an empty reason: nothing.
+  bool stopped() const { return !reason_.code.empty(); }
+  /// What stops it, with the phase; without a reason: nothing.
   observables::Stop why() const;
 
   /// What is done, in words for people: "the search".
@@ -41,7 +41,7 @@ class Watch {
  private:
   double limit_;
   std::function<bool()> ask_;
-  std::string reason_{};
+  results::Reason reason_{};
   const char* phase_ = "the search";
   const char* stopped_phase_ = "";
   double stopped_at_ = 0;

@@ -1,5 +1,8 @@
 #include <arcslip/observables/curve_parts.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/reasons.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -34,22 +37,22 @@ CurveParts::CurveParts(bool peaks, scene::FrequencyUnit unit, OverParameter way)
 ResponseBranch CurveParts::failed(double over, const std::string& message) const {
   ResponseBranch result = described(*way_.model, way_.name);
   result.status = Status::failed;
-  result.stop = {name(StopReason::start_failed), over, 0, message};
+  result.stop = {reasons::start_failed, over, 0, message};
   return result;
 }
 
 ResponseBranch CurveParts::stopped(double over) const {
   ResponseBranch result = described(*way_.model, way_.name);
   result.status = Status::stopped;
-  result.stop = {name(StopReason::user), over, 0, "stopped by the caller before all curves were found"};
+  result.stop = {reasons::user, over, 0, "stopped by the caller before all curves were found"};
   return result;
 }
 
 // At a cusp a curve of folds turns in everything, and where a curve of peaks turns, dA/ds = dA/dp dp/ds is
 // zero: neither is an event of its own.
 bool CurveParts::belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const {
-  const char* first = peaks_ ? "fold" : "cusp";
-  return each.event.kind != first && each.event.kind != "corner" &&
+  const char* first = peaks_ ? event_kinds::fold : event_kinds::cusp;
+  return each.event.kind != first && each.event.kind != event_kinds::corner &&
          std::any_of(curve.events.begin(), curve.events.end(), [&](const auto& other) {
            const auto &a = other.event.point, &b = each.event.point;
            return other.event.kind == first && std::abs(a.omega - b.omega) <= same * a.omega &&
@@ -60,7 +63,7 @@ bool CurveParts::belongs_to_another(const SpecialCurve& curve, const SpecialCurv
 std::vector<double> CurveParts::turns(const SpecialCurve& curve) {
   std::vector<double> turns = curve.turns;
   for (const auto& each : curve.events)
-    if (each.event.kind == "fold") turns.push_back(each.arclength);
+    if (each.event.kind == event_kinds::fold) turns.push_back(each.arclength);
   std::sort(turns.begin(), turns.end());
   return turns;
 }
@@ -90,7 +93,7 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
     if (part.points.empty() || (peaks_ && others > peaks)) continue;
     for (const auto& each : curve.events) {
       if (each.arclength < begin || each.arclength > end || belongs_to_another(curve, each)) continue;
-      const bool extreme = each.event.kind == "minimum" || each.event.kind == "maximum";
+      const bool extreme = each.event.kind == event_kinds::minimum || each.event.kind == event_kinds::maximum;
       if (extreme && !departs(course, each.arclength, each.event.point.amplitude)) continue;
       part.events.push_back(each.event);
       if (peaks_ && each.arclength == begin) {
@@ -144,34 +147,34 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
   if (has_points && end.vanishes) {
     status = Status::complete;
     return {
-        "fold", end.over, end.over,
+        reasons::fold, end.over, end.over,
         (peaks_ ? "the peak meets a minimum of the amplitude over the frequency, and there is none beyond "
                 : "the fold meets another at a corner of the response, and there is none beyond ") +
             where};
   }
   if (!end.unbounded.empty()) {
     status = Status::complete;
-    return {"unbounded", end.over, end.over,
+    return {reasons::unbounded, end.over, end.over,
             "the " + what_ + " grows without bound near " + where + ", and beyond " + end.unbounded};
   }
   if (end.closed) {
     status = Status::complete;
-    return {name(StopReason::closed), end.over, end.over, "the curve is closed: it came back to " + where};
+    return {reasons::closed, end.over, end.over, "the curve is closed: it came back to " + where};
   }
   if (end.left_window) {
     status = Status::complete;
-    return {name(StopReason::boundary), end.over, way_.to,
+    return {reasons::boundary, end.over, way_.to,
             "the " + what_ + " leaves the window at " + frequency_text(end.x[end.x.size() - 1], unit_) +
                 ", at " + where};
   }
   if (has_points && end.goes_on) {
     status = Status::complete;
-    return {"corner", end.over, end.over,
+    return {reasons::corner, end.over, end.over,
             "the " + what_ + " comes to a corner of the response at " + where +
                 ", from which another curve goes on"};
   }
   status = status_of(end.stop.reason);
-  Stop stop{name(end.stop.reason), end.stop.value, end.stop.limit, end.stop.message};
+  Stop stop{reason_of(end.stop.reason), end.stop.value, end.stop.limit, end.stop.message};
   if (end.stop.reason == StopReason::boundary) {
     stop.limit = begin == way_.to ? way_.from : way_.to;
     stop.message = (stop.value != begin  ? "reached the end of the range at "

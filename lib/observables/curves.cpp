@@ -1,6 +1,8 @@
 #include <arcslip/observables/curves.hpp>
 
 #include <arcslip/observables/curve_parts.hpp>
+#include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/special_curve.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
@@ -60,7 +62,7 @@ class Curves {
     for (const Found& found : found_)
       for (auto& part : reported(found)) branches.push_back(std::move(part));
     if (stopped_) {
-      if (branches.empty() || branches.back().stop.reason != name(StopReason::user))
+      if (branches.empty() || branches.back().stop.reason != reasons::user)
         branches.push_back(parts_.stopped(way_.value(looked_at_.back())));
       return branches;
     }
@@ -102,8 +104,8 @@ class Curves {
   void look_at(double share) {
     looked_at_.push_back(share);
     const double over = way_.value(share);
-    const SpecialPoints response =
-        special_points(way_, over, window_, peaks_ ? "peak" : "fold", [this] { return go_on(); });
+    const SpecialPoints response = special_points(
+        way_, over, window_, peaks_ ? event_kinds::peak : event_kinds::fold, [this] { return go_on(); });
     if (stopped_) return;
     for (const SpecialPoint& start : response.points) {
       follow(start, share);
@@ -246,8 +248,8 @@ class Curves {
   static std::vector<Monitor> peak_monitors(const std::shared_ptr<CurveSection>& section) {
     const auto slope = [section](const Accepted& now) { return section->amplitude_slope(now); };
     const auto amplitude = [section](const Accepted&) { return section->last_amplitude(); };
-    std::vector<Monitor> monitors{{"minimum", slope, Crossing::rising, amplitude},
-                                  {"maximum", slope, Crossing::falling, amplitude}};
+    std::vector<Monitor> monitors{{event_kinds::minimum, slope, Crossing::rising, amplitude},
+                                  {event_kinds::maximum, slope, Crossing::falling, amplitude}};
     monitors.front().chord_tolerance = chord;
     for (Monitor& monitor : monitors)
       monitor.divides_at_kinks = false;  // a curve ends at a kink, see corners
@@ -258,7 +260,7 @@ class Curves {
   static std::vector<Monitor> turn_monitors(Eigen::Index n) {
     const auto slope = [n](const Accepted& now) { return now.tangent[n]; };
     const auto frequency = [n](const Accepted& now) { return now.u[n]; };
-    Monitor turn{"turn", slope, Crossing::any, frequency};
+    Monitor turn{event_kinds::turn, slope, Crossing::any, frequency};
     turn.divides_at_kinks = false;
     return {turn};
   }

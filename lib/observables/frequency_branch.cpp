@@ -32,11 +32,10 @@ std::string doubt_of_rounding(const model::Model& model, const Vector& p,
 }
 
 void speak_of_scene(const model::Model& model, const Vector& p, continuation::Branch& branch) {
-  std::string& message = branch.stop.message;
-  if (const auto doubt = message.find("; the Jacobian"); doubt != std::string::npos) message.erase(doubt);
   using continuation::StopReason;
   if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
-  if (const std::string apart = model::stiffness_apart(model, p); !apart.empty()) message += "; " + apart;
+  if (const std::string apart = model::stiffness_apart(model, p); !apart.empty())
+    branch.stop.message += "; " + apart;
 }
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,

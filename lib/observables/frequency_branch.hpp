@@ -42,9 +42,8 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
 std::string doubt_of_rounding(const model::Model& model, const continuation::Vector& p,
                               const continuation::Counts& counts);
 
-/// For the user of a scene, to whom the Jacobian is nothing: where it fails its check, F is rounding there,
-/// and the message says which stiffnesses lie too far apart in its place, as wherever a branch ended for
-/// that.
+/// For the user of a scene: the message of a branch that ended early also says which stiffnesses lie too far
+/// apart, if any do. Of the Jacobian it does not speak, which scenes are traced without a check of.
 void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Branch& branch);
 
 /// Called at each point (event: null) and each event; false stops.

@@ -1,6 +1,8 @@
 #include <arcslip/observables/frequency_response.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
@@ -33,7 +35,7 @@ class Sweep {
     double from = lower_;
     for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
       branches.push_back(trace_from(from));
-      if (branches.back().stop.reason != "unbounded" || !(far_side_ < upper_)) break;
+      if (branches.back().stop.reason != reasons::unbounded || !(far_side_ < upper_)) break;
       from = far_side_;
     }
     return branches;
@@ -97,7 +99,7 @@ class Sweep {
       return;
     }
     result.status = status_of(branch.stop.reason);
-    result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
+    result.stop = {reason_of(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
     if (branch.stop.reason == StopReason::start_failed) {
       result.stop.value = from / unit_;
       result.stop.limit = 0;
@@ -129,10 +131,10 @@ class Sweep {
                      const std::vector<std::pair<double, double>>& course) {
     const double omega = course.back().first;
     result.status = Status::complete;
-    result.stop = {"unbounded", growth.dissipation, growth.input,
+    result.stop = {reasons::unbounded, growth.dissipation, growth.input,
                    growth.message + ", near " + with_unit(omega)};
     ResponseEvent peak;
-    peak.kind = "peak";
+    peak.kind = event_kinds::peak;
     peak.point.omega = omega;
     peak.point.unbounded = true;
     peak.after = result.points.empty() ? 0 : result.points.size() - 1;

@@ -1,6 +1,7 @@
 #include <arcslip/observables/observe.hpp>
 
 #include <arcslip/observables/energies.hpp>
+#include <arcslip/observables/event_kinds.hpp>
 
 #include <cmath>
 #include <complex>
@@ -119,7 +120,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
 
 continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
   continuation::Monitor monitor{
-      "peak", [observer](const continuation::Accepted& now) { return observer->amplitude_slope(now); },
+      event_kinds::peak,
+      [observer](const continuation::Accepted& now) { return observer->amplitude_slope(now); },
       continuation::Crossing::falling,
       [observer](const continuation::Accepted&) { return observer->last_amplitude(); }};
   // Sampled friction has a kink wherever a sample begins or ceases to slip.

@@ -1,6 +1,8 @@
 #include <arcslip/observables/curves.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/over_parameter.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
@@ -68,7 +70,7 @@ class Traces {
     }
     // A branch that came back is whole where others tell what lies beyond.
     for (ResponseBranch& branch : branches)
-      if (reached && branch.stop.reason == name(StopReason::boundary)) branch.status = Status::complete;
+      if (reached && branch.stop.reason == reasons::boundary) branch.status = Status::complete;
     return branches;
   }
 
@@ -83,14 +85,14 @@ class Traces {
   ResponseBranch stopped() const {
     ResponseBranch result = described(*way_.model, way_.name);
     result.status = Status::stopped;
-    result.stop = {name(StopReason::user), way_.from, way_.to, "stopped by the caller"};
+    result.stop = {reasons::user, way_.from, way_.to, "stopped by the caller"};
     return result;
   }
 
   ResponseBranch failed(const std::string& what, const std::string& why) const {
     ResponseBranch result = described(*way_.model, way_.name);
     result.status = Status::failed;
-    result.stop = {name(StopReason::start_failed), way_.from, 0,
+    result.stop = {reasons::start_failed, way_.from, 0,
                    what + " at " + way_.name + " = " + text(way_.from) + " and " +
                        frequency_text(omega_, unit_) + ": " + why};
     return result;
@@ -123,11 +125,12 @@ class Traces {
     options.go_on = [this] { return go_on(); };
     auto branch = continuation::trace(
         problem, {u, p, way_.index, way_.direction()}, options,
-        {extreme_monitor("maximum", Crossing::falling, observer),
-         extreme_monitor("minimum", Crossing::rising, observer), continuation::fold_monitor()},
+        {extreme_monitor(event_kinds::maximum, Crossing::falling, observer),
+         extreme_monitor(event_kinds::minimum, Crossing::rising, observer), continuation::fold_monitor()},
         record);
     for (std::size_t i = at.size(); i-- > 0;)
-      if (result.events[i].kind != "fold" && !departs(course, at[i], result.events[i].point.amplitude))
+      if (result.events[i].kind != event_kinds::fold &&
+          !departs(course, at[i], result.events[i].point.amplitude))
         result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
     speak_of_scene(*way_.model, p, branch);
     finish(result, branch, doubt_of_rounding(*way_.model, p, branch.counts));
@@ -139,7 +142,7 @@ class Traces {
 
   void finish(ResponseBranch& result, const continuation::Branch& branch, const std::string& doubt) const {
     result.status = status_of(branch.stop.reason);
-    result.stop = {name(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
+    result.stop = {reason_of(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
     if (branch.stop.reason != StopReason::boundary) return;
     result.stop.limit = way_.to;
     if (branch.stop.value == way_.to) {
@@ -151,7 +154,7 @@ class Traces {
     result.status = Status::stopped;
     double farthest = way_.from;
     for (const auto& event : result.events)
-      if (event.kind == "fold" && way_.direction() * (event.point.over - farthest) > 0)
+      if (event.kind == event_kinds::fold && way_.direction() * (event.point.over - farthest) > 0)
         farthest = event.point.over;
     result.stop.message = "turned back at " + way_.name + " = " + text(farthest) +
                           " and left the range where it began, at " + text(way_.from);

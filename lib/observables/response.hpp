@@ -1,6 +1,8 @@
 #pragma once
 // What an engineer reads off a branch of periodic responses, as plain data.
 
+#include <arcslip/results/reason.hpp>
+
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -98,7 +100,7 @@ struct ResponsePoint {
 };
 
 struct ResponseEvent {
-  std::string kind;        // "peak", "fold"; over a parameter "minimum", "maximum", "cusp", "turn", "corner"
+  std::string kind;        // of event_kinds (event_kinds.hpp)
   bool nonsmooth = false;  // at a kink of the branch
   bool located = true;     // false: the corrector failed at it; the point is the nearest one of the branch
   ResponsePoint point;
@@ -106,7 +108,7 @@ struct ResponseEvent {
 };
 
 struct Stop {
-  std::string reason;           // name of the StopReason
+  results::Reason reason;       // reasons.hpp
   double value = 0, limit = 0;  // the numbers that decided it
   std::string message;          // one sentence for people
 };

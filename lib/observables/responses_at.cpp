@@ -1,6 +1,7 @@
 #include <arcslip/observables/responses_at.hpp>
 
 #include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
@@ -11,7 +12,6 @@
 namespace arcslip::observables {
 namespace {
 
-using continuation::StopReason;
 using continuation::Vector;
 
 constexpr double search_ratio = 4;  // of frequencies: the window in which other responses are looked for
@@ -56,12 +56,12 @@ class Points {
 
   std::vector<PointResponse> run() {
     const ResponsesAt found = responses_at(model_, omega_, [this] { return go_on(); });
-    if (stopped_) return {ended(Status::stopped, "user", "stopped by the caller")};
+    if (stopped_) return {ended(Status::stopped, reasons::user, "stopped by the caller")};
     if (!found.unbounded.empty())
-      return {
-          ended(Status::failed, "unbounded", "no response is bounded " + place() + ": " + found.unbounded)};
+      return {ended(Status::failed, reasons::unbounded,
+                    "no response is bounded " + place() + ": " + found.unbounded)};
     if (found.u.empty())
-      return {ended(Status::failed, name(StopReason::start_failed),
+      return {ended(Status::failed, reasons::start_failed,
                     "no periodic response was found " + place() + ": " + found.failure)};
     std::vector<PointResponse> all;
     for (const Vector& u : found.u) all.push_back(at(found.problem, u));
@@ -76,7 +76,7 @@ class Points {
 
   std::string place() const { return "at " + frequency_text(omega_, scene_.frequency_unit); }
 
-  PointResponse ended(Status status, const std::string& reason, const std::string& message) const {
+  PointResponse ended(Status status, const results::Reason& reason, const std::string& message) const {
     const ResponseBranch description = described(*model_);
     PointResponse result;
     result.status = status;
@@ -102,12 +102,12 @@ class Points {
                               point = observer.observe(now, HeldBy::parameter, true);
                               return false;
                             });
-    PointResponse result = ended(Status::complete, "solved", "the response was found " + place());
+    PointResponse result = ended(Status::complete, reasons::solved, "the response was found " + place());
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
     if (!point) {
       result.status = Status::failed;
-      result.stop.reason = name(branch.stop.reason);
+      result.stop.reason = reason_of(branch.stop.reason);
       result.stop.message = branch.stop.message;
       return result;
     }

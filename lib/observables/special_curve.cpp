@@ -1,5 +1,6 @@
 #include <arcslip/observables/special_curve.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
@@ -18,7 +19,6 @@ using continuation::Vector;
 constexpr double grown = 1e5;   // |u| in scales: where it is asked whether a response just ahead is unbounded
 constexpr double ahead = 1e-2;  // of the parameter
 constexpr const char* window_event = "window";
-constexpr const char* fold_event = "fold";
 constexpr const char* stick_event = "stick";  // the slope vanishes on this side of a corner
 constexpr const char* slip_event = "slip";
 constexpr int most_parts = 64;
@@ -38,12 +38,12 @@ Monitor window_monitor(const FrequencyWindow& window, Eigen::Index n) {
 }  // namespace
 
 SpecialKind peak_kind(const std::shared_ptr<const hbm::HbmProblem>& problem) {
-  return {"peak", amplitude_quantity(problem), true};
+  return {event_kinds::peak, amplitude_quantity(problem), true};
 }
 
 SpecialKind fold_kind() {
   SpecialKind kind;
-  kind.event = "fold";
+  kind.event = event_kinds::fold;
   kind.quantity.gradient = [](continuation::Evaluator&, continuation::In, continuation::In,
                               continuation::Out dq) { dq.setZero(); };
   kind.quantity.parameter_derivative = [](continuation::Evaluator&, continuation::In, continuation::In,
@@ -100,7 +100,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     const bool passes = leaves ? by == stick_event || by == slip_event
                                : !at.corner && branch.stop.reason == StopReason::step_too_small;
     end.left_window = by == window_event;
-    end.vanishes = by == fold_event;
+    end.vanishes = by == event_kinds::fold;
     if (!passes) break;
     Place place{end.x, end.over, end.direction, at.corner};
     if (place.corner) place.corner = at_angles(*place.corner, last.u);
@@ -108,7 +108,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     if (!next && kind_.maximum && is_surpassed(place)) end.vanishes = true;
     if (!next && !end.vanishes) next = seen_beyond(place);
     if (!next) break;
-    result_.events.push_back({arclength_, {"corner", true, true, result_.points.back().point}});
+    result_.events.push_back({arclength_, {event_kinds::corner, true, true, result_.points.back().point}});
     if (next->direction != place.direction) result_.turns.push_back(arclength_);
     at = *next;
   }
@@ -143,9 +143,10 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
   bool first = begin > 0;  // of a further part: its first point is where the part before ended
   const auto record = [&](const Accepted& now, const continuation::Event* event) {
     const double arclength = begin + now.arclength;
-    const bool terminal = event && (event->monitor == window_event || event->monitor == stick_event ||
-                                    event->monitor == slip_event || (corner && event->monitor == fold_event));
-    if (event && (!terminal || event->monitor == fold_event)) {
+    const bool terminal =
+        event && (event->monitor == window_event || event->monitor == stick_event ||
+                  event->monitor == slip_event || (corner && event->monitor == event_kinds::fold));
+    if (event && (!terminal || event->monitor == event_kinds::fold)) {
       result_.events.push_back(
           {arclength, {event->monitor, event->nonsmooth, event->located, section_->observe(now, held)}});
       return true;

@@ -24,7 +24,7 @@ namespace arcslip::observables {
 
 /// What is special, as the zero of the slope of a quantity along the branch over the frequency.
 struct SpecialKind {
-  std::string event;  // "peak" or "fold"
+  std::string event;  // event_kinds::peak or fold
   continuation::Quantity quantity;
   bool maximum = false;  // of the quantity only
 };
@@ -58,9 +58,8 @@ struct SpecialCurve {
     ResponseEvent event;
   };
   std::vector<At> points;
-  std::vector<EventAt>
-      events;                 // those of the monitors, and "corner" where the curve comes to one or leaves it
-  std::vector<double> turns;  // arclengths of the corners where the parameter turns back
+  std::vector<EventAt> events;  // those of the monitors, and corner where the curve comes to one or leaves it
+  std::vector<double> turns;    // arclengths of the corners where the parameter turns back
   std::optional<SpecialCurveEnd> begin;  // none: at the end of the range where it was found
   SpecialCurveEnd end;
   continuation::Counts counts;

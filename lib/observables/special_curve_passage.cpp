@@ -1,5 +1,6 @@
 // Where a curve of special points has been before: which point lies on it, and whether it comes back.
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/special_curve.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
@@ -97,7 +98,8 @@ bool SpecialCurveTracer::comes_back(std::size_t begin) {
   auto& points = result_.points;
   std::vector<std::size_t> turns;
   for (const auto& each : result_.events)
-    if (each.event.kind == "fold" && begin < points.size() && each.arclength > points[begin].arclength)
+    if (each.event.kind == event_kinds::fold && begin < points.size() &&
+        each.arclength > points[begin].arclength)
       turns.push_back(static_cast<std::size_t>(
           std::upper_bound(points.begin(), points.end(), each.arclength,
                            [](double s, const auto& at) { return s < at.arclength; }) -

@@ -23,7 +23,8 @@ struct SpecialPoints {
   std::string failure;    // why the branch does not cover the window: points may be missing
 };
 
-/// Those in a frequency window where the parameter has the value `over`. kind: the event, "peak" or "fold".
+/// Those in a frequency window where the parameter has the value `over`. kind: the event, event_kinds::peak
+/// or fold.
 /// What is found until go_on says false is right, but not all.
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
                              const std::string& kind, const GoOn& go_on = {});

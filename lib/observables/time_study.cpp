@@ -1,6 +1,7 @@
 #include <arcslip/observables/time_study.hpp>
 
 #include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 #include <arcslip/time/from_harmonics.hpp>
@@ -28,15 +29,17 @@ constexpr long affordable_events = 100'000,
 /// One way to integrate one equation of motion.
 struct Integrator {
   std::string name;
-  State start;                   // at rest, as it takes it
-  std::string failure, message;  // why it cannot begin
+  bool between_events = false;  // else in steps
+  State start;                  // at rest, as it takes it
+  results::Reason failure;      // why it cannot begin; none: it can
+  std::string message;
   time::Periods periods{};
   time::Flow flow{};
 };
 
 Integrator newmark(const EquationOfMotion& equation, long steps, const std::function<bool()>& stop) {
   const auto method = std::make_shared<time::Newmark>(equation, steps);
-  Integrator result{"newmark", {}, {}, {}};
+  Integrator result{"newmark", false, {}, {}, {}};
   std::tie(result.failure, result.message) = time::failure_of(method->begin(time::at_rest(equation)), 0);
   result.start = method->state();
   result.periods = [method, stop](const State& start, long count, bool with_history) {
@@ -46,19 +49,19 @@ Integrator newmark(const EquationOfMotion& equation, long steps, const std::func
   return result;
 }
 
-std::string failure_name(time::EndReason reason) {
+results::Reason failure_of(time::EndReason reason) {
   switch (reason) {
     case time::EndReason::reached:
-      return "";
+      return {};
     case time::EndReason::events:
     case time::EndReason::pieces:
-      return "event_limit";
+      return reasons::event_limit;
     case time::EndReason::stopped:
-      return "user";
+      return reasons::user;
     case time::EndReason::not_finite:
       break;
   }
-  return "not_finite";
+  return reasons::not_finite;
 }
 
 PeriodMotion periods_between_events(time::EventDriven& events, const State& start, long count, long steps,
@@ -69,7 +72,7 @@ PeriodMotion periods_between_events(time::EventDriven& events, const State& star
     instants.push_back(std::min(static_cast<double>(k) * (period / static_cast<double>(steps)), end));
   time::EventDrivenMotion motion = events.integrate(start, 0, end, instants);
   PeriodMotion result;
-  result.failure = failure_name(motion.reason);
+  result.failure = failure_of(motion.reason);
   result.message = motion.message;
   result.time = motion.time;
   result.end = motion.end;
@@ -84,7 +87,7 @@ PeriodMotion periods_between_events(time::EventDriven& events, const State& star
 /// Throws NotPiecewiseLinear, SingularMass.
 Integrator event_driven(const EquationOfMotion& equation, long steps, const time::EventLimits& limits) {
   const auto events = std::make_shared<time::EventDriven>(equation, limits);
-  Integrator result{"event-driven", time::at_rest(equation), {}, {}};
+  Integrator result{"event-driven", true, time::at_rest(equation), {}, {}};
   result.periods = [events, steps](const State& start, long count, bool with_history) {
     return periods_between_events(*events, start, count, steps, with_history);
   };
@@ -124,7 +127,7 @@ class InTime {
     Integrator integrator;
     if (!choose(integrator)) return;
     motion_.integrator = integrator.name;
-    if (!integrator.failure.empty()) {
+    if (!integrator.failure.code.empty()) {
       end(Status::failed, integrator.failure, 0, 0, integrator.message);
     } else if (settings_.method == TimeMethod::shooting || settings_.method == TimeMethod::newmark_shooting) {
       shoot(integrator);
@@ -135,7 +138,8 @@ class InTime {
 
   bool choose(Integrator& integrator) {
     const bool may_differ = settings_.method == TimeMethod::shooting;
-    std::string reason, message;
+    results::Reason reason;
+    std::string message;
     if (may_differ || settings_.method == TimeMethod::event_driven) {
       try {
         time::EventLimits limits;
@@ -144,10 +148,10 @@ class InTime {
         integrator = event_driven(equation_, settings_.steps, limits);
         return true;
       } catch (const time::NotPiecewiseLinear& error) {
-        reason = "not_piecewise_linear";
+        reason = reasons::not_piecewise_linear;
         message = error.what();
       } catch (const time::SingularMass& error) {
-        reason = "massless";
+        reason = reasons::massless;
         message = error.what();
       }
       if (!may_differ) {
@@ -180,7 +184,7 @@ class InTime {
   void shoot(const Integrator& integrator) {
     if (const auto growth = unbounded_resonance(model_, motion_.omega); growth.unbounded) {
       record(integrator.periods(integrator.start, settings_.recorded, true));
-      return end(Status::failed, "unbounded", 0, 0, growth.message);
+      return end(Status::failed, reasons::unbounded, 0, 0, growth.message);
     }
     const time::Flow flow = [&](const State& start) {
       if (go_on(progress_.points + 1)) return integrator.flow(start);
@@ -191,7 +195,7 @@ class InTime {
     time::ShootingOptions options;
     options.tolerance = settings_.tolerance;
     time::ShootingResult found = time::shoot(flow, integrator.start, motion_.omega, options);
-    const bool may_differ = settings_.method == TimeMethod::shooting && motion_.integrator == "event-driven";
+    const bool may_differ = settings_.method == TimeMethod::shooting && integrator.between_events;
     if (found.reason == time::ShootingEnd::flow_failed && may_differ && !stopped_) {
       motion_.integrator = "newmark";
       return shoot(in_steps());
@@ -205,14 +209,15 @@ class InTime {
     }
     motion_.periods = progress_.points + settings_.recorded;
     motion_.change = found.correction;
-    if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
+    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped as asked");
     record(integrator.periods(found.start, settings_.recorded, true));
-    if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
+    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped as asked");
     if (!found.converged())
-      return end(Status::failed, "no_periodic_motion", found.correction, settings_.tolerance, found.message);
+      return end(Status::failed, reasons::no_periodic_motion, found.correction, settings_.tolerance,
+                 found.message);
     motion_.multipliers = found.multipliers;
     motion_.stable = found.stable;
-    end(Status::complete, "periodic", found.correction, settings_.tolerance, found.message);
+    end(Status::complete, reasons::periodic, found.correction, settings_.tolerance, found.message);
   }
 
   std::optional<State> from_harmonic_balance() {
@@ -232,16 +237,17 @@ class InTime {
                         [&](long periods, double change) { return go_on(periods, change); });
     motion_.periods = found.periods + settings_.recorded;
     motion_.change = found.change;
-    const std::string failure = found.motion.failure, message = found.motion.message;
+    const results::Reason failure = found.motion.failure;
+    const std::string message = found.motion.message;
     record(std::move(found.motion));
     std::ostringstream text;
     text.precision(3);
-    if (stopped_) return end(Status::stopped, "user", 0, 0, "stopped as asked");
+    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped as asked");
     switch (found.reason) {
       case time::TransientEnd::steady:
         text << "steady after " << found.periods << " periods: the state changes by " << found.change
              << " of its size in a period";
-        return end(Status::complete, "steady", found.change, settings_.tolerance, text.str());
+        return end(Status::complete, reasons::steady, found.change, settings_.tolerance, text.str());
       case time::TransientEnd::failed:
         return end(Status::failed, failure, 0, 0, message);
       case time::TransientEnd::period_limit:
@@ -249,12 +255,12 @@ class InTime {
         break;
     }
     if (settings_.tolerance == 0)
-      return end(Status::complete, "periods", settings_.periods, settings_.periods,
+      return end(Status::complete, reasons::periods, settings_.periods, settings_.periods,
                  "integrated over as many periods as were asked for");
     text << "after " << settings_.periods << " periods (the limit) the state still changes by "
          << found.change
          << " of its size in a period: allow more periods, or find the periodic motion by shooting";
-    end(Status::stopped, "period_limit", found.change, settings_.tolerance, text.str());
+    end(Status::stopped, reasons::period_limit, found.change, settings_.tolerance, text.str());
   }
 
   void record(PeriodMotion&& motion) {
@@ -271,7 +277,8 @@ class InTime {
     motion_.history = std::move(motion.history);
   }
 
-  void end(Status status, const std::string& reason, double value, double limit, const std::string& message) {
+  void end(Status status, const results::Reason& reason, double value, double limit,
+           const std::string& message) {
     motion_.status = status;
     motion_.stop = {reason, value, limit, message};
   }

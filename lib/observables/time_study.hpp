@@ -19,9 +19,7 @@ struct TimeSettings {
 /// One motion. Shooting of a piecewise linear scene in which the integration between events ends
 /// early, as with more than a million pieces in a period, goes over to Newmark's steps. It begins at rest and
 /// goes on from harmonic balance where that leads nowhere. A motion that ends early is kept, with its reason.
-/// Reasons: "periodic", "steady", "periods" (as many as
-/// were asked for), "period_limit", "user", and of failures "unbounded", "no_periodic_motion",
-/// "no_convergence", "singular", "not_finite", "not_piecewise_linear", "massless", "event_limit".
+/// Reasons: reasons::of_motions.
 Motion motion_in_time(const scene::Scene& scene, const TimeSettings& settings,
                       const ProgressCallback& progress = {});
 

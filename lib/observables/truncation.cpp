@@ -3,6 +3,7 @@
 #include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/neighbours.hpp>
 #include <arcslip/hbm/slip_corner.hpp>
+#include <arcslip/observables/event_kinds.hpp>
 
 #include <algorithm>
 #include <array>
@@ -31,7 +32,7 @@ elements::Harmonics widened(const elements::Harmonics& h) {
 
 HeldBy held_by(const continuation::Event& event) {
   if (event.nonsmooth) return HeldBy::corner;
-  return event.monitor == "fold" ? HeldBy::fold : HeldBy::extremum;
+  return event.monitor == event_kinds::fold ? HeldBy::fold : HeldBy::extremum;
 }
 
 double highest_natural_frequency(const model::Model& model, const Vector& p,

@@ -19,7 +19,7 @@ struct Progress {
   double best = std::numeric_limits<double>::quiet_NaN();  // of a search: the least amplitude so far, m
 };
 
-/// Returns false to stop: what is under way then ends with reason "user".
+/// Returns false to stop: what is under way then ends with reasons::user.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 }  // namespace arcslip::results

@@ -109,7 +109,8 @@ results::Header header(const scene::Scene& scene) {
 }
 
 results::Object stop(const observables::Stop& stop) {
-  return {{"reason", stop.reason}, {"value", stop.value}, {"limit", stop.limit}, {"message", stop.message}};
+  return {
+      {"reason", stop.reason.code}, {"value", stop.value}, {"limit", stop.limit}, {"message", stop.message}};
 }
 
 results::Object solver(const observables::SolverSummary& summary) {

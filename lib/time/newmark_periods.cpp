@@ -104,21 +104,21 @@ class Observation {
 
 }  // namespace
 
-std::pair<std::string, std::string> failure_of(Solved solved, double time) {
+std::pair<results::Reason, std::string> failure_of(Solved solved, double time) {
   std::ostringstream at;
   at << " in the step after t = " << time << " s";
   switch (solved) {
     case Solved::yes:
       break;
     case Solved::no:
-      return {"no_convergence",
+      return {reasons::no_convergence,
               "Newton's method found no balance of forces" + at.str() + ": take more steps per period"};
     case Solved::singular:
-      return {"singular",
+      return {reasons::singular,
               "nothing holds the structure" + at.str() +
                   ": a degree of freedom without mass needs a spring or damper besides elements that slip"};
     case Solved::not_finite:
-      return {"not_finite", "the motion grew beyond all numbers" + at.str()};
+      return {reasons::not_finite, "the motion grew beyond all numbers" + at.str()};
   }
   return {};
 }
@@ -142,7 +142,7 @@ PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, b
   PeriodMotion result = observation.end();
   std::tie(result.failure, result.message) = failure_of(solved, newmark.time());
   if (stopped) {
-    result.failure = "user";
+    result.failure = reasons::user;
     result.message = "stopped as asked";
   }
   return result;

@@ -12,7 +12,7 @@ namespace arcslip::time {
 /// constant acceleration, x = x0 + v0 s + (v1 - v0) s^2/(2 h), from which the amplitude is taken; a slider
 /// that goes the part dz of dq in a step sticks for the share 1 - dz/dq of it. first: at the beginning of a
 /// motion, where massless motions are put in their place. stop: asked now and then; true ends with the
-/// failure "user".
+/// failure user.
 PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, bool with_history, bool first,
                              const std::function<bool()>& stop = {});
 
@@ -20,7 +20,7 @@ PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, b
 /// exact but where a slider begins to slip just at the end of a step.
 PeriodMap newmark_map(Newmark& newmark, const State& start);
 
-/// "" and why a step was not solved.
-std::pair<std::string, std::string> failure_of(Solved solved, double time);
+/// Why a step was not solved, and in one sentence; Solved::yes: none.
+std::pair<results::Reason, std::string> failure_of(Solved solved, double time);
 
 }  // namespace arcslip::time

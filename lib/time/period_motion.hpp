@@ -3,6 +3,7 @@
 // goes on period by period until it is steady.
 
 #include <arcslip/time/motion.hpp>
+#include <arcslip/time/reasons.hpp>
 
 #include <functional>
 #include <optional>
@@ -18,16 +19,16 @@ struct FrictionShare {
 };
 
 struct PeriodMotion {
-  std::string failure;  // "" or why the interval was not reached: "no_convergence", "not_finite", ...
-  std::string message;  // the same in one sentence
-  double time = 0;      // s, where it ended
+  results::Reason failure;  // why the interval was not reached, of time::reasons; none: it was
+  std::string message;      // the same in one sentence
+  double time = 0;          // s, where it ended
   State end;
   double amplitude = 0;  // max |x| of the response, m
   EnergyBalance energy;
   std::vector<FrictionShare> friction;  // of each friction element, in the order of the elements
   History history;                      // empty where it was not asked for; both ends included
 
-  bool done() const { return failure.empty(); }
+  bool done() const { return failure.code.empty(); }
 };
 
 /// Integrates over `count` periods from a state that stands at the beginning of one; t = 0 is that of the

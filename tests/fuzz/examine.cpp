@@ -5,6 +5,7 @@
 
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/results/csv_writer.hpp>
@@ -199,9 +200,9 @@ class Examination {
 
   void check_branch(const observables::ResponseBranch& branch) {
     check_message(branch.stop.message);
-    if (branch.stop.reason.empty()) fault("a branch ends without a reason");
+    if (branch.stop.reason.code.empty()) fault("a branch ends without a reason");
     if (branch.status == observables::Status::complete && branch.points.empty() &&
-        branch.stop.reason != "unbounded")
+        branch.stop.reason != observables::reasons::unbounded)
       fault("a complete branch has no points: " + branch.stop.message);
     for (const auto& point : branch.points) check_point(point);
     for (const auto& event : branch.events) check_point(event.point);

@@ -7,6 +7,7 @@
 #include "optimize/optima.hpp"
 
 #include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/optimize/reasons.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -210,13 +211,13 @@ TEST_CASE(
     const auto problem = over_load_in({{{{"force.cosine", 0.5}}, 3}, {{{"force.cosine", 1}}, 1}}, criterion);
     const auto few = optimize::optimum(s, problem, {.evaluations = 3});
     CHECK(few.status == observables::Status::stopped);
-    CHECK(few.stop.reason == "evaluation_limit");
+    CHECK(few.stop.reason == optimize::reasons::evaluation_limit);
     CHECK(few.evaluations.size() <= 4);
     CHECK(few.cases.size() == 2);
     CHECK_FALSE(few.certificate);
     const auto late = optimize::optimum(s, problem, {.seconds = 1e-6});
     CHECK(late.status == observables::Status::stopped);
-    CHECK(late.stop.reason == "time_limit");
+    CHECK(late.stop.reason == optimize::reasons::time_limit);
     REQUIRE(late.design.size() == 1);
     CHECK(late.design[0] == Approx(50).epsilon(1e-12));
     for (const bool throws : {false, true}) {
@@ -228,7 +229,7 @@ TEST_CASE(
         return false;
       };
       const auto found = optimize::optimum(s, problem, options);
-      CHECK(found.stop.reason == (throws ? "objective_failed" : "user"));
+      CHECK(found.stop.reason == (throws ? optimize::reasons::objective_failed : optimize::reasons::user));
       CHECK(found.status == (throws ? observables::Status::failed : observables::Status::stopped));
       CHECK(found.cases.size() == 2);
     }
@@ -241,7 +242,7 @@ TEST_CASE("where nothing slips in the highest case the criterion is flat, and th
   problem.over = {{"damper.normal_load", 400, 1000}};
   const auto found = optimize::optimum(s, problem);
   CHECK(found.status == observables::Status::complete);
-  CHECK(found.stop.reason == "flat");
+  CHECK(found.stop.reason == optimize::reasons::flat);
 }
 
 TEST_CASE("a start that is unbounded in one case is moved to where it is finite in all, and that is said") {
@@ -259,7 +260,7 @@ TEST_CASE("bounds within which a case is unbounded everywhere leave nothing to b
   const auto found =
       optimize::optimum(closed_form(), over_load_in({{{{"force.cosine", 1}}}, {{{"force.cosine", 100}}}}));
   CHECK(found.status == observables::Status::failed);
-  CHECK(found.stop.reason == "unbounded");
+  CHECK(found.stop.reason == optimize::reasons::unbounded);
   CHECK(found.stop.message.find("no start was found within the bounds") == 0);
   CHECK(found.cases.empty());
 }

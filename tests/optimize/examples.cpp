@@ -6,6 +6,7 @@
 #include "optimize/optima.hpp"
 
 #include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/optimize/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -391,6 +392,6 @@ TEST_CASE("what a callback throws while other starts are looked at ends the sear
     stops.progress = [&](const optimize::OptimumProgress& now) {
       return now.evaluations < static_cast<int>(last);
     };
-    CHECK(optimize::optimum(s, problem, stops).stop.reason == "user");
+    CHECK(optimize::optimum(s, problem, stops).stop.reason == optimize::reasons::user);
   }
 }

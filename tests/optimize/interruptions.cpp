@@ -6,6 +6,7 @@
 
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/optimize/reasons.hpp>
 
 #include <map>
 #include <set>
@@ -52,7 +53,7 @@ TEST_CASE("every phase of a search asks at every step of a response, and a stop 
       CAPTURE(last);
       CHECK(after == 0);  // never asked again
       CHECK(result.status == observables::Status::stopped);
-      CHECK(result.stop.reason == "user");
+      CHECK(result.stop.reason == optimize::reasons::user);
       CHECK(contains(result.stop.message, "it was interrupted in " + phase));
     }
   }
@@ -100,7 +101,7 @@ TEST_CASE("a stop before the first design leaves none, and its reason") {
   const auto found = optimize::optimum(scenes::paper(7, 3), {{{"damper.normal_load", 0.1, 100}}, 18, 22},
                                        {.go_on = [] { return false; }});
   CHECK(found.status == observables::Status::stopped);
-  CHECK(found.stop.reason == "user");
+  CHECK(found.stop.reason == optimize::reasons::user);
 }
 
 TEST_CASE("curves of peaks ask while they look for their beginnings, and are stopped there") {
@@ -112,7 +113,7 @@ TEST_CASE("curves of peaks ask while they look for their beginnings, and are sto
   REQUIRE(branches.size() == 1);
   CHECK(asked == 5);
   CHECK(branches[0].status == observables::Status::stopped);
-  CHECK(branches[0].stop.reason == "user");
+  CHECK(branches[0].stop.reason == optimize::reasons::user);
 }
 
 TEST_CASE("a curve of optima asks in the search for its first point, and along it") {
@@ -126,7 +127,7 @@ TEST_CASE("a curve of optima asks in the search for its first point, and along i
                                                {"force.cosine", 0.5, 2}, options);
     CAPTURE(along, curve.stop.message);
     CHECK(curve.status == observables::Status::stopped);
-    CHECK(curve.stop.reason == "user");
+    CHECK(curve.stop.reason == optimize::reasons::user);
     CHECK(points == (along ? 3 : 0));
   }
 }

@@ -5,6 +5,8 @@
 #include "optimize/limited_searches.hpp"
 #include "optimize/random_limits.hpp"
 
+#include <arcslip/optimize/reasons.hpp>
+
 #include <chrono>
 #include <iostream>
 
@@ -54,7 +56,7 @@ TEST_CASE("where the best design is beside others with one more peak, beyond a l
   CAPTURE(found.stop.message);
   REQUIRE(found.feasible);
   CHECK(random_limits::excess(search, found.design) <= 1e-6);
-  CHECK(found.stop.reason == "not_stationary");
+  CHECK(found.stop.reason == optimize::reasons::not_stationary);
   const std::string beyond = "a peak comes up at which a limit is exceeded by 0.00380";
   CHECK(found.stop.message.find(beyond) != std::string::npos);
 }

@@ -6,6 +6,7 @@
 #include "optimize/random_limits.hpp"
 
 #include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -192,7 +193,7 @@ TEST_CASE("where no sample keeps the limits, another algorithm may come to a des
 TEST_CASE("where an algorithm asks for a design that is no number, the search goes on with others") {
   const auto search = random_limits::make(366);  // SLSQP does: a limit is exceeded where nothing moves it
   const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
-  CHECK(found.stop.reason == "infeasible");
+  CHECK(found.stop.reason == optimize::reasons::infeasible);
   CHECK(found.evaluations.size() > 50);
   for (const optimize::Evaluation& each : found.evaluations) CHECK(std::isfinite(each.design[0]));
 }
@@ -202,7 +203,7 @@ TEST_CASE("an algorithm that gains nothing over many designs is ended, and other
   const auto found =
       optimize::optimum(search.scene, search.problem, {.certificate = false, .elsewhere = false});
   CAPTURE(found.stop.message);
-  CHECK(found.stop.reason != "evaluation_limit");
+  CHECK(found.stop.reason != optimize::reasons::evaluation_limit);
   CHECK(found.evaluations.size() < 1000);
   REQUIRE(found.feasible);
   CHECK(found.amplitude < 1.7e-4);

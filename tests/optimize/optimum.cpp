@@ -7,6 +7,7 @@
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -153,7 +154,7 @@ TEST_CASE("a start at which the resonance is unbounded is moved to where it is f
 TEST_CASE("bounds within the unbounded region leave nothing to be found, and that is said") {
   const Optimum found = optimize::optimum(paper(1, 1, 0), {{{"damper.normal_load", 0.1, 1.5}}, 18, 22});
   CHECK(found.status == observables::Status::failed);
-  CHECK(found.stop.reason == "unbounded");
+  CHECK(found.stop.reason == optimize::reasons::unbounded);
   CHECK(contains(found.stop.message, "no start was found within the bounds; at damper.normal_load = 1: "));
   CHECK(contains(found.stop.message, "the resonance is unbounded"));
   CHECK_FALSE(found.certificate);
@@ -169,7 +170,7 @@ TEST_CASE("a start at which nothing slips is moved to where something does, and 
 TEST_CASE("bounds that hold no slip leave the amplitude flat, and that is said") {
   const Optimum found = optimize::optimum(paper(7, 450), {{{"damper.normal_load", 400, 1000}}, 18, 22});
   CHECK(found.status == observables::Status::complete);
-  CHECK(found.stop.reason == "flat");
+  CHECK(found.stop.reason == optimize::reasons::flat);
   CHECK(found.stop.message ==
         "the amplitude does not depend on damper.normal_load within the bounds: no friction element slips at "
         "the peak");
@@ -211,7 +212,7 @@ TEST_CASE("limits that no design keeps are no complete answer, and the one neare
   limited.linear_limits = {{.weights = {{"damper.normal_load", 1}}, .at_most = 0.05}};
   const Optimum found = optimize::optimum(paper(3, 3), limited);
   CHECK(found.status == observables::Status::stopped);
-  CHECK(found.stop.reason == "infeasible");
+  CHECK(found.stop.reason == optimize::reasons::infeasible);
   CHECK(contains(found.stop.message, "no design that keeps within the limits was found"));
   CHECK_FALSE(found.feasible);
   CHECK_FALSE(found.certificate);
@@ -233,7 +234,7 @@ TEST_CASE("no design is a complete answer if the response of another is far belo
   // Below 0.85 N the resonance comes back into the window: the amplitude jumps from 0.52 mm to 1.75 mm.
   CHECK(found.amplitude < most);
   CHECK(found.status == observables::Status::stopped);
-  CHECK(found.stop.reason == "not_stationary");
+  CHECK(found.stop.reason == optimize::reasons::not_stationary);
   CHECK(contains(found.stop.message, "a little beyond, at damper.normal_load = 0.84"));
   CHECK(contains(found.stop.message, "the amplitude jumps to 0.00175"));
   auto notes = found.notes;
@@ -270,7 +271,7 @@ TEST_CASE("every algorithm that was asked for comes to the same optimum") {
 TEST_CASE("a time limit of a millisecond leaves the best so far, and its reason") {
   const Optimum found = optimize::optimum(paper(55, 10), over_load, {.seconds = 1e-3});
   CHECK(found.status == observables::Status::stopped);
-  CHECK(found.stop.reason == "time_limit");
+  CHECK(found.stop.reason == optimize::reasons::time_limit);
   CHECK(contains(found.stop.message, "the limit of "));
   CHECK(contains(found.stop.message, "; the least amplitude is 0.0016858"));
   CHECK(found.design == std::vector<double>{10});
@@ -280,7 +281,7 @@ TEST_CASE("a time limit of a millisecond leaves the best so far, and its reason"
 TEST_CASE("limits of evaluations and the callback stop the search with the best so far") {
   const Optimum few = optimize::optimum(paper(3, 50), over_load, {.evaluations = 3});
   CHECK(few.status == observables::Status::stopped);
-  CHECK(few.stop.reason == "evaluation_limit");
+  CHECK(few.stop.reason == optimize::reasons::evaluation_limit);
   CHECK(few.evaluations.size() <= 4);
   CHECK(std::isfinite(few.amplitude));
 
@@ -289,7 +290,7 @@ TEST_CASE("limits of evaluations and the callback stop the search with the best 
   options.progress = [&](const optimize::OptimumProgress& p) { return ++calls < 4 && p.best <= p.amplitude; };
   const Optimum stopped = optimize::optimum(paper(3, 3), over_load, options);
   CHECK(stopped.status == observables::Status::stopped);
-  CHECK(stopped.stop.reason == "user");
+  CHECK(stopped.stop.reason == optimize::reasons::user);
 }
 
 TEST_CASE("an exception in the middle ends the search with its text and the best so far") {
@@ -302,7 +303,7 @@ TEST_CASE("an exception in the middle ends the search with its text and the best
     };
     const Optimum found = optimize::optimum(paper(3, 50), over_load, options);
     CHECK(found.status == observables::Status::failed);
-    CHECK(found.stop.reason == "objective_failed");
+    CHECK(found.stop.reason == optimize::reasons::objective_failed);
     CHECK(contains(found.stop.message, "threw \"disk full\" after "));
     CHECK(contains(found.stop.message, "; the least amplitude is "));
     CHECK(std::isfinite(found.amplitude));

@@ -8,6 +8,7 @@
 
 #include <arcslip/optimize/optimum_figures.hpp>
 #include <arcslip/optimize/optimum_results.hpp>
+#include <arcslip/optimize/reasons.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
@@ -65,7 +66,7 @@ Optimum search(scene::Scene s, const OptimumProblem& problem, const std::string&
 void check_complete(const OptimumCurve& curve) {
   INFO(curve.stop.message);
   CHECK(curve.status == observables::Status::complete);
-  CHECK(curve.stop.reason == "boundary");
+  CHECK(curve.stop.reason == reasons::boundary);
   REQUIRE(curve.points.size() >= 2);
 }
 
@@ -327,13 +328,13 @@ TEST_CASE("a start that is flat, unbounded or without response says so") {
   const OptimumCurve flat =
       optimum_curve(paper(7, 0.134), {{{"damper.normal_load", 200, 300}}, 18, 22}, {"force.cosine", 0.1, 1});
   CHECK(flat.status == observables::Status::failed);
-  CHECK(flat.stop.reason == "flat");
+  CHECK(flat.stop.reason == reasons::flat);
   CHECK(flat.points.empty());
   CHECK(contains(flat.stop.message, "at force.cosine = 0.1"));
   const OptimumCurve infinite =
       optimum_curve(paper(1, 0), {{{"damper.normal_load", 0.1, 1}}, 18, 22}, {"force.cosine", 1, 10});
   CHECK(infinite.status == observables::Status::failed);
-  CHECK(infinite.stop.reason == "unbounded");
+  CHECK(infinite.stop.reason == reasons::unbounded);
 }
 
 TEST_CASE("the curve ends where the response becomes unbounded, and says where") {
@@ -353,7 +354,7 @@ TEST_CASE("a bound that is left where everything comes to stick is no end withou
   const OptimumProblem wide{{{"damper.normal_load", 0.5, 60}}, 15, 60};
   const OptimumCurve curve = optimum_curve(levels(), wide, {"damper.friction_coefficient", 0.01, 50});
   INFO(curve.stop.message);
-  CHECK(curve.stop.reason != "objective_failed");
+  CHECK(curve.stop.reason != reasons::objective_failed);
   // Only mu Fn counts: its optimum within the bounds, and what is nearest to it elsewhere.
   const Optimum best = optimum(levels(), wide, {.certificate = false});
   const double slip = 0.5 * best.design[0];
@@ -370,17 +371,17 @@ TEST_CASE("a progress callback, a number of points and a time limit stop the cur
   options.progress = [&](const OptimumPoint&) { return ++told < 5; };
   const OptimumCurve by_user = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
   CHECK(by_user.status == observables::Status::stopped);
-  CHECK(by_user.stop.reason == "user");
+  CHECK(by_user.stop.reason == reasons::user);
   CHECK(told == 5);
   OptimumCurveOptions few;
   few.points = 7;
   const OptimumCurve by_points = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, few);
-  CHECK(by_points.stop.reason == "point_limit");
+  CHECK(by_points.stop.reason == reasons::point_limit);
   CHECK(by_points.points.size() == 7);
   OptimumCurveOptions brief;
   brief.seconds = 1e-3;
   const OptimumCurve by_time = optimum_curve(paper(55, 0.134), paper_load, {"force.cosine", 0.1, 10}, brief);
-  CHECK(by_time.stop.reason == "time_limit");
+  CHECK(by_time.stop.reason == reasons::time_limit);
   CHECK(by_time.status == observables::Status::stopped);
 }
 
@@ -393,7 +394,7 @@ TEST_CASE("what the progress callback throws ends the curve with what there is")
   };
   const OptimumCurve curve = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
   CHECK(curve.status == observables::Status::failed);
-  CHECK(curve.stop.reason == "objective_failed");
+  CHECK(curve.stop.reason == reasons::objective_failed);
   CHECK(contains(curve.stop.message, "it threw \"enough\""));
   CHECK(curve.points.size() == 4);
 }
@@ -477,7 +478,7 @@ TEST_CASE("a peak without weight beside one that does not depend on the design h
   const OptimumProblem problem{{{"d1.normal_load", 0.05, 50}}, 8, 45};
   const OptimumCurve curve = optimum_curve(two_dampers(2), problem, {"d2.stiffness", 200, 8000});
   INFO(curve.stop.message);
-  CHECK(curve.stop.reason == "flat");
+  CHECK(curve.stop.reason == reasons::flat);
   REQUIRE_FALSE(curve.points.empty());
   const OptimumPoint& last = curve.points.back();
   REQUIRE(last.peaks.size() == 2);
@@ -508,7 +509,7 @@ TEST_CASE("a curve of optima ends, and says so, where the highest peak ceases to
   const auto curve = optimum_curve(s, {{{"d1.normal_load", 0.05, 50}}, 8, 45}, {"d1.stiffness", 200, 8000});
   CHECK(curve.status == observables::Status::stopped);
   INFO(curve.stop.message);
-  CHECK(curve.stop.reason == "flat");
+  CHECK(curve.stop.reason == reasons::flat);
   CHECK(curve.stop.message.find("does not depend on d1.normal_load") != std::string::npos);
   REQUIRE_FALSE(curve.points.empty());
   const OptimumPoint& last = curve.points.back();

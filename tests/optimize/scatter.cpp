@@ -7,6 +7,7 @@
 #include "optimize/row.hpp"
 
 #include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +122,7 @@ TEST_CASE("a corner that is not looked at first is found: four parameters that s
 
   const Optimum one = optimize::optimum(closed_form(), problem, {.scatter_rounds = 1});
   CHECK(one.status == observables::Status::stopped);
-  CHECK(one.stop.reason == "scatter_limit");
+  CHECK(one.stop.reason == optimize::reasons::scatter_limit);
   CHECK(one.stop.message.find("the worst of what scatters was higher still after 1 rounds") == 0);
   CHECK_FALSE(one.certificate);
   // Its amplitude is the worst at its own design all the same.
@@ -196,7 +197,7 @@ TEST_CASE("the user and what is thrown end the search for the worst, too") {
       return false;
     };
     const Optimum found = optimize::optimum(tuned(), problem, options);
-    CHECK(found.stop.reason == (throws ? "objective_failed" : "user"));
+    CHECK(found.stop.reason == (throws ? optimize::reasons::objective_failed : optimize::reasons::user));
     CHECK(found.status == (throws ? observables::Status::failed : observables::Status::stopped));
     CHECK(found.design == whole.design);
     if (throws) CHECK(found.stop.message.find("disk full") != std::string::npos);

@@ -109,7 +109,7 @@ reference, with the relative tolerance of the test.
       {"what", "ends with", "finite peaks", "amplitude (m)", "tolerance", "truncation flagged", "outcome"});
   for (const auto& row : extremes::all()) {
     std::vector<std::string> reasons;
-    for (const auto& reason : row.reasons) reasons.push_back(literal(reason));
+    for (const auto& reason : row.reasons) reasons.push_back(literal(std::string(reason.code)));
     const bool tested = row.amplitude > 0;
     print_row({plain(row.name), joined(reasons, ", "), row.peaks < 0 ? "several" : std::to_string(row.peaks),
                tested ? number(row.amplitude, "%.10g") : "", tested ? number(row.tolerance, "%.0e") : "",

@@ -6,6 +6,7 @@
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/reasons.hpp>
 
 #include <cmath>
 
@@ -52,7 +53,7 @@ TEST_CASE("a mass whose mean only friction would hold is named, and what would h
   const auto branches = branches_of(held_by_friction());
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::failed);
-  CHECK(branches[0].stop.reason == "start_failed");
+  CHECK(branches[0].stop.reason == observables::reasons::start_failed);
   CHECK(branches[0].stop.value == 10);
   CHECK(says(branches[0], "no spring holds the mean position of \"b\""));
   CHECK(says(branches[0], "add a spring between it and the ground"));
@@ -83,7 +84,7 @@ TEST_CASE("two masses that only hold each other drift") {
   s.masses.push_back({"mc", &scene::mass_type, {{2, 1.0}}, {1e-3}});
   s.springs.push_back({"kbc", &scene::spring_type, {{1, 1.0}, {2, -1.0}}, {1e4}});
   const auto branches = branches_of(s);
-  CHECK(branches[0].stop.reason == "start_failed");
+  CHECK(branches[0].stop.reason == observables::reasons::start_failed);
   CHECK(says(branches[0], "holds the mean position of"));
 }
 
@@ -98,11 +99,11 @@ TEST_CASE("a window that begins on an unbounded resonance begins with its peak")
       CAPTURE(off, load);
       REQUIRE(branches.size() == 2);
       CHECK(branches[0].status == observables::Status::complete);
-      CHECK(branches[0].stop.reason == "unbounded");
+      CHECK(branches[0].stop.reason == observables::reasons::unbounded);
       REQUIRE(branches[0].events.size() == 1);
       CHECK(branches[0].events[0].point.unbounded);
       CHECK(reference::error(branches[0].events[0].point.omega / scenes::hertz, resonance) < 1e-7);
-      CHECK(branches[1].stop.reason == "boundary");
+      CHECK(branches[1].stop.reason == observables::reasons::boundary);
       CHECK(branches[1].events.empty());
     }
 }
@@ -138,7 +139,7 @@ TEST_CASE("a branch that turns back and leaves the window where it began has not
   REQUIRE(branches.size() == 1);
   const auto& branch = branches[0];
   CHECK(branch.status == observables::Status::stopped);
-  CHECK(branch.stop.reason == "boundary");
+  CHECK(branch.stop.reason == observables::reasons::boundary);
   CHECK(branch.stop.value == Approx(0.92));
   CHECK(branch.stop.limit == Approx(1.6));
   CHECK(says(branch, "turned back at 0.93657"));

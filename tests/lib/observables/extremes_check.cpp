@@ -4,6 +4,8 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/observables/reasons.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +24,8 @@ void check(const Extreme& extreme) {
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const auto& branch = branches[b];
     CHECK(branch.stop.reason == extreme.reasons[b]);
-    const bool complete = branch.stop.reason == "boundary" || branch.stop.reason == "unbounded";
+    const bool complete = branch.stop.reason == observables::reasons::boundary ||
+                          branch.stop.reason == observables::reasons::unbounded;
     CHECK(branch.status == (complete ? observables::Status::complete : observables::Status::failed));
     CHECK(branch.points.size() > 10);
     double last = -1;
@@ -51,7 +54,8 @@ void check(const Extreme& extreme) {
   }
   CHECK(branches.back().stop.message.find(extreme.message) != std::string::npos);
   if (extreme.peaks >= 0) CHECK(peaks == extreme.peaks);
-  CHECK(unbounded == std::count(extreme.reasons.begin(), extreme.reasons.end(), "unbounded"));
+  CHECK(unbounded ==
+        std::count(extreme.reasons.begin(), extreme.reasons.end(), observables::reasons::unbounded));
   if (extreme.amplitude > 0) {
     REQUIRE(highest);
     CHECK(std::abs(highest->amplitude / extreme.amplitude - 1) < extreme.tolerance);

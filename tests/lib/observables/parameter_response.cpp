@@ -6,6 +6,7 @@
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/reasons.hpp>
 
 #include <algorithm>
 
@@ -143,7 +144,7 @@ TEST_CASE("a branch over a parameter ends with the callback, and no other is beg
       });
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::stopped);
-  CHECK(branches[0].stop.reason == "user");
+  CHECK(branches[0].stop.reason == observables::reasons::user);
   CHECK(branches[0].points.size() == 5);
 }
 
@@ -166,7 +167,7 @@ TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each
     CHECK(here == last);  // never asked again
     REQUIRE(branches.size() == 1);
     CHECK(branches[0].status == observables::Status::stopped);
-    CHECK(branches[0].stop.reason == "user");
+    CHECK(branches[0].stop.reason == observables::reasons::user);
     CHECK(branches[0].points.empty() == (last <= before_points));
   }
 }
@@ -196,6 +197,6 @@ TEST_CASE("where the resonance is unbounded at the fixed frequency, a branch say
     "studies": [{"kind": "frf", "from": 0.2, "to": 3}]})");
   const auto branch = observables::parameter_response(s, over("d.normal_load", 1, 0.1, 3)).front();
   CHECK(branch.status == observables::Status::failed);
-  CHECK(branch.stop.reason == "start_failed");
+  CHECK(branch.stop.reason == observables::reasons::start_failed);
   CHECK(branch.stop.message.find("unbounded") != std::string::npos);
 }

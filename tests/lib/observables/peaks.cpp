@@ -7,6 +7,7 @@
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +120,7 @@ TEST_CASE("without damping the peaks go to infinity at Fn = pi f0/(4 mu), where 
   // At the beginning of the range the peak is unbounded: the curve comes from the other end.
   const ResponseBranch branch = paper_peaks(1, 0.5, 100, 0);
   CHECK(branch.status == observables::Status::complete);
-  CHECK(branch.stop.reason == "unbounded");
+  CHECK(branch.stop.reason == observables::reasons::unbounded);
   CHECK(branch.points.front().over == 100);
   CHECK(branch.points.back().over > pi / 2);
   CHECK(reference::error(branch.points.back().over, pi / 2) < 1e-4);
@@ -299,7 +300,7 @@ TEST_CASE("a peak that meets a minimum of the amplitude ends there, and the curv
   const CurveRange range = peaks_of(s, 0.1, 1);
   bool ended = false;
   for (const auto& curve : observables::resonance_peaks(s, range)) {
-    if (curve.stop.reason != "fold") continue;
+    if (curve.stop.reason != observables::reasons::fold) continue;
     ended = true;
     CHECK(curve.status == observables::Status::complete);
     REQUIRE_FALSE(events(curve, "fold").empty());
@@ -323,7 +324,7 @@ TEST_CASE("a peak that leaves the window of the frequency ends at its edge") {
   range.frequency_to = 20;
   const auto branch = observables::resonance_peaks(scenes::paper(15), range).front();
   CHECK(branch.status == observables::Status::complete);
-  CHECK(branch.stop.reason == "boundary");
+  CHECK(branch.stop.reason == observables::reasons::boundary);
   CHECK(reference::error(branch.points.back().omega, 20 * scenes::hertz) < 1e-11);
   CHECK(branch.points.back().over < 10);
 }
@@ -334,7 +335,7 @@ TEST_CASE("where there is no peak in the window, the study says so") {
   const auto branches = observables::resonance_peaks(scenes::paper(15), range);
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::failed);
-  CHECK(branches[0].stop.reason == "start_failed");
+  CHECK(branches[0].stop.reason == observables::reasons::start_failed);
   CHECK(branches[0].stop.message.find("no resonance peak was found at damper.normal_load = 0.1") == 0);
 }
 
@@ -347,7 +348,7 @@ TEST_CASE("a study of peaks ends with the callback, and no other curve is begun"
       [](const observables::Progress& progress) { return progress.points < 5; });
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::stopped);
-  CHECK(branches[0].stop.reason == "user");
+  CHECK(branches[0].stop.reason == observables::reasons::user);
   CHECK(branches[0].points.size() == 5);
 }
 
@@ -358,7 +359,7 @@ TEST_CASE(
   const CurveRange range = peaks_of(s, 1, 3);
   const auto branches = observables::resonance_peaks(s, range);
   const auto surpassed = std::find_if(branches.begin(), branches.end(), [](const ResponseBranch& branch) {
-    return branch.stop.reason == "fold" && events(branch, "fold").empty();
+    return branch.stop.reason == observables::reasons::fold && events(branch, "fold").empty();
   });
   REQUIRE(surpassed != branches.end());
   CHECK(surpassed->status == observables::Status::complete);

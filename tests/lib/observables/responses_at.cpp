@@ -2,6 +2,7 @@
 #include "catch.hpp"
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/catalogue.hpp>
@@ -109,13 +110,13 @@ TEST_CASE("no response, and why: it is unbounded, or nobody wanted it") {
   const auto none = at(undamped, resonance);
   REQUIRE(none.size() == 1);
   CHECK(none[0].status == Status::failed);
-  CHECK(none[0].stop.reason == "unbounded");
+  CHECK(none[0].stop.reason == observables::reasons::unbounded);
   CHECK(none[0].stop.message.find("no response is bounded at ") == 0);
   const auto stopped =
       observables::point_responses(scenes::paper(5, 3), {20}, [](const auto&) { return false; });
   REQUIRE(stopped.size() == 1);
   CHECK(stopped[0].status == Status::stopped);
-  CHECK(stopped[0].stop.reason == "user");
+  CHECK(stopped[0].stop.reason == observables::reasons::user);
   CHECK(stopped[0].history.angle.empty());
 }
 

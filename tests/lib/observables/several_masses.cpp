@@ -3,6 +3,8 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
+#include <arcslip/observables/reasons.hpp>
+
 #include <complex>
 
 using namespace arcslip;
@@ -86,6 +88,6 @@ TEST_CASE("the progress callback sees every point and stops the study") {
   REQUIRE(branches.size() == 2);
   CHECK(last == 1);
   CHECK(branches[1].status == observables::Status::stopped);
-  CHECK(branches[1].stop.reason == "user");
+  CHECK(branches[1].stop.reason == observables::reasons::user);
   CHECK(branches[1].points.size() == 10);
 }

@@ -12,6 +12,7 @@
 
 #include <arcslip/model/model.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/time_study.hpp>
 
 #include <algorithm>
@@ -103,7 +104,9 @@ bool same_ends(const invariances::Response& one, const invariances::Response& ot
 /// others above it are on another branch. Only cubic springs bend it over. In a window that begins lower it
 /// is the same one, and goes on below.
 bool turns_back(const scene::Scene& s, const observables::ResponseBranch& branch) {
-  if (!has_cubic_spring(s) || branch.stop.reason != "boundary" || branch.points.size() < 3) return false;
+  if (!has_cubic_spring(s) || branch.stop.reason != observables::reasons::boundary ||
+      branch.points.size() < 3)
+    return false;
   const auto& window = scenes::window(s);
   const double unit = scene::to_rad_per_s(s.frequency_unit), from = window.from * unit;
   if (branch.points.back().omega != from) return false;

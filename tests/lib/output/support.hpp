@@ -1,6 +1,7 @@
 #pragma once
 // Made-up results with numbers that are easy to find again, and a folder that goes away by itself.
 
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/catalogue.hpp>
@@ -84,7 +85,7 @@ inline arcslip::observables::ResponsePoint point(double hertz, double amplitude,
 /// A resonance at 1.5 Hz: five points and a peak between the second and the third.
 inline arcslip::observables::ResponseBranch branch(double normal_load = 3) {
   arcslip::observables::ResponseBranch branch;
-  branch.stop = {"boundary", 2, 2, "reached the end of the window at 2 Hz"};
+  branch.stop = {arcslip::observables::reasons::boundary, 2, 2, "reached the end of the window at 2 Hz"};
   branch.set = {{"damper.normal_load", normal_load}};
   branch.parameters = {{"m.value", 1.0}, {"k.value", 100.0}};
   branch.harmonics = {1, 3};
@@ -103,7 +104,7 @@ inline arcslip::observables::ResponseBranch peaks() {
     return result;
   };
   arcslip::observables::ResponseBranch branch;
-  branch.stop = {"boundary", 30, 30, "reached the end of the range at 30 N"};
+  branch.stop = {arcslip::observables::reasons::boundary, 30, 30, "reached the end of the range at 30 N"};
   branch.over = "damper.normal_load";
   branch.parameters = {{"m.value", 1.0}, {"k.value", 100.0}};
   branch.harmonics = {1, 3};

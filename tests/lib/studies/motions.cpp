@@ -1,6 +1,7 @@
 #include "catch.hpp"
 #include "lib/output/support.hpp"
 
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/gnuplot_script.hpp>
 #include <arcslip/results/csv_writer.hpp>
@@ -29,7 +30,7 @@ scene::Scene made_up_scene() {
 /// Three instants of a slider.
 Motion motion(double normal_load = 3) {
   Motion motion;
-  motion.stop = {"periodic", 1e-12, 1e-9, "relative correction 1e-12"};
+  motion.stop = {observables::reasons::periodic, 1e-12, 1e-9, "relative correction 1e-12"};
   motion.set = {{"damper.normal_load", normal_load}};
   motion.parameters = {{"m.value", 1.0}};
   motion.integrator = "event-driven";

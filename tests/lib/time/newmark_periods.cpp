@@ -108,7 +108,7 @@ TEST_CASE("a transient ends where it is steady, at its limit, or as asked, and r
   };
   const auto failed = transient(explode, at_rest(runaway), 1, {});
   CHECK(failed.reason == TransientEnd::failed);
-  CHECK(failed.motion.failure == "not_finite");
+  CHECK(failed.motion.failure == reasons::not_finite);
   CHECK(failed.motion.history.time.size() > 1);
   CHECK(failed.periods > 10);
 }

@@ -3,6 +3,7 @@
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/studies/study_of.hpp>
 
@@ -59,7 +60,7 @@ TEST_CASE("a study in time gives the exact motions of the paper's oscillator by 
     CAPTURE(hertz, load);
     const Motion motion = motion_in_time(paper(load), at(hertz));
     CHECK(motion.status == Status::complete);
-    CHECK(motion.stop.reason == "periodic");
+    CHECK(motion.stop.reason == observables::reasons::periodic);
     CHECK(motion.integrator == "event-driven");
     CHECK(reference::error(motion.amplitude, entry["amplitude"]) < 1e-10);
     CHECK(std::abs(motion.elements.at(0).stick_percent - entry["stick_percent"].get<double>()) < 1e-6);
@@ -79,8 +80,8 @@ TEST_CASE("shooting in Newmark's steps gives what Newmark's transient comes to")
     TimeSettings settings = at(20, TimeMethod::newmark);
     settings.tolerance = 1e-12;
     const Motion marched = motion_in_time(paper(load), settings);
-    CHECK(shot.stop.reason == "periodic");
-    CHECK(marched.stop.reason == "steady");
+    CHECK(shot.stop.reason == observables::reasons::periodic);
+    CHECK(marched.stop.reason == observables::reasons::steady);
     CHECK(reference::error(shot.amplitude, marched.amplitude) < 1e-10);
     CHECK(shot.periods < 40);
     CHECK(marched.periods > 100);
@@ -122,10 +123,10 @@ TEST_CASE("a massless degree of freedom with friction in time is that of harmoni
   }
   const Motion refused = motion_in_time(massless(0), at(1.4, TimeMethod::event_driven));
   CHECK(refused.status == Status::failed);
-  CHECK(refused.stop.reason == "massless");
+  CHECK(refused.stop.reason == observables::reasons::massless);
   CHECK(refused.stop.message.find("take the method newmark") != std::string::npos);
   const Motion cubic = motion_in_time(massless(0.7), at(1.4, TimeMethod::event_driven));
-  CHECK(cubic.stop.reason == "not_piecewise_linear");
+  CHECK(cubic.stop.reason == observables::reasons::not_piecewise_linear);
 }
 
 TEST_CASE("a contact too stiff for exact events is left to Newmark's steps") {
@@ -143,14 +144,14 @@ TEST_CASE("where no motion is bounded none is found, and that is said") {
   for (const auto method : {TimeMethod::shooting, TimeMethod::newmark_shooting}) {
     const Motion motion = motion_in_time(scene, at(resonance, method));
     CHECK(motion.status == Status::failed);
-    CHECK(motion.stop.reason == "unbounded");
+    CHECK(motion.stop.reason == observables::reasons::unbounded);
     CHECK_FALSE(motion.stop.message.empty());
     CHECK(motion.history.time.size() == 201);
   }
   scene::set(scene, "k.value", -20000);  // softer than its damper can hold
   const Motion runaway = motion_in_time(scene, at(20, TimeMethod::newmark));
   CHECK(runaway.status == Status::failed);
-  CHECK(runaway.stop.reason == "not_finite");
+  CHECK(runaway.stop.reason == observables::reasons::not_finite);
   CHECK(runaway.history.time.size() > 1);
 }
 
@@ -179,13 +180,13 @@ TEST_CASE("a study in time has a motion for each combination, and a stop keeps w
   REQUIRE(some.size() == 2);
   CHECK(some[0].status == Status::complete);
   CHECK(some[1].status == Status::stopped);
-  CHECK(some[1].stop.reason == "user");
+  CHECK(some[1].stop.reason == observables::reasons::user);
   CHECK(some[1].periods == 6);
   CHECK(told > 6);
   for (const auto method : {TimeMethod::shooting, TimeMethod::newmark_shooting, TimeMethod::event_driven}) {
     settings.method = method;
     const auto none = motions([](const observables::Progress&) { return false; });
     REQUIRE(none.size() == 1);
-    CHECK(none[0].stop.reason == "user");
+    CHECK(none[0].stop.reason == observables::reasons::user);
   }
 }

@@ -1,0 +1,17 @@
+#pragma once
+// The kinds of events of branches and curves, which are the names of the monitors that find them.
+
+#include <arcslip/continuation/monitor.hpp>
+#include <arcslip/continuation/stationary.hpp>
+
+namespace arcslip::observables::event_kinds {
+
+inline constexpr const char* peak = "peak";  // of the amplitude over the frequency
+inline constexpr const char* fold = continuation::fold_event;
+inline constexpr const char* minimum = "minimum";  // of the amplitude over a parameter
+inline constexpr const char* maximum = "maximum";
+inline constexpr const char* cusp = continuation::cusp_event;
+inline constexpr const char* turn = "turn";      // of a curve of folds in the frequency
+inline constexpr const char* corner = "corner";  // a curve comes to a corner of the response, or leaves it
+
+}  // namespace arcslip::observables::event_kinds
