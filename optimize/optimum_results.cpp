@@ -279,8 +279,8 @@ studies::Described<OptimumResult> described_optima(const scene::Scene& scene, co
             results::Result result{.schema = 0,
                                    .head = {each.study, each.kind, studies::named(scene, each.set)},
                                    .tables = {of_course->rows(each.optimum.evaluations)},
-                                   .end = {observables::name(each.status), studies::stop(each.stop),
-                                           facts(scene, each), doubt(each), text_of(scene, each)}};
+                                   .end = {each.status, studies::stop(each.stop), facts(scene, each),
+                                           doubt(each), text_of(scene, each)}};
             if (each.has_cases()) result.tables.push_back(of_cases->rows(each.optimum.cases));
             return result;
           }};
@@ -302,7 +302,7 @@ studies::Described<OptimumCurveResult> described_curves(const scene::Scene& scen
                 .schema = 0,
                 .head = {each.study, each.kind, studies::named(scene, each.set), {{"along", curve.along}}},
                 .tables = {of_points->rows(curve.points), of_events->rows(curve.events)},
-                .end = {observables::name(curve.status),
+                .end = {curve.status,
                         studies::stop(curve.stop),
                         {{"notes", texts(curve.notes)},
                          {"pieces", curve.work.pieces},

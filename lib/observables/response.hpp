@@ -116,10 +116,8 @@ struct Stop {
 /// complete: over the whole window, or up to an unbounded peak beyond which another branch goes on.
 /// stopped: right as far as it goes, but ended by the user, by a limit, or at the window's edge where it
 /// began. failed: it could not be begun or followed.
-enum class Status { complete, stopped, failed };
-
-/// "complete", "stopped" or "failed".
-const char* name(Status status);
+using results::name;
+using results::Status;
 
 struct SolverSummary {
   std::string linear_solver;  // "dense LU"

@@ -186,7 +186,7 @@ void CsvSummary::curve(const Head& head, std::size_t schema) {
 }
 
 void CsvSummary::end(const End& end) {
-  put("status", end.status);
+  put("status", name(end.status));
   put("stop.", end.stop);
   put("", end.facts);
 }

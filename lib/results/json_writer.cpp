@@ -264,7 +264,7 @@ void JsonWriter::end(const End& end) {
       out_ << ",\n" << json_quoted(schema_->tables[t].key) << (by_columns ? ": " : ": [");
     out_ << tables_[t]->rest();
   }
-  Object all{{"status", end.status}, {"stop", end.stop}};
+  Object all{{"status", name(end.status)}, {"stop", end.stop}};
   all.insert(all.end(), end.facts.begin(), end.facts.end());
   if (in_list_ == 1) beside_.clear();
   for (const Member& fact : all) {

@@ -1,5 +1,5 @@
 #pragma once
-// Why a computation ended, as a constant that has a code and an explanation.
+// How a computation ended, and why, as a constant that has a code and an explanation.
 
 #include <ostream>
 #include <string_view>
@@ -14,6 +14,14 @@ struct Reason {
   friend constexpr bool operator==(const Reason& a, const Reason& b) { return a.code == b.code; }
   friend std::ostream& operator<<(std::ostream& to, const Reason& reason) { return to << reason.code; }
 };
+
+/// How it ended: with all that was asked for, right as far as it goes, or without what was asked for.
+enum class Status { complete, stopped, failed };
+
+/// "complete", "stopped" or "failed".
+constexpr const char* name(Status status) {
+  return status == Status::complete ? "complete" : status == Status::stopped ? "stopped" : "failed";
+}
 
 namespace reasons {
 

@@ -10,6 +10,7 @@
 //     sink.curve(head, 0) ...
 //   sink.finish()
 
+#include <arcslip/results/reason.hpp>
 #include <arcslip/results/value.hpp>
 
 #include <cstddef>
@@ -87,7 +88,7 @@ struct Head {
 
 /// How it ended, and what is known of it then.
 struct End {
-  std::string status;
+  Status status = Status::complete;
   Object stop;  // "reason", "value", "limit", "message"
   Object facts{};
   std::string doubt{};  // why what is complete has fewer digits than it seems; empty: it has not

@@ -86,11 +86,11 @@ std::string part_and_status(const Results& results, std::size_t i) {
   const Schema& schema = results.schemas[result.schema];
   const std::string set = assignment(result.head.set);
   return schema.noun + " " + std::to_string(i + 1) + (set.empty() ? "" : " (" + set + ")") + " " +
-         result.end.status;
+         name(result.end.status);
 }
 
 bool is_complete(const Result& result) {
-  return result.end.status == "complete";
+  return result.end.status == Status::complete;
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ void TableWriter::end(const End& end) {
       line.push_back(number ? shortest(*number) : no_value);
     }
     line.insert(line.end(), row.begin(), row.end());
-    line.push_back(end.status);
+    line.emplace_back(name(end.status));
   }
 }
 

@@ -70,10 +70,7 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
   if (options.points) result.tables.push_back(tables.points.rows(branch.points));
   result.tables.resize(1);
   result.tables.push_back(tables.events.rows(branch.events));
-  result.end = {observables::name(branch.status),
-                stop(branch.stop),
-                {{"solver", solver(branch.solver)}},
-                doubt_of(branch)};
+  result.end = {branch.status, stop(branch.stop), {{"solver", solver(branch.solver)}}, doubt_of(branch)};
   return result;
 }
 

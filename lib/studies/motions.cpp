@@ -99,14 +99,13 @@ Described<Motion> motions(const scene::Scene& scene, const RunOptions& options) 
             std::vector<Instant> instants;
             for (std::size_t i = 0; points && i < motion.history.time.size(); ++i)
               instants.push_back({&motion.history, i});
-            return results::Result{
-                .schema = 0,
-                .head = {motion.study,
-                         motion.kind,
-                         named(scene, motion.set),
-                         {{"parameters", named(scene, motion.parameters)}}},
-                .tables = {table->rows(instants)},
-                .end = {observables::name(motion.status), stop(motion.stop), facts(scene, motion)}};
+            return results::Result{.schema = 0,
+                                   .head = {motion.study,
+                                            motion.kind,
+                                            named(scene, motion.set),
+                                            {{"parameters", named(scene, motion.parameters)}}},
+                                   .tables = {table->rows(instants)},
+                                   .end = {motion.status, stop(motion.stop), facts(scene, motion)}};
           }};
 }
 

@@ -90,14 +90,13 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
                          .tables = {{"history", table->columns(), {"elements"}, true}},
                          .shown = std::move(shown)};
   return {std::move(schema), [&scene, table, options](const PointResponse& response) {
-            return results::Result{
-                .schema = 0,
-                .head = {response.study,
-                         response.kind,
-                         named(scene, response.set),
-                         {{"parameters", named(scene, response.parameters)}}},
-                .tables = {table->rows(instants(response, options))},
-                .end = {observables::name(response.status), stop(response.stop), facts(scene, response)}};
+            return results::Result{.schema = 0,
+                                   .head = {response.study,
+                                            response.kind,
+                                            named(scene, response.set),
+                                            {{"parameters", named(scene, response.parameters)}}},
+                                   .tables = {table->rows(instants(response, options))},
+                                   .end = {response.status, stop(response.stop), facts(scene, response)}};
           }};
 }
 

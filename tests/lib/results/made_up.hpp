@@ -52,11 +52,11 @@ inline Results results() {
       {0,
        {"first", "kind", {{"load", 2.5, "N"}}, {{"over", "x"}}},
        {table().rows(items), table().rows(std::vector{items[1]})},
-       {"complete", {{"reason", "end"}, {"value", 1.0}}, {{"best", Object{{"x", 1.5, "m"}}}}}});
+       {Status::complete, {{"reason", "end"}, {"value", 1.0}}, {{"best", Object{{"x", 1.5, "m"}}}}}});
   TableOf<Item> some;
   some.add({"x"}, "m", "", [](const Item& item) { return item.number; });
   some.add({"elements", "d", "load"}, "N", "", [](const Item& item) { return item.inner.value_or(7); });
-  all.results.push_back({1, {}, {some.rows(items)}, {"failed", {{"reason", "other"}}}});
+  all.results.push_back({1, {}, {some.rows(items)}, {Status::failed, {{"reason", "other"}}}});
   return all;
 }
 

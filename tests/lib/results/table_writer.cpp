@@ -44,7 +44,7 @@ TEST_CASE("a result without rows has one that says so, and results of one kind s
   Results results = shown();
   results.results[1] = results.results[0];
   results.results[1].tables.clear();
-  results.results[1].end.status = "failed";
+  results.results[1].end.status = Status::failed;
   results.results[1].head.set[0].value = 10.0;
   CHECK(written(results) ==
         "load (N)  x (m)     word  load     thing\n"

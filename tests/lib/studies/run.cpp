@@ -107,8 +107,8 @@ TEST_CASE("after a stop by the callback no further combination and no further st
   const results::Results all =
       studies::run(s, {.progress = [](const results::Progress& now) { return now.branch < 1; }});
   REQUIRE(all.results.size() == 2);
-  CHECK(all.results[0].end.status == "complete");
-  CHECK(all.results[1].end.status == "stopped");
+  CHECK(all.results[0].end.status == results::Status::complete);
+  CHECK(all.results[1].end.status == results::Status::stopped);
 }
 
 TEST_CASE("figures are made where they are asked for") {
