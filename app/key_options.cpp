@@ -4,6 +4,8 @@
 
 #include <arcslip/scene/write_values.hpp>
 
+#include <algorithm>
+
 namespace arcslip::app {
 namespace {
 
@@ -79,7 +81,7 @@ Node node_of(const Key& key, const std::string& option, const std::vector<std::s
     case KeyType::value:
       return node(*number(option, first, "a value of the parameter, a finite number"));
     case KeyType::whole:
-      return node(*whole_number(option, first, key.help));
+      return node(*whole_number(option, first, key.allowed));
     case KeyType::frequency:
       return node(*frequency(option, first));
     case KeyType::window:
@@ -107,6 +109,10 @@ std::string KeyOption::help() const {
 }
 
 GivenKey KeyOption::given() const {
+  const bool may_be_empty = key.type == KeyType::text || key.type == KeyType::parameter || has_ranges(key);
+  if (!may_be_empty && std::find(texts.begin(), texts.end(), "") != texts.end()) {
+    throw UsageError(name() + " needs a value that is not empty");
+  }
   GivenKey given{key, name() + joined(texts), {}};
   if (has_ranges(key)) {
     given.value = ranges_of(name(), texts);

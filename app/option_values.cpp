@@ -55,7 +55,7 @@ std::optional<int> whole_number(const std::string& option, const std::string& te
   int value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || stop != text.data() + text.size()) {
-    throw UsageError(option + " " + text + ": must be a whole number, " + what);
+    throw UsageError(option + " " + text + ": must be " + what);
   }
   return value;
 }
@@ -63,6 +63,10 @@ std::optional<int> whole_number(const std::string& option, const std::string& te
 ParameterRange parameter_range(const std::string& option, const std::string& text) {
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
+  if (text.empty()) {
+    throw UsageError(option + " needs the name of a parameter, such as " + option +
+                     " damper.normal_load=0.1:100");
+  }
   if (name.empty()) {
     throw UsageError(option + " " + text + ": give it as name.field=lower:upper");
   }
@@ -74,7 +78,7 @@ ParameterRange parameter_range(const std::string& option, const std::string& tex
   const auto lower = number(bounds.substr(0, colon));
   const auto upper = colon == std::string::npos ? std::nullopt : number(bounds.substr(colon + 1));
   if (!lower || !upper) {
-    throw UsageError(option + " " + text + ": found the bounds \"" + bounds +
+    throw UsageError(option + " " + text + ": found the range \"" + bounds +
                      "\", must be two finite numbers, lower:upper");
   }
   return {name, std::pair(*lower, *upper)};

@@ -32,7 +32,8 @@ std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
   std::vector<scene::Key> keys;
   for (const scene::StudyType* type : catalogue.studies) {
     for (const scene::Key& key : type->keys()) {
-      if (keys.size() < 2 && key.type == scene::KeyType::frequency && key.name != "frequency") {
+      const bool is_end = key.name == "from" || key.name == "to";
+      if (keys.size() < 2 && key.type == scene::KeyType::frequency && is_end) {
         keys.push_back(key);
       }
     }
@@ -56,9 +57,9 @@ std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
 std::string names_of(const std::vector<Verb>& verbs) {
   std::string names;
   for (const Verb& verb : verbs) {
-    names.append(&verb == &verbs.back() ? " or " : names.empty() ? "" : ", ").append(verb.name);
+    names.append(names.empty() ? "" : ", ").append(verb.name);
   }
-  return names;
+  return names + " or schema";
 }
 
 /// What the parser keeps as text until all of it is read.
@@ -110,7 +111,7 @@ void add_study_options(CLI::App& verb, Verb& of, Options& options, Texts& texts)
           "results as CSV into a file, with events and a summary beside it (a.events.csv, a.summary.csv), or "
           "- for standard output")
       ->type_name("FILE|-");
-  if (of.type == nullptr || of.type->has_harmonics()) {
+  if (of.type == nullptr || of.type->takes_coefficients()) {
     verb.add_flag("--coefficients", options.coefficients, "JSON with the harmonics of each response");
   }
   verb.add_option("--combinations", texts.combinations,
@@ -217,8 +218,9 @@ std::variant<Options, Information> parse(int argc, const char* const* argv,
   for (const std::string& text : texts.set) {
     options.set.push_back(assignment(text));
   }
-  options.harmonics = whole_number("--harmonics", texts.harmonics, "the highest harmonic");
-  options.combinations = whole_number("--combinations", texts.combinations, "the combinations at most");
+  options.harmonics = whole_number("--harmonics", texts.harmonics, "a whole number, the highest harmonic");
+  options.combinations =
+      whole_number("--combinations", texts.combinations, "a whole number, the combinations at most");
   for (const KeyOption& option : chosen.keys) {
     if (given(*verb, option.name())) {
       options.keys.push_back(option.given());

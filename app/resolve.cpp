@@ -338,7 +338,8 @@ scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Op
       const std::string option =
           fault.pointer.starts_with(place) ? option_at(fault.pointer.substr(place.size()), options) : "";
       message += (message.empty() ? "" : "\n  ") +
-                 (option.empty() ? results::visible(fault.pointer) : option) + ": " + fault.message;
+                 (option.empty() ? "with the options, " + results::visible(fault.pointer) : option) + ": " +
+                 fault.message;
     }
     throw UsageError(message);
   }

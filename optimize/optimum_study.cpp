@@ -180,6 +180,22 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const C
   return scene;
 }
 
+OptimumProblem with_distinct_cases(OptimumProblem problem) {
+  std::vector<DesignCase> cases;
+  for (DesignCase& each : problem.cases) {
+    const auto same = std::find_if(cases.begin(), cases.end(), [&](const DesignCase& other) {
+      return other.set == each.set && other.response == each.response;
+    });
+    if (same == cases.end())
+      cases.push_back(std::move(each));
+    else
+      same->weight = problem.criterion == Criterion::mean ? same->weight + each.weight
+                                                          : std::max(same->weight, each.weight);
+  }
+  problem.cases = std::move(cases);
+  return problem;
+}
+
 OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
                             const observables::ProgressCallback& progress, bool alone) {
   Teller teller(progress, scene, "search");
@@ -188,7 +204,7 @@ OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& se
   options.go_on = [&] { return teller.again(); };
   const bool limited = !settings.problem.limits.empty() || !settings.problem.linear_limits.empty();
   OptimumResult result;
-  result.problem = settings.problem;
+  result.problem = with_distinct_cases(settings.problem);
   Watch watch(options.seconds, options.go_on);
   result.optimum = optimum(scene, result.problem, options);
   result.status = result.optimum.status;

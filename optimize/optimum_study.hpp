@@ -64,9 +64,13 @@ struct OptimumResult {
 /// The scene in a case of a problem, with what scatters in it.
 scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of);
 
-/// The search and what is shown beside it, of a scene as it is. alone: with responses at half and twice the
-/// optimum. progress: asked all the time, in all phases (`phase`), with the number of evaluations (`points`)
-/// and the least amplitude (`best`) so far; false stops. Throws as optimum() does.
+/// Cases that are the same, as where an option has taken from them what told them apart, become one: with the
+/// largest of their weights (worst) or the sum of them (mean).
+OptimumProblem with_distinct_cases(OptimumProblem problem);
+
+/// The search, over distinct cases, and what is shown beside it, of a scene as it is. alone: with responses
+/// at half and twice the optimum. progress: asked all the time, in all phases (`phase`), with the number of
+/// evaluations (`points`) and the least amplitude (`best`) so far; false stops. Throws as optimum() does.
 OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
                             const observables::ProgressCallback& progress = {}, bool alone = true);
 

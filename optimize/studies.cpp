@@ -85,23 +85,10 @@ void write_scatter(const OptimumProblem& problem, const scene::Scene& /*scene*/,
   to.push_back({"scatter", {std::move(scatter)}});
 }
 
-// Cases that are the same then become one, with the largest of their weights (worst) or their sum (mean).
 void drop_from(std::string_view parameter, OptimumProblem& problem) {
   std::erase_if(problem.scatter, [&](const DesignVariable& v) { return v.name == parameter; });
-  std::vector<DesignCase> cases;
-  for (DesignCase& each : problem.cases) {
-    const bool dropped =
-        std::erase_if(each.set, [&](const auto& named) { return named.first == parameter; }) > 0;
-    const auto same = std::find_if(cases.begin(), cases.end(), [&](const DesignCase& other) {
-      return dropped && other.set == each.set && other.response == each.response;
-    });
-    if (same == cases.end())
-      cases.push_back(std::move(each));
-    else
-      same->weight = problem.criterion == Criterion::mean ? same->weight + each.weight
-                                                          : std::max(same->weight, each.weight);
-  }
-  problem.cases = std::move(cases);
+  for (DesignCase& each : problem.cases)
+    std::erase_if(each.set, [&](const auto& named) { return named.first == parameter; });
 }
 
 void read_along(const Reading& reading, OptimumSettings& settings) {
@@ -175,7 +162,9 @@ KeysOf<OptimumSettings> keys() {
                                     bounds_schema)},
                        read_design,
                        write_design,
-                       [](const OptimumProblem& problem, std::vector<Taken>& all) { all = taken(problem); },
+                       [](const OptimumProblem& problem, std::vector<Taken>& all) {
+                         for (Taken& each : taken(problem)) all.push_back(std::move(each));
+                       },
                        drop_from}));
   keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
   keys.add(of_search(text("algorithm", &SearchSettings::algorithm, algorithm, "\"LD_SLSQP\"",
@@ -241,6 +230,7 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
   std::string_view help() const override {
     return "the values of parameters for which the highest resonance peak is least";
   }
+  bool takes_coefficients() const override { return false; }
   results::Schema schema(const scene::Scene& scene, const scene::Study& study,
                          const scene::RunOptions& /*options*/) const override {
     const auto& settings = study.settings.as<OptimumSettings>();

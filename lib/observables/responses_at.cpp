@@ -24,22 +24,31 @@ bool has_cubic_spring(const model::Model& model) {
   });
 }
 
-// Those at which a frequency branch through a wide window passes omega.
-std::vector<Vector> other_responses(const std::shared_ptr<const model::Model>& model, double omega,
-                                    const GoOn& go_on) {
-  std::vector<Vector> found;
-  if (!has_cubic_spring(*model)) return found;
+// Adds those at which a frequency branch through a wide window passes omega.
+void add_others(const std::shared_ptr<const model::Model>& model, double omega, const GoOn& go_on,
+                ResponsesAt& found) {
+  if (!has_cubic_spring(*model)) return;
   const FrequencyWindow window{omega / search_ratio, omega * search_ratio};
   const auto swept = frequency_branch(model, window, window.lower, {}, 1, Steps::curve, go_on);
   const Vector p = hbm::parameters_at(*swept.problem, omega);
   const auto& points = swept.branch.points;
+  const auto& stop = swept.branch.stop;
+  if (stop.reason != continuation::StopReason::boundary || stop.value != window.upper)
+    found.doubt =
+        "other responses may be missing, since the branch from a quarter to four times the frequency "
+        "could not be followed: " +
+        stop.message;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const auto &a = points[i - 1], &b = points[i];
     if ((a.parameter < omega) == (b.parameter < omega)) continue;
     const double share = (omega - a.parameter) / (b.parameter - a.parameter);
-    if (const auto u = hbm::response_near(*swept.problem, p, a.u + share * (b.u - a.u))) found.push_back(*u);
+    const auto u = hbm::response_near(*swept.problem, p, a.u + share * (b.u - a.u));
+    const auto is_same = [&](const Vector& other) { return (*u - other).norm() <= same * other.norm(); };
+    if (!u)
+      found.doubt = "another response, where a branch passes the frequency, could not be corrected";
+    else if (std::none_of(found.u.begin(), found.u.end(), is_same))
+      found.u.push_back(*u);
   }
-  return found;
 }
 
 class Points {
@@ -64,7 +73,10 @@ class Points {
       return {ended(Status::failed, reasons::start_failed,
                     "no periodic response was found " + place() + ": " + found.failure)};
     std::vector<PointResponse> all;
-    for (const Vector& u : found.u) all.push_back(at(found.problem, u));
+    for (const Vector& u : found.u) {
+      all.push_back(at(found.problem, u));
+      all.back().doubt = found.doubt;
+    }
     return all;
   }
 
@@ -140,10 +152,7 @@ ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, doubl
   found.failure = first.failure;
   if (stopped() || !first.u) return found;
   found.u.push_back(*first.u);
-  for (Vector& u : other_responses(model, omega, go_on)) {
-    const auto is_same = [&](const Vector& other) { return (u - other).norm() <= same * other.norm(); };
-    if (std::none_of(found.u.begin(), found.u.end(), is_same)) found.u.push_back(std::move(u));
-  }
+  add_others(model, omega, go_on, found);
   return found;
 }
 

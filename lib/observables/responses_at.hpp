@@ -22,6 +22,7 @@ struct ResponsesAt {
   std::shared_ptr<const hbm::HbmProblem> problem;
   std::vector<continuation::Vector> u;
   std::string unbounded, failure;
+  std::string doubt;  // why others on that branch may be missing; empty: they are not
 };
 ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega,
                          const GoOn& go_on = {});
@@ -40,6 +41,7 @@ struct PointResponse {
   std::vector<std::pair<std::string, double>> set;         // what for_each gave it
   std::vector<std::pair<std::string, double>> parameters;  // every other parameter, by its name
   std::vector<int> harmonics;                              // orders n of the coefficients
+  std::string doubt;                                       // why other responses may be missing; empty: none
   ResponsePoint point;
   History history;  // over one period, both ends included
   SolverSummary solver;

@@ -25,7 +25,7 @@ constexpr const char* name(Status status) {
 
 namespace reasons {
 
-inline constexpr Reason user{"user", "the user stopped it, and what there was until then is kept"};
+inline constexpr Reason user{"user", "the user stopped it; what was computed until then is kept"};
 
 }  // namespace reasons
 

@@ -74,7 +74,10 @@ Node number_of(const Field& field) {
 /// The keys that say where something acts, and that one of them must be there.
 void add_place(Object& properties) {
   properties.push_back({"at", of_type("string")});
-  properties.push_back({"between", list_of(of_type("string"), 2)});
+  properties.push_back({"between", of({{"type", node("array")},
+                                       {"items", of_type("string")},
+                                       {"minItems", node(2)},
+                                       {"maxItems", node(2)}})});
   properties.push_back({"direction", map_of(of_type("number"))});
 }
 
@@ -112,13 +115,13 @@ Node part_of(const PartType& type, bool with_type) {
   return of(std::move(object));
 }
 
-template <class Words>
-Node word_of_list(const Words& words) {
-  return of({{"enum", node(texts(words))}});
+template <class Words, class Choice>
+Node one_of_words(const Words& words, Choice otherwise) {
+  return of({{"enum", node(texts(words))}, {"default", node(word_of(words, otherwise))}});
 }
 
 /// What the value of a key may be.
-Object value_of_key(const Key& key) {
+Object schema_of_key(const Key& key) {
   switch (key.type) {
     case KeyType::number:
     case KeyType::whole: {
@@ -146,7 +149,7 @@ Object value_of_key(const Key& key) {
     case KeyType::other:
       break;
   }
-  return std::get<Object>(read_tree(key.schema.empty() ? "{}" : key.schema).value);
+  return std::get<Object>(read_tree(key.schema.empty() ? std::string("{}") : key.schema).value);
 }
 
 Node study_of(const StudyType& type) {
@@ -155,7 +158,7 @@ Node study_of(const StudyType& type) {
       {"kind", of({{"const", node(type.name())}})}};
   std::vector<std::string> required{"kind"};
   for (const Key& key : type.keys()) {
-    Object value = value_of_key(key);
+    Object value = schema_of_key(key);
     const std::string unit = key.unit == "frequency"   ? "the scene's unit"
                              : key.unit == "parameter" ? "the parameter's unit"
                                                        : key.unit;
@@ -194,20 +197,22 @@ Node schema_of(const Catalogue& catalogue) {
   add_bounds(1, false, largest_samples, samples);
   Object order{{"type", node("integer")}, {"default", node(Harmonics{}.order)}};
   add_bounds(1, false, largest_order, order);
-  Object root = object_of({{"format", of({{"const", node(format_name)}})},
-                           {"title", of_type("string")},
-                           {"frequency_unit", word_of_list(frequency_units)},
-                           {"structure", of(object_of(std::move(structure), {"dofs"}))},
-                           {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
-                           {"excitation", list_of(part_of(force_type, false), 1)},
-                           {"ties", map_of(list_of(of_type("string"), 1))},
-                           {"harmonics", of(object_of({{"order", of(std::move(order))},
-                                                       {"friction", word_of_list(friction_methods)},
-                                                       {"samples", of(std::move(samples))}},
-                                                      {}))},
-                           {"response", of(std::move(response))},
-                           {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
-                          {"format", "structure", "excitation"});
+  Object root = object_of(
+      {{"$schema", of_type("string")},
+       {"format", of({{"const", node(format_name)}})},
+       {"title", of_type("string")},
+       {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
+       {"structure", of(object_of(std::move(structure), {"dofs"}))},
+       {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
+       {"excitation", list_of(part_of(force_type, false), 1)},
+       {"ties", map_of(list_of(of_type("string"), 1))},
+       {"harmonics", of(object_of({{"order", of(std::move(order))},
+                                   {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
+                                   {"samples", of(std::move(samples))}},
+                                  {}))},
+       {"response", of(std::move(response))},
+       {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
+      {"format", "structure", "excitation"});
   Object schema{{"$schema", node("https://json-schema.org/draft/2020-12/schema")},
                 {"title", node("Arcslip scene")}};
   schema.insert(schema.end(), root.begin(), root.end());

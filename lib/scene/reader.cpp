@@ -66,7 +66,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, Faults& faults) {
   Scene scene;
   const Keys root({&node, ""},
                   {"format", "title", "frequency_unit", "structure", "elements", "excitation", "ties",
-                   "harmonics", "response", "studies"},
+                   "harmonics", "response", "studies", "$schema"},
                   faults);
   if (!root.is_object()) {
     return scene;
@@ -156,6 +156,13 @@ Scene read_file(const std::string& path, const Catalogue& catalogue, const StopR
 }
 
 void check(const Scene& scene) {
+  file::Faults faults;
+  for (std::size_t i = 0; i < scene.studies.size(); ++i) {
+    if (scene.studies[i].type == nullptr) {
+      faults.add(file::child("/studies", i), "found no kind, must be a study of some kind");
+    }
+  }
+  faults.raise();
   file::read_scene(file::read_tree(write(scene)), file::catalogue_of(scene));
 }
 

@@ -20,6 +20,8 @@ class Settings {
     return settings;
   }
 
+  bool empty() const { return !value_.has_value(); }
+
   /// Throws std::bad_any_cast where they are of another type.
   template <class T>
   const T& as() const {

@@ -146,7 +146,7 @@ KeyGroup<S> text(const std::string& name, std::string S::*value, const std::stri
                  std::string otherwise, std::string help) {
   return {{{name, KeyType::text, "", what, std::move(otherwise), false, std::move(help)}},
           [=](const Reading& reading, S& s) {
-            s.*value = read_string(reading.keys.find(name), what, reading.faults).value_or("");
+            s.*value = read_string(reading.keys.find(name), what, reading.faults).value_or(s.*value);
           },
           [=](const S& s, const Scene&, Node::Object& to_file) {
             if (!(s.*value).empty()) to_file.push_back({name, node(s.*value)});
@@ -223,11 +223,13 @@ class KeyedStudy : public StudyType {
   Settings defaults() const override { return Settings::of(S{}); }
   Settings read(const Reading& from) const override { return Settings::of(keys_.read(from)); }
   void write(const Settings& settings, const Scene& scene, Node::Object& to) const override {
-    keys_.write(settings.as<S>(), scene, to);
+    keys_.write(settings.empty() ? S{} : settings.as<S>(), scene, to);
   }
-  std::vector<Taken> taken(const Settings& settings) const override { return keys_.taken(settings.as<S>()); }
+  std::vector<Taken> taken(const Settings& settings) const override {
+    return keys_.taken(settings.empty() ? S{} : settings.as<S>());
+  }
   void drop(std::string_view parameter, Settings& settings) const override {
-    keys_.drop(parameter, settings.as<S>());
+    if (!settings.empty()) keys_.drop(parameter, settings.as<S>());
   }
 
  private:

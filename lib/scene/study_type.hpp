@@ -50,7 +50,7 @@ struct Key {
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
   bool lower_open = false;           // of numbers: the lower bound itself is not allowed
   std::vector<std::string> words{};  // of KeyType::word
-  std::string_view schema{};         // of KeyType::other: the JSON Schema of its value
+  std::string schema{};              // of KeyType::other: the JSON Schema of its value
 };
 
 /// A parameter to which a study itself gives values, and how: `which the study is "over"`.
@@ -86,8 +86,8 @@ class StudyType {
 
   /// What all results of the study look like.
   virtual results::Schema schema(const Scene& scene, const Study& study, const RunOptions& options) const = 0;
-  /// Whether results can hold the harmonics of responses (RunOptions::coefficients).
-  virtual bool has_harmonics() const { return true; }
+  /// Whether RunOptions::coefficients changes the results.
+  virtual bool takes_coefficients() const = 0;
   /// Hands the results to the sink as they are there, as of the schema with this index, which the sink knows:
   /// one after the other for each combination of the study's for_each lists, each as if it stood alone.
   /// Returns the figures that were asked for, each with a name of its own; with one there may be nothing on

@@ -90,13 +90,14 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
                          .tables = {{"history", table->columns(), {"elements"}, true}},
                          .shown = std::move(shown)};
   return {std::move(schema), [&scene, table, options](const PointResponse& response) {
-            return results::Result{.schema = 0,
-                                   .head = {response.study,
-                                            response.kind,
-                                            named(scene, response.set),
-                                            {{"parameters", named(scene, response.parameters)}}},
-                                   .tables = {table->rows(instants(response, options))},
-                                   .end = {response.status, stop(response.stop), facts(scene, response)}};
+            return results::Result{
+                .schema = 0,
+                .head = {response.study,
+                         response.kind,
+                         named(scene, response.set),
+                         {{"parameters", named(scene, response.parameters)}}},
+                .tables = {table->rows(instants(response, options))},
+                .end = {response.status, stop(response.stop), facts(scene, response), response.doubt}};
           }};
 }
 
@@ -131,7 +132,7 @@ const scene::StudyType& point() {
              for (const PointResponse& each : all) motions.push_back(motion_of(each));
              return std::vector{figures_of(scene, motions)};
            },
-       .harmonics = false});
+       .coefficients = false});
   return type;
 }
 

@@ -99,7 +99,7 @@ struct KindOf {
   std::vector<Item> (*compute)(const Case& at, const S& settings, const results::ProgressCallback& progress);
   Described<Item> (*results)(const scene::Scene& scene, const S& settings, const scene::RunOptions& options);
   std::vector<results::FigureData> (*figures)(const scene::Scene& scene, std::span<const Item> items);
-  bool harmonics = true;  // results can hold those of responses
+  bool coefficients = true;  // whether the option of that name changes the results
 };
 
 template <class S, class Item>
@@ -108,7 +108,7 @@ class StudyOf : public scene::file::KeyedStudy<S> {
   explicit StudyOf(KindOf<S, Item> kind) : scene::file::KeyedStudy<S>(kind.keys), kind_(std::move(kind)) {}
   std::string_view name() const override { return kind_.name; }
   std::string_view help() const override { return kind_.help; }
-  bool has_harmonics() const override { return kind_.harmonics; }
+  bool takes_coefficients() const override { return kind_.coefficients; }
   results::Schema schema(const scene::Scene& scene, const scene::Study& study,
                          const scene::RunOptions& options) const override {
     return with_set(scene, study, kind_.results(scene, study.settings.as<S>(), options).schema);

@@ -68,7 +68,7 @@ const scene::StudyType& time() {
                      const scene::RunOptions& options) { return motions(scene, options); },
        .figures = [](const scene::Scene& scene,
                      std::span<const Motion> motions) { return std::vector{figures_of(scene, motions)}; },
-       .harmonics = false});
+       .coefficients = false});
   return type;
 }
 

@@ -183,3 +183,23 @@ TEST_CASE("what a study is over, or gives values to, is told; only lists can be 
   CHECK(problem.cases[0].set.empty());
   CHECK(problem.over.size() == 1);
 }
+
+TEST_CASE("a study that was built without its kind or its settings is a fault, and nothing breaks") {
+  scene::Scene scene = scenes::paper(5, 3);
+  scene.studies = {scene::Study{"a"}};
+  CHECK_THROWS_WITH(scene::check(scene), "/studies/0: found no kind, must be a study of some kind");
+  for (const scene::StudyType* type : all_kinds().studies) {
+    scene.studies = {scene::Study{"a", type}};
+    CHECK_THROWS_AS(scene::check(scene), scene::SceneError);
+    CHECK_NOTHROW(scene::drop(scene.studies[0], "damper.normal_load"));
+    CHECK(type->taken({}).empty());
+  }
+}
+
+TEST_CASE("a scene may name its schema") {
+  Json json = Json::parse(scene::write(scenes::paper(5, 3)));
+  json["$schema"] = "scene.schema.json";
+  std::istringstream file(json.dump());
+  CHECK(scene::read(file, all_kinds()) == scenes::paper(5, 3));
+  CHECK(Json::parse(scene::json_schema(all_kinds()))["properties"].contains("$schema"));
+}

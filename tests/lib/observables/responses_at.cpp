@@ -65,6 +65,15 @@ TEST_CASE("where a spring is cubic all three responses are found, each once") {
   CHECK(at(duffing(cubic, force), 3).size() == 1);
 }
 
+TEST_CASE(
+    "where the branch through the frequency cannot be followed, responses may be missing, and it is said") {
+  for (const PointResponse& each : at(duffing(0.1, 0.2), 1.2)) CHECK(each.doubt.empty());
+  const auto found = at(duffing(-0.5, 0.3), 0.5);  // the spring pulls apart beyond x = 1.4
+  REQUIRE_FALSE(found.empty());
+  for (const PointResponse& each : found)
+    CHECK(each.doubt.find("other responses may be missing, since the branch from a quarter") == 0);
+}
+
 TEST_CASE("a response at one frequency is the point of the frequency response there") {
   const scene::Scene s = scenes::paper(31, 3);
   const auto found = at(s, 20);

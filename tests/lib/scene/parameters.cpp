@@ -76,7 +76,9 @@ TEST_CASE(
                               {Set{{"m.value", 1}, {"load", 1}}, 5, Direction{{0, 2}}}};
     scene.studies = {{"best", &optimum_type(), Settings::of(settings)}};
     set(scene, "m.value", 4);
-    return scene.studies[0].settings.as<OptimumSettings>().problem;
+    const OptimumProblem& dropped = scene.studies[0].settings.as<OptimumSettings>().problem;
+    CHECK(dropped.cases.size() == 4);
+    return with_distinct_cases(dropped);
   };
   for (const Criterion criterion : {Criterion::worst, Criterion::mean}) {
     const OptimumProblem problem = problem_after_set(criterion);
