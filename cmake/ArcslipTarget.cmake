@@ -66,7 +66,8 @@ function(arcslip_library name)
   endforeach()
   add_library(${target} ${sources})
   add_library(arcslip::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+  # Nothing asks for the macro that CMake defines in a shared library, and precompiled headers serve several.
+  set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "" EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
   arcslip_compile_options(${target})
