@@ -1,10 +1,6 @@
 # The installed package: find_package(arcslip) gives arcslip::continuation, arcslip::structures, arcslip::optimize.
 include(CMakePackageConfigHelpers)
 
-set(suitesparse_components KLU)
-if(ARCSLIP_WITH_UMFPACK AND SuiteSparse_UMFPACK_FOUND)
-  string(APPEND suitesparse_components " UMFPACK")
-endif()
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/arcslip)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/arcslipConfig.cmake.in
   ${PROJECT_BINARY_DIR}/arcslipConfig.cmake INSTALL_DESTINATION ${package_folder})

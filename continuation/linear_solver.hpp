@@ -86,11 +86,6 @@ std::unique_ptr<LinearSolver> dense_lu();
 /// Sparse Jacobians.
 std::unique_ptr<LinearSolver> klu();
 
-/// The same by UMFPACK, whose fronts are for factors that fill up; it needs a fast BLAS to be faster than
-/// KLU. Throws std::runtime_error in a build without UMFPACK (it is GPL: ARCSLIP_WITH_UMFPACK).
-std::unique_ptr<LinearSolver> umfpack();
-bool has_umfpack();
-
 /// Block elimination around a solver of J, with iterative refinement on the whole system (Govaerts and Pryce,
 /// BIT 30, 1990), which survives a J that is singular to rounding. For every kind of Jacobian that `plain`
 /// takes.

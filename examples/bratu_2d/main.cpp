@@ -1,6 +1,5 @@
 // Bratu's problem in the unit square, u_xx + u_yy + lambda exp(u) = 0, u = 0 on the boundary, by the
-// five-point formula on k x k inner points: through its fold at lambda = 6.808124. Factors of such grids fill
-// up, which UMFPACK takes better than KLU.
+// five-point formula on k x k inner points: through its fold at lambda = 6.808124.
 //
 //   bratu_2d [k = 256]
 
@@ -53,7 +52,6 @@ int main(int argc, char** argv) {
     for (int i = 0; i < n; ++i) J.coeffRef(i, i) = 4 - h * h * p[0] * std::exp(u[i]);
   };
   bratu.derivative = [=](In u, In, int, Out dF) { dF = -h * h * u.array().exp(); };
-  bratu.linear_solver = has_umfpack() ? umfpack : klu;
   const auto problem = from_functions(std::move(bratu));
 
   std::printf("    lambda         max u\n");

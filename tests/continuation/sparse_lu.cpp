@@ -17,7 +17,6 @@ struct Named {
 // All that take a sparse Jacobian.
 std::vector<Named> sparse_solvers() {
   std::vector<Named> all{{"KLU", klu}};
-  if (has_umfpack()) all.push_back({"UMFPACK", umfpack});
   all.push_back(
       {"block elimination around KLU", [] { return block_elimination(std::make_unique<Alone>(klu())); }});
   return all;
@@ -250,10 +249,9 @@ TEST_CASE("singular and non-finite sparse matrices are refused, and good ones ar
     CHECK_FALSE(solver->factorize(good, nothing));
     CHECK(takes_good());
   }
-  for (const auto& make : {klu, has_umfpack() ? umfpack : klu})
-    for (const Jacobian& J :
-         {Jacobian(Matrix::Identity(n, n)), Jacobian(static_cast<const Operator*>(nullptr))})
-      CHECK_THROWS_AS(make()->factorize(J, random_borders(n, 1)), std::invalid_argument);
+  for (const Jacobian& J :
+       {Jacobian(Matrix::Identity(n, n)), Jacobian(static_cast<const Operator*>(nullptr))})
+    CHECK_THROWS_AS(klu()->factorize(J, random_borders(n, 1)), std::invalid_argument);
 }
 
 TEST_CASE("more entries than an int counts are an error that says so") {
@@ -261,13 +259,7 @@ TEST_CASE("more entries than an int counts are an error that says so") {
   J.insert(0, 0) = 1;
   J.makeCompressed();
   J.outerIndexPtr()[1] = std::numeric_limits<int>::max();  // only counted, never read
-  for (const auto& make : {klu, has_umfpack() ? umfpack : klu})
-    CHECK_THROWS_WITH(make()->factorize(J, random_borders(1, 1)),
-                      "the bordered matrix has 2147483650 entries, more than the 2147483647 that a sparse "
-                      "matrix of int indices holds");
-}
-
-TEST_CASE("a build without UMFPACK says what to do") {
-  if (has_umfpack()) return;
-  CHECK_THROWS_AS(umfpack(), std::runtime_error);
+  CHECK_THROWS_WITH(klu()->factorize(J, random_borders(1, 1)),
+                    "the bordered matrix has 2147483650 entries, more than the 2147483647 that a sparse "
+                    "matrix of int indices holds");
 }
