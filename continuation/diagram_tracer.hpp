@@ -2,7 +2,7 @@
 // How a diagram grows: branches that are followed, and branch points whose half-branches are known or not.
 
 #include <arcslip/continuation/diagram.hpp>
-#include <arcslip/continuation/window_scale.hpp>
+#include <arcslip/continuation/start.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,6 @@
 #include <arcslip/continuation/functions.hpp>
 
-#include <arcslip/continuation/start_check.hpp>
+#include <arcslip/continuation/start.hpp>
 
 #include <cmath>
 #include <exception>

@@ -5,21 +5,144 @@
 // no memory, unless the factors grow: the reciprocal pivot growth is min_j max_i |A_ij| / max_i |U_ij|. What
 // digits are lost by growth, and by pivots that are chosen for sparsity, refinement restores.
 
-#include <arcslip/continuation/bordered_sparse.hpp>
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/refinement.hpp>
-#include <arcslip/continuation/refused_kind.hpp>
 
 #include <klu.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace arcslip::continuation {
 namespace {
+
+// The bordered matrix [J C; R D] (linear_solver.hpp) as one sparse matrix, for the sparse solvers, scaled by
+// powers of two: the largest entry of each row of J is near 1, of each row of R near n^-5, and of each column
+// of [C; D], D by n^5, near 1.
+//
+// C has no part in the scales of the rows: where F_p is large in some of them, as e^u is at the top of a
+// peak, J would there be smaller than the borders, and these be chosen as pivots.
+//
+// Why so small: the rows of [R D] are full. Where pivots are chosen by size, one of them chosen early fills
+// all rows that follow (a tridiagonal J of 3000, indefinite: 3.7 million entries instead of 9000), and as
+// elimination goes on they grow like R J^-1, by n^2 for a Laplacian. Made small, they wait until J leaves
+// nothing else. What accuracy is lost by small pivots of J refinement restores: see block_elimination.cpp,
+// which is the same elimination.
+class BorderedSparse {
+ public:
+  /// True: the pattern is a new one. Otherwise only values were written, and nothing was allocated.
+  /// Throws std::length_error where there are more entries than an int counts.
+  bool assemble(const SparseMatrix& J, const Borders& borders);
+
+  SparseMatrix& matrix() { return matrix_; }  // compressed, (n + m) x (n + m)
+  const SparseMatrix& matrix() const { return matrix_; }
+
+  /// The factors of its rows, > 0; not finite or without use where finite() is false.
+  const Vector& scales() const { return scales_; }
+  /// The factors of its last m columns, m: the unknowns are those of the matrix over them.
+  const Vector& column_scales() const { return column_scales_; }
+  /// Sums of the magnitudes in its rows, and in its columns before its rows were scaled; more for the
+  /// borders, so that residuals relative to them are rounding.
+  const Vector& row_sums() const { return row_sums_; }
+  const Vector& column_sums() const { return column_sums_; }
+  bool finite() const { return column_sums_.allFinite(); }
+
+ private:
+  void scale(int n);
+
+  SparseMatrix matrix_;
+  Vector scales_, column_scales_, row_sums_, column_sums_;
+};
+
+constexpr double border_power = -5;  // of n: the size of [R D] beside [J C]
+
+double power_of_two(double largest) {
+  return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, -std::ilogb(largest)) : 1.0;
+}
+
+int number_of_entries(const SparseMatrix& J, std::int64_t m) {
+  const std::int64_t entries = J.nonZeros() + 2 * m * J.rows() + m * m;
+  if (entries > std::numeric_limits<int>::max())
+    throw std::length_error("the bordered matrix has " + std::to_string(entries) +
+                            " entries, more than the " + std::to_string(std::numeric_limits<int>::max()) +
+                            " that a sparse matrix of int indices holds");
+  return static_cast<int>(entries);
+}
+
+// The pattern is compared while it is written: against the copy of the values this costs next to nothing.
+bool BorderedSparse::assemble(const SparseMatrix& J, const Borders& borders) {
+  const int n = static_cast<int>(J.rows()), m = borders.width(), entries = number_of_entries(J, m);
+  bool new_pattern = matrix_.rows() != n + m || matrix_.nonZeros() != entries;
+  if (new_pattern) {
+    matrix_ = SparseMatrix(n + m, n + m);
+    matrix_.resizeNonZeros(entries);
+  }
+  int* outer = matrix_.outerIndexPtr();
+  int* inner = matrix_.innerIndexPtr();
+  double* value = matrix_.valuePtr();
+  int k = 0;
+  for (int j = 0; j < n; ++j) {
+    new_pattern = new_pattern || outer[j] != k;
+    outer[j] = k;
+    const int begin = J.outerIndexPtr()[j];
+    const int count = J.isCompressed() ? J.outerIndexPtr()[j + 1] - begin : J.innerNonZeroPtr()[j];
+    const int* rows = J.innerIndexPtr() + begin;
+    new_pattern = new_pattern || !std::equal(rows, rows + count, inner + k);
+    std::copy_n(rows, count, inner + k);
+    std::copy_n(J.valuePtr() + begin, count, value + k);
+    k += count;
+    for (int i = 0; i < m; ++i, ++k) {
+      inner[k] = n + i;
+      value[k] = borders.rows(j, i);
+    }
+  }
+  for (int j = 0; j < m; ++j) {
+    outer[n + j] = k;
+    for (int i = 0; i < n + m; ++i, ++k) {
+      inner[k] = i;
+      value[k] = i < n ? borders.columns(i, j) : borders.corner(i - n, j);
+    }
+  }
+  outer[n + m] = k;
+  scale(n);
+  return new_pattern;
+}
+
+void BorderedSparse::scale(int n) {
+  const int* outer = matrix_.outerIndexPtr();
+  const int* inner = matrix_.innerIndexPtr();
+  double* value = matrix_.valuePtr();
+  const Eigen::Index size = matrix_.rows();
+  const int of_borders = static_cast<int>(border_power * std::log2(n + 1.0));
+  scales_.setZero(size);
+  row_sums_.setZero(size);
+  column_sums_.setZero(size);
+  for (int k = 0; k < outer[n]; ++k) scales_[inner[k]] = std::max(scales_[inner[k]], std::abs(value[k]));
+  for (double& scale : scales_) scale = power_of_two(scale);
+  column_scales_.setZero(size - n);
+  for (Eigen::Index j = n; j < size; ++j) {
+    double& scale = column_scales_[j - n];
+    for (int k = outer[j]; k < outer[j + 1]; ++k)
+      scale = std::max(scale, std::abs(value[k]) * scales_[inner[k]]);
+    scale = power_of_two(scale);
+    for (int k = outer[j]; k < outer[j + 1]; ++k) value[k] *= scale;
+  }
+  scales_.tail(size - n) *= std::ldexp(1.0, of_borders);
+  for (Eigen::Index j = 0; j < size; ++j)
+    for (int k = outer[j]; k < outer[j + 1]; ++k) {
+      column_sums_[j] += std::abs(value[k]);
+      value[k] *= scales_[inner[k]];
+      row_sums_[inner[k]] += std::abs(value[k]);
+    }
+  row_sums_.tail(size - n) *= Refinement::of_full_row(n);
+  column_sums_.tail(size - n) *= Refinement::of_full_row(n);
+}
 
 constexpr double kept_growth = 1e-2;  // of the reciprocal pivot growth when the pivots were chosen
 

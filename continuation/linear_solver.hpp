@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace arcslip::continuation {
 
@@ -94,6 +95,10 @@ std::unique_ptr<LinearSolver> block_elimination(std::unique_ptr<PlainSolver> pla
 /// What suits the kind of Jacobian: dense LU or KLU. Throws std::invalid_argument for an Operator, whose
 /// solver has to be named.
 std::unique_ptr<LinearSolver> suitable_solver(const Jacobian& J);
+
+/// What a solver throws for a Jacobian of another kind than its own: std::invalid_argument, with the solver's
+/// name and the kind it takes, "dense" or "sparse".
+[[noreturn]] void refuse_kind(const std::string& solver, const std::string& kind);
 
 /// y = J x, for every kind.
 void apply(const Jacobian& J, In x, Out y);

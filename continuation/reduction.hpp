@@ -5,6 +5,7 @@
 #include <arcslip/continuation/problem.hpp>
 
 #include <memory>
+#include <string>
 
 namespace arcslip::continuation {
 
@@ -56,5 +57,14 @@ class Reduction {
   Matrix C_, V_, W_, G_;
   double shift_ = 0, magnitude_ = 0;
 };
+
+// Whether the solutions around one are a curve at all, or a surface, as where a symmetry turns each of them
+// into a family (an orbit of rotations, of shifts in time) and no phase condition picks one.
+
+/// A sentence where F = 0, to rounding, all around v = (u, p) in the plane of the two directions in which [J
+/// F_p] is smallest: beta(y) of reduction.hpp with m = 1 is zero on a circle, where it is of the size of |y|
+/// at a point of a regular branch and of |y|^2 at a branch point. Empty: nothing to say.
+std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Vector& p, int along,
+                               const MakeLinearSolver& make_solver);
 
 }  // namespace arcslip::continuation

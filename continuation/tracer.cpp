@@ -1,10 +1,9 @@
 #include <arcslip/continuation/tracer.hpp>
 
-#include <arcslip/continuation/closing.hpp>
-#include <arcslip/continuation/isolation.hpp>
+#include <arcslip/continuation/ends.hpp>
 #include <arcslip/continuation/jacobian_check.hpp>
-#include <arcslip/continuation/limits.hpp>
 #include <arcslip/continuation/monitor_calls.hpp>
+#include <arcslip/continuation/reduction.hpp>
 #include <arcslip/continuation/text.hpp>
 
 #include <algorithm>

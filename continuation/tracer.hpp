@@ -10,11 +10,11 @@
 #include <arcslip/continuation/branch.hpp>
 #include <arcslip/continuation/corrector.hpp>
 #include <arcslip/continuation/crossed_modes.hpp>
+#include <arcslip/continuation/ends.hpp>
 #include <arcslip/continuation/event_locator.hpp>
 #include <arcslip/continuation/monitor.hpp>
 #include <arcslip/continuation/options.hpp>
 #include <arcslip/continuation/state.hpp>
-#include <arcslip/continuation/window.hpp>
 
 #include <chrono>
 #include <functional>

@@ -1,7 +1,7 @@
 // What becomes of the events of a step: their order, and branch points that could not be located.
 
-#include <arcslip/continuation/isolation.hpp>
 #include <arcslip/continuation/multiple_point.hpp>
+#include <arcslip/continuation/reduction.hpp>
 #include <arcslip/continuation/text.hpp>
 #include <arcslip/continuation/tracer.hpp>
 

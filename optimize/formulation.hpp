@@ -7,14 +7,42 @@
 // and for both a constraint for each limit on an observable at each peak of each case, and linear limits.
 
 #include <arcslip/optimize/cases.hpp>
-#include <arcslip/optimize/constraint_peaks.hpp>
 #include <arcslip/optimize/design_space.hpp>
+#include <arcslip/optimize/peak_amplitude.hpp>
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace arcslip::optimize {
+
+// Which peak each of several constraints is about. Not installed.
+//
+// A constraint keeps its peak while peaks are followed. Of a new response it takes the nearest one, if one is
+// near; peaks that are left over go to constraints that have none.
+
+class ConstraintPeaks {
+ public:
+  explicit ConstraintPeaks(std::size_t count = 0) : all_(count) {}
+
+  std::size_t size() const { return all_.size(); }
+
+  /// Of constraint k. responses: how many were traced so far. nullopt: there is none for it.
+  std::optional<std::size_t> peak(std::size_t k, const PeakState& state, int responses);
+
+ private:
+  struct Constrained {
+    double omega = 0;
+    std::optional<std::size_t> peak{};
+  };
+
+  void assign(const PeakState& state);
+
+  std::vector<Constrained> all_;
+  int responses_ = -1;  // when they were given their peaks
+};
 
 class Formulation {
  public:

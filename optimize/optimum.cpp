@@ -2,7 +2,6 @@
 
 #include <arcslip/optimize/interrupted.hpp>
 #include <arcslip/optimize/reasons.hpp>
-#include <arcslip/optimize/release.hpp>
 #include <arcslip/optimize/search.hpp>
 #include <arcslip/optimize/start.hpp>
 #include <arcslip/optimize/text.hpp>

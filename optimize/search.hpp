@@ -2,7 +2,7 @@
 // The search of optimum(): rounds of an algorithm, each followed by new responses at its best design, until
 // the conditions of a minimum hold there. Not installed.
 
-#include <arcslip/optimize/algorithm.hpp>
+#include <arcslip/optimize/minimize.hpp>
 #include <arcslip/optimize/multipliers.hpp>
 #include <arcslip/optimize/trials.hpp>
 

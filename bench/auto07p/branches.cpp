@@ -1,7 +1,7 @@
 #include "branches.hpp"
 
 #include <arcslip/continuation/functions.hpp>
-#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/hbm/problem.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/catalogue.hpp>
 

@@ -9,7 +9,9 @@
 
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace arcslip::hbm {
@@ -85,5 +87,20 @@ class HbmProblem final : public continuation::Problem {
 
 /// Default values of the parameters, at one excitation frequency (rad/s).
 Vector parameters_at(const HbmProblem& problem, double omega);
+
+// A periodic response at given parameters, from nothing.
+
+/// The response of the structure without its elements, Z^-1 f, at the parameters p (with force_factor 1). Not
+/// finite at an undamped resonance.
+Vector linear_response(const HbmProblem& problem, const Vector& p);
+
+/// Newton's method from a guess. Empty where it fails.
+std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess);
+
+/// Newton's method from rest (all sliders stuck), from the response without elements, and, where neither
+/// converges, a branch in the excitation factor from rest at 0 to 1 or -1, where the response is that of 1
+/// reversed. Empty where that fails too, or go_on, asked along that branch, says false.
+std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+                                   const std::function<bool()>& go_on = {});
 
 }  // namespace arcslip::hbm

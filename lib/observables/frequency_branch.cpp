@@ -1,6 +1,6 @@
 #include <arcslip/observables/frequency_branch.hpp>
 
-#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/stiffness_apart.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <arcslip/observables/responses_at.hpp>
 
-#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>

@@ -1,6 +1,6 @@
 #include <arcslip/observables/unbounded.hpp>
 
-#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/hbm/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

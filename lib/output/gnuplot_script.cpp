@@ -3,7 +3,6 @@
 #include <arcslip/output/figure_labels.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/gnuplot_axes.hpp>
-#include <arcslip/output/gnuplot_style.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
 

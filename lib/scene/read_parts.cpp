@@ -1,7 +1,11 @@
 #include <arcslip/scene/read_parts.hpp>
+
+#include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/words.hpp>
 
 #include <algorithm>
+#include <unordered_map>
+#include <utility>
 
 namespace arcslip::scene::file {
 namespace {
@@ -160,6 +164,205 @@ std::vector<Part> read_parts(const Place& place, const PartType* type, const Dof
     parts.push_back(read_part({&(*list)[i], child(place.pointer, i)}, type, dofs, names, faults));
   }
   return parts;
+}
+
+namespace {
+
+constexpr std::string_view members_wanted = "a list of at least one parameter \"part.field\"";
+
+// The members of one tie. `used` tells which fields are tied already, and where.
+std::vector<std::string> read_members(const Place& place, const Names& names,
+                                      std::unordered_map<std::string, std::string>& used, Faults& faults) {
+  std::vector<std::string> members;
+  const Node::List* list = read_list(place, members_wanted, faults);
+  if (list != nullptr && list->empty()) {
+    faults.add(place.pointer, "found an empty list, must be " + std::string(members_wanted));
+  }
+  std::string_view unit;
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    const Place item{&(*list)[i], child(place.pointer, i)};
+    const auto member = read_string(item, "a string, a parameter \"part.field\"", faults);
+    const Field* field = member ? names.field(*member, item.pointer, faults) : nullptr;
+    if (field == nullptr) {
+      continue;
+    }
+    const auto [first, is_new] = used.emplace(*member, item.pointer);
+    if (!is_new) {
+      faults.add(item.pointer, "found " + shown(*member) + " again, which is also at " + first->second +
+                                   "; a field must be tied only once");
+    } else if (!members.empty() && field->unit != unit) {
+      faults.add(item.pointer, "found " + shown(*member) + " (" + std::string(field->unit) + ") tied to " +
+                                   shown(members.front()) + " (" + std::string(unit) +
+                                   "), must have the same unit");
+    } else {
+      unit = field->unit;
+      members.push_back(*member);
+    }
+  }
+  return members;
+}
+
+}  // namespace
+
+std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults) {
+  std::vector<Tie> ties;
+  if (place.node == nullptr || !Keys(place, {}, faults).is_object()) {
+    return ties;
+  }
+  std::unordered_map<std::string, std::string> used;
+  std::unordered_map<std::string, int> seen;
+  for (const Member& member : *place.node->get<Node::Object>()) {
+    if (seen[member.key]++ > 0) {
+      continue;  // told as a duplicate key
+    }
+    const Place item{&member.value, child(place.pointer, member.key)};
+    names.add(member.key, item.pointer, faults);
+    ties.push_back({member.key, read_members(item, names, used, faults)});
+  }
+  return ties;
+}
+
+namespace {
+
+constexpr std::size_t largest_dofs = 1000;  // matrices are dense
+constexpr std::string_view dofs_wanted = "a list of at least one name";
+
+// Adds weight * x_name; ground adds nothing. False where the name is not known.
+bool add_term(const std::string& name, double weight, const std::string& pointer, const Dofs& dofs,
+              Direction& direction, Faults& faults) {
+  if (name == ground) {
+    return true;
+  }
+  const auto found = dofs.index.find(name);
+  if (found == dofs.index.end()) {
+    if (faults.full()) {
+      faults.add({}, {});
+    } else if (dofs.complete) {
+      faults.add(pointer, "found " + shown(name) + ", must be one of the degrees of freedom " +
+                              listed(dofs.names) + " or \"ground\"" + hint(name, dofs.names));
+    }
+    return false;
+  }
+  const auto same = [&](const Term& term) { return term.dof == found->second; };
+  const auto term = std::find_if(direction.begin(), direction.end(), same);
+  if (term == direction.end()) {
+    direction.push_back({found->second, weight});
+  } else {
+    term->weight += weight;
+  }
+  return true;
+}
+
+bool read_at(const Place& place, const Dofs& dofs, Direction& direction, Faults& faults) {
+  const auto name = read_string(place, "a string, the name of a degree of freedom", faults);
+  return name && add_term(*name, 1, place.pointer, dofs, direction, faults);
+}
+
+bool read_between(const Place& place, const Dofs& dofs, Direction& direction, Faults& faults) {
+  constexpr std::string_view wanted = "a list of two names of degrees of freedom";
+  const Node::List* list = read_list(place, wanted, faults);
+  if (list == nullptr) {
+    return false;
+  }
+  if (list->size() != 2) {
+    faults.add(place.pointer,
+               "found a list of " + std::to_string(list->size()) + ", must be " + std::string(wanted));
+    return false;
+  }
+  bool good = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Place item{&(*list)[i], child(place.pointer, i)};
+    const auto name = read_string(item, "a string, the name of a degree of freedom", faults);
+    good = name && add_term(*name, i == 0 ? 1 : -1, item.pointer, dofs, direction, faults) && good;
+  }
+  return good;
+}
+
+bool read_weights(const Place& place, const Dofs& dofs, Direction& direction, Faults& faults) {
+  const std::size_t before = faults.count();
+  const Keys keys(place, {}, faults);
+  if (!keys.is_object() || faults.count() > before) {
+    return false;
+  }
+  bool good = true;
+  for (const Member& member : *place.node->get<Node::Object>()) {
+    const Place item{&member.value, child(place.pointer, member.key)};
+    const auto weight = read_number(item, any_number, faults);
+    good = add_term(member.key, weight.value_or(0), item.pointer, dofs, direction, faults) && weight && good;
+  }
+  return good;
+}
+
+}  // namespace
+
+Dofs read_dofs(const Place& place, Faults& faults) {
+  Dofs dofs;
+  const std::size_t before = faults.count();
+  const Node::List* list = read_list(place, dofs_wanted, faults);
+  if (list != nullptr && list->empty()) {
+    faults.add(place.pointer, "found an empty list, must be " + std::string(dofs_wanted));
+  }
+  if (list != nullptr && list->size() > largest_dofs) {
+    faults.add(place.pointer, "found " + std::to_string(list->size()) +
+                                  " degrees of freedom, must be at most " + std::to_string(largest_dofs) +
+                                  ": the matrices of the linear part are dense, and with more a single "
+                                  "evaluation would take many seconds and gigabytes; reduce the model first");
+  }
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    const Place item{&(*list)[i], child(place.pointer, i)};
+    const auto name = read_string(item, "a string, the name of a degree of freedom", faults);
+    if (!name) {
+      continue;
+    }
+    const auto first = dofs.index.find(*name);
+    if (name->empty()) {
+      faults.add(item.pointer, "found \"\", must be a name of at least one character");
+    } else if (*name == ground) {
+      faults.add(item.pointer,
+                 "found \"ground\", which is reserved for the fixed frame; must be another name");
+    } else if (first != dofs.index.end()) {
+      faults.add(item.pointer, "found " + shown(*name) + " again, which is also at " +
+                                   child(place.pointer, static_cast<std::size_t>(first->second)) +
+                                   "; each degree of freedom must stand only once");
+    } else {
+      dofs.index.emplace(*name, static_cast<int>(i));
+      dofs.names.push_back(*name);
+    }
+  }
+  dofs.complete = list != nullptr && faults.count() == before;
+  return dofs;
+}
+
+std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults) {
+  std::vector<std::string> given;
+  for (const std::string_view key : {"at", "between", "direction"}) {
+    if (keys.has(key)) {
+      given.emplace_back(key);
+    }
+  }
+  if (given.size() != 1) {
+    if (keys.is_object()) {
+      faults.add(keys.pointer(), "found " + (given.empty() ? "no place" : listed(given) + " together") +
+                                     ", must have exactly one of \"at\", \"between\", \"direction\"");
+    }
+    return {};
+  }
+  Direction direction;
+  const Place place = keys.find(given.front());
+  const bool good = given.front() == "at"        ? read_at(place, dofs, direction, faults)
+                    : given.front() == "between" ? read_between(place, dofs, direction, faults)
+                                                 : read_weights(place, dofs, direction, faults);
+  if (!good) {
+    return {};
+  }
+  std::erase_if(direction, [](const Term& term) { return term.weight == 0; });
+  if (direction.empty()) {
+    faults.add(
+        place.pointer,
+        "found a direction that is zero, must act on at least one degree of freedom other than \"ground\"");
+    return {};
+  }
+  return direction;
 }
 
 }  // namespace arcslip::scene::file

@@ -6,7 +6,7 @@
 #include <arcslip/continuation/corrector.hpp>
 #include <arcslip/continuation/hopf_curve.hpp>
 #include <arcslip/continuation/stationary.hpp>
-#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/time/newmark.hpp>
 

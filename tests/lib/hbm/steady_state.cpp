@@ -3,7 +3,7 @@
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/hbm/problem.hpp>
 
 using namespace arcslip;
 

@@ -5,7 +5,7 @@
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/observables/same_event.hpp"
 
-#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/amplitude.hpp>
 
 #include <cstdlib>

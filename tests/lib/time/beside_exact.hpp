@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 
-#include <arcslip/hbm/steady_state.hpp>
+#include <arcslip/hbm/problem.hpp>
 #include <arcslip/time/from_harmonics.hpp>
 #include <arcslip/time/shooting.hpp>
 
