@@ -143,25 +143,33 @@ void add_csv_places(const std::string& what, const std::string& path, std::vecto
   }
 }
 
-std::vector<File> csv_files(const std::string& path, const results::Results& results) {
+File json_file(const std::string& path) {
+  return {path, [](std::ostream& out) { return std::make_unique<results::JsonWriter>(out); }};
+}
+
+std::vector<File> csv_files(const std::string& path, std::span<const results::Schema> schemas) {
   std::vector<File> files;
-  const std::vector<std::string> keys = results::table_keys(results);
+  const std::vector<std::string> keys = results::table_keys(schemas);
   for (const std::string& key : keys) {
     files.push_back({files.empty() ? path : beside(path, key),
-                     [&results, key](std::ostream& out) { results::write_csv(out, results, key); }});
+                     [key](std::ostream& out) { return std::make_unique<results::CsvWriter>(out, key); }});
   }
   if (may_wait(path)) {
     files.resize(1);
     return files;
   }
-  files.push_back(
-      {beside(path, "summary"), [&results](std::ostream& out) { results::write_csv_summary(out, results); }});
+  files.push_back({beside(path, "summary"),
+                   [](std::ostream& out) { return std::make_unique<results::CsvSummary>(out); }});
   for (const char* part : {"events", "cases"}) {
     if (std::find(keys.begin(), keys.end(), part) == keys.end() && is_table(beside(path, part))) {
       files.push_back({beside(path, part), nullptr});
     }
   }
   return files;
+}
+
+void write(const File& file, const results::Results& results, std::ostream& out) {
+  results::replay(results, *file.sink(out));
 }
 
 void check_places(const std::vector<Place>& places, const std::string& scene_file) {
@@ -194,14 +202,9 @@ void check_places(const std::vector<Place>& places, const std::string& scene_fil
   }
 }
 
-bool Writing::file(const File& file) {
-  if (!file.writer) {
-    std::error_code ignored;
-    std::filesystem::remove(file.path, ignored);
-    return false;
-  }
-  return attempt(results::visible(file.path),
-                 [&] { output::write_file(file.path, file.writer, interrupted); });
+void Writing::remove(const std::string& path) {
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
 }
 
 bool Writing::attempt(const std::string& what, const std::function<void()>& write) {
@@ -228,22 +231,21 @@ ExitCode Writing::code(ExitCode otherwise) const {
   return failed_ ? ExitCode::usage_or_file : stopped_ ? ExitCode::stopped_early : otherwise;
 }
 
-std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     const StudyResult& result, Writing& writing) {
+std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene& scene, Writing& writing) {
+  const std::string path = files.path(".scene.json");
+  const bool is_written = writing.attempt(results::visible(path), [&] {
+    output::write_file(
+        path, [&](std::ostream& out) { out << scene::write(scene); }, interrupted);
+  });
+  return is_written ? std::vector{path} : std::vector<std::string>();
+}
+
+std::vector<std::string> write_figures(const StudyFiles& files,
+                                       const std::vector<results::FigureData>& figures, Writing& writing) {
   std::vector<std::string> paths;
-  std::vector<File> all{
-      {files.path(".scene.json"), [&](std::ostream& out) { out << scene::write(scene); }},
-      {files.path(".json"), [&](std::ostream& out) { results::write_json(out, result.results); }}};
-  const std::vector<File> tables = csv_files(files.path(".csv"), result.results);
-  all.insert(all.end(), tables.begin(), tables.end());
-  for (const File& file : all) {
-    if (writing.file(file)) {
-      paths.push_back(file.path);
-    }
-  }
   std::vector<std::string> drawn, problems;
   const std::string what = "the figures of " + results::visible(files.path(""));
-  for (const results::FigureData& data : result.figures) {
+  for (const results::FigureData& data : figures) {
     drawn.push_back(files.name + (data.name.empty() ? "" : "_" + data.name));
     writing.attempt(what, [&] {
       const output::Figures now = output::draw_figures(data, files.folder, drawn.back(), interrupted);

@@ -9,18 +9,13 @@
 
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace arcslip::app {
-
-/// What a study has computed.
-struct StudyResult {
-  results::Results results;
-  std::vector<results::FigureData> figures;
-};
 
 /// The files of one study in a folder: NAME.scene.json, NAME.json, NAME.csv with those beside it, and the
 /// figures.
@@ -52,16 +47,21 @@ struct Place {
   std::string what, path;
 };
 
-/// What writes a file, and where. No writer: there is to be none; what an earlier run has left is removed.
+/// A file and the sink that writes it. No sink: there is to be none; what an earlier run has left is removed.
 struct File {
   std::string path;
-  std::function<void(std::ostream&)> writer;
+  std::function<std::unique_ptr<results::Sink>(std::ostream&)> sink;
 };
+
+File json_file(const std::string& path);
 
 /// Results as CSV: the first of their tables in `path`; the others and the summary beside it, with the key of
 /// the table or "summary" before the ending of the name, but not where that is standard output ("-"), a pipe
-/// or a device. Refers to the results.
-std::vector<File> csv_files(const std::string& path, const results::Results& results);
+/// or a device.
+std::vector<File> csv_files(const std::string& path, std::span<const results::Schema> schemas);
+
+/// Writes results that are there.
+void write(const File& file, const results::Results& results, std::ostream& out);
 
 /// Where CSV of any results may go.
 void add_csv_places(const std::string& what, const std::string& path, std::vector<Place>& places);
@@ -79,10 +79,10 @@ void check_places(const std::vector<Place>& places, const std::string& scene_fil
 /// Writes one thing after the other: what cannot be written is told on standard error and costs nothing else.
 class Writing {
  public:
-  /// True where it is written.
-  bool file(const File& file);
-  /// The same of whatever may throw output::WriteError; `what` it writes, for people.
+  /// Whether it is written: whatever may throw output::WriteError; `what` it writes, for people.
   bool attempt(const std::string& what, const std::function<void()>& write);
+  /// The file of an earlier run.
+  static void remove(const std::string& path);
   /// `what` is not there for a reason that is told.
   void misses(std::string what) { missing_.push_back(std::move(what)); }
   /// What is not there: part of a sentence.
@@ -95,9 +95,12 @@ class Writing {
   std::vector<std::string> missing_;
 };
 
-/// Writes the files and figures of a study; what an earlier run has left of this study is removed. Returns
-/// the paths of what is there; tells on standard error what is missing, and why.
-std::vector<std::string> write_study(const StudyFiles& files, const scene::Scene& scene,
-                                     const StudyResult& result, Writing& writing);
+/// The scene as it is computed, beside the results of its study. Returns its path where it is written.
+std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene& scene, Writing& writing);
+
+/// Draws the figures of a study; those that an earlier run has left are removed. Returns the paths of what is
+/// there; tells on standard error what is missing, and why.
+std::vector<std::string> write_figures(const StudyFiles& files,
+                                       const std::vector<results::FigureData>& figures, Writing& writing);
 
 }  // namespace arcslip::app

@@ -5,9 +5,10 @@
 #include "progress.hpp"
 #include "resolve.hpp"
 #include "results.hpp"
+#include "sinks.hpp"
 #include "standard_output.hpp"
 
-#include <arcslip/results/json_writer.hpp>
+#include <arcslip/output/atomic_file.hpp>
 #include <arcslip/results/progress.hpp>
 #include <arcslip/results/table_writer.hpp>
 #include <arcslip/results/text.hpp>
@@ -17,8 +18,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -98,10 +101,12 @@ void tell_partial(Interruption& interruption) {
   }
 }
 
-StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study, const Options& options,
-                            Interruption& interruption) {
+/// Computes a study into a sink, and shows how far it is. Returns its figures.
+std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, const scene::Study& study,
+                                                 scene::RunOptions how, const Options& options,
+                                                 results::Sink& sink, Interruption& interruption) {
   ProgressLine line(options.quiet, std::string(scene::unit_name(scene.frequency_unit)));
-  const auto progress = [&](const results::Progress& now) {
+  how.progress = [&](const results::Progress& now) {
     if (!interrupted()) {
       line.show(now);
       return true;
@@ -110,14 +115,34 @@ StudyResult compute_visibly(const scene::Scene& scene, const scene::Study& study
     tell_partial(interruption);
     return false;
   };
-  const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
-  const scene::RunOptions how{has_files, options.coefficients, !options.out.empty(), progress};
-  results::Collector collector;
-  collector.begin(studies::header(scene), std::vector{study.type->schema(scene, study, how)});
-  std::vector<results::FigureData> figures = study.type->run(scene, study, how, 0, collector);
+  std::vector<results::FigureData> figures = study.type->run(scene, study, how, 0, sink);
   line.clear();
   tell_partial(interruption);
-  return {std::move(collector.results), std::move(figures)};
+  return figures;
+}
+
+/// The files for the results of all studies together.
+std::vector<File> common_files(const Options& options, std::span<const results::Schema> schemas) {
+  std::vector<File> files;
+  if (!options.json.empty()) {
+    files.push_back(json_file(options.json));
+  }
+  if (!options.csv.empty()) {
+    std::vector<File> csv = csv_files(options.csv, schemas);
+    std::move(csv.begin(), csv.end(), std::back_inserter(files));
+  }
+  return files;
+}
+
+std::vector<File> own_files(const StudyFiles& files, const results::Schema& schema) {
+  std::vector<File> all = csv_files(files.path(".csv"), std::span(&schema, 1));
+  all.insert(all.begin(), json_file(files.path(".json")));
+  return all;
+}
+
+bool are_of_one_list(std::span<const results::Schema> schemas) {
+  return std::all_of(schemas.begin(), schemas.end(),
+                     [&](const results::Schema& schema) { return schema.list == schemas.front().list; });
 }
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
@@ -127,11 +152,31 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   const std::vector<StudyFiles> files = study_files(options.out, studies);
   const std::optional<ResultsFolder> held = prepare_places(options, studies, files);
 
+  const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
+  const scene::RunOptions how{has_files, options.coefficients, !options.out.empty(), {}};
+  const results::Header header = studies::header(scene);
+  std::vector<results::Schema> schemas;
+  for (const scene::Study& study : studies) {
+    schemas.push_back(study.type->schema(scene, study, how));
+  }
+  // Files take results as they come; what may have to wait for a reader, or has to put several lists in
+  // order, takes them in the end.
+  std::vector<File> common = common_files(options, schemas);
+  const auto later = std::stable_partition(common.begin(), common.end(), [&](const File& file) {
+    return !may_wait(file.path) && are_of_one_list(schemas);
+  });
+  const std::vector<File> in_the_end(later, common.end());
+  common.erase(later, common.end());
+  OpenFiles open(std::move(common));
+  results::Collector kept;
+  Tee all(in_the_end.empty() ? std::vector<results::Sink*>{&open}
+                             : std::vector<results::Sink*>{&open, &kept});
+  all.begin(header, schemas);
+
   Interruption interruption;
   Writing writing;
   ExitCode code = ExitCode::done;
   bool any_begun = false;
-  results::Results results{studies::header(scene), {}, {}};
   std::string places;
   std::ostringstream tables;
   for (std::size_t i = 0; i < studies.size(); ++i) {
@@ -140,44 +185,46 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       continue;
     }
     any_begun = true;
-    StudyResult result = compute_visibly(scene, studies[i], options, interruption);
-    for (const std::string& sentence : results::early_ends(result.results)) {
-      code = ExitCode::stopped_early;
-      tell(sentence);
-    }
-    for (const std::string& sentence : results::doubts(result.results)) {
-      tell(sentence);
-    }
-    if (!options.out.empty()) {
-      for (const std::string& path : write_study(files[i], scene, result, writing)) {
-        places += results::visible(path) + "\n";
-      }
-    }
     if (studies.size() > 1) {
       tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
     }
-    results::write_table(tables, result.results);
-    if (!options.json.empty() || !options.csv.empty()) {
-      append(std::move(result.results), results);
+    results::TableWriter table(tables);
+    results::Remarks remarks;
+    OpenFiles own(options.out.empty() ? std::vector<File>() : own_files(files[i], schemas[i]));
+    OneOfSeveral among(all, i);
+    Tee sinks({&table, &remarks, &own, &among});
+    sinks.begin(header, std::span(&schemas[i], 1));
+    const std::vector<results::FigureData> figures =
+        compute_visibly(scene, studies[i], how, options, sinks, interruption);
+    sinks.finish();
+    for (const std::string& sentence : remarks.early_ends) {
+      code = ExitCode::stopped_early;
+      tell(sentence);
+    }
+    for (const std::string& sentence : remarks.doubts) {
+      tell(sentence);
+    }
+    if (!options.out.empty()) {
+      for (const auto& paths : {write_scene(files[i], scene, writing), own.commit(writing),
+                                write_figures(files[i], figures, writing)}) {
+        for (const std::string& path : paths) {
+          places += results::visible(path) + "\n";
+        }
+      }
     }
   }
   StandardOutput screen;
-  std::vector<File> outputs;  // none where no study was begun
-  if (any_begun && !options.json.empty()) {
-    outputs.push_back({options.json, [&](std::ostream& out) { results::write_json(out, results); }});
-  }
-  if (any_begun && !options.csv.empty()) {
-    std::vector<File> csv = csv_files(options.csv, results);
-    outputs.insert(outputs.end(), csv.begin(), csv.end());
-  }
-  // Files before what may have to wait for a reader.
-  std::stable_partition(outputs.begin(), outputs.end(),
-                        [](const File& each) { return !may_wait(each.path); });
-  for (const File& each : outputs) {
-    if (each.path == "-") {
-      screen.write(each.writer);
-    } else {
-      writing.file(each);
+  if (any_begun) {
+    all.finish();
+    open.commit(writing);
+    for (const File& each : in_the_end) {
+      const auto writer = [&](std::ostream& out) { write(each, kept.results, out); };
+      if (each.path == "-") {
+        screen.write(writer);
+      } else {
+        writing.attempt(results::visible(each.path),
+                        [&] { output::write_file(each.path, writer, interrupted); });
+      }
     }
   }
   if (!takes_standard_output(options)) {

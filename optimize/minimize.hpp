@@ -21,6 +21,8 @@ namespace arcslip::optimize {
 
 // The algorithms of NLopt, by their own names.
 
+inline constexpr const char* default_algorithm = "LD_SLSQP";
+
 /// Bad input: sizes that do not match, bounds that are reversed or equal, an unknown algorithm, a negative
 /// tolerance, an algorithm that does not take what was given. The message has the numbers, and what is
 /// allowed.
@@ -89,7 +91,7 @@ struct Progress {
 };
 
 struct Options {
-  std::string algorithm = "LD_SLSQP";  // by NLopt's own name, see algorithms()
+  std::string algorithm{default_algorithm};  // by NLopt's own name, see algorithms()
   Tolerances tolerances{};
   int evaluations = 10000;                                   // calls of the objective, >= 1
   double seconds = 0;                                        // >= 0; 0: no limit

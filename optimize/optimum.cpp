@@ -41,7 +41,7 @@ Search::Search(const scene::Scene& scene, const OptimumProblem& problem, const O
       problem_(problem),
       options_(options),
       limited_(!problem.limits.empty() || !problem.linear_limits.empty()),
-      asked_(algorithm(options.algorithm.empty() ? "LD_SLSQP" : options.algorithm)),
+      asked_(algorithm(options.algorithm.empty() ? std::string(default_algorithm) : options.algorithm)),
       algorithm_(asked_),
       watch_(options.seconds, options.go_on),
       trials_(scene, problem, options, watch_, asked_.global) {

@@ -64,7 +64,7 @@ struct OptimumProgress {
 };
 
 struct OptimumOptions {
-  std::string algorithm{};  // by NLopt's own name; empty: LD_SLSQP
+  std::string algorithm{};  // by NLopt's own name; empty: default_algorithm
   Tolerances tolerances{.x_relative = 0,
                         .x_absolute = 1e-7,
                         .f_relative = 0,

@@ -16,7 +16,7 @@ namespace arcslip::optimize {
 
 /// Of the search. Algorithms are called by NLopt's own names.
 struct SearchSettings {
-  std::string algorithm{};  // empty: the default, LD_SLSQP
+  std::string algorithm{};  // empty: default_algorithm
   std::string local{};      // what AUGLAG and MLSL search with; empty: none
   int evaluations = 1000;   // designs that are looked at, at most
   double seconds = 0;       // 0: no limit

@@ -167,7 +167,7 @@ KeysOf<OptimumSettings> keys() {
                        },
                        drop_from}));
   keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
-  keys.add(of_search(text("algorithm", &SearchSettings::algorithm, algorithm, "\"LD_SLSQP\"",
+  keys.add(of_search(text("algorithm", &SearchSettings::algorithm, algorithm, "\"" + std::string(default_algorithm) + "\"",
                           "an algorithm of NLopt, by its own name")));
   keys.add(of_search(text("local", &SearchSettings::local, algorithm, "",
                           "the algorithm inside MLSL and AUGLAG, as LN_BOBYQA")));

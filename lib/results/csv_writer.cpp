@@ -205,9 +205,9 @@ void CsvSummary::finish() {
   }
 }
 
-std::vector<std::string> table_keys(const Results& results) {
+std::vector<std::string> table_keys(std::span<const Schema> schemas) {
   std::vector<std::string> keys;
-  for (const Schema& schema : results.schemas)
+  for (const Schema& schema : schemas)
     for (const Table& table : schema.tables) add(table.key, keys);
   return keys;
 }

@@ -64,7 +64,7 @@ class CsvSummary : public Sink {
 };
 
 /// Of all tables, each once.
-std::vector<std::string> table_keys(const Results& results);
+std::vector<std::string> table_keys(std::span<const Schema> schemas);
 
 void write_csv(std::ostream& out, const Results& results, const std::string& table);
 void write_csv_summary(std::ostream& out, const Results& results);

@@ -3,7 +3,6 @@
 #include <arcslip/results/text.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace arcslip::results {
@@ -43,14 +42,6 @@ Object object(std::span<const Column> columns, const Rows& rows, std::size_t row
         cells.of);
   }
   return all;
-}
-
-void append(Results more, Results& all) {
-  for (Result& result : more.results) {
-    result.schema += all.schemas.size();
-    all.results.push_back(std::move(result));
-  }
-  std::move(more.schemas.begin(), more.schemas.end(), std::back_inserter(all.schemas));
 }
 
 namespace {

@@ -126,9 +126,6 @@ std::string assignment(const Object& set);
 /// A row as members within members.
 Object object(std::span<const Column> columns, const Rows& rows, std::size_t row);
 
-/// Puts results of the same header behind others.
-void append(Results more, Results& all);
-
 /// Hands one of them to a sink, as of this schema.
 void hand(const Result& result, std::size_t schema, Sink& sink);
 

@@ -81,18 +81,6 @@ void write_aligned(std::ostream& out, std::vector<Row> rows) {
   }
 }
 
-std::string part_and_status(const Results& results, std::size_t i) {
-  const Result& result = results.results[i];
-  const Schema& schema = results.schemas[result.schema];
-  const std::string set = assignment(result.head.set);
-  return schema.noun + " " + std::to_string(i + 1) + (set.empty() ? "" : " (" + set + ")") + " " +
-         name(result.end.status);
-}
-
-bool is_complete(const Result& result) {
-  return result.end.status == Status::complete;
-}
-
 }  // namespace
 
 TableWriter::TableWriter(std::ostream& out) : out_(out) {}
@@ -162,22 +150,22 @@ void write_table(std::ostream& out, const Results& results) {
   replay(results, writer);
 }
 
-std::vector<std::string> early_ends(const Results& results) {
-  std::vector<std::string> sentences;
-  for (std::size_t i = 0; i < results.results.size(); ++i) {
-    const Value* message = find(results.results[i].end.stop, std::vector<std::string>{"message"});
-    if (!is_complete(results.results[i]))
-      sentences.push_back(part_and_status(results, i) + ": " + (message ? text_of(*message, "") : ""));
-  }
-  return sentences;
+void Remarks::begin(const Header& /*header*/, std::span<const Schema> schemas) {
+  for (const Schema& schema : schemas) nouns_.push_back(schema.noun);
 }
 
-std::vector<std::string> doubts(const Results& results) {
-  std::vector<std::string> sentences;
-  for (std::size_t i = 0; i < results.results.size(); ++i)
-    if (const Result& result = results.results[i]; is_complete(result) && !result.end.doubt.empty())
-      sentences.push_back(part_and_status(results, i) + ", but " + result.end.doubt);
-  return sentences;
+void Remarks::curve(const Head& head, std::size_t schema) {
+  const std::string set = assignment(head.set);
+  which_ = nouns_[schema] + " " + std::to_string(++count_) + (set.empty() ? "" : " (" + set + ")");
+}
+
+void Remarks::end(const End& end) {
+  const std::string how = which_ + " " + name(end.status);
+  const Value* message = find(end.stop, std::vector<std::string>{"message"});
+  if (end.status != Status::complete)
+    early_ends.push_back(how + ": " + (message ? text_of(*message, "") : ""));
+  else if (!end.doubt.empty())
+    doubts.push_back(how + ", but " + end.doubt);
 }
 
 }  // namespace arcslip::results

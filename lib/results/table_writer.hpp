@@ -40,9 +40,22 @@ class TableWriter : public Sink {
 
 void write_table(std::ostream& out, const Results& results);
 
-/// For each result that is not complete, which and why; for each that is, what makes it doubtful, if
-/// anything.
-std::vector<std::string> early_ends(const Results& results);
-std::vector<std::string> doubts(const Results& results);
+/// What people are told of results: for each that is not complete, which and why; for each that is, what
+/// makes it doubtful, if anything.
+class Remarks : public Sink {
+ public:
+  void begin(const Header& header, std::span<const Schema> schemas) override;
+  void curve(const Head& head, std::size_t schema) override;
+  void rows(std::size_t /*table*/, const Rows& /*rows*/) override {}
+  void end(const End& end) override;
+  void finish() override {}
+
+  std::vector<std::string> early_ends, doubts;
+
+ private:
+  std::vector<std::string> nouns_;  // of the schemas
+  std::size_t count_ = 0;           // of results so far
+  std::string which_;               // the result that is open
+};
 
 }  // namespace arcslip::results

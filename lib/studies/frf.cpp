@@ -1,14 +1,11 @@
 #include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/studies/branches.hpp>
+#include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
-#include <arcslip/studies/figures.hpp>
-#include <arcslip/studies/study_of.hpp>
 
 namespace arcslip::studies {
 namespace {
 
 using observables::FrequencyRange;
-using observables::ResponseBranch;
 
 scene::file::KeysOf<FrequencyRange> keys() {
   scene::file::KeysOf<FrequencyRange> keys;
@@ -19,20 +16,9 @@ scene::file::KeysOf<FrequencyRange> keys() {
 }  // namespace
 
 const scene::StudyType& frf() {
-  static const StudyOf<FrequencyRange, ResponseBranch> type(
-      {.name = "frf",
-       .help = "frequency responses, with their peaks and folds",
-       .keys = keys(),
-       .compute =
-           [](const Case& at, const FrequencyRange& range, const results::ProgressCallback& progress) {
-             return observables::frequency_response(at.scene, range, progress);
-           },
-       .results = [](const scene::Scene& scene, const FrequencyRange&,
-                     const scene::RunOptions& options) { return branches(scene, "", false, options); },
-       .figures =
-           [](const scene::Scene& scene, std::span<const ResponseBranch> branches) {
-             return std::vector{figures_of(scene, BranchKind::responses, branches)};
-           }});
+  static const StudyOf<FrequencyRange, observables::ResponseBranch> type(
+      branch_kind<observables::frequency_response, BranchKind::responses>(
+          "frf", "frequency responses, with their peaks and folds", keys()));
   return type;
 }
 

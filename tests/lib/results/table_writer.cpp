@@ -72,9 +72,11 @@ TEST_CASE("what ended early, and what is complete but doubtful, is told by its n
   results.results[1].head.set = {{"load", 3.0, "N"}, {"share", 0.5}};
   results.results[1].end.stop = {{"message", "it broke"}};
   results.results[0].end.doubt = "hardly so";
-  CHECK(early_ends(results) ==
+  results.results[1].end.doubt = "and doubtful";  // but the failure is told already
+  Remarks remarks;
+  replay(results, remarks);
+  CHECK(remarks.early_ends ==
         std::vector<std::string>{"other 2 (load = 3 N, share = 0.5) failed: it broke"});
-  CHECK(doubts(results) == std::vector<std::string>{"thing 1 (load = 2.5 N) complete, but hardly so"});
-  results.results[1].end.doubt = "and doubtful";
-  CHECK(doubts(results).size() == 1);  // the failure is told already
+  CHECK(remarks.doubts ==
+        std::vector<std::string>{"thing 1 (load = 2.5 N) complete, but hardly so"});
 }

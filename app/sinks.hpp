@@ -1,0 +1,77 @@
+#pragma once
+// Where results go while they are computed.
+
+#include "results.hpp"
+
+#include <arcslip/output/atomic_file.hpp>
+#include <arcslip/results/result.hpp>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace arcslip::app {
+
+/// Hands all that it is given to each of several sinks, which outlive it.
+class Tee : public results::Sink {
+ public:
+  explicit Tee(std::vector<results::Sink*> sinks) : sinks_(std::move(sinks)) {}
+
+  void begin(const results::Header& header, std::span<const results::Schema> schemas) override;
+  void curve(const results::Head& head, std::size_t schema) override;
+  void rows(std::size_t table, const results::Rows& rows) override;
+  void end(const results::End& end) override;
+  void finish() override;
+
+ private:
+  std::vector<results::Sink*> sinks_;
+};
+
+/// The results of one study, as those of one schema of a sink for several studies: whoever made that sink
+/// begins and finishes it.
+class OneOfSeveral : public results::Sink {
+ public:
+  OneOfSeveral(results::Sink& all, std::size_t schema) : all_(all), schema_(schema) {}
+
+  void begin(const results::Header& /*header*/, std::span<const results::Schema> /*schemas*/) override {}
+  void curve(const results::Head& head, std::size_t /*schema*/) override { all_.curve(head, schema_); }
+  void rows(std::size_t table, const results::Rows& rows) override { all_.rows(table, rows); }
+  void end(const results::End& end) override { all_.end(end); }
+  void finish() override {}
+
+ private:
+  results::Sink& all_;
+  std::size_t schema_;
+};
+
+/// Files that are written as results come, so that none is kept. Each has its name, whole, from commit() on.
+/// One that cannot be written costs the others nothing.
+class OpenFiles : public results::Sink {
+ public:
+  explicit OpenFiles(std::vector<File> files);
+
+  void begin(const results::Header& header, std::span<const results::Schema> schemas) override;
+  void curve(const results::Head& head, std::size_t schema) override;
+  void rows(std::size_t table, const results::Rows& rows) override;
+  void end(const results::End& end) override;
+  void finish() override;
+
+  /// Returns the paths of those that are written, and leaves to `writing` to tell of the others.
+  std::vector<std::string> commit(Writing& writing);
+
+ private:
+  struct Open {
+    File file;
+    std::optional<output::AtomicFile> target{};
+    std::unique_ptr<results::Sink> sink{};
+    std::optional<output::WriteError> failed{};
+  };
+  template <class Write>
+  void each(const Write& write);
+
+  std::vector<Open> files_;
+};
+
+}  // namespace arcslip::app

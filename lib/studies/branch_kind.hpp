@@ -1,0 +1,39 @@
+#pragma once
+// The kinds of study that follow branches of responses: they differ in their keys and in what they follow.
+
+#include <arcslip/studies/branches.hpp>
+#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/study_of.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace arcslip::studies {
+
+/// follow(scene, range, progress) gives the branches of one combination, over the parameter range.over, or
+/// over the frequency where a Range has none.
+template <auto follow, BranchKind drawn, class Range>
+KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, std::string_view help,
+                                                       scene::file::KeysOf<Range> keys) {
+  using Branches = std::span<const observables::ResponseBranch>;
+  return {
+      .name = name,
+      .help = help,
+      .keys = std::move(keys),
+      .compute = [](const Case& at, const Range& range,
+                    const results::ProgressCallback& progress) { return follow(at.scene, range, progress); },
+      .results =
+          [](const scene::Scene& scene, const Range& range, const scene::RunOptions& options) {
+            std::string over;
+            if constexpr (requires { range.over; }) over = range.over;
+            const bool maxima = drawn == BranchKind::peaks || drawn == BranchKind::folds;
+            return branches(scene, over, maxima, options);
+          },
+      .figures = [](const scene::Scene& scene,
+                    Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; }};
+}
+
+}  // namespace arcslip::studies
