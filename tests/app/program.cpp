@@ -172,6 +172,7 @@ Ended Program::wait() {
   rusage used{};
   ::wait4(pid_, &status, 0, &used);
   ended_ = true;
+  result.kilobytes = used.ru_maxrss;
   for (const timeval& time : {used.ru_utime, used.ru_stime}) {
     result.processor_seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
   }

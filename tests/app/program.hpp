@@ -34,6 +34,7 @@ struct Ended {
   int signal = 0;
   std::string out, err;
   double processor_seconds = 0;  // that it took in all
+  long kilobytes = 0;            // of memory, at most; no less than the test had
 };
 
 /// A running arcslip.
