@@ -1,33 +1,18 @@
 #pragma once
-// The linear part of harmonic balance, condensed onto the unknowns:
+// The linear part of harmonic balance, condensed onto the unknowns (condensation.hpp):
 //
 //   R_n = Z_n(omega) X_n - f_n,   Z_n = K - (n omega)^2 M + i n omega C,   X_n = a_n - i b_n
-//
-// With y = (q, l), l linear:  Z = Z_qq - Z_ql Z_ll^-1 Z_lq,  f = f_q - Z_ql Z_ll^-1 f_l,  y_l = Z_ll^-1 (f_l
-// - Z_lq q). Every parameter derivative is that of the full equation at the full motion, v, projected: v_q -
-// Z_ql Z_ll^-1 v_l.
 
-#include <arcslip/continuation/dense_algebra.hpp>
-#include <arcslip/continuation/sparse_algebra.hpp>
+#include <arcslip/hbm/condensation.hpp>
 #include <arcslip/hbm/coordinates.hpp>
 
-#include <complex>
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace arcslip::hbm {
 
 using continuation::Vector;
 using elements::Harmonics;
-using elements::In;
 using elements::Out;
-
-/// What the linear parts and the forces do in one harmonic of the motion of all degrees of freedom, x.
-struct QuadraticForms {
-  double mass = 0, damping = 0, stiffness = 0;  // x^H M x, x^H C x, x^H K x
-  std::complex<double> force;                   // x^H f
-};
 
 /// Mutable, one for each evaluator. Layout of u and R: r coordinates one after another, each as in
 /// harmonics.hpp.
@@ -37,7 +22,7 @@ class DynamicStiffness {
 
   /// False where the linear coordinates resonate by themselves, undamped: the condensed stiffness has a pole.
   bool move_to(In p);
-  double omega() const { return omega_; }  // rad/s, at the last place
+  double omega() const { return parts_.omega(); }  // rad/s, at the last place
 
   void residual(In u, double force_factor, Out R) const;                      // R = Z u - force_factor f
   void add_to(Eigen::MatrixXd& J) const;                                      // J += Z
@@ -56,45 +41,35 @@ class DynamicStiffness {
   QuadraticForms quadratic_forms(int n, In u, double force_factor) const;
 
  private:
-  using Complex = std::complex<double>;
-  using Vectorc = Eigen::VectorXcd;
-  using Matrixc = Eigen::MatrixXcd;
+  // One of the harmonics: where its coefficients stand among those of a coordinate, and its equation.
+  struct Harmonic {
+    int order, cosine, sine;  // the mean has no sine
+    Condensed condensed;
 
-  struct PartInY {
-    int parameter;
-    std::vector<std::pair<Eigen::Index, double>> direction;  // what is not zero of P^T d
+    // X_n of the coordinate whose coefficients begin at `first`; X_0 is real.
+    Complex amplitude(const In& x, int first) const {
+      return {x[first + cosine], order == 0 ? 0.0 : -x[first + sine]};
+    }
+    void put(Complex amplitude, int first, Out& x) const {
+      x[first + cosine] = amplitude.real();
+      if (order > 0) x[first + sine] = -amplitude.imag();
+    }
   };
-  std::vector<PartInY> in_y(const std::vector<model::LinearPart>& parts) const;
-  void choose_sparse();
-  void assemble(In p);
-  bool depends_on(int k) const;
-  void differentiate(int k, In u, int h, double force_factor, Vectorc& v) const;
-  void gather(In u, int h, Vectorc& q) const;
-  void expand(const Vectorc& q, int h, double force_factor, Vectorc& y) const;
-  void scatter_add(const Vectorc& v, int h, Out R) const;
-  void project(const Vectorc& v, int h, Vectorc& q) const;
-  Complex coefficient(In x, int h) const;
+  // The first two write y_, the third one also v_.
+  void gather(const In& u, const Harmonic& at) const;
+  void expand(const In& u, const Harmonic& at, double force_factor) const;
+  void differentiate(int k, const In& u, const Harmonic& at, double force_factor) const;
+  void scatter(const ComplexVector& q, const Harmonic& at, Out& x) const;
 
-  const model::Model& model_;
-  const Harmonics harmonics_;
   const int r_, l_;
-  Eigen::MatrixXd P_;          // dofs x (r + l)
-  Eigen::MatrixXd M_, C_, K_;  // in y
-  Vector response_;            // in y
-  std::vector<PartInY> masses_, dampers_, springs_;
-  std::vector<Vector> force_directions_;  // in y
-  std::vector<double> structural_;        // values of the last assemble()
-  std::vector<int> structural_parameters_;
-  double omega_ = -1;
+  const Harmonics layout_;
+  const int size_;   // coefficients of a coordinate
+  Vector response_;  // direction in y
+  LinearParts parts_;
+  Condensation condensation_;
+  std::vector<Harmonic> harmonics_;
   Vector last_p_;
-  std::vector<Matrixc> Z_;  // per harmonic, r x r
-  std::vector<Vectorc> f_;  // r
-  std::vector<Matrixc> W_;  // l x (r + 2): Z_ll^-1 [Z_lq, f_l, response_l]
-  continuation::LU<Complex> lu_;
-  Matrixc Zll_, rhs_;
-  std::optional<continuation::ComplexSparseLU> sparse_lu_;  // where it costs less; then in place of these:
-  continuation::ComplexSparseLU::Matrix sparse_Zll_;
-  mutable Vectorc q_, y_, v_, full_f_;
+  mutable ComplexVector y_, v_;  // a full motion, a residual of the full equation; q comes first in both
 };
 
 }  // namespace arcslip::hbm

@@ -1,0 +1,148 @@
+#include <arcslip/hbm/condensation.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace arcslip::hbm {
+namespace {
+
+constexpr double pole = 1e-14;    // pivot of Z_ll, relative to the largest entry of its column
+constexpr Eigen::Index few = 16;  // unknowns, up to which blocks of a factorization cost more than they save
+constexpr double sparse_share = 0.1;  // of the multiplications of dense factors, each of which costs less
+
+using Sparse = continuation::ComplexSparseLU::Matrix;
+
+// a - b c, without the tests for infinity of operator*.
+Complex less_product(Complex a, Complex b, Complex c) {
+  return {a.real() - b.real() * c.real() + b.imag() * c.imag(),
+          a.imag() - b.real() * c.imag() - b.imag() * c.real()};
+}
+
+// B := A^-1 B for a small A, which is overwritten, by elimination with row pivots. False: A is singular.
+bool eliminate(ComplexMatrix& A, ComplexMatrix& B) {
+  const Eigen::Index n = A.rows(), m = B.cols();
+  std::array<double, few> least;
+  for (Eigen::Index k = 0; k < n; ++k)
+    least[static_cast<std::size_t>(k)] = pole * pole * A.col(k).cwiseAbs2().maxCoeff();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index pivot = 0;
+    const double square = A.col(k).tail(n - k).cwiseAbs2().maxCoeff(&pivot);
+    if (!(square > least[static_cast<std::size_t>(k)])) return false;
+    if (pivot > 0) {
+      A.row(k).tail(n - k).swap(A.row(k + pivot).tail(n - k));
+      B.row(k).swap(B.row(k + pivot));
+    }
+    const Complex inverse = std::conj(A(k, k)) / square;
+    A(k, k) = inverse;
+    for (Eigen::Index i = k + 1; i < n; ++i) A(i, k) *= inverse;
+    for (Eigen::Index j = k + 1; j < n; ++j)
+      for (Eigen::Index i = k + 1; i < n; ++i) A(i, j) = less_product(A(i, j), A(i, k), A(k, j));
+    for (Eigen::Index j = 0; j < m; ++j)
+      for (Eigen::Index i = k + 1; i < n; ++i) B(i, j) = less_product(B(i, j), A(i, k), B(k, j));
+  }
+  for (Eigen::Index j = 0; j < m; ++j)
+    for (Eigen::Index k = n - 1; k >= 0; --k) {
+      B(k, j) *= A(k, k);
+      for (Eigen::Index i = 0; i < k; ++i) B(i, j) = less_product(B(i, j), A(i, k), B(k, j));
+    }
+  return true;
+}
+
+}  // namespace
+
+void Condensed::expand(double force_factor, ComplexVector& y) const {
+  const Eigen::Index r = Z.rows(), l = W.rows();
+  if (l == 0) return;
+  y.tail(l) = force_factor * W.col(r);
+  y.tail(l).noalias() -= W.leftCols(r) * y.head(r);
+}
+
+void Condensed::project(ComplexVector& v) const {
+  const Eigen::Index r = Z.rows(), l = W.rows();
+  if (l == 0) return;
+  v.head(r).noalias() -= W.leftCols(r).transpose() * v.tail(l);
+}
+
+Complex Condensed::observed_change(const ComplexVector& v) const {
+  const Eigen::Index r = Z.rows();
+  Complex sum = 0;
+  for (Eigen::Index k = 0; k < W.rows(); ++k) sum -= W(k, r + 1) * v[r + k];
+  return sum;
+}
+
+Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::VectorXd& observed)
+    : r_(unknowns), l_(observed.size() - unknowns), c_(observed), rhs_(l_, r_ + 2) {
+  if (l_ > few) choose_sparse(parts);
+  if (sparse_lu_) return;
+  lu_ = continuation::LU<Complex>(l_);
+  Zll_.resize(l_, l_);
+}
+
+// Each degree of freedom of a large structure is linked to few others, and so is each coordinate in y.
+void Condensation::choose_sparse(const std::vector<PartInY>& parts) {
+  const auto n = static_cast<double>(l_);
+  ComplexMatrix linked = ComplexMatrix::Identity(l_, l_);
+  for (const PartInY& part : parts) {
+    const auto& entries = part.direction.entries();
+    const auto links = static_cast<double>(entries.size());
+    if (links * links > sparse_share * n * n) return;
+    for (const auto& [j, at_j] : entries)
+      for (const auto& [i, at_i] : entries)
+        if (i >= r_ && j >= r_) linked(i - r_, j - r_) = 1;
+  }
+  sparse_Zll_ = linked.sparseView();
+  if (static_cast<double>(sparse_Zll_.nonZeros()) > sparse_share * n * n) return;
+  sparse_lu_.emplace(sparse_Zll_);
+  if (sparse_lu_->multiplications() > sparse_share * n * n * n / 3) sparse_lu_.reset();
+}
+
+// W = Z_ll^-1 rhs_
+bool Condensation::solve_linear(const StructuralMatrices& of, double s, ComplexMatrix& W) {
+  if (sparse_lu_) {
+    for (int j = 0; j < l_; ++j)
+      for (Sparse::InnerIterator entry(sparse_Zll_, j); entry; ++entry)
+        entry.valueRef() = of.at(s, r_ + entry.row(), r_ + j);
+    if (!sparse_lu_->factorize(sparse_Zll_, pole)) return false;
+    W = rhs_;
+    sparse_lu_->solve_in_place(W);
+    return true;
+  }
+  for (Eigen::Index j = 0; j < l_; ++j)
+    for (Eigen::Index i = 0; i < l_; ++i) Zll_(i, j) = of.at(s, r_ + i, r_ + j);
+  if (l_ <= few) {
+    W = rhs_;
+    return eliminate(Zll_, W);
+  }
+  lu_.factorize(Zll_);
+  for (Eigen::Index k = 0; k < l_; ++k)
+    if (!(std::abs(lu_.pivot(k)) > pole * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
+  lu_.solve_columns(rhs_, W);
+  return true;
+}
+
+bool Condensation::condense(const StructuralMatrices& of, double s, const ComplexVector& f, Condensed& into) {
+  ComplexMatrix &Z = into.Z, &W = into.W;
+  Z.resize(r_, r_);
+  for (Eigen::Index j = 0; j < r_; ++j)
+    for (Eigen::Index i = 0; i < r_; ++i) Z(i, j) = of.at(s, i, j);
+  into.f = f.head(r_);
+  if (l_ == 0) return true;
+
+  for (Eigen::Index k = 0; k < l_; ++k) {
+    for (Eigen::Index i = 0; i < r_; ++i) rhs_(k, i) = of.at(s, r_ + k, i);
+    rhs_(k, r_) = f[r_ + k];
+    rhs_(k, r_ + 1) = c_[r_ + k];
+  }
+  if (!solve_linear(of, s, W)) return false;
+  for (Eigen::Index j = 0; j < r_; ++j)
+    for (Eigen::Index i = 0; i <= j; ++i) {  // Z is symmetric
+      Complex sum = Z(i, j);
+      for (Eigen::Index k = 0; k < l_; ++k) sum = less_product(sum, rhs_(k, i), W(k, j));
+      Z(i, j) = Z(j, i) = sum;
+    }
+  for (Eigen::Index i = 0; i < r_; ++i)
+    for (Eigen::Index k = 0; k < l_; ++k) into.f[i] = less_product(into.f[i], rhs_(k, i), W(k, r_));
+  return true;
+}
+
+}  // namespace arcslip::hbm

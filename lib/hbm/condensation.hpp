@@ -1,0 +1,55 @@
+#pragma once
+// Dynamic condensation: linear coordinates l of y = (q, l) are eliminated from Z y = f, harmonic by harmonic,
+// and from an observation x = c . y. Z is symmetric.
+//
+//   (Z_qq - Z_ql Z_ll^-1 Z_lq) q = f_q - Z_ql Z_ll^-1 f_l,   l = Z_ll^-1 (f_l - Z_lq q)
+//
+// A change of the full equation at the full motion, v = dZ y - df, changes the condensed one by
+// v_q - Z_ql Z_ll^-1 v_l, and x at fixed q by -c_l . Z_ll^-1 v_l.
+
+#include <arcslip/continuation/dense_algebra.hpp>
+#include <arcslip/continuation/sparse_algebra.hpp>
+#include <arcslip/hbm/linear_parts.hpp>
+
+#include <optional>
+
+namespace arcslip::hbm {
+
+/// The equation of one harmonic, Z q = f, and what leads from it to y and back.
+struct Condensed {
+  ComplexMatrix Z;  // r x r, the Schur complement of Z_ll
+  ComplexVector f;  // r
+  ComplexMatrix W;  // l x (r + 2): Z_ll^-1 [Z_lq, f_l, c_l]
+
+  /// y = (q, l) from its q, with f times force_factor.
+  void expand(double force_factor, ComplexVector& y) const;
+  /// v_q := v_q - Z_ql Z_ll^-1 v_l.
+  void project(ComplexVector& v) const;
+  /// -c_l . Z_ll^-1 v_l.
+  Complex observed_change(const ComplexVector& v) const;
+};
+
+/// Mutable, one for each evaluator. Z_ll^-1 is by what costs least for its size and for how few coordinates
+/// each part links: plain elimination, LU of a dense or of a sparse matrix.
+class Condensation {
+ public:
+  /// The first `unknowns` coordinates remain.
+  Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::VectorXd& observed);
+
+  /// For Z = K - s^2 M + i s C. False where Z_ll is singular to rounding.
+  bool condense(const StructuralMatrices& of, double s, const ComplexVector& f, Condensed& into);
+
+ private:
+  void choose_sparse(const std::vector<PartInY>& parts);
+  bool solve_linear(const StructuralMatrices& of, double s, ComplexMatrix& W);
+
+  const Eigen::Index r_, l_;
+  Eigen::VectorXd c_;
+  ComplexMatrix rhs_;  // [Z_lq, f_l, c_l]
+  ComplexMatrix Zll_;
+  continuation::LU<Complex> lu_;
+  std::optional<continuation::ComplexSparseLU> sparse_lu_;  // where it costs less; then in place of these:
+  continuation::ComplexSparseLU::Matrix sparse_Zll_;
+};
+
+}  // namespace arcslip::hbm

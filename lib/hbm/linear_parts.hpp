@@ -1,0 +1,106 @@
+#pragma once
+// Masses, dampers, springs and forces in the coordinates y, x = P y (coordinates.hpp), none of them condensed
+// away. In harmonic n of the motion, s = n omega:
+//
+//   Z y = f,   Z = K - s^2 M + i s C
+//
+// A part adds value * g(s) d d^T to Z, where g = -s^2, i s, 1 for a mass, a damper, a spring, and a force
+// adds (cosine - i sine) d to the f of its harmonic. Most of d is zero.
+
+#include <arcslip/model/model.hpp>
+
+#include <complex>
+#include <utility>
+#include <vector>
+
+namespace arcslip::hbm {
+
+using elements::In;
+using Complex = std::complex<double>;
+using ComplexVector = Eigen::VectorXcd;
+using ComplexMatrix = Eigen::MatrixXcd;
+
+/// d in y, by its entries that are not zero. What rounding leaves of it in others is taken out: a stiff part
+/// stands in its own row and column, and added to softer ones, it would leave nothing of them.
+class DirectionInY {
+ public:
+  DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x);
+
+  const std::vector<std::pair<Eigen::Index, double>>& entries() const { return entries_; }
+  /// d . y
+  Complex along(const ComplexVector& y) const {
+    Complex sum = 0;
+    for (const auto& [i, at_i] : entries_) sum += at_i * y[i];
+    return sum;
+  }
+  /// v += amount d
+  void add(Complex amount, ComplexVector& v) const {
+    for (const auto& [i, at_i] : entries_) v[i] += amount * at_i;
+  }
+
+ private:
+  std::vector<std::pair<Eigen::Index, double>> entries_;
+};
+
+struct PartInY {
+  enum class Kind { mass, damper, spring };
+
+  Kind kind;
+  int parameter;
+  DirectionInY direction;
+  double value;  // at the last place
+};
+
+/// M, C, K in y, symmetric.
+struct StructuralMatrices {
+  Eigen::MatrixXd M, C, K;
+
+  /// An entry of Z.
+  Complex at(double s, Eigen::Index i, Eigen::Index j) const {
+    return {K(i, j) - s * s * M(i, j), s * C(i, j)};
+  }
+};
+
+/// What the linear parts and the forces do in one harmonic of the motion of all degrees of freedom, x.
+struct QuadraticForms {
+  double mass = 0, damping = 0, stiffness = 0;  // x^H M x, x^H C x, x^H K x
+  Complex force;                                // x^H f
+};
+
+/// Mutable, one for each evaluator. Values, frequency and forces are those of the last place.
+class LinearParts {
+ public:
+  LinearParts(const model::Model& model, const Eigen::MatrixXd& P);
+
+  void move_to(In p);
+  double omega() const { return omega_; }  // rad/s
+  const std::vector<PartInY>& parts() const { return parts_; }
+  const StructuralMatrices& matrices() const { return matrices_; }
+  /// f of harmonic n.
+  void force(int n, ComplexVector& f) const;
+
+  /// Whether Z or f has the parameter p_k.
+  bool depend_on(int k) const;
+  /// dZ/dp_k y - force_factor df/dp_k of harmonic n.
+  void differentiate(int k, int n, const ComplexVector& y, double force_factor, ComplexVector& v) const;
+
+  /// The sum of value |d . y|^2 over the parts of one kind: y^H M y, y^H C y or y^H K y.
+  double quadratic_form(PartInY::Kind kind, const ComplexVector& y) const;
+  /// f is that of harmonic n, times force_factor.
+  QuadraticForms quadratic_forms(int n, const ComplexVector& y, double force_factor) const;
+
+ private:
+  struct ForceInY {
+    int harmonic;
+    int cosine, sine;  // parameters
+    DirectionInY direction;
+    Complex amplitude;
+  };
+
+  std::vector<PartInY> parts_;
+  std::vector<ForceInY> forces_;
+  StructuralMatrices matrices_;
+  double omega_ = -1;
+};
+
+}  // namespace arcslip::hbm
