@@ -190,3 +190,119 @@ TEST_CASE("a large structure whose linear coordinates resonate undamped has a po
     CHECK(stiffness.move_to(p));
   }
 }
+
+namespace {
+
+/// Equations of a row of masses, the first of which remain; sizes and links for each way to take out the
+/// rest.
+struct Row {
+  int dofs, unknowns;
+  bool linked;
+};
+constexpr Row none{3, 3, false}, few{7, 2, false}, dense{40, 3, true}, sparse{60, 2, false};
+
+struct FullEquation {
+  model::Model model;
+  hbm::LinearParts parts;
+  Vector p;
+
+  explicit FullEquation(const scene::Scene& s)
+      : model(model::build(s)), parts(model, Eigen::MatrixXd::Identity(model.dofs, model.dofs)) {
+    p.resize(static_cast<Eigen::Index>(model.parameters.size()));
+    for (std::size_t k = 0; k < model.parameters.size(); ++k)
+      p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+    p[model::frequency] = 40;
+    p[model.forces.front().sine] = 0.4;
+    for (const auto& damper : model.dampers) p[damper.parameter] *= 50;  // so that resonances are wide
+  }
+  bool condense(hbm::Condensation& condensation, int n, const Vector& at, hbm::Condensed& into) {
+    Eigen::VectorXcd f(model.dofs);
+    parts.move_to(at);
+    parts.force(n, f);
+    return condensation.condense(parts.matrices(), n * at[model::frequency], f, into);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a condensed equation has the solution of the full one, whatever its size and its links") {
+  for (const Row row : {none, few, dense, sparse})
+    for (const int n : {1, 3}) {
+      CAPTURE(row.dofs, row.unknowns, row.linked, n);
+      scene::Scene scene = long_chain(row.dofs, row.linked);
+      scene.excitation.front().harmonic = n;
+      FullEquation full(scene);
+      hbm::Condensation condensation(full.parts.parts(), row.unknowns, full.model.response);
+      hbm::Condensed condensed;
+      REQUIRE(full.condense(condensation, n, full.p, condensed));
+      const auto matrix = [&](const std::vector<model::LinearPart>& parts) {
+        return model::assemble(parts, full.p, row.dofs).cast<std::complex<double>>().eval();
+      };
+      const std::complex<double> i(0, 1);
+      const double s = n * full.p[model::frequency];
+      const Eigen::MatrixXcd Z =
+          matrix(full.model.springs) - s * s * matrix(full.model.masses) + i * s * matrix(full.model.dampers);
+      const Eigen::VectorXcd f = std::complex<double>(1, -0.4) * full.model.forces.front().direction;
+      const Eigen::VectorXcd expected = Z.partialPivLu().solve(0.7 * f);
+      Eigen::VectorXcd y(row.dofs);
+      y.head(row.unknowns) = condensed.Z.partialPivLu().solve(0.7 * condensed.f);
+      condensed.expand(0.7, y);
+      CHECK((y - expected).norm() < 1e-12 * expected.norm());
+    }
+}
+
+TEST_CASE("a condensed equation and what is observed change with parameters as their differences do") {
+  for (const Row row : {none, few, dense, sparse}) {
+    FullEquation full(long_chain(row.dofs, row.linked));
+    hbm::Condensation condensation(full.parts.parts(), row.unknowns, full.model.response);
+    hbm::Condensed condensed;
+    Eigen::VectorXcd y = Eigen::VectorXcd::Random(row.dofs), v(row.dofs);
+    const Eigen::VectorXcd q = y.head(row.unknowns);
+    const auto& force = full.model.forces.front();
+    const int last = row.dofs - 1;
+    for (const int k : {model::frequency, full.model.masses.front().parameter,
+                        full.model.masses[static_cast<std::size_t>(last)].parameter,
+                        full.model.dampers[static_cast<std::size_t>(last / 2)].parameter,
+                        full.model.springs[1].parameter, force.cosine, force.sine}) {
+      CAPTURE(row.dofs, row.unknowns, full.model.parameters[static_cast<std::size_t>(k)].name);
+      // The condensed residual at q and, last, what is observed.
+      const auto at = [&](double value) {
+        Vector p = full.p;
+        p[k] = value;
+        REQUIRE(full.condense(condensation, 1, p, condensed));
+        condensed.expand(0.7, y);
+        Eigen::VectorXcd both(row.unknowns + 1);
+        both << condensed.Z * q - 0.7 * condensed.f, full.model.response.cast<std::complex<double>>().dot(y);
+        return both;
+      };
+      const double step = 1e-5 * full.p[k];
+      const Eigen::VectorXcd difference = (at(full.p[k] + step) - at(full.p[k] - step)) / (2 * step);
+      at(full.p[k]);
+      full.parts.differentiate(k, 1, y, 0.7, v);
+      const auto observed = condensed.observed_change(v);
+      condensed.project(v);
+      const double rounding = 1e-10 / full.p[k];
+      CHECK((v.head(row.unknowns) - difference.head(row.unknowns)).norm() <
+            1e-7 * difference.norm() + rounding * (condensed.Z * q).norm());
+      CHECK(std::abs(observed - difference[row.unknowns]) < 1e-7 * std::abs(observed) + rounding * y.norm());
+    }
+  }
+}
+
+TEST_CASE("a singular block of the linear coordinates is found, whatever its size and its links") {
+  for (const Row row : {few, dense, sparse}) {
+    CAPTURE(row.dofs);
+    scene::Scene s = long_chain(row.dofs, row.linked);
+    s.dampers.clear();
+    for (auto& mass : s.masses) mass.values = {1.0};
+    FullEquation full(s);
+    hbm::Condensation condensation(full.parts.parts(), row.unknowns, full.model.response);
+    hbm::Condensed condensed;
+    // A row whose one end stands still and whose other end is free.
+    const int linear = row.dofs - row.unknowns;
+    full.p[model::frequency] = 2 * 100 * std::sin(std::numbers::pi / 2 * 3 / (2 * linear + 1));
+    CHECK_FALSE(full.condense(condensation, 1, full.p, condensed));
+    full.p[model::frequency] *= 1 + 1e-6;
+    CHECK(full.condense(condensation, 1, full.p, condensed));
+  }
+}

@@ -1,0 +1,86 @@
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/hbm/linear_parts.hpp>
+
+#include <complex>
+
+using namespace arcslip;
+using continuation::Vector;
+
+namespace {
+
+using Complex = std::complex<double>;
+
+// Three masses with forces in harmonics 1 and 2, in random coordinates. One parameter is that of a mass, of a
+// damper, of a spring and of both parts of a force.
+struct Chain {
+  model::Model model = model::build(scenes::chain(3, true));
+  Eigen::MatrixXd P = Eigen::MatrixXd::Random(3, 3);
+  Vector p;
+
+  Chain() {
+    const int tied = model.masses[0].parameter;
+    model.dampers[1].parameter = model.springs[2].parameter = tied;
+    model.forces[0].cosine = model.forces[0].sine = tied;
+    p.resize(static_cast<Eigen::Index>(model.parameters.size()));
+    for (std::size_t k = 0; k < model.parameters.size(); ++k)
+      p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+    p[model::frequency] = 0.8;
+  }
+  Eigen::MatrixXcd matrix(const std::vector<model::LinearPart>& parts, const Vector& at) const {
+    return model::assemble(parts, at, 3).cast<Complex>();
+  }
+  Eigen::VectorXcd force(int n, const Vector& at) const {
+    Eigen::VectorXcd f = Eigen::VectorXcd::Zero(3);
+    for (const auto& force : model.forces)
+      if (force.harmonic == n) f += Complex(at[force.cosine], -at[force.sine]) * force.direction;
+    return f;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the full equation changes with every parameter as its differences do, that of several parts too") {
+  const Chain chain;
+  hbm::LinearParts parts(chain.model, chain.P);
+  parts.move_to(chain.p);
+  const Eigen::VectorXcd y = Eigen::VectorXcd::Random(3);
+  const Eigen::VectorXcd x = chain.P * y;
+  Eigen::VectorXcd v(3);
+  int seen = 0;
+  for (const int n : {1, 2, 3})
+    for (int k = 0; k < chain.p.size(); ++k) {
+      CAPTURE(n, chain.model.parameters[static_cast<std::size_t>(k)].name);
+      const auto at = [&](double step) {
+        Vector p = chain.p;
+        p[k] += step;
+        const double s = n * p[model::frequency];
+        const Eigen::MatrixXcd Z = chain.matrix(chain.model.springs, p) -
+                                   s * s * chain.matrix(chain.model.masses, p) +
+                                   Complex(0, s) * chain.matrix(chain.model.dampers, p);
+        return (chain.P.transpose() * (Z * x - 0.7 * chain.force(n, p))).eval();
+      };
+      parts.differentiate(k, n, y, 0.7, v);
+      CHECK((v - (at(1e-4) - at(-1e-4)) / 2e-4).norm() < 1e-9);  // quadratic: differences only round
+      CHECK((v.norm() == 0 || parts.depend_on(k)));
+      if (v.norm() > 0) ++seen;
+    }
+  CHECK(seen == 3 * 8 + 2);  // frequency, masses, springs, a damper; both parts of the force in harmonic 2
+}
+
+TEST_CASE("quadratic forms of a motion are those of the assembled matrices and forces") {
+  const Chain chain;
+  hbm::LinearParts parts(chain.model, chain.P);
+  parts.move_to(chain.p);
+  const Eigen::VectorXcd y = Eigen::VectorXcd::Random(3);
+  const Eigen::VectorXcd x = chain.P * y;
+  for (const int n : {1, 2, 3}) {
+    const hbm::QuadraticForms forms = parts.quadratic_forms(n, y, 0.7);
+    CHECK(std::abs(forms.mass - x.dot(chain.matrix(chain.model.masses, chain.p) * x)) < 1e-14);
+    CHECK(std::abs(forms.damping - x.dot(chain.matrix(chain.model.dampers, chain.p) * x)) < 1e-14);
+    CHECK(std::abs(forms.stiffness - x.dot(chain.matrix(chain.model.springs, chain.p) * x)) < 1e-14);
+    CHECK(std::abs(forms.force - 0.7 * x.dot(chain.force(n, chain.p))) < 1e-14);
+  }
+}
