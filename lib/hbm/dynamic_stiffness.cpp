@@ -56,26 +56,24 @@ void DynamicStiffness::scatter(const ComplexVector& q, const Harmonic& at, Out& 
 void DynamicStiffness::residual(In u, double force_factor, Out R) const {
   for (const Harmonic& at : harmonics_) {
     gather(u, at);
-    for (int i = 0; i < r_; ++i) {
-      Complex sum = 0;
-      for (int j = 0; j < r_; ++j) sum += at.condensed.Z(i, j) * y_[j];
-      at.put(sum - force_factor * at.condensed.f[i], i * size_, R);
-    }
+    v_.head(r_).noalias() = at.condensed.Z.lazyProduct(y_.head(r_));
+    for (int i = 0; i < r_; ++i) at.put(v_[i] - force_factor * at.condensed.f[i], i * size_, R);
   }
 }
 
 void DynamicStiffness::add_to(Eigen::MatrixXd& J) const {
-  for (const Harmonic& at : harmonics_)
+  for (const Harmonic& at : harmonics_) {
+    const int size = size_, a = at.cosine, b = at.sine;
     for (int j = 0; j < r_; ++j)
       for (int i = 0; i < r_; ++i) {
         const Complex Z = at.condensed.Z(i, j);
-        const int row = i * size_, column = j * size_;
-        J(row + at.cosine, column + at.cosine) += Z.real();
+        J(i * size + a, j * size + a) += Z.real();
         if (at.order == 0) continue;
-        J(row + at.sine, column + at.sine) += Z.real();
-        J(row + at.cosine, column + at.sine) += Z.imag();
-        J(row + at.sine, column + at.cosine) -= Z.imag();
+        J(i * size + b, j * size + b) += Z.real();
+        J(i * size + a, j * size + b) += Z.imag();
+        J(i * size + b, j * size + a) -= Z.imag();
       }
+  }
 }
 
 void DynamicStiffness::force(Out f) const {
