@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 namespace {
 
 /// One mass and one damper of this name, as JSON writes it.
-std::string scene_with(const std::string& damper, const std::string& rest = "") {
+std::string scene_named(const std::string& damper, const std::string& rest = "") {
   return R"({"format": "arcslip-scene-1", "title": "bad \uffff \u009b31m", "structure": {"dofs": ["a"],
     "masses": [{"name": "m", "at": "a", "value": 1}], "springs": [{"name": "k", "at": "a", "value": 4000}],
     "dampers": [{"name": "c", "at": "a", "value": 1}]},
@@ -74,9 +74,9 @@ std::vector<std::vector<std::string>> table(const std::string& csv) {
 
 TEST_CASE("names, keys, verbs and paths reach the terminal with their control characters escaped") {
   const Workplace place;
-  place.write("name.json", scene_with("\\u009b31md"));
-  place.write("key.json", scene_with("d", ", \"\\u001b]0;owned\\u0007\\u009b2J\\u202e\\u001b[31mX\\n\": 1"));
-  place.write("red\x1b[31m\xc2\x9b.json", scene_with("d", ", \"unknown\": 1"));
+  place.write("name.json", scene_named("\\u009b31md"));
+  place.write("key.json", scene_named("d", ", \"\\u001b]0;owned\\u0007\\u009b2J\\u202e\\u001b[31mX\\n\": 1"));
+  place.write("red\x1b[31m\xc2\x9b.json", scene_named("d", ", \"unknown\": 1"));
   const std::vector<std::vector<std::string>> calls{
       {"frf", "name.json"},
       {"frf", "name.json", "--json", "-"},
@@ -110,7 +110,7 @@ TEST_CASE("names, keys, verbs and paths reach the terminal with their control ch
 
 TEST_CASE("what JSON escapes it still holds") {
   const Workplace place;
-  place.write("name.json", scene_with("\\u009b31md"));
+  place.write("name.json", scene_named("\\u009b31md"));
   const Json results = Json::parse(run(place, {"frf", "name.json", "--json", "-"}).out);
   CHECK(results["title"] ==
         "bad \xef\xbf\xbf \xc2\x9b"
@@ -131,7 +131,7 @@ TEST_CASE("a name with a comma is one column, and one that begins like a formula
                                                         {"-1", "'-1.normal_load (N)"}}) {
     CAPTURE(written);
     const Workplace place;
-    place.write("name.json", scene_with(written));
+    place.write("name.json", scene_named(written));
     for (const auto& [verb, column] : {std::pair{"frf", 1}, std::pair{"optimize", 3}}) {
       CAPTURE(verb);
       const Ended ended = run(place, {verb, "name.json", "--csv", "-"});
@@ -151,7 +151,7 @@ TEST_CASE("a name with a comma is one column, and one that begins like a formula
 
 TEST_CASE("optima of several studies stand in one table, each value under its own parameter") {
   const Workplace place;
-  Json scene = Json::parse(scene_with("d"));
+  Json scene = Json::parse(scene_named("d"));
   Json other = scene["studies"][1];
   other["name"] = "=stiff";
   other["over"] = {"d.friction_coefficient"};
@@ -173,7 +173,7 @@ TEST_CASE("optima of several studies stand in one table, each value under its ow
 
 TEST_CASE("a figure is XML whatever its title") {
   const Workplace place;
-  place.write("name.json", scene_with("\\u009b31m\\ufffed"));
+  place.write("name.json", scene_named("\\u009b31m\\ufffed"));
   const Ended ended = run(place, {"frf", "name.json", "--out", "o"});
   CHECK(ended.exit_code == 0);
   if (ended.err.find("gnuplot") != std::string::npos) {

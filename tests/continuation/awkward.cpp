@@ -4,19 +4,13 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 using namespace problems;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-std::shared_ptr<const Problem> circle() {
-  return from_functions(
-      1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] * u[0] + p[0] * p[0] - 1; },
-      [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = 2 * u[0]; },
-      [](In, In p, int, Out dF) { dF[0] = 2 * p[0]; });
-}
+using std::numbers::pi;
 
 // Two springs of negative slope -r_k beyond contact at u_k = 0, coupled by 0.3, both loaded by p.
 std::shared_ptr<const Problem> two_contacts(double r0, double r1) {

@@ -11,7 +11,7 @@ using namespace problems;
 namespace {
 
 // lambda u - u^power = 0, and eps for an imperfection.
-std::shared_ptr<const Problem> normal_form(int power, double eps = 0) {
+std::shared_ptr<const Problem> imperfect_form(int power, double eps = 0) {
   return from_functions(
       {.size = 1,
        .parameters = {parameter("lambda", 0)},
@@ -29,8 +29,8 @@ TEST_CASE(
     for (int direction : {1, -1})
       for (double from : {0.93, 0.731, 0.5}) {
         const Vector start{{-direction * from}};
-        const Branch branch = trace(normal_form(power), {Vector{{0.0}}, start, 0, direction}, window(-1, 1),
-                                    {branch_point_monitor(), fold_monitor()});
+        const Branch branch = trace(imperfect_form(power), {Vector{{0.0}}, start, 0, direction},
+                                    window(-1, 1), {branch_point_monitor(), fold_monitor()});
         CAPTURE(power, direction, from, branch.stop.message);
         CHECK(branch.stop.reason == StopReason::boundary);
         CHECK(branch.points.back().parameter == direction);
@@ -51,7 +51,7 @@ TEST_CASE(
 
 TEST_CASE("an imperfect pitchfork has no branch point, and its branch is not left") {
   for (double eps : {1e-2, 1e-4, 1e-6, 1e-8}) {
-    const Branch branch = trace(normal_form(3, eps), {Vector{{eps}}, Vector{{-1.0}}, 0, 1}, window(-1, 1),
+    const Branch branch = trace(imperfect_form(3, eps), {Vector{{eps}}, Vector{{-1.0}}, 0, 1}, window(-1, 1),
                                 {branch_point_monitor(), fold_monitor()});
     CAPTURE(eps, branch.stop.message);
     CHECK(branch.stop.reason == StopReason::boundary);
@@ -96,7 +96,7 @@ TEST_CASE("a branch point where pieces meet is recognised: |u| = |p|") {
 
 TEST_CASE("an observer that says stop at a branch point stops the branch there") {
   int events = 0;
-  const Branch branch = trace(normal_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, window(-1, 1),
+  const Branch branch = trace(imperfect_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, window(-1, 1),
                               {branch_point_monitor()}, [&](const Accepted&, const Event* event) {
                                 if (event) ++events;
                                 return !event;
@@ -113,7 +113,7 @@ TEST_CASE("a terminal event shortly before a branch point of the same step is th
   Options options = window(-1, 1);
   options.step.initial = options.step.largest_parameter = 0.1;
   const Branch branch =
-      trace(normal_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, options, {crossing, before});
+      trace(imperfect_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, options, {crossing, before});
   CHECK(branch.stop.message == "reached the terminal event \"before\" at -0.001");
   CHECK(branch.events.size() == 1);
 }
@@ -124,7 +124,8 @@ TEST_CASE("a branch point beyond the window is no event, and ends no branch") {
     crossing.terminal = true;
     Options options = window(-1, upper);
     options.step.initial = options.step.largest_parameter = 0.1;
-    const Branch branch = trace(normal_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, options, {crossing});
+    const Branch branch =
+        trace(imperfect_form(3), {Vector{{0.0}}, Vector{{-0.93}}, 0, 1}, options, {crossing});
     CAPTURE(upper, branch.stop.message);
     CHECK(branch.stop.reason == StopReason::boundary);
     CHECK(branch.points.back().parameter == upper);
@@ -158,11 +159,12 @@ TEST_CASE(
   for (int power : {2, 3, 5})
     for (double from : {1.0, 0.75, 0.5, 0.125}) {
       int told = 0;
-      const Branch branch = trace(normal_form(power), {Vector{{0.0}}, Vector{{-from}}, 0, 1}, window(-1, 1),
-                                  {branch_point_monitor()}, [&](const Accepted& now, const Event* event) {
-                                    told += event ? 1 : 0;
-                                    return !event || std::abs(now.parameter) < 1e-12;
-                                  });
+      const Branch branch =
+          trace(imperfect_form(power), {Vector{{0.0}}, Vector{{-from}}, 0, 1}, window(-1, 1),
+                {branch_point_monitor()}, [&](const Accepted& now, const Event* event) {
+                  told += event ? 1 : 0;
+                  return !event || std::abs(now.parameter) < 1e-12;
+                });
       CAPTURE(power, from, branch.stop.message);
       CHECK(branch.events.size() == 1);
       CHECK(told == 1);

@@ -1,38 +1,21 @@
 #include "catch.hpp"
 
+#include "continuation/bordered.hpp"
+
 #include <arcslip/continuation/linear_solver.hpp>
 
 #include <Eigen/Dense>
 
 #include <cmath>
 
-using namespace arcslip::continuation;
-
-namespace {
-
-Borders random_borders(int n, int m) {
-  Borders borders(n, m);
-  borders.columns.setRandom();
-  borders.rows.setRandom();
-  borders.corner.setRandom();
-  return borders;
-}
-
-Matrix bordered(const Matrix& J, const Borders& borders) {
-  const Eigen::Index n = J.rows(), m = borders.width();
-  Matrix B(n + m, n + m);
-  B << J, borders.columns, borders.rows.transpose(), borders.corner;
-  return B;
-}
-
-}  // namespace
+using namespace bordered;
 
 TEST_CASE("bordered solves and transposed solves leave residuals at rounding level") {
   for (int n : {1, 2, 7, 40, 150})
     for (int m : {0, 1, 2, 3}) {
       const Matrix J = Matrix::Random(n, n);
       const Borders borders = random_borders(n, m);
-      const Matrix B = bordered(J, borders);
+      const Matrix B = whole(J, borders);
       const Vector b = Vector::Random(n + m);
       const auto lu = dense_lu();
       REQUIRE(lu->factorize(J, borders));
@@ -61,7 +44,7 @@ TEST_CASE("the bordered system of a singular J is solved to rounding, whatever t
     x.head(n) *= scale;
     const Vector right = x;
     lu->solve(x);
-    const Matrix B = bordered(scale * J, borders);
+    const Matrix B = whole(scale * J, borders);
     CHECK((B * x - right).head(n).norm() < 1e-13 * scale * x.norm() * J.norm());
     CHECK(std::abs((B * x - right)[n]) < 1e-13 * x.norm() * borders.rows.norm());
   }

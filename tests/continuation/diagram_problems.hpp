@@ -19,10 +19,6 @@ inline std::shared_ptr<const Problem> scalar(Scalar F, Scalar F_u, Scalar F_lamb
                          .derivative = [=](In u, In p, int, Out out) { out[0] = F_lambda(u[0], p[0]); }});
 }
 
-inline Start at(double u, double lambda, int direction = 1) {
-  return {.u = Vector{{u}}, .p = Vector{{lambda}}, .free = 0, .direction = direction};
-}
-
 inline std::shared_ptr<const Problem> pitchfork() {
   return scalar([](double u, double l) { return l * u - u * u * u; },
                 [](double u, double l) { return l - 3 * u * u; }, [](double u, double) { return u; });

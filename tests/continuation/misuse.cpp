@@ -17,7 +17,7 @@ std::shared_ptr<const Problem> line(double lower = -1e300, double upper = 1e300)
   return from_functions(1, {{"p", "", 0, 1, lower, upper}}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
 }
 
-Start at(double p) {
+Start start_at(double p) {
   return {Vector{{p}}, Vector{{p}}, 0, 1};
 }
 
@@ -25,7 +25,7 @@ Start at(double p) {
 
 TEST_CASE("no problem at all is refused") {
   const std::shared_ptr<const Problem> none;
-  CHECK_THROWS_WITH(trace(none, at(0), window(0, 1)), "no problem is given");
+  CHECK_THROWS_WITH(trace(none, start_at(0), window(0, 1)), "no problem is given");
   CHECK_THROWS_WITH(Tracer(none, State{}, window(0, 1)), "no problem is given");
   CHECK_THROWS_WITH(folds(none, 0), "no problem is given");
   CHECK_THROWS_WITH(branch_points(none, 0, Vector::Ones(1)), "no problem is given");
@@ -34,16 +34,16 @@ TEST_CASE("no problem at all is refused") {
 }
 
 TEST_CASE("a start outside the bounds of its parameter, and bounds that leave no window, are refused") {
-  CHECK_THROWS_WITH(trace(line(0.5, 1), at(0.2), window(0, 3)),
+  CHECK_THROWS_WITH(trace(line(0.5, 1), start_at(0.2), window(0, 3)),
                     "the start is at 0.2, outside the bounds [0.5, 1] of the parameter \"p\"");
-  CHECK_THROWS_WITH(trace(line(2, 1), at(1.5), window(0, 3)),
+  CHECK_THROWS_WITH(trace(line(2, 1), start_at(1.5), window(0, 3)),
                     "the window [0, 3] has no part within the bounds [2, 1] of the parameter \"p\"");
-  CHECK_THROWS_WITH(trace(line(4, 5), at(1.5), window(0, 3)),
+  CHECK_THROWS_WITH(trace(line(4, 5), start_at(1.5), window(0, 3)),
                     "the window [0, 3] has no part within the bounds [4, 5] of the parameter \"p\"");
 }
 
 TEST_CASE("a tangent that is zero says nothing of the way to go") {
-  Start start = at(0);
+  Start start = start_at(0);
   start.tangent = Vector::Zero(2);
   CHECK_THROWS_WITH(trace(line(), start, window(0, 1)), "the tangent of the start is zero");
 }
@@ -64,10 +64,10 @@ TEST_CASE("a parameter that is an unknown of a curve of special points cannot be
 TEST_CASE("a monitor without a value, or of an unknown that there is not, is said") {
   Monitor empty;
   empty.name = "heat";
-  CHECK_THROWS_WITH(trace(line(), at(0), window(0, 1), {empty}),
+  CHECK_THROWS_WITH(trace(line(), start_at(0), window(0, 1), {empty}),
                     "the monitor \"heat\" has no value function");
   for (int index : {-1, 1, 7}) {
-    const Branch branch = trace(line(), at(0), window(0, 1), {bound_monitor("far", index, 0.5)});
+    const Branch branch = trace(line(), start_at(0), window(0, 1), {bound_monitor("far", index, 0.5)});
     CHECK(branch.stop.reason == StopReason::monitor_failed);
     CHECK(branch.stop.message ==
           "the monitor \"far\" threw at 0: there is no unknown " + std::to_string(index) + " among 1");
@@ -77,7 +77,7 @@ TEST_CASE("a monitor without a value, or of an unknown that there is not, is sai
 TEST_CASE("a linear solver for another kind of Jacobian is named, on branches and on curves of folds") {
   Options options = window(-1, 1);
   options.linear_solver = klu;
-  const Branch branch = trace(line(), at(0), options);
+  const Branch branch = trace(line(), start_at(0), options);
   CHECK(branch.stop.reason == StopReason::start_failed);
   CHECK(branch.stop.message.find("KLU takes sparse Jacobians") != std::string::npos);
   options.linear_solver = dense_lu;
@@ -127,7 +127,7 @@ TEST_CASE(
 
 TEST_CASE("a direction that is neither +1 nor -1 is refused") {
   for (const int direction : {0, 5, -2}) {
-    Start start = at(0);
+    Start start = start_at(0);
     start.direction = direction;
     CHECK_THROWS_WITH(trace(line(), start, window(0, 1)),
                       "the direction of the start is " + std::to_string(direction) + ", must be +1 or -1");

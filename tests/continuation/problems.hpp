@@ -21,12 +21,26 @@ inline Options window(double lower, double upper) {
   return options;
 }
 
+/// Of one unknown.
+inline Start at(double u, double p, int direction = 1) {
+  return {.u = Vector{{u}}, .p = Vector{{p}}, .free = 0, .direction = direction};
+}
+
 /// mu + lambda x - x^3 = 0
 inline std::shared_ptr<const Problem> cusp() {
   return from_functions(
       1, {parameter("mu", 0), parameter("lambda", 1)},
       [](In u, In p, Out F) { F[0] = p[0] + p[1] * u[0] - std::pow(u[0], 3); },
       [](In u, In p, Eigen::Ref<Matrix> J) { J(0, 0) = p[1] - 3 * u[0] * u[0]; });
+}
+
+/// u^2 + p^2 = 1 by a turn about (0, 0): a closed branch with two folds.
+inline std::shared_ptr<const Problem> circle() {
+  return from_functions({.size = 1,
+                         .parameters = {parameter("p", 0)},
+                         .residual = [](In u, In p, Out F) { F[0] = u[0] * u[0] + p[0] * p[0] - 1; },
+                         .jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = 2 * u[0]; },
+                         .derivative = [](In, In p, int, Out dF) { dF[0] = 2 * p[0]; }});
 }
 
 /// PITCON test_con 1; the free parameter is x3.

@@ -22,7 +22,7 @@ std::vector<Named> sparse_solvers() {
   return all;
 }
 
-constexpr double rounding = 10;  // of residuals, in rounding units
+constexpr double few = 10;  // rounding units of a residual
 
 }  // namespace
 
@@ -45,9 +45,9 @@ TEST_CASE("sparse bordered solves and transposed solves leave residuals at round
           REQUIRE(solver->factorize(J, borders));
           Vector x = b, y = b;
           solver->solve(x);
-          CHECK(residual(B, x, b) < rounding);
+          CHECK(residual(B, x, b) < few);
           REQUIRE(solver->solve_transposed(y));
-          CHECK(residual(B.transpose(), y, b) < 2 * rounding);
+          CHECK(residual(B.transpose(), y, b) < 2 * few);
           const int sign = B.determinant() > 0 ? 1 : -1;
           CHECK(solver->determinant_sign() == sign);
           negative += sign < 0;
@@ -103,9 +103,9 @@ TEST_CASE("the dense solver and block elimination around it solve what is singul
       REQUIRE(solver->factorize(J, borders));
       Vector x = b, y = b;
       solver->solve(x);
-      CHECK(residual(B, x, b) < rounding);
+      CHECK(residual(B, x, b) < few);
       REQUIRE(solver->solve_transposed(y));
-      CHECK(residual(B.transpose(), y, b) < 2 * rounding);
+      CHECK(residual(B.transpose(), y, b) < 2 * few);
       CHECK(solver->determinant_sign() == (B.determinant() > 0 ? 1 : -1));
     }
   }
@@ -127,7 +127,7 @@ TEST_CASE("pivots that were good are given up where J turns singular") {
       REQUIRE(solver->factorize(J, borders));
       Vector x = b;
       solver->solve(x);
-      CHECK(residual(B, x, b) < rounding);
+      CHECK(residual(B, x, b) < few);
       CHECK(solver->determinant_sign() == (B.determinant() > 0 ? 1 : -1));
     }
   }
@@ -147,7 +147,7 @@ TEST_CASE("KLU's factors stay sparse where a tridiagonal J is indefinite or sing
     Vector x = b;
     solver->solve(x);
     const Vector r = J * x.head(n) + borders.columns * x[n] - b.head(n);
-    CHECK(r.cwiseAbs().maxCoeff() < 1e-15 * rounding * x.cwiseAbs().maxCoeff());
+    CHECK(r.cwiseAbs().maxCoeff() < 1e-15 * few * x.cwiseAbs().maxCoeff());
   }
 }
 
@@ -202,7 +202,7 @@ TEST_CASE("another pattern with as many entries is a new pattern") {
       Vector x = b;
       REQUIRE(solver->factorize(J, borders));
       solver->solve(x);
-      CHECK(residual(whole(J, borders), x, b) < rounding);
+      CHECK(residual(whole(J, borders), x, b) < few);
     };
     for (int by : {1, 2, 7, 1}) check(shifted(by));
     for (int k = 0; k < 2; ++k) {
@@ -226,7 +226,7 @@ TEST_CASE("singular and non-finite sparse matrices are refused, and good ones ar
       Vector x = b;
       if (!solver->factorize(good, borders)) return false;
       solver->solve(x);
-      return residual(whole(good, borders), x, b) < rounding;
+      return residual(whole(good, borders), x, b) < few;
     };
     for (double bad : {nan, infinite, -infinite}) {
       SparseMatrix J = good;

@@ -10,18 +10,18 @@ using namespace problems;
 
 namespace {
 
-constexpr int mu = 0, lambda = 1;
+constexpr int over_mu = 0, over_lambda = 1;
 
 // The curve of folds in mu through a fold of the branch at lambda = 1, over lambda.
 Branch fold_curve(const MakeLinearSolver& solver = {}) {
   const auto problem = cusp();
   const Vector p = Vector{{-1.0, 1.0}};
   const Branch branch =
-      trace(problem, {Vector::Constant(1, -1.3), p, mu, 1}, window(-1, 1), {fold_monitor()});
+      trace(problem, {Vector::Constant(1, -1.3), p, over_mu, 1}, window(-1, 1), {fold_monitor()});
   REQUIRE(events_named(branch, "fold").size() == 2);
   Options options = window(-1, 2);
-  return trace(folds(problem, mu, solver), {with_parameter(branch.events[0].point), p, lambda, -1}, options,
-               {cusp_monitor()});
+  return trace(folds(problem, over_mu, solver), {with_parameter(branch.events[0].point), p, over_lambda, -1},
+               options, {cusp_monitor()});
 }
 
 }  // namespace
@@ -54,20 +54,20 @@ TEST_CASE("second derivatives of the problem's own give the curve of folds witho
       ++jacobians;
       J(0, 0) = p[1] - 3 * u[0] * u[0];
     };
-    f.derivative = [](In u, In, int k, Out dF) { dF[0] = k == mu ? 1 : u[0]; };
+    f.derivative = [](In u, In, int k, Out dF) { dF[0] = k == over_mu ? 1 : u[0]; };
     if (given)
       f.second = [](In u, In, In w, In v, In q, Out du, Out dp) {
-        du[0] = w[0] * (-6 * u[0] * v[0] + q[lambda]);
+        du[0] = w[0] * (-6 * u[0] * v[0] + q[over_lambda]);
         dp << 0, w[0] * v[0];
       };
-    const auto at = folds(from_functions(f), mu)->evaluator();
+    const auto at = folds(from_functions(f), over_mu)->evaluator();
     const Vector place{{x, -2 * x * x * x}}, p{{0.0, 3 * x * x}};
     REQUIRE(at->move_to(place, p, Needs::jacobian) == Evaluated::ok);
     CHECK(jacobians == (given ? 1 : 3));
     // t = (1 / c_0, 0) with the row c: G = 0, G_u = 6 x / c_0, G_lambda = -1 / c_0.
     Vector right{{1.0, 0.0}}, product(2), by_lambda(2);
     apply(at->jacobian(), right, product);
-    at->parameter_derivative(lambda, by_lambda);
+    at->parameter_derivative(over_lambda, by_lambda);
     CHECK(std::abs(at->residual()[1]) < 1e-15);
     CHECK(std::abs(product[1] / by_lambda[1] + 6 * x) < (given ? 1e-14 : 1e-9));
     CHECK(jacobians == (given ? 1 : 3));

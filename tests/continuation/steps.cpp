@@ -4,19 +4,35 @@
 
 #include "continuation/problems.hpp"
 
+#include <functional>
 #include <numbers>
+#include <utility>
 
 using namespace problems;
 
 namespace {
 
-// u^2 + p^2 = 1 by a turn about (0, 0): a closed branch with two folds.
-std::shared_ptr<const Problem> circle() {
+using Function = std::function<double(double)>;
+
+// u = u_of(p).
+std::shared_ptr<const Problem> graph(const Function& u_of, const Function& slope, PieceFunction piece = {}) {
   return from_functions({.size = 1,
                          .parameters = {parameter("p", 0)},
-                         .residual = [](In u, In p, Out F) { F[0] = u[0] * u[0] + p[0] * p[0] - 1; },
-                         .jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = 2 * u[0]; },
-                         .derivative = [](In, In p, int, Out dF) { dF[0] = 2 * p[0]; }});
+                         .residual = [=](In u, In p, Out F) { F[0] = u[0] - u_of(p[0]); },
+                         .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+                         .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); },
+                         .piece = std::move(piece)});
+}
+
+Start on(const Function& u_of, double p) {
+  return at(u_of(p), p);
+}
+
+// Greatest values of u.
+Monitor peak_of_u() {
+  Monitor peak{"peak", [](const Accepted& now) { return now.tangent[0]; }, Crossing::falling};
+  peak.quantity = [](const Accepted& now) { return now.u[0]; };
+  return peak;
 }
 
 Branch cusp_branch(const Options& options) {
@@ -99,16 +115,11 @@ TEST_CASE("the curve is as near to the branch, relative to |u|, where |u| is sma
   for (double tolerance : {1e-3, 1e-5, 1e-7}) {
     constexpr double size = 1e-4;
     const auto wave = [](double p) { return size * (2 + std::sin(9 * p)); };
-    const auto problem =
-        from_functions({.size = 1,
-                        .parameters = {parameter("p", 0)},
-                        .residual = [=](In u, In p, Out F) { F[0] = u[0] - wave(p[0]); },
-                        .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
-                        .derivative = [](In, In p, int, Out dF) { dF[0] = -size * 9 * std::cos(9 * p[0]); }});
+    const auto slope = [](double p) { return size * 9 * std::cos(9 * p); };
     Options options = window(-1, 1);
     options.step.curve_tolerance = tolerance;
     options.step.largest_parameter = 10;
-    const Branch branch = trace(problem, {Vector{{wave(-1)}}, Vector{{-1.0}}, 0, 1}, options);
+    const Branch branch = trace(graph(wave, slope), on(wave, -1), options);
     REQUIRE(branch.stop.reason == StopReason::boundary);
     double worst = 0;
     for (int k = 0; k <= 2000; ++k) {
@@ -126,25 +137,17 @@ TEST_CASE("a resonance in the part of a step before a kink is seen as in any oth
   // its change from end to end tell of none.
   constexpr double middle = -0.2, width = 0.04, height = 0.05;
   const auto bump = [=](double p) { return height * std::exp(-std::pow((p - middle) / width, 2)); };
+  const auto u_of = [=](double p) { return 2 + (p < 0.1 ? -0.5 : 0.3) * (p - 0.1) + bump(p); };
   const auto slope = [=](double p) {
     return (p < 0.1 ? -0.5 : 0.3) - 2 * (p - middle) / (width * width) * bump(p);
   };
-  const auto problem = from_functions(
-      {.size = 1,
-       .parameters = {parameter("p", 0)},
-       .residual = [=](In u, In p,
-                       Out F) { F[0] = u[0] - 2 - (p[0] < 0.1 ? -0.5 : 0.3) * (p[0] - 0.1) - bump(p[0]); },
-       .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
-       .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); },
-       .piece = [](In, In p) { return p[0] < 0.1 ? 1 : 2; }});
-  Monitor peak{"peak", [=](const Accepted& now) { return now.tangent[0]; }, Crossing::falling};
-  peak.quantity = [](const Accepted& now) { return now.u[0]; };
+  const auto problem = graph(u_of, slope, [](In, In p) { return p[0] < 0.1 ? 1 : 2; });
   Options options = window(-0.5, 1);
   options.step.curve_tolerance = 1e-4;
   options.step.largest_parameter = 10;
   options.step.largest_angle = 1.2;
   options.step.initial = 0.9;
-  const Branch branch = trace(problem, {Vector{{2.3}}, Vector{{-0.5}}, 0, 1}, options, {peak});
+  const Branch branch = trace(problem, on(u_of, -0.5), options, {peak_of_u()});
   REQUIRE(branch.stop.reason == StopReason::boundary);
   REQUIRE(branch.events.size() == 1);
   CHECK(branch.events[0].located);
@@ -159,18 +162,10 @@ TEST_CASE("resonances narrower than a tenth of a step are seen, wherever in a st
       const auto line = [=](double p) { return std::pow(p - middle, 2) + w * w; };
       const auto u_of = [=](double p) { return 1 + 0.2 * p + h * w * w / line(p); };
       const auto slope = [=](double p) { return 0.2 - 2 * h * w * w * (p - middle) / std::pow(line(p), 2); };
-      const auto problem =
-          from_functions({.size = 1,
-                          .parameters = {parameter("p", 0)},
-                          .residual = [=](In u, In p, Out F) { F[0] = u[0] - u_of(p[0]); },
-                          .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
-                          .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); }});
-      Monitor peak{"peak", [=](const Accepted& now) { return now.tangent[0]; }, Crossing::falling};
-      peak.quantity = [](const Accepted& now) { return now.u[0]; };
       Options options = window(0, 1);
       options.step.largest_parameter = step;
       options.step.curve_tolerance = 1e-5;
-      const Branch branch = trace(problem, {Vector{{u_of(0)}}, Vector{{0.0}}, 0, 1}, options, {peak});
+      const Branch branch = trace(graph(u_of, slope), on(u_of, 0), options, {peak_of_u()});
       CAPTURE(height, width, k, branch.counts.points);
       CHECK(branch.events.size() == 1);
       CHECK(branch.counts.points < 220);
@@ -191,24 +186,16 @@ TEST_CASE("a step with more kinks than are found is made shorter: a resonance be
     for (int k = 0; k < kinks; ++k) du += p < 0.01 * k ? -0.001 : 0.001;
     return du;
   };
-  const auto problem = from_functions({.size = 1,
-                                       .parameters = {parameter("p", 0)},
-                                       .residual = [=](In u, In p, Out F) { F[0] = u[0] - u_of(p[0]); },
-                                       .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
-                                       .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); },
-                                       .piece =
-                                           [](In, In p) {
-                                             int passed = 0;
-                                             while (passed < kinks && p[0] >= 0.01 * passed) ++passed;
-                                             return static_cast<std::uint64_t>(passed);
-                                           }});
-  Monitor peak{"peak", [=](const Accepted& now) { return now.tangent[0]; }, Crossing::falling};
-  peak.quantity = [](const Accepted& now) { return now.u[0]; };
+  const auto problem = graph(u_of, slope, [](In, In p) {
+    int passed = 0;
+    while (passed < kinks && p[0] >= 0.01 * passed) ++passed;
+    return static_cast<std::uint64_t>(passed);
+  });
   Options options = window(-0.5, 1.5);
   options.step.curve_tolerance = 1e-4;
   options.step.largest_parameter = 10;
   options.step.initial = 1.7;
-  const Branch branch = trace(problem, {Vector{{u_of(-0.5)}}, Vector{{-0.5}}, 0, 1}, options, {peak});
+  const Branch branch = trace(problem, on(u_of, -0.5), options, {peak_of_u()});
   REQUIRE(branch.stop.reason == StopReason::boundary);
   REQUIRE(branch.events.size() == 1);
   CHECK(std::abs(slope(branch.events[0].point.parameter)) < 1e-9);
@@ -288,7 +275,7 @@ TEST_CASE("at p = 0, where a step relative to p would be none, the largest step 
   options.step.relative_parameter = 0.1;
   options.points = 2;
   const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
-  const Branch branch = trace(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, options);
+  const Branch branch = trace(line, at(0, 0), options);
   CHECK(branch.points.back().parameter == Approx(0.01));
 }
 
@@ -337,11 +324,6 @@ TEST_CASE("a quantity's curve departs from the chords between its points by no m
   // u = 1 + 1/(1 + 9 p^2)
   const auto q = [](double p) { return 1 + 1 / (1 + 9 * p * p); };
   const auto slope = [](double p) { return -18 * p / std::pow(1 + 9 * p * p, 2); };
-  const auto problem = from_functions({.size = 1,
-                                       .parameters = {parameter("p", 0)},
-                                       .residual = [=](In u, In p, Out F) { F[0] = u[0] - q(p[0]); },
-                                       .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
-                                       .derivative = [=](In, In p, int, Out dF) { dF[0] = -slope(p[0]); }});
   // The largest share over all chords, of q or of p, whichever is less.
   const auto departure = [&](double tolerance) {
     Monitor monitor{.name = "extreme", .value = [](const Accepted& now) { return now.tangent[0]; }};
@@ -349,7 +331,7 @@ TEST_CASE("a quantity's curve departs from the chords between its points by no m
     monitor.chord_tolerance = tolerance;
     Options options = window(-3, 3);
     options.step.largest_parameter = 1;
-    const Branch branch = trace(problem, {Vector{{q(-3)}}, Vector{{-3.0}}, 0, 1}, options, {monitor});
+    const Branch branch = trace(graph(q, slope), on(q, -3), options, {monitor});
     CHECK(branch.stop.reason == StopReason::boundary);
     REQUIRE(branch.events.size() == 1);
     CHECK(std::abs(branch.events[0].point.parameter) < 1e-9);
@@ -373,7 +355,7 @@ TEST_CASE("a branch that is all but straight takes the steps that its window ask
     const double end = 1e4 * unit;
     const auto problem = from_functions(
         1, {{"p", ""}}, [=](In u, In p, Out F) { F[0] = u[0] - 1e-3 * std::sin(p[0] / (1e3 * unit)); });
-    const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, end));
+    const Branch branch = trace(problem, at(0, 0), window(0, end));
     CAPTURE(unit, branch.counts.points);
     CHECK(branch.stop.reason == StopReason::boundary);
     CHECK(branch.counts.points > 100);
@@ -387,7 +369,7 @@ TEST_CASE("relative_state limits the change of u, not the whole step") {
   Options options = window(0, 1000);
   options.step.largest_parameter = 100;
   options.step.relative_state = 0.1;
-  const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, options);
+  const Branch branch = trace(problem, at(0, 0), options);
   double largest = 0;
   for (std::size_t k = 1; k < branch.points.size(); ++k) {
     const double before = branch.points[k - 1].u[0], change = branch.points[k].u[0] - before;
@@ -401,11 +383,11 @@ TEST_CASE("a scale that is given is kept, whatever the window") {
   for (const double scale : {0.1, 10.0}) {
     const auto problem =
         from_functions(1, {parameter("p", 0, scale)}, [](In u, In p, Out F) { F[0] = u[0] - 0 * p[0]; });
-    const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 1));
+    const Branch branch = trace(problem, at(0, 0), window(0, 1));
     CHECK(branch.points.back().arclength == Approx(1 / scale));
   }
   const auto problem =
       from_functions(1, {{"p", "", 0, 0, 0, 5}}, [](In u, In p, Out F) { F[0] = u[0] - 0 * p[0]; });
-  const Branch branch = trace(problem, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 100));
+  const Branch branch = trace(problem, at(0, 0), window(0, 100));
   CHECK(branch.points.back().arclength == Approx(1));
 }

@@ -11,11 +11,7 @@ using namespace problems;
 
 namespace {
 
-Start at(double u, double p) {
-  return {Vector::Constant(1, u), Vector::Constant(1, p), 0, 1};
-}
-
-std::shared_ptr<const Problem> scalar(ResidualFunction f) {
+std::shared_ptr<const Problem> one_equation(ResidualFunction f) {
   return from_functions(1, {parameter("p", 0)}, f);
 }
 
@@ -23,7 +19,7 @@ std::shared_ptr<const Problem> scalar(ResidualFunction f) {
 
 TEST_CASE("boundary: a branch that reaches the window's end stops exactly there") {
   const Branch branch =
-      trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0] * p[0]; }), at(0, 0), window(0, 2));
+      trace(one_equation([](In u, In p, Out F) { F[0] = u[0] - p[0] * p[0]; }), at(0, 0), window(0, 2));
   CHECK(branch.stop.reason == StopReason::boundary);
   CHECK(branch.points.back().parameter == 2);
   CHECK(std::abs(branch.points.back().u[0] - 4) < 1e-14);
@@ -50,13 +46,14 @@ TEST_CASE("event: a bound of an unknown ends the branch exactly there") {
 
 TEST_CASE("start_failed: no solution near the start is said, and there are no points") {
   const Branch branch =
-      trace(scalar([](In u, In, Out F) { F[0] = 1 + u[0] * u[0]; }), at(0.5, 0), window(0, 1));
+      trace(one_equation([](In u, In, Out F) { F[0] = 1 + u[0] * u[0]; }), at(0.5, 0), window(0, 1));
   CHECK(branch.stop.reason == StopReason::start_failed);
   CHECK(branch.points.empty());
 }
 
 TEST_CASE("start_failed: a singular start is said") {
-  const Branch branch = trace(scalar([](In u, In, Out F) { F[0] = 0 * u[0]; }), at(0.5, 0), window(0, 1));
+  const Branch branch =
+      trace(one_equation([](In u, In, Out F) { F[0] = 0 * u[0]; }), at(0.5, 0), window(0, 1));
   CHECK(branch.stop.reason == StopReason::start_failed);
   CHECK(branch.stop.message.starts_with(
       "the linearization at the start is singular; the solutions here are not"));
@@ -93,7 +90,7 @@ TEST_CASE("state_too_large: a pole is followed to the limit of the state and no 
   Options options = window(0, 2);
   options.largest_state = 1e9;
   const Branch branch =
-      trace(scalar([](In u, In p, Out F) { F[0] = u[0] * (1 - p[0]) - 1; }), at(1, 0), options);
+      trace(one_equation([](In u, In p, Out F) { F[0] = u[0] * (1 - p[0]) - 1; }), at(1, 0), options);
   CHECK(branch.stop.reason == StopReason::state_too_large);
   CHECK(branch.stop.value > 1e9);
   CHECK(std::abs(branch.points.back().parameter - 1) < 1e-8);
@@ -103,7 +100,7 @@ TEST_CASE("state_too_large: a pole is followed to the limit of the state and no 
 TEST_CASE("point_limit: as many points as asked for") {
   Options options = window(0, 2);
   options.points = 7;
-  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), options);
+  const Branch branch = trace(one_equation([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), options);
   CHECK(branch.stop.reason == StopReason::point_limit);
   CHECK(branch.points.size() == 7);
 }
@@ -111,7 +108,7 @@ TEST_CASE("point_limit: as many points as asked for") {
 TEST_CASE("time_limit: a trace that takes longer stops with the points that it has") {
   Options options = window(0, 2);
   options.seconds = 1e-9;
-  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), options);
+  const Branch branch = trace(one_equation([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), options);
   CHECK(branch.stop.reason == StopReason::time_limit);
   CHECK(branch.stop.value >= branch.stop.limit);
   CHECK(branch.points.size() == 1);
@@ -145,7 +142,7 @@ TEST_CASE("event: a terminal monitor ends the branch at its first zero") {
 }
 
 TEST_CASE("not_evaluated: what a residual throws ends the branch, which keeps its points, and is said") {
-  const auto problem = scalar([](In u, In p, Out F) {
+  const auto problem = one_equation([](In u, In p, Out F) {
     if (p[0] > 0.5) throw std::runtime_error("no material beyond 0.5");
     F[0] = u[0] - p[0];
   });
@@ -202,7 +199,7 @@ TEST_CASE("not_evaluated: what the piece or the linear solver throws ends the br
 }
 
 TEST_CASE("monitor_failed: what any function of a monitor throws ends the branch, which keeps its points") {
-  const auto line = scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const auto line = one_equation([](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   const auto value = [](const Accepted& now) { return now.u[0] - 0.25; };
   const auto beyond = [](double p) {
     return [=](const Accepted& now) {
@@ -232,7 +229,7 @@ TEST_CASE("monitor_failed: what any function of a monitor throws ends the branch
 }
 
 TEST_CASE("a monitor that is not a number somewhere is named once, and the branch goes on") {
-  const auto line = scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const auto line = one_equation([](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   const Monitor root{"root", [](const Accepted& now) { return std::sqrt(0.5 - now.u[0]) - 0.5; }};
   const Monitor slope{
       "slope", [](const Accepted& now) { return 0.1 - now.u[0]; }, Crossing::any,
@@ -258,8 +255,8 @@ TEST_CASE("a monitor that is not a number somewhere is named once, and the branc
 
 TEST_CASE("user: the observer stops the branch, at a point or at an event") {
   int calls = 0;
-  const Branch at_point = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0), window(0, 2),
-                                {}, [&](const Accepted&, const Event*) { return ++calls < 5; });
+  const Branch at_point = trace(one_equation([](In u, In p, Out F) { F[0] = u[0] - p[0]; }), at(0, 0),
+                                window(0, 2), {}, [&](const Accepted&, const Event*) { return ++calls < 5; });
   CHECK(at_point.stop.reason == StopReason::user);
   CHECK(at_point.points.size() == 5);
   const Branch at_event = trace(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1),
@@ -270,7 +267,7 @@ TEST_CASE("user: the observer stops the branch, at a point or at an event") {
 
 TEST_CASE("user: a trace is asked whether to go on before each attempt, where all are rejected, too") {
   // No residual beyond 0.7: steps are rejected until they are too small.
-  const auto problem = scalar([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); });
+  const auto problem = one_equation([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); });
   Options options = window(0, 2);
   long asked = 0;
   options.go_on = [&] { return ++asked > 0; };
@@ -288,7 +285,7 @@ TEST_CASE("user: a trace is asked whether to go on before each attempt, where al
 }
 
 TEST_CASE("not_evaluated: a residual that cannot be evaluated ahead ends the branch where it can") {
-  const Branch branch = trace(scalar([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); }),
+  const Branch branch = trace(one_equation([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); }),
                               at(std::sqrt(0.7), 0), window(0, 2));
   CHECK(
       (branch.stop.reason == StopReason::not_evaluated || branch.stop.reason == StopReason::step_too_small));
@@ -299,7 +296,7 @@ TEST_CASE("not_evaluated: a residual that cannot be evaluated ahead ends the bra
 
 TEST_CASE("not_evaluated: nor can a start outside the domain") {
   const Branch branch =
-      trace(scalar([](In u, In, Out F) { F[0] = std::log(u[0]); }), at(-1, 0), window(0, 2));
+      trace(one_equation([](In u, In, Out F) { F[0] = std::log(u[0]); }), at(-1, 0), window(0, 2));
   CHECK(branch.stop.reason == StopReason::not_evaluated);
   CHECK(branch.points.empty());
 }

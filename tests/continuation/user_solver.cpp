@@ -28,7 +28,7 @@ class ForwardOnly final : public PlainSolver {
   Eigen::PartialPivLU<Matrix> lu_;
 };
 
-std::unique_ptr<LinearSolver> forward_only() {
+std::unique_ptr<LinearSolver> around_forward_only() {
   return block_elimination(std::make_unique<ForwardOnly>());
 }
 
@@ -39,7 +39,7 @@ TEST_CASE(
   const Start start{Vector::Zero(100), Vector::Zero(1), 0, 1};
   const Branch dense = trace(chan(100), start, window(0, 5), {fold_monitor()});
   Options options = window(0, 5);
-  options.linear_solver = forward_only;
+  options.linear_solver = around_forward_only;
   const Branch branch = trace(chan(100), start, options, {fold_monitor()});
   CHECK(branch.stop.reason == StopReason::boundary);
   CHECK(branch.linear_solver.find("the user's") != std::string::npos);
@@ -60,7 +60,7 @@ TEST_CASE(
 TEST_CASE("and curves of folds too, by Newton's steps in the directions of forward solves") {
   const Vector p{{0.0, 1.0}};
   const double x = -std::sqrt(1.0 / 3);
-  const Branch curve = trace(folds(cusp(), 0, forward_only), {Vector{{x, x * x * x - x}}, p, 1, -1},
+  const Branch curve = trace(folds(cusp(), 0, around_forward_only), {Vector{{x, x * x * x - x}}, p, 1, -1},
                              window(-1, 2), {cusp_monitor()});
   CHECK(curve.stop.reason == StopReason::boundary);
   REQUIRE(curve.events.size() == 1);

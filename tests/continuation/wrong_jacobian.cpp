@@ -16,15 +16,15 @@ namespace {
 // The Duffing oscillator by one harmonic. entry: of J by rows, 4 and 5: of dF/dw.
 std::shared_ptr<const Problem> duffing(int entry, double factor) {
   const double z = 0.05, a = 0.5, f = 0.3;
-  const auto stiffness = [=](In u, In p) { return 1 - p[0] * p[0] + 0.75 * a * u.squaredNorm(); };
+  const auto k_of = [=](In u, In p) { return 1 - p[0] * p[0] + 0.75 * a * u.squaredNorm(); };
   return from_functions(
       2, {parameter("w", 0.5)},
       [=](In u, In p, Out F) {
-        const double k = stiffness(u, p);
+        const double k = k_of(u, p);
         F << k * u[0] + 2 * z * p[0] * u[1] - f, k * u[1] - 2 * z * p[0] * u[0];
       },
       [=](In u, In p, Eigen::Ref<Matrix> J) {
-        J = stiffness(u, p) * Matrix::Identity(2, 2) + 1.5 * a * u * u.transpose();
+        J = k_of(u, p) * Matrix::Identity(2, 2) + 1.5 * a * u * u.transpose();
         J(0, 1) += 2 * z * p[0];
         J(1, 0) -= 2 * z * p[0];
         if (entry < 4) J(entry / 2, entry % 2) *= factor;

@@ -5,6 +5,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 #include "optimize/optima.hpp"
+#include "optimize/paper_optimum.hpp"
 
 #include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/optimize/reasons.hpp>
@@ -14,21 +15,14 @@
 
 using namespace arcslip;
 using optimize::Criterion;
-constexpr double pi = std::numbers::pi;
+using paper_optimum::closed_form;
+using paper_optimum::over_load;
+using std::numbers::pi;
 
 namespace {
 
-const optimize::OptimumProblem over_load{{{"damper.normal_load", 0.1, 100}}, 18, 22};
-
-// c = 0, one harmonic: kd A = p^2/(p - q), p = mu Fn, q = pi f0/4.
-scene::Scene closed_form() {
-  scene::Scene s = scenes::paper(1, 5);
-  scene::set(s, "c.value", 0);
-  return s;
-}
-
-double peak(double p, double f0) {
-  return p * p / (p - pi * f0 / 4) / 3500;
+double peak_at(double p, double f0) {
+  return paper_optimum::peak(p, pi * f0 / 4);
 }
 
 optimize::OptimumProblem over_load_in(const std::vector<optimize::DesignCase>& cases,
@@ -49,7 +43,7 @@ TEST_CASE("a friction coefficient between 0.4 and 0.6: both ends have the same p
   // 0.16/(0.4 F - q) = 0.36/(0.6 F - q) at F = q/0.24.
   const double load = pi / 4 / 0.24;
   CHECK(reference::error(found.design[0], load) < 1e-7);
-  CHECK(reference::error(found.amplitude, peak(0.4 * load, 1)) < 1e-8);
+  CHECK(reference::error(found.amplitude, peak_at(0.4 * load, 1)) < 1e-8);
   CHECK(reference::error(found.cases[0].amplitude, found.cases[1].amplitude) < 1e-7);
 }
 
@@ -57,7 +51,7 @@ TEST_CASE("the best load for the worst of several levels of excitation is that o
   const auto found = optimize::optimum(
       closed_form(), over_load_in({{{{"force.cosine", 0.5}}}, {{{"force.cosine", 1}}}}, Criterion::worst));
   CHECK(reference::error(found.design[0], pi) < 1e-6);
-  CHECK(reference::error(found.amplitude, peak(pi / 2, 1)) < 1e-10);
+  CHECK(reference::error(found.amplitude, peak_at(pi / 2, 1)) < 1e-10);
 }
 
 TEST_CASE("a start of a robust search outside the bounds is moved, and that is said") {
@@ -74,7 +68,7 @@ TEST_CASE("the best load for the weighted mean over levels is where the mean's d
       closed_form(),
       over_load_in({{{{"force.cosine", 0.5}}, 3}, {{{"force.cosine", 1}}, 1}}, Criterion::mean));
   CHECK(found.status == observables::Status::complete);
-  const auto mean = [](double p) { return (3 * peak(p, 0.5) + peak(p, 1)) / 4; };
+  const auto mean = [](double p) { return (3 * peak_at(p, 0.5) + peak_at(p, 1)) / 4; };
   CHECK(reference::error(found.amplitude, mean(0.5 * found.design[0])) < 1e-10);
   const double p = 0.5 * found.design[0];
   const auto slope = [&](double f0) {
@@ -89,7 +83,7 @@ TEST_CASE("levels with weights: where their weighted peaks cross, the multiplier
   double below = pi / 4, above = pi / 2;
   while (above - below > 1e-15) {
     const double p = 0.5 * (below + above);
-    (3 * peak(p, 0.5) < peak(p, 1) ? below : above) = p;
+    (3 * peak_at(p, 0.5) < peak_at(p, 1) ? below : above) = p;
     if (p == 0.5 * (below + above)) break;
   }
   const double load = below / 0.5;
@@ -98,13 +92,13 @@ TEST_CASE("levels with weights: where their weighted peaks cross, the multiplier
   CHECK(found.status == observables::Status::complete);
   CHECK(found.epigraph);
   CHECK(reference::error(found.design[0], load) < 1e-8);
-  CHECK(reference::error(found.amplitude, peak(below, 1)) < 1e-8);
+  CHECK(reference::error(found.amplitude, peak_at(below, 1)) < 1e-8);
   REQUIRE(found.cases.size() == 2);
   // p A'/A = 2 - p/(p - q): 1/3 and -3 at p = 5 q/4.
   CHECK(found.cases[0].multiplier == Approx(0.9).epsilon(1e-7));
   CHECK(found.cases[1].multiplier == Approx(0.1).epsilon(1e-7));
   CHECK(found.cases[0].active);
-  CHECK(found.cases[0].amplitude == Approx(peak(below, 0.5)).epsilon(1e-8));
+  CHECK(found.cases[0].amplitude == Approx(peak_at(below, 0.5)).epsilon(1e-8));
   CHECK(found.cases[0].set == std::vector<std::pair<std::string, double>>{{"force.cosine", 0.5}});
   CHECK(found.cases[0].weight == 3);
   CHECK(found.cases[1].point.amplitude == Approx(found.amplitude).epsilon(1e-12));
@@ -117,8 +111,8 @@ TEST_CASE("levels with weights: where their weighted peaks cross, the multiplier
   CHECK(found.certificate->peaks[1].weight == Approx(0.1).epsilon(1e-7));
   // Within 5 %: below, the higher level's curve; above, the lower one's.
   const auto& range = found.certificate->ranges[0][1];
-  CHECK(peak(0.5 * range.lower, 1) == Approx(1.05 * found.amplitude).epsilon(1e-7));
-  CHECK(3 * peak(0.5 * range.upper, 0.5) == Approx(1.05 * found.amplitude).epsilon(1e-7));
+  CHECK(peak_at(0.5 * range.lower, 1) == Approx(1.05 * found.amplitude).epsilon(1e-7));
+  CHECK(3 * peak_at(0.5 * range.upper, 0.5) == Approx(1.05 * found.amplitude).epsilon(1e-7));
 }
 
 TEST_CASE("algorithms of every kind come to the crossing of two levels") {
@@ -130,7 +124,7 @@ TEST_CASE("algorithms of every kind come to the crossing of two levels") {
         {.algorithm = algorithm, .evaluations = 300, .certificate = false});
     CHECK(found.epigraph == (algorithm[1] == 'D'));
     CHECK(reference::error(found.design[0], 2.5 * pi / 4) < 1e-4);
-    CHECK(found.amplitude >= peak(1.25 * pi / 4, 1) * (1 - 1e-9));
+    CHECK(found.amplitude >= peak_at(1.25 * pi / 4, 1) * (1 - 1e-9));
   }
 }
 
@@ -146,7 +140,7 @@ TEST_CASE("the certificate of a weighted mean has the curvature and the ranges o
   };
   REQUIRE(found.certificate->curvature.size() == 1);
   CHECK(found.certificate->curvature(0, 0) == Approx(0.25 * (3 * second(0.5) + second(1)) / 4).epsilon(1e-6));
-  const auto mean = [](double at) { return (3 * peak(at, 0.5) + peak(at, 1)) / 4; };
+  const auto mean = [](double at) { return (3 * peak_at(at, 0.5) + peak_at(at, 1)) / 4; };
   for (const auto& range : found.certificate->ranges[0])
     for (const double end : {range.lower, range.upper})
       CHECK(mean(0.5 * end) == Approx((1 + range.share) * mean(p)).epsilon(2e-6 * range.share));
@@ -155,8 +149,8 @@ TEST_CASE("the certificate of a weighted mean has the curvature and the ranges o
   REQUIRE(found.cases.size() == 2);
   CHECK(found.cases[0].active);
   CHECK(found.cases[1].active);
-  CHECK(found.cases[0].multiplier == Approx(3 * peak(p, 0.5) / 4 / mean(p)).epsilon(1e-8));
-  CHECK(found.cases[1].multiplier == Approx(peak(p, 1) / 4 / mean(p)).epsilon(1e-8));
+  CHECK(found.cases[0].multiplier == Approx(3 * peak_at(p, 0.5) / 4 / mean(p)).epsilon(1e-8));
+  CHECK(found.cases[1].multiplier == Approx(peak_at(p, 1) / 4 / mean(p)).epsilon(1e-8));
 }
 
 TEST_CASE("a limit holds in every case, in one that is not the highest too") {
@@ -168,7 +162,7 @@ TEST_CASE("a limit holds in every case, in one that is not the highest too") {
   CHECK(found.feasible);
   const double p = pi / 2 / (1 + std::cos(0.6 * pi));
   CHECK(reference::error(0.5 * found.design[0], p) < 1e-7);
-  CHECK(reference::error(found.amplitude, 4 * peak(p, 0.5)) < 1e-7);
+  CHECK(reference::error(found.amplitude, 4 * peak_at(p, 0.5)) < 1e-7);
   REQUIRE(found.cases.size() == 2);
   CHECK(found.cases[0].active);
   CHECK_FALSE(found.cases[1].active);

@@ -1,9 +1,11 @@
 // The setting of least resonance: exact optima, closed forms, and everything that may be asked wrongly.
 
 #include "catch.hpp"
+#include "contains.hpp"
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
+#include "optimize/paper_optimum.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/optimum.hpp>
@@ -11,12 +13,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 using namespace arcslip;
 using optimize::Optimum;
 using optimize::OptimumOptions;
 using optimize::OptimumProblem;
-constexpr double pi = std::numbers::pi;
+using paper_optimum::over_load;
+using std::numbers::pi;
 
 namespace {
 
@@ -26,8 +30,6 @@ scene::Scene paper(int order, double load, double damping = 0.134) {
   return s;
 }
 
-const OptimumProblem over_load{{{"damper.normal_load", 0.1, 100}}, 18, 22};
-
 std::string error_of(const OptimumProblem& problem, const OptimumOptions& options = {}) {
   try {
     optimize::optimum(scenes::paper(1), problem, options);
@@ -35,10 +37,6 @@ std::string error_of(const OptimumProblem& problem, const OptimumOptions& option
     return e.what();
   }
   return "no error";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 void check_exact(const Optimum& found, const nlohmann::json& exact) {

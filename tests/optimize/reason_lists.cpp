@@ -15,18 +15,17 @@
 #include <string_view>
 
 using namespace arcslip;
-using results::Reason;
 
 namespace {
 
-std::string rows(std::span<const Reason> all) {
+std::string rows(std::span<const results::Reason> all) {
   std::string text;
-  for (const Reason& each : all)
+  for (const results::Reason& each : all)
     text.append("| `").append(each.code).append("` | ").append(each.help) += " |\n";
   return text;
 }
 
-void check_words(const Reason& reason) {
+void check_words(const results::Reason& reason) {
   CAPTURE(reason);
   CHECK_FALSE(reason.code.empty());
   CHECK(reason.code.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string_view::npos);
@@ -34,9 +33,9 @@ void check_words(const Reason& reason) {
   CHECK(reason.help.find_first_of("|\n") == std::string_view::npos);
 }
 
-const std::span<const Reason> lists[] = {observables::reasons::of_branches, observables::reasons::of_motions,
-                                         observables::reasons::of_responses, optimize::reasons::of_optima,
-                                         optimize::reasons::of_optimum_curves};
+const std::span<const results::Reason> lists[] = {
+    observables::reasons::of_branches, observables::reasons::of_motions, observables::reasons::of_responses,
+    optimize::reasons::of_optima, optimize::reasons::of_optimum_curves};
 
 }  // namespace
 
@@ -53,7 +52,7 @@ TEST_CASE("the documentation of results has the rows of the lists of reasons") {
 TEST_CASE("every reason has a code of its own in its list, and a help") {
   for (const auto& list : lists) {
     std::set<std::string_view> codes;
-    for (const Reason& each : list) {
+    for (const results::Reason& each : list) {
       check_words(each);
       CHECK(codes.insert(each.code).second);
     }
@@ -62,10 +61,10 @@ TEST_CASE("every reason has a code of its own in its list, and a help") {
 
 TEST_CASE("reasons are equal where their codes are, and there is none by default") {
   using namespace optimize::reasons;
-  CHECK(flat == Reason{"flat", ""});
+  CHECK(flat == results::Reason{"flat", ""});
   CHECK(flat != infeasible);
   CHECK(unbounded == observables::reasons::unbounded);
-  CHECK(observables::Stop{}.reason == Reason{});
+  CHECK(observables::Stop{}.reason == results::Reason{});
   CHECK(observables::Stop{}.reason.code.empty());
 }
 

@@ -1,5 +1,6 @@
 // Every way in which a minimisation ends, and every input that it refuses.
 #include "catch.hpp"
+#include "contains.hpp"
 #include "problems.hpp"
 
 #include <chrono>
@@ -20,10 +21,6 @@ Problem interfere(Problem problem, long n, std::function<double()> instead) {
     return ++*calls == n ? instead() : value;
   };
   return problem;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 std::string error_of(const Problem& problem, const std::vector<double>& start, const Options& options = {}) {

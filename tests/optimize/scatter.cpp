@@ -4,6 +4,7 @@
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
+#include "optimize/paper_optimum.hpp"
 #include "optimize/row.hpp"
 
 #include <arcslip/optimize/optimum.hpp>
@@ -16,22 +17,12 @@
 using namespace arcslip;
 using optimize::Optimum;
 using optimize::OptimumProblem;
-constexpr double pi = std::numbers::pi;
+using paper_optimum::closed_form;
+using paper_optimum::over_load;
+using paper_optimum::peak;
+using std::numbers::pi;
 
 namespace {
-
-const OptimumProblem over_load{{{"damper.normal_load", 0.1, 100}}, 18, 22};
-
-// c = 0, one harmonic: kd A = p^2/(p - q), p = mu Fn, q = pi f0/4.
-scene::Scene closed_form(double load = 5) {
-  scene::Scene s = scenes::paper(1, load);
-  scene::set(s, "c.value", 0);
-  return s;
-}
-
-double peak(double p, double q, double stiffness = 3500) {
-  return p * p / (p - q) / stiffness;
-}
 
 // Where the peaks of two friction coefficients are equally high: a^2/(a F - q) = b^2/(b F - q).
 double equal(double a, double b, double q) {

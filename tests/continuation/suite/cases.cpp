@@ -47,8 +47,8 @@ void reference_cases(std::vector<Case>& all) {
   all.push_back(make("bratu_numerov", bratu_differences(63, 4), Vector::Zero(63), 0.5, 1, 0.5, 5));
   all.push_back(make("bratu_three_points", bratu_differences(63, 2), Vector::Zero(63), 0.5, 1, 0.5, 5));
   all.push_back(make("chan", chan(100), Vector::Zero(100), 0, 1, 0, 5, {{4.06755724, 3.16019522}}, 1e-8));
-  const double mu = 0.3849001794597505;
-  all.push_back(make("cusp", cusp(), Vector{{-1.3}}, -1, 1, -1, 1, {{mu, -mu}}, 1e-15));
+  const double fold = 0.3849001794597505;
+  all.push_back(make("cusp", cusp(), Vector{{-1.3}}, -1, 1, -1, 1, {{fold, -fold}}, 1e-15));
   all.push_back(make("ab", ab(), Vector::Zero(2), 0, 1, 0, 0.15, {{0.105739, 0.08893185}}, 1e-6));
   all.push_back(make("freudenstein_roth", freudenstein_roth(), Vector{{15.0, -2.0}}, 0, 1, -1, 1.5,
                      {{0.5875873, -0.6863528}}, 1e-7));

@@ -9,7 +9,7 @@
 #include <random>
 
 using namespace arcslip::elements;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 namespace {
 

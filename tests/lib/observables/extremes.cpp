@@ -13,7 +13,7 @@ using arcslip::observables::reasons::boundary;
 using arcslip::observables::reasons::state_too_large;
 using arcslip::observables::reasons::unbounded;
 using arcslip::scene::Scene;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double m = 1.24, k = 17890, c = 0.134, kd = 3500, f0 = 1;
 
 // Peak of a linear oscillator: f/(c sqrt(k/m - c^2/(4 m^2))).

@@ -11,11 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 using namespace arcslip;
 using observables::ResponseBranch;
 using observables::ResponsePoint;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 namespace {
 

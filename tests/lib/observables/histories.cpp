@@ -10,13 +10,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 using namespace arcslip;
 using observables::History;
 using observables::ResponseBranch;
 using observables::ResponsePoint;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 namespace {
 

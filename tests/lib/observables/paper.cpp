@@ -5,8 +5,10 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
+#include <numbers>
+
 using namespace arcslip;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST_CASE("resonance peaks at every load from 0.01 N to 500 N are exact to 5e-8 with 55 harmonics") {
   const auto peaks = reference::exact("resonance_peaks");

@@ -36,6 +36,13 @@ TEST_CASE("JSON has a list for each kind of results, and the format of several")
 
 TEST_CASE("a result in JSON has its head, a list of rows for each table, and its end") {
   const Json json = written(made_up::results())["things"][0];
+  const Json second = {{"x", -0.0},
+                       {"i", -2},
+                       {"yes", false},
+                       {"word", ""},
+                       {"list", Json::array()},
+                       {"elements", Json::object()},
+                       {"last", -0.0}};
   CHECK(json == Json{{"study", "first"},
                      {"kind", "kind"},
                      {"over", "x"},
@@ -48,21 +55,8 @@ TEST_CASE("a result in JSON has its head, a list of rows for each table, and its
                         {"list", {1.0, 0.5}},
                         {"elements", {{"d", {{"load", 3.0}, {"deep", {{"er", 3.0}}}}}}},
                         {"last", 0.2}},
-                       {{"x", -0.0},
-                        {"i", -2},
-                        {"yes", false},
-                        {"word", ""},
-                        {"list", Json::array()},
-                        {"elements", Json::object()},
-                        {"last", -0.0}}}},
-                     {"marks",
-                      {{{"x", -0.0},
-                        {"i", -2},
-                        {"yes", false},
-                        {"word", ""},
-                        {"list", Json::array()},
-                        {"elements", Json::object()},
-                        {"last", -0.0}}}},
+                       second}},
+                     {"marks", Json::array({second})},
                      {"status", "complete"},
                      {"stop", {{"reason", "end"}, {"value", 1.0}}},
                      {"best", {{"x", 1.5}}}});

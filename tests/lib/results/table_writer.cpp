@@ -10,7 +10,7 @@ using namespace arcslip::results;
 
 namespace {
 
-std::string written(const Results& results) {
+std::string printed(const Results& results) {
   std::ostringstream text;
   write_table(text, results);
   return text.str();
@@ -27,7 +27,7 @@ Results shown() {
 }  // namespace
 
 TEST_CASE("people see the rows of a table in aligned columns, with what is set and how each result ended") {
-  CHECK(written(shown()) ==
+  CHECK(printed(shown()) ==
         "load (N)  x (m)     word  load     thing\n"
         "     2.5   0.10  =a, \"b\"     3  complete\n"
         "     2.5  -0.00              -  complete\n");
@@ -36,8 +36,8 @@ TEST_CASE("people see the rows of a table in aligned columns, with what is set a
 TEST_CASE("where there is no value a flag that is true stands in its place") {
   Results results = shown();
   std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {HUGE_VAL, std::nan("")};
-  CHECK(written(results).find("     2.5    yes  =a, \"b\"     3  complete\n") != std::string::npos);
-  CHECK(written(results).find("     2.5      -              -  complete\n") != std::string::npos);
+  CHECK(printed(results).find("     2.5    yes  =a, \"b\"     3  complete\n") != std::string::npos);
+  CHECK(printed(results).find("     2.5      -              -  complete\n") != std::string::npos);
 }
 
 TEST_CASE("a result without rows has one that says so, and results of one kind share a table") {
@@ -46,7 +46,7 @@ TEST_CASE("a result without rows has one that says so, and results of one kind s
   results.results[1].tables.clear();
   results.results[1].end.status = Status::failed;
   results.results[1].head.set[0].value = 10.0;
-  CHECK(written(results) ==
+  CHECK(printed(results) ==
         "load (N)  x (m)     word  load     thing\n"
         "     2.5   0.10  =a, \"b\"     3  complete\n"
         "     2.5  -0.00              -  complete\n"
@@ -57,14 +57,14 @@ TEST_CASE("people see facts of each result, a row for each, or its own text") {
   Results results = made_up::results();
   results.schemas[0].shown = {{"best", {"best", "x"}, "%.3f"}, {"none", {"nothing"}}};
   results.results[1].end.text = "in its own words\n";
-  CHECK(written(results) ==
+  CHECK(printed(results) ==
         "load (N)   best  none     thing\n     2.5  1.500     -  complete\n\nin its own words\n");
 }
 
 TEST_CASE("what commands a terminal is escaped in a table") {
   Results results = shown();
   std::get<std::vector<std::string>>(results.results[0].tables[0].columns[3].of)[0] = "\x1b[31m";
-  CHECK(written(results).find("\\u001b[31m") != std::string::npos);
+  CHECK(printed(results).find("\\u001b[31m") != std::string::npos);
 }
 
 TEST_CASE("what ended early, and what is complete but doubtful, is told by its number and what it sets") {

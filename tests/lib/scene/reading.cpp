@@ -9,6 +9,7 @@
 #include "bad_scenes.hpp"
 #include "catalogue.hpp"
 #include "catch.hpp"
+#include "lib/scene/read_text.hpp"
 
 using namespace arcslip::scene;
 using namespace arcslip::scene::test;
@@ -17,15 +18,6 @@ using arcslip::observables::FrequencyRange;
 using arcslip::observables::ParameterRange;
 using arcslip::observables::TimeMethod;
 using arcslip::observables::TimeSettings;
-
-namespace {
-
-Scene read_text(const std::string& text) {
-  std::istringstream in(text);
-  return read(in, test_catalogue::whole());
-}
-
-}  // namespace
 
 TEST_CASE("the scene of the paper is read with the paper's numbers") {
   const Scene scene =

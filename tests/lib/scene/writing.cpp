@@ -8,16 +8,12 @@
 #include "bad_scenes.hpp"
 #include "catalogue.hpp"
 #include "catch.hpp"
+#include "lib/scene/read_text.hpp"
 
 using namespace arcslip::scene;
 using namespace arcslip::scene::test;
 
 namespace {
-
-Scene read_text(const std::string& text) {
-  std::istringstream in(text);
-  return read(in, test_catalogue::whole());
-}
 
 // A scene with one of everything.
 const char* const full_scene = R"({
