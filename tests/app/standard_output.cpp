@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "program.hpp"
+#include "size.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -57,7 +58,8 @@ TEST_CASE("a closed standard output is an error and no file takes its place") {
 TEST_CASE(
     "progress is a line on a terminal that is cleared at the end, and nothing without one or with --quiet") {
   const Workplace place;
-  const std::vector<std::string> slow{"frf", "scene.json", "--harmonics", "101", "--json", "-"};
+  const std::vector<std::string> slow{"frf",    "scene.json", "--harmonics", test_size::sized("101", "21"),
+                                      "--json", "-"};
   const Ended shown = Program(place, slow, {}, "", true).wait();
   CHECK(shown.exit_code == 0);
   CHECK(shown.err.find("\rbranch ") == 0);

@@ -1,6 +1,7 @@
 // The studies of the example scenes.
 
 #include "catch.hpp"
+#include "size.hpp"
 
 #include "lib/hbm/scenes.hpp"
 #include "optimize/optima.hpp"
@@ -344,14 +345,14 @@ TEST_CASE(
 TEST_CASE("beside a minimum, a lower design on the way to the end of its tolerance range is taken up") {
   scene::Scene s = example("levels/scene.json");
   scene::set(s, "k.value", 9000);  // the resonance reaches the lower end of the window
-  const OptimumProblem over_load{{{"damper.normal_load", 0.5, 60}}, 15, 60};
-  const auto found = optimize::optimum(s, over_load);
+  const OptimumProblem over_damper{{{"damper.normal_load", 0.5, 60}}, 15, 60};
+  const auto found = optimize::optimum(s, over_damper);
   REQUIRE(found.status == observables::Status::complete);
   CHECK(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
     return note.find("went on from the lower damper.normal_load") != std::string::npos;
   }));
-  const auto global =
-      optimize::optimum(s, over_load, {.algorithm = "GN_DIRECT_L", .evaluations = 100, .certificate = false});
+  const auto global = optimize::optimum(
+      s, over_damper, {.algorithm = "GN_DIRECT_L", .evaluations = 100, .certificate = false});
   CHECK(found.amplitude <= (1 + 1e-9) * global.amplitude);
   CHECK(found.certificate->at_bound == std::vector<int>{-1});
 }
@@ -378,7 +379,7 @@ TEST_CASE("what a callback throws while other starts are looked at ends the sear
   OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
   problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});
   const auto whole = optimize::optimum(s, problem);
-  for (std::size_t last = 1; last <= whole.evaluations.size(); ++last) {
+  for (std::size_t last = 1; last <= whole.evaluations.size(); last += test_size::sized(1u, 8u)) {
     optimize::OptimumOptions throws;
     throws.progress = [&](const optimize::OptimumProgress& now) {
       if (now.evaluations == static_cast<int>(last)) throw std::runtime_error("enough");

@@ -16,7 +16,8 @@ using namespace arcslip;
 namespace {
 
 // The highest peak of a frequency response of its own.
-double highest(scene::Scene s, const optimize::OptimumProblem& problem, const std::vector<double>& design) {
+double highest_peak_of(scene::Scene s, const optimize::OptimumProblem& problem,
+                       const std::vector<double>& design) {
   for (std::size_t k = 0; k < design.size(); ++k) scene::set(s, problem.over[k].name, design[k]);
   double most = 0;
   for (const auto& branch :
@@ -81,7 +82,7 @@ scene::Scene two_loads() {
 
 }  // namespace
 
-TEST_CASE("a search that comes from beyond a limit ends on it, where no load within is better") {
+TEST_CASE("a search that comes from beyond a limit ends on it, where no load within is better", "[numbers]") {
   const scene::Scene s = beyond_the_limit();
   const double weight = 3.8882094359089208, most = 10.631852594787354;
   const optimize::OptimumProblem problem{{{"j0.normal_load", 0.2571877920887347, 2571.877920887347}},
@@ -96,11 +97,12 @@ TEST_CASE("a search that comes from beyond a limit ends on it, where no load wit
   const double load = most / weight;
   // What complementarity leaves: the limit's multiplier, 0.44, times the distance from it.
   CHECK(found.design[0] == Approx(load).epsilon(optimize::most_complementarity / 0.44));
-  CHECK(found.amplitude == Approx(highest(s, problem, {load})).epsilon(optimize::most_complementarity));
+  CHECK(found.amplitude ==
+        Approx(highest_peak_of(s, problem, {load})).epsilon(optimize::most_complementarity));
   for (int i = 0; i < 10; ++i) {
     const double below = 0.2572 * std::pow(load / 0.2572, i / 10.0);
     CAPTURE(below);
-    CHECK(highest(s, problem, {below}) > found.amplitude);
+    CHECK(highest_peak_of(s, problem, {below}) > found.amplitude);
   }
   REQUIRE(found.certificate);
   CHECK(found.certificate->stationarity <= optimize::most_stationarity);
@@ -108,16 +110,17 @@ TEST_CASE("a search that comes from beyond a limit ends on it, where no load wit
   // Where the sum is loosened by a share, the load grows by it.
   REQUIRE(found.certificate->limits.size() == 1);
   const double share = 1e-4;
-  const double slope =
-      std::log(highest(s, problem, {load * (1 - share)}) / highest(s, problem, {load * (1 + share)})) /
-      (2 * share);
+  const double slope = std::log(highest_peak_of(s, problem, {load * (1 - share)}) /
+                                highest_peak_of(s, problem, {load * (1 + share)})) /
+                       (2 * share);
   CHECK(found.certificate->limits[0].multiplier == Approx(slope).epsilon(1e-4));
   for (const auto& range : found.certificate->ranges[0]) {
     CHECK(range.upper == Approx(load).epsilon(2e-8));
     CHECK(range.upper_is_limit);
     CHECK_FALSE(range.upper_is_bound);
     CHECK_FALSE(range.lower_is_limit);
-    CHECK(highest(s, problem, {range.lower}) == Approx((1 + range.share) * found.amplitude).epsilon(1e-6));
+    CHECK(highest_peak_of(s, problem, {range.lower}) ==
+          Approx((1 + range.share) * found.amplitude).epsilon(1e-6));
   }
 }
 
@@ -163,7 +166,7 @@ TEST_CASE("a search with limits goes on from the lowest design over the bounds, 
   CHECK(found.amplitude < random_limits::grid(search, 75, 40).amplitude);
 }
 
-TEST_CASE("a damper that sticks is let slip no farther than a limit on the energy allows") {
+TEST_CASE("a damper that sticks is let slip no farther than a limit on the energy allows", "[numbers]") {
   for (const std::uint64_t seed : {131, 302}) {  // stuck no energy is lost; half way to it, too much
     const auto search = random_limits::make(seed);
     const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
@@ -198,7 +201,7 @@ TEST_CASE("where an algorithm asks for a design that is no number, the search go
   for (const optimize::Evaluation& each : found.evaluations) CHECK(std::isfinite(each.design[0]));
 }
 
-TEST_CASE("an algorithm that gains nothing over many designs is ended, and others go on") {
+TEST_CASE("an algorithm that gains nothing over many designs is ended, and others go on", "[numbers]") {
   const auto search = random_limits::make(257);  // SLSQP crawls along outside the limits
   const auto found =
       optimize::optimum(search.scene, search.problem, {.certificate = false, .elsewhere = false});
@@ -209,7 +212,8 @@ TEST_CASE("an algorithm that gains nothing over many designs is ended, and other
   CHECK(found.amplitude < 1.7e-4);
 }
 
-TEST_CASE("two loads with a limit on their sum: no pair on the limit is better, however loose it is") {
+TEST_CASE("two loads with a limit on their sum: no pair on the limit is better, however loose it is",
+          "[numbers]") {
   const scene::Scene s = two_loads();
   const double a = 29.767989444184423, b = 99999.99999999999;
   for (const double most : {2000.0, 8000.0}) {
@@ -226,7 +230,7 @@ TEST_CASE("two loads with a limit on their sum: no pair on the limit is better, 
     double least = HUGE_VAL;
     for (int i = 0; i < 20; ++i) {
       const double first = 0.05 * std::pow(most / a / 0.06, i / 19.0);
-      least = std::min(least, highest(s, problem, {first, (most - a * first) / b}));
+      least = std::min(least, highest_peak_of(s, problem, {first, (most - a * first) / b}));
     }
     CHECK(found.amplitude <= least * (1 + 1e-8));
     for (std::size_t k = 0; k < 2; ++k)

@@ -1,89 +1,18 @@
 // The optimum followed over another parameter: closed forms, scaling, searches at single values, and every
-// way in which the curve may change or end.
+// way in which the curve may change.
 
 #include "catch.hpp"
 
-#include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
-
-#include <arcslip/optimize/optimum_figures.hpp>
-#include <arcslip/optimize/optimum_results.hpp>
-#include <arcslip/optimize/reasons.hpp>
-#include <arcslip/output/figures.hpp>
-#include <arcslip/results/csv_writer.hpp>
-#include <arcslip/results/json_writer.hpp>
-
-#include <nlohmann/json.hpp>
+#include "optimize/optimum_curves.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <numbers>
 
-using namespace arcslip;
-using namespace arcslip::optimize;
-using Variables = std::vector<DesignVariable>;
-constexpr double pi = std::numbers::pi;
+namespace optimum_curves {
 
-namespace {
-
-const OptimumProblem paper_load{{{"damper.normal_load", 0.01, 1000}}, 18, 22};
-const Variables both_loads = {{"d1.normal_load", 0.05, 50}, {"d2.normal_load", 0.05, 50}};
-
-scene::Scene paper(int order, double damping) {
-  scene::Scene s = scenes::paper(order, 3);
-  scene::set(s, "c.value", damping);
-  return s;
-}
-
-scene::Scene levels() {
-  return scenes::example("levels");
-}
-
-scene::Scene two_dampers(double start = 0.6) {
-  scene::Scene s = scenes::example("two_dampers");
-  scene::set(s, "d1.normal_load", start);
-  scene::set(s, "d2.normal_load", start);
-  return s;
-}
-
-std::vector<const OptimumEvent*> events(const OptimumCurve& curve, const std::string& kind) {
-  std::vector<const OptimumEvent*> all;
-  for (const OptimumEvent& event : curve.events)
-    if (event.kind == kind) all.push_back(&event);
-  return all;
-}
-
-// A search at one value, from the design that was followed there.
-Optimum search(scene::Scene s, const OptimumProblem& problem, const std::string& along,
-               const OptimumPoint& at) {
-  scene::set(s, along, at.along);
-  for (std::size_t k = 0; k < problem.over.size(); ++k) scene::set(s, problem.over[k].name, at.design[k]);
-  return optimum(s, problem, {.certificate = false});
-}
-
-void check_complete(const OptimumCurve& curve) {
-  INFO(curve.stop.message);
-  CHECK(curve.status == observables::Status::complete);
-  CHECK(curve.stop.reason == reasons::boundary);
-  REQUIRE(curve.points.size() >= 2);
-}
-
-std::string error_of(const scene::Scene& s, const OptimumProblem& problem, const DesignVariable& along) {
-  try {
-    optimum_curve(s, problem, along);
-  } catch (const std::exception& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
+using std::numbers::pi;
 
 TEST_CASE("one harmonic, no damping: the best load is pi f0/(2 mu) at every level") {
   const OptimumCurve curve = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10});
@@ -248,7 +177,7 @@ TEST_CASE("where a resonance and a corner meet in a fold the curve goes on, and 
   for (const int count : beside) CHECK(count > 5);
 }
 
-TEST_CASE("bounds and peaks: as many as there are conditions, one has to leave for another") {
+TEST_CASE("bounds and peaks: as many as there are conditions, one has to leave for another", "[numbers]") {
   const OptimumProblem problem{{{"d1.normal_load", 0.05, 4}, {"d2.normal_load", 0.05, 8}}, 8, 45};
   const OptimumCurve curve = optimum_curve(two_dampers(), problem, {"force.cosine", 2, 20});
   check_complete(curve);
@@ -324,208 +253,4 @@ TEST_CASE("an optimum at the end of the window becomes a resonance where that co
           1e-10);
 }
 
-TEST_CASE("a start that is flat, unbounded or without response says so") {
-  const OptimumCurve flat =
-      optimum_curve(paper(7, 0.134), {{{"damper.normal_load", 200, 300}}, 18, 22}, {"force.cosine", 0.1, 1});
-  CHECK(flat.status == observables::Status::failed);
-  CHECK(flat.stop.reason == reasons::flat);
-  CHECK(flat.points.empty());
-  CHECK(contains(flat.stop.message, "at force.cosine = 0.1"));
-  const OptimumCurve infinite =
-      optimum_curve(paper(1, 0), {{{"damper.normal_load", 0.1, 1}}, 18, 22}, {"force.cosine", 1, 10});
-  CHECK(infinite.status == observables::Status::failed);
-  CHECK(infinite.stop.reason == reasons::unbounded);
-}
-
-TEST_CASE("the curve ends where the response becomes unbounded, and says where") {
-  const OptimumCurve curve =
-      optimum_curve(paper(1, 0), {{{"damper.normal_load", 0.1, 5}}, 18, 22}, {"force.cosine", 1, 10});
-  CHECK(curve.status == observables::Status::stopped);
-  CAPTURE(curve.stop.reason, curve.stop.message);
-  REQUIRE_FALSE(curve.points.empty());
-  CHECK(events(curve, "bound_reached").size() == 1);
-  CHECK(events(curve, "bound_reached")[0]->point.along == Approx(5 / pi).epsilon(1e-9));
-  const double limit = 4 * 0.5 * 5 / pi;  // Fn = pi f0/(4 mu)
-  CHECK(curve.points.back().along < limit);
-  CHECK(curve.points.back().along > 0.9 * limit);
-}
-
-TEST_CASE("a bound that is left where everything comes to stick is no end without a reason") {
-  const OptimumProblem wide{{{"damper.normal_load", 0.5, 60}}, 15, 60};
-  const OptimumCurve curve = optimum_curve(levels(), wide, {"damper.friction_coefficient", 0.01, 50});
-  INFO(curve.stop.message);
-  CHECK(curve.stop.reason != reasons::objective_failed);
-  // Only mu Fn counts: its optimum within the bounds, and what is nearest to it elsewhere.
-  const Optimum best = optimum(levels(), wide, {.certificate = false});
-  const double slip = 0.5 * best.design[0];
-  for (const OptimumPoint& at : curve.points)
-    if (at.along > slip / 60 && at.along < slip / 0.5)
-      CHECK(at.along * at.design[0] == Approx(slip).epsilon(1e-5));
-  REQUIRE_FALSE(events(curve, "bound_reached").empty());
-  CHECK(events(curve, "bound_reached")[0]->point.along == Approx(slip / 0.5).epsilon(1e-5));
-}
-
-TEST_CASE("a progress callback, a number of points and a time limit stop the curve") {
-  int told = 0;
-  OptimumCurveOptions options;
-  options.progress = [&](const OptimumPoint&) { return ++told < 5; };
-  const OptimumCurve by_user = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
-  CHECK(by_user.status == observables::Status::stopped);
-  CHECK(by_user.stop.reason == reasons::user);
-  CHECK(told == 5);
-  OptimumCurveOptions few;
-  few.points = 7;
-  const OptimumCurve by_points = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, few);
-  CHECK(by_points.stop.reason == reasons::point_limit);
-  CHECK(by_points.points.size() == 7);
-  OptimumCurveOptions brief;
-  brief.seconds = 1e-3;
-  const OptimumCurve by_time = optimum_curve(paper(55, 0.134), paper_load, {"force.cosine", 0.1, 10}, brief);
-  CHECK(by_time.stop.reason == reasons::time_limit);
-  CHECK(by_time.status == observables::Status::stopped);
-}
-
-TEST_CASE("what the progress callback throws ends the curve with what there is") {
-  OptimumCurveOptions options;
-  int told = 0;
-  options.progress = [&](const OptimumPoint&) {
-    if (++told == 4) throw std::runtime_error("enough");
-    return true;
-  };
-  const OptimumCurve curve = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
-  CHECK(curve.status == observables::Status::failed);
-  CHECK(curve.stop.reason == reasons::objective_failed);
-  CHECK(contains(curve.stop.message, "it threw \"enough\""));
-  CHECK(curve.points.size() == 4);
-}
-
-TEST_CASE("what cannot be followed is refused before anything is computed") {
-  const DesignVariable force{"force.cosine", 1, 2};
-  CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosin", 1, 2}), "force.cosine"));
-  CHECK(contains(error_of(paper(1, 0), paper_load, {"damper.normal_load", 1, 2}), "named twice"));
-  CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosine", 2, 1}), "must be below"));
-  OptimumProblem limited = paper_load;
-  limited.limits.push_back({"energy_friction", -HUGE_VAL, 1e-3});
-  CHECK(contains(error_of(paper(1, 0), limited, force), "with limits is not followed"));
-  OptimumCurveOptions options;
-  options.step = 0;
-  CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
-  options = {};
-  options.points = 0;
-  CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
-  options = {};
-  options.seconds = -1;
-  CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
-  OptimumProblem cases = paper_load;
-  cases.cases.push_back({{{"damper.stiffness", 3000}}});
-  CHECK(contains(error_of(paper(1, 0), cases, force), "over several cases is not followed"));
-}
-
-TEST_CASE("result files tell every point of the curve and every event") {
-  const scene::Scene s = levels();
-  OptimumCurveResult result;
-  result.study = "levels";
-  result.problem = {{{"damper.normal_load", 5, 10}}, 15, 60};
-  result.curve = optimum_curve(s, result.problem, {"force.cosine", 1, 8});
-  const std::vector<OptimumCurveResult> results = {result};
-  std::ostringstream text;
-  const results::Results all =
-      studies::collected<OptimumCurveResult>(s, described_curves(s, result.problem, "force.cosine"), results);
-  results::write_json(text, all);
-  const auto document = nlohmann::json::parse(text.str());
-  CHECK(document["format"] == "arcslip-optimum-curves-1");
-  const auto& curve = document["optimum_curves"][0];
-  CHECK(curve["along"] == "force.cosine");
-  CHECK(curve["status"] == "complete");
-  REQUIRE(curve["points"].size() == result.curve.points.size());
-  const OptimumPoint& last = result.curve.points.back();
-  CHECK(curve["points"].back()["force.cosine"] == last.along);
-  CHECK(curve["points"].back()["damper.normal_load"] == last.design[0]);
-  CHECK(curve["points"].back()["amplitude"] == last.amplitude);
-  CHECK(curve["points"].back()["at_bound"]["damper.normal_load"] == "upper");
-  CHECK(curve["points"].back()["peaks"][0]["weight"] == 1);
-  REQUIRE(curve["events"].size() == 2);
-  CHECK(curve["events"][0]["kind"] == "bound_left");
-  CHECK(curve["events"][0]["parameter"] == "damper.normal_load");
-  CHECK(curve["events"][0]["point"]["at_bound"]["damper.normal_load"] == "lower");
-
-  std::ostringstream csv;
-  results::write_csv(csv, all, "points");
-  std::istringstream lines(csv.str());
-  std::string line;
-  std::vector<std::string> rows;
-  while (std::getline(lines, line)) rows.push_back(line);
-  CHECK(rows.size() == 1 + result.curve.points.size());
-  CHECK(rows[0].starts_with("study,curve,force.cosine (N),damper.normal_load (N),amplitude (m),peaks,"));
-  CHECK(rows[1].starts_with("levels,1,1,5,"));
-  std::ostringstream events;
-  results::write_csv(events, all, "events");
-  CHECK(contains(events.str(), "\r\nlevels,1,bound_left,damper.normal_load,"));
-
-  const auto folder = std::filesystem::temp_directory_path() / "arcslip_optimum_curve";
-  std::filesystem::create_directories(folder);
-  const auto figures = output::draw_figures(figures_of(s, results), folder.string(), "best");
-  std::ifstream script(folder / "best.gp");
-  const std::string commands{std::istreambuf_iterator<char>(script), {}};
-  for (const char* figure : {"best_damper.normal_load.svg", "best_amplitude.svg", "best_stick.svg"})
-    CHECK(contains(commands, figure));
-  CHECK((figures.images.size() == 6 || !figures.problem.empty()));
-  std::filesystem::remove_all(folder);
-}
-
-TEST_CASE("a peak without weight beside one that does not depend on the design holds no optimum") {
-  // The lower resonance comes to where d1 sticks: from there on it alone decides, over a range of loads.
-  const OptimumProblem problem{{{"d1.normal_load", 0.05, 50}}, 8, 45};
-  const OptimumCurve curve = optimum_curve(two_dampers(2), problem, {"d2.stiffness", 200, 8000});
-  INFO(curve.stop.message);
-  CHECK(curve.stop.reason == reasons::flat);
-  REQUIRE_FALSE(curve.points.empty());
-  const OptimumPoint& last = curve.points.back();
-  REQUIRE(last.peaks.size() == 2);
-  CHECK(last.peaks[0].weight == Approx(1).margin(1e-4));
-  CHECK(std::is_sorted(curve.points.begin(), curve.points.end(),
-                       [](const auto& a, const auto& b) { return a.along < b.along; }));
-  double amplitude[2] = {0, 0};
-  for (const int i : {0, 1}) {
-    OptimumPoint beyond = last;
-    beyond.along *= 1.005;
-    beyond.design[0] *= i == 0 ? 1.1 : 1.3;
-    scene::Scene s = two_dampers(2);
-    scene::set(s, "d2.stiffness", beyond.along);
-    scene::set(s, "d1.normal_load", beyond.design[0]);
-    amplitude[i] = optimum(s, problem, {.evaluations = 1, .certificate = false}).evaluations[0].amplitude;
-  }
-  CHECK(reference::error(amplitude[0], amplitude[1]) < 1e-10);
-  for (std::size_t i = 5; i < curve.points.size(); i += 30) {
-    const OptimumPoint& at = curve.points[i];
-    CAPTURE(at.along);
-    CHECK(reference::error(search(two_dampers(2), problem, "d2.stiffness", at).amplitude, at.amplitude) <
-          1e-9);
-  }
-}
-
-TEST_CASE("a curve of optima ends, and says so, where the highest peak ceases to depend on the design") {
-  const scene::Scene s = two_dampers(2);
-  const auto curve = optimum_curve(s, {{{"d1.normal_load", 0.05, 50}}, 8, 45}, {"d1.stiffness", 200, 8000});
-  CHECK(curve.status == observables::Status::stopped);
-  INFO(curve.stop.message);
-  CHECK(curve.stop.reason == reasons::flat);
-  CHECK(curve.stop.message.find("does not depend on d1.normal_load") != std::string::npos);
-  REQUIRE_FALSE(curve.points.empty());
-  const OptimumPoint& last = curve.points.back();
-  // Beyond, two loads give the same largest amplitude, at the resonance at which d1 sticks.
-  const auto highest = [&](double load) {
-    scene::Scene beyond = s;
-    scene::set(beyond, "d1.stiffness", 1.1 * last.along);
-    scene::set(beyond, "d1.normal_load", load);
-    observables::ResponsePoint most;
-    const auto branches = observables::frequency_response(beyond, {8, 45});
-    for (const auto& event : branches.front().events)
-      if (event.kind == "peak" && event.point.amplitude > most.amplitude) most = event.point;
-    return most;
-  };
-  const auto one = highest(1.05 * last.design[0]), other = highest(1.15 * last.design[0]);
-  REQUIRE_FALSE(one.elements.empty());
-  CHECK(one.elements[0].stick_percent == 100);
-  CHECK(reference::error(one.amplitude, other.amplitude) < 1e-10);
-}
+}  // namespace optimum_curves

@@ -115,7 +115,8 @@ TEST_CASE("a linear limit holds over several cases") {
         Approx(-std::log(amplitude[1] / amplitude[0]) / 0.01).epsilon(1e-3));
 }
 
-TEST_CASE("a search that begins outside a linear limit ends within it, lower than other loads on it") {
+TEST_CASE("a search that begins outside a linear limit ends within it, lower than other loads on it",
+          "[numbers]") {
   const scene::Scene s = row(2, 2, 15);
   auto problem = over_loads(2, 8, 45);
   problem.cases = {{{{"f.cosine", 1}}, 1}, {{{"f.cosine", 2}}, 1}};

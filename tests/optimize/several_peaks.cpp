@@ -77,7 +77,8 @@ TEST_CASE("a damper that sticks where the search begins slips where it ends") {
   }
 }
 
-TEST_CASE("three dampers on five masses: a global search without gradients finds nothing below") {
+TEST_CASE("three dampers on five masses: a global search without gradients finds nothing below",
+          "[numbers]") {
   const scene::Scene s = row(5, 3, 3);
   const auto problem = over_loads(3, 2, 20);
   const Optimum found = optimize::optimum(s, problem, {.certificate = false});

@@ -151,7 +151,7 @@ TEST_CASE("a response that symmetry holds at 0 has no peaks, and costs as many p
   for (const auto& point : at_rest.points) CHECK(point.amplitude < 1e-12);
 }
 
-TEST_CASE("a peak of 0.26 % at a kink is found in all units, names and directions") {
+TEST_CASE("a peak of 0.26 % at a kink is found in all units, names and directions", "[numbers]") {
   const auto seen = invariances::response(small_peak());
   CHECK(std::count_if(seen.events.begin(), seen.events.end(), [](const auto& event) {
           return event.kind == "peak" && event.nonsmooth && std::abs(event.omega - 14.0701017) < 1e-7;

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/observables/curves.hpp"
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/observables/curves.hpp>
@@ -12,18 +13,12 @@
 
 using namespace arcslip;
 using observables::ResponseBranch;
+using observables_test::events;
 
 namespace {
 
 observables::ParameterRange over(const std::string& parameter, double frequency, double from, double to) {
   return {parameter, from, to, frequency};
-}
-
-std::vector<observables::ResponseEvent> events(const ResponseBranch& branch, const std::string& kind) {
-  std::vector<observables::ResponseEvent> found;
-  for (const auto& event : branch.events)
-    if (event.kind == kind) found.push_back(event);
-  return found;
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // Where curves of peaks end, and what they pass: kinks of every kind at which a peak may sit.
 
 #include "catch.hpp"
+#include "size.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
+#include "lib/observables/curves.hpp"
 
 #include <arcslip/observables/curves.hpp>
 
@@ -15,6 +17,7 @@ using observables::CurveRange;
 using observables::FrequencyRange;
 using observables::ResponseBranch;
 using observables::ResponsePoint;
+using observables_test::curves_with;
 
 namespace {
 
@@ -71,23 +74,6 @@ bool is_peak(const scene::Scene& s, const std::string& over, const ResponsePoint
   return false;
 }
 
-/// By the chords between their points.
-int curves_with(const std::vector<ResponseBranch>& curves, const ResponsePoint& peak, double over) {
-  int found = 0;
-  for (const ResponseBranch& curve : curves)
-    for (std::size_t i = 1; i < curve.points.size(); ++i) {
-      const ResponsePoint &a = curve.points[i - 1], &b = curve.points[i];
-      if ((a.over - over) * (b.over - over) > 0 || a.over == b.over) continue;
-      const double share = (over - a.over) / (b.over - a.over);
-      const double omega = std::lerp(a.omega, b.omega, share),
-                   amplitude = std::lerp(a.amplitude, b.amplitude, share);
-      found += std::abs(peak.omega - omega) <= 0.5 * std::abs(a.omega - b.omega) + 1e-4 * omega &&
-               std::abs(peak.amplitude - amplitude) <=
-                   0.5 * std::abs(a.amplitude - b.amplitude) + 1e-3 * amplitude;
-    }
-  return found;
-}
-
 /// Every curve is whole, and its points are peaks, but for those nearer than `beside` to its ends, relative;
 /// each peak of responses between is on one curve.
 void check_curves(const scene::Scene& s, const CurveRange& range, std::size_t every, double beside = 0) {
@@ -119,12 +105,13 @@ void check_curves(const scene::Scene& s, const CurveRange& range, std::size_t ev
 TEST_CASE(
     "curves of peaks of a motion with a mean are whole, and nothing but peaks, over two decades of a load") {
   const scene::Scene s = second_and_third();
-  check_curves(s, peaks_over(s, "j0.normal_load", 9.3, 930), 15);
+  check_curves(s, peaks_over(s, "j0.normal_load", 9.3, 930), test_size::sized(15u, 150u));
 }
 
 TEST_CASE(
     "curves of peaks leave corners with the root of the slip, pass where corners cross, and end where "
-    "surpassed") {
+    "surpassed",
+    "[numbers]") {
   using random_scenes::Excitation;
   struct Case {
     Excitation excitation;

@@ -1,9 +1,11 @@
 // Curves of resonance peaks over a parameter.
 
 #include "catch.hpp"
+#include "size.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
+#include "lib/observables/curves.hpp"
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/observables/curves.hpp>
@@ -12,12 +14,16 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 using namespace arcslip;
 using observables::CurveRange;
 using observables::ResponseBranch;
 using observables::ResponsePoint;
-constexpr double pi = std::numbers::pi;
+using observables_test::curves_with;
+using observables_test::events;
+using std::numbers::pi;
+using test_size::sized;
 
 namespace {
 
@@ -39,16 +45,9 @@ ResponseBranch paper_peaks(int order, double from = 0.01, double to = 500, doubl
   return branches.front();
 }
 
-std::vector<observables::ResponseEvent> events(const ResponseBranch& branch, const std::string& kind) {
-  std::vector<observables::ResponseEvent> found;
-  for (const auto& event : branch.events)
-    if (event.kind == kind) found.push_back(event);
-  return found;
-}
-
 }  // namespace
 
-TEST_CASE("the curve of peaks ends at each load from 0.01 N to 500 N in the exact peak") {
+TEST_CASE("the curve of peaks ends at each load from 0.01 N to 500 N in the exact peak", "[numbers]") {
   const std::vector<std::pair<int, double>> orders = {{55, 5e-8}, {101, 5e-9}};
   for (const auto& [order, tolerance] : orders)
     for (const auto& exact : reference::exact("resonance_peaks")) {
@@ -174,15 +173,16 @@ int compare(const scene::Scene& s, const std::string& parameter, double from, do
 TEST_CASE(
     "random structures: where a curve of peaks ends at a load, the frequency response there has that peak") {
   int compared = 0, corners = 0;
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for (std::uint64_t seed = 0; seed < sized(10u, 2u); ++seed) {
     const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first);
     for (double load : {0.13, 0.4, 1.0, 2.0, 5.0}) {
       CAPTURE(seed, s.dofs.size(), load);
       compared += compare(s, s.elements[0].name + ".normal_load", 0.1, load, corners);
     }
   }
-  CHECK(compared >= 40);
-  CHECK(corners >= 4);  // peaks that sit, for a range of loads, where an element passes from stick to slip
+  CHECK(compared >= sized(40, 4));
+  CHECK(corners >=
+        sized(4, 0));  // peaks that sit, for a range of loads, where an element passes from stick to slip
 }
 
 TEST_CASE(
@@ -217,23 +217,6 @@ scene::Scene absorber() {
 
 CurveRange peaks_of(const scene::Scene& s, double from, double to) {
   return over(s, "d1.normal_load", from, to);
-}
-
-/// How many curves have this peak, by the chords between their points.
-int curves_with(const std::vector<ResponseBranch>& curves, const ResponsePoint& peak, double load) {
-  int found = 0;
-  for (const ResponseBranch& curve : curves)
-    for (std::size_t i = 1; i < curve.points.size(); ++i) {
-      const ResponsePoint &a = curve.points[i - 1], &b = curve.points[i];
-      if ((a.over - load) * (b.over - load) > 0 || a.over == b.over) continue;
-      const double share = (load - a.over) / (b.over - a.over);
-      const double omega = std::lerp(a.omega, b.omega, share),
-                   amplitude = std::lerp(a.amplitude, b.amplitude, share);
-      found += std::abs(peak.omega - omega) <= 0.5 * std::abs(a.omega - b.omega) + 1e-4 * omega &&
-               std::abs(peak.amplitude - amplitude) <=
-                   0.5 * std::abs(a.amplitude - b.amplitude) + 1e-3 * amplitude;
-    }
-  return found;
 }
 
 /// Each peak of the responses between is on one curve, and on one only. Returns how many there are.
@@ -286,7 +269,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "each peak of responses between two loads is on one curve: born, split, from a corner, and gone again") {
+    "each peak of responses between two loads is on one curve: born, split, from a corner, and gone again",
+    "[numbers]") {
   // Seeds whose peaks at 0.01 N are not all that there are between: one is there between two loads only (15).
   for (std::uint64_t seed : {3, 4, 13, 15, 19, 20, 25, 37}) {
     const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first);

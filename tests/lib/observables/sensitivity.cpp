@@ -1,6 +1,7 @@
 // Derivatives of amplitudes by parameters: closed forms, and differences of peaks that are found anew.
 
 #include "catch.hpp"
+#include "size.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -11,11 +12,13 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <numeric>
 
 using namespace arcslip;
 using continuation::Vector;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
+using test_size::sized;
 
 namespace {
 
@@ -192,7 +195,7 @@ int check_loads(const scene::Scene& s, const Peaks& peaks, const Peak& peak) {
 
 TEST_CASE("random structures: derivatives of peaks, at corners and not, are differences of new peaks") {
   int smooth = 0, corners = 0;
-  for (std::uint64_t seed = 0; seed < 8; ++seed)
+  for (std::uint64_t seed = 0; seed < sized(8u, 2u); ++seed)
     for (const double load : {0.4, 1.0, 2.0, 5.0, 10.0}) {
       scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first);
       scene::set(s, s.elements[0].name + ".normal_load", load);
@@ -205,8 +208,8 @@ TEST_CASE("random structures: derivatives of peaks, at corners and not, are diff
           smooth += check_loads(s, peaks, peak);
       }
     }
-  CHECK(smooth >= 20);
-  CHECK(corners >= 4);
+  CHECK(smooth >= sized(20, 2));
+  CHECK(corners >= sized(4, 0));
 }
 
 TEST_CASE("at a fixed frequency the derivatives of a stuck oscillator are those of the linear one") {

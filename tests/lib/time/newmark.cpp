@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <complex>
+#include <numbers>
 #include <random>
 
 using namespace time_test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double relative(double value, double exact) {
   return std::abs(value / exact - 1);
@@ -76,7 +77,7 @@ TEST_CASE("a forced linear oscillator comes to its closed form at second order")
   }
 }
 
-TEST_CASE("the paper's oscillator comes to its exact amplitudes at second order") {
+TEST_CASE("the paper's oscillator comes to its exact amplitudes at second order", "[numbers]") {
   for (const auto& entry : reference::exact("fixed_frequency")) {
     const double exact = entry["amplitude"], hertz = entry["frequency_hz"], load = entry["normal_load"];
     CAPTURE(hertz, load);
@@ -344,7 +345,8 @@ TEST_CASE("a million steps per period leave an error of 1e-10, not of rounding")
   CHECK(std::abs(newmark.state().x[0] - response.real()) < 1e-10 * std::abs(response));
 }
 
-TEST_CASE("contacts far stiffer than the structure come to Den Hartog's closed form of Coulomb friction") {
+TEST_CASE("contacts far stiffer than the structure come to Den Hartog's closed form of Coulomb friction",
+          "[numbers]") {
   for (const double kd : {1e9, 1e12, 1e15}) {
     CAPTURE(kd);
     auto equation = oscillator(1.24, 2, 17890, 1, 2 * pi * 18);

@@ -51,7 +51,8 @@ TEST_CASE("the derivative of the map over a period is that of differences") {
   }
 }
 
-TEST_CASE("Floquet multipliers of the discrete map come to those of the motion, one of them to zero") {
+TEST_CASE("Floquet multipliers of the discrete map come to those of the motion, one of them to zero",
+          "[numbers]") {
   // By differences of the exact motion: 0.84767, 0.81154 and 0 for the paper's oscillator at 20 Hz and 3 N.
   // At first order only: a slider that begins to slip within a step takes on dq from the end of the step.
   const auto equation = paper(20, 3);

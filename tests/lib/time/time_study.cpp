@@ -27,7 +27,7 @@ TimeSettings at(double frequency, TimeMethod method = TimeMethod::shooting, int 
   return {.frequency = frequency, .method = method, .steps = steps};
 }
 
-scene::Scene paper(double normal_load, double damping = 0.134) {
+scene::Scene paper_at(double normal_load, double damping = 0.134) {
   scene::Scene scene = example("al_sayed_2011");
   scene::set(scene, "damper.normal_load", normal_load);
   scene::set(scene, "c.value", damping);
@@ -58,7 +58,7 @@ TEST_CASE("a study in time gives the exact motions of the paper's oscillator by 
   for (const auto& entry : reference::exact("fixed_frequency")) {
     const double hertz = entry["frequency_hz"], load = entry["normal_load"];
     CAPTURE(hertz, load);
-    const Motion motion = motion_in_time(paper(load), at(hertz));
+    const Motion motion = motion_in_time(paper_at(load), at(hertz));
     CHECK(motion.status == Status::complete);
     CHECK(motion.stop.reason == observables::reasons::periodic);
     CHECK(motion.integrator == "event-driven");
@@ -76,10 +76,10 @@ TEST_CASE("a study in time gives the exact motions of the paper's oscillator by 
 
 TEST_CASE("shooting in Newmark's steps gives what Newmark's transient comes to") {
   for (const double load : {1.0, 3.0}) {
-    const Motion shot = motion_in_time(paper(load), at(20, TimeMethod::newmark_shooting));
+    const Motion shot = motion_in_time(paper_at(load), at(20, TimeMethod::newmark_shooting));
     TimeSettings settings = at(20, TimeMethod::newmark);
     settings.tolerance = 1e-12;
-    const Motion marched = motion_in_time(paper(load), settings);
+    const Motion marched = motion_in_time(paper_at(load), settings);
     CHECK(shot.stop.reason == observables::reasons::periodic);
     CHECK(marched.stop.reason == observables::reasons::steady);
     CHECK(reference::error(shot.amplitude, marched.amplitude) < 1e-10);
@@ -87,7 +87,7 @@ TEST_CASE("shooting in Newmark's steps gives what Newmark's transient comes to")
     CHECK(marched.periods > 100);
   }
   // full stick with hardly any damping: a transient takes 7000 periods
-  const Motion stuck = motion_in_time(paper(500), at(20.9, TimeMethod::newmark_shooting, 1000));
+  const Motion stuck = motion_in_time(paper_at(500), at(20.9, TimeMethod::newmark_shooting, 1000));
   CHECK(stuck.status == Status::complete);
   CHECK(stuck.multipliers.size() == 2);
   CHECK(std::abs(stuck.multipliers[0]) ==
@@ -129,8 +129,8 @@ TEST_CASE("a massless degree of freedom with friction in time is that of harmoni
   CHECK(cubic.stop.reason == observables::reasons::not_piecewise_linear);
 }
 
-TEST_CASE("a contact too stiff for exact events is left to Newmark's steps") {
-  scene::Scene scene = paper(0.3);
+TEST_CASE("a contact too stiff for exact events is left to Newmark's steps", "[numbers]") {
+  scene::Scene scene = paper_at(0.3);
   scene::set(scene, "damper.stiffness", 1e16);
   const Motion motion = motion_in_time(scene, at(18));
   CHECK(motion.status == Status::complete);
@@ -140,7 +140,7 @@ TEST_CASE("a contact too stiff for exact events is left to Newmark's steps") {
 TEST_CASE("where no motion is bounded none is found, and that is said") {
   // below pi f0/4 slip does not bound the undamped resonance
   const double resonance = std::sqrt(17890 / 1.24) / (2 * std::acos(-1.0));
-  scene::Scene scene = paper(1, 0);
+  scene::Scene scene = paper_at(1, 0);
   for (const auto method : {TimeMethod::shooting, TimeMethod::newmark_shooting}) {
     const Motion motion = motion_in_time(scene, at(resonance, method));
     CHECK(motion.status == Status::failed);
