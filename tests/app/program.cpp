@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -101,6 +102,8 @@ Program::Program(const Workplace& place, const std::vector<std::string>& argumen
     terminal_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
     ::grantpt(terminal_);
     ::unlockpt(terminal_);
+    const winsize wide{.ws_row = 50, .ws_col = 200, .ws_xpixel = 0, .ws_ypixel = 0};  // no line is cut off
+    ::ioctl(terminal_, TIOCSWINSZ, &wide);
     ::close(streams[2]);
     streams[2] = ::open(::ptsname(terminal_), O_RDWR | O_NOCTTY | O_CLOEXEC);
   }

@@ -1,6 +1,7 @@
 // A search obeys at once, whatever it is doing, and says so.
 
 #include "catch.hpp"
+#include "contains.hpp"
 
 #include "lib/hbm/scenes.hpp"
 
@@ -8,17 +9,16 @@
 #include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/optimize/reasons.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 using namespace arcslip;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 const optimize::OptimumSettings one_load{.problem = {{{"damper.normal_load", 0.1, 100}}, 18, 22}};
 
@@ -59,6 +59,33 @@ TEST_CASE("every phase of a search asks at every step of a response, and a stop 
   }
   CHECK(phases == std::set<std::string>{"the first design", "the search", "the verification",
                                         "the certificate", "the direct way", "the responses at the optimum"});
+}
+
+TEST_CASE(
+    "the progress of a search tells its phases in turn, all evaluations and the least amplitude so far") {
+  scene::Scene s = scenes::example("two_dampers");
+  s.harmonics.order = 7;
+  const auto& limited = s.studies[1].settings.as<optimize::OptimumSettings>();
+  std::vector<std::string> phases;
+  long evaluations = 0, fewer = 0;
+  double best = HUGE_VAL, rise = 0;
+  const auto result = optimize::optimum_study(s, limited, [&](const observables::Progress& now) {
+    if (phases.empty() || phases.back() != now.phase) phases.emplace_back(now.phase);
+    fewer += now.points < evaluations;
+    evaluations = now.points;
+    if (!std::isnan(now.best)) {
+      rise = std::max(rise, now.best / best - 1);
+      best = now.best;
+    }
+    return true;
+  });
+  CHECK(fewer == 0);
+  CHECK(rise < 1e-7);  // as much as the tolerance of a limit gains
+  CHECK(phases == std::vector<std::string>{"the first design", "the search", "the verification",
+                                           "the search elsewhere", "the certificate",
+                                           "the responses at the optimum"});
+  CHECK(evaluations == static_cast<long>(result.optimum.evaluations.size()));
+  CHECK(best == result.optimum.amplitude);
 }
 
 TEST_CASE("a search over cases asks in its curves, and is not complete without them") {
