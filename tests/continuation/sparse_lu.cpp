@@ -24,6 +24,16 @@ std::vector<Named> sparse_solvers() {
 
 constexpr double few = 10;  // rounding units of a residual
 
+// Residuals at rounding, and the sign of the determinant.
+void check_solves(LinearSolver& solver, const Matrix& B, const Vector& b) {
+  Vector x = b, y = b;
+  solver.solve(x);
+  CHECK(residual(B, x, b) < few);
+  REQUIRE(solver.solve_transposed(y));
+  CHECK(residual(B.transpose(), y, b) < 2 * few);
+  CHECK(solver.determinant_sign() == (B.determinant() > 0 ? 1 : -1));
+}
+
 }  // namespace
 
 TEST_CASE("sparse solvers bear their names") {
@@ -43,14 +53,8 @@ TEST_CASE("sparse bordered solves and transposed solves leave residuals at round
           const Vector b = Vector::Random(n + m);
           CAPTURE(name, n, m, seed);
           REQUIRE(solver->factorize(J, borders));
-          Vector x = b, y = b;
-          solver->solve(x);
-          CHECK(residual(B, x, b) < few);
-          REQUIRE(solver->solve_transposed(y));
-          CHECK(residual(B.transpose(), y, b) < 2 * few);
-          const int sign = B.determinant() > 0 ? 1 : -1;
-          CHECK(solver->determinant_sign() == sign);
-          negative += sign < 0;
+          check_solves(*solver, B, b);
+          negative += solver->determinant_sign() < 0;
           ++cases;
         }
     CHECK(negative > cases / 4);
@@ -101,12 +105,7 @@ TEST_CASE("the dense solver and block elimination around it solve what is singul
       const auto solver = make();
       CAPTURE(solver->name(), n);
       REQUIRE(solver->factorize(J, borders));
-      Vector x = b, y = b;
-      solver->solve(x);
-      CHECK(residual(B, x, b) < few);
-      REQUIRE(solver->solve_transposed(y));
-      CHECK(residual(B.transpose(), y, b) < 2 * few);
-      CHECK(solver->determinant_sign() == (B.determinant() > 0 ? 1 : -1));
+      check_solves(*solver, B, b);
     }
   }
 }
