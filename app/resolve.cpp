@@ -227,9 +227,8 @@ void check_range(const scene::Scene& scene, const scene::Study& study, const std
 std::string option_at(const std::string& place, const Options& options) {
   const std::string key = place.substr(0, place.find('/'));
   for (const GivenKey& given : options.keys) {
-    const bool is_range = given.key.type == KeyType::followed && (key == "from" || key == "to");
-    const bool is_bounds = given.key.type == KeyType::parameters && key == "bounds";
-    if (key != given.key.name && !is_range && !is_bounds) {
+    const std::vector<std::string> beside = scene::keys_beside(given.key.type);
+    if (key != given.key.name && std::find(beside.begin(), beside.end(), key) == beside.end()) {
       continue;
     }
     const auto* ranges = std::get_if<std::vector<ParameterRange>>(&given.value);
@@ -320,7 +319,8 @@ scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Op
     const std::string along = parameter_at(own, key.name);
     if (key.type == KeyType::followed && find(keys, key.name) == nullptr && !along.empty() &&
         std::find(named.begin(), named.end(), along) != named.end()) {
-      for (const std::string& gone : {key.name, std::string("from"), std::string("to")}) {
+      keys.push_back({key.name, {nullptr}});
+      for (const std::string& gone : scene::keys_beside(key.type)) {
         keys.push_back({gone, {nullptr}});
       }
     }

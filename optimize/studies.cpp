@@ -93,7 +93,7 @@ void drop_from(std::string_view parameter, OptimumProblem& problem) {
 
 void read_along(const Reading& reading, OptimumSettings& settings) {
   const Place place = reading.keys.find("along");
-  for (const char* key : {"from", "to"})
+  for (const std::string& key : scene::keys_beside(KeyType::followed))
     if (place.node == nullptr && reading.keys.has(key))
       reading.faults.add(reading.keys.find(key).pointer, "found the key " + quoted(key) +
                                                              " without \"along\", the parameter of which it "
@@ -167,7 +167,8 @@ KeysOf<OptimumSettings> keys() {
                        },
                        drop_from}));
   keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
-  keys.add(of_search(text("algorithm", &SearchSettings::algorithm, algorithm, "\"" + std::string(default_algorithm) + "\"",
+  keys.add(of_search(text("algorithm", &SearchSettings::algorithm, algorithm,
+                          "\"" + std::string(default_algorithm) + "\"",
                           "an algorithm of NLopt, by its own name")));
   keys.add(of_search(text("local", &SearchSettings::local, algorithm, "",
                           "the algorithm inside MLSL and AUGLAG, as LN_BOBYQA")));

@@ -157,6 +157,7 @@ Node study_of(const StudyType& type) {
       {"name", of({{"type", node("string")}, {"minLength", node(1)}, {"maxLength", node(100)}})},
       {"kind", of({{"const", node(type.name())}})}};
   std::vector<std::string> required{"kind"};
+  Object needs;  // keys that stand together or not at all
   for (const Key& key : type.keys()) {
     Object value = schema_of_key(key);
     const std::string unit = key.unit == "frequency"   ? "the scene's unit"
@@ -169,10 +170,18 @@ Node study_of(const StudyType& type) {
     properties.push_back({key.name, of(std::move(value))});
     if (key.required) {
       required.push_back(key.name);
+    } else if (const std::vector<std::string> beside = keys_beside(key.type); !beside.empty()) {
+      needs.push_back({key.name, node(beside)});
+      for (const std::string& each : beside) {
+        needs.push_back({each, node(std::vector{key.name})});
+      }
     }
   }
   properties.push_back({"for_each", map_of(list_of(of_type("number"), 1))});
   Object study = object_of(std::move(properties), required);
+  if (!needs.empty()) {
+    study.push_back({"dependentRequired", of(std::move(needs))});
+  }
   study.push_back({"title", node(type.help())});
   return of(std::move(study));
 }

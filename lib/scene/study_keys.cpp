@@ -3,6 +3,13 @@
 #include <limits>
 
 namespace arcslip::scene {
+
+std::vector<std::string> keys_beside(KeyType type) {
+  if (type == KeyType::followed) return {"from", "to"};
+  if (type == KeyType::parameters) return {"bounds"};
+  return {};
+}
+
 namespace file {
 namespace {
 

@@ -32,10 +32,14 @@ enum class KeyType {
   window,      // [lower, upper] of frequencies
   parameter,   // the name of one
   value,       // of the parameter that the key "over" names
-  parameters,  // a list of names, and beside it one of their pairs [lower, upper] under the key "bounds"
-  followed,    // the name of a parameter, and beside it its range under the keys "from" and "to"
+  parameters,  // a list of names
+  followed,    // the name of a parameter over a range
   other        // lists and objects
 };
+
+/// The keys beside one of this type without which it says nothing: "bounds", pairs [lower, upper] of parameters;
+/// "from" and "to" of one that is followed.
+std::vector<std::string> keys_beside(KeyType type);
 
 /// One key of a study, as a scene file, an option of a command, a page of documentation and a JSON Schema
 /// have it.

@@ -149,6 +149,8 @@ TEST_CASE("the JSON Schema has the keys of every kind, and those that are requir
   CHECK(steps["default"] == 1000);
   CHECK(kinds[4]["properties"]["method"]["enum"].size() == 4);
   CHECK(kinds[4]["properties"]["tolerance"]["maximum"] == 1);
+  CHECK(kinds.back()["dependentRequired"] ==
+        Json{{"along", {"from", "to"}}, {"from", {"along"}}, {"to", {"along"}}});
 }
 
 TEST_CASE("settings compare by value, and are those of their own kind alone") {

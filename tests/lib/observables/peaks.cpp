@@ -181,8 +181,8 @@ TEST_CASE(
     }
   }
   CHECK(compared >= sized(40, 4));
-  CHECK(corners >=
-        sized(4, 0));  // peaks that sit, for a range of loads, where an element passes from stick to slip
+  // peaks that sit, for a range of loads, where an element passes from stick to slip
+  if (!test_size::sanitized) CHECK(corners >= 4);
 }
 
 TEST_CASE(

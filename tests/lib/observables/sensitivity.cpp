@@ -209,7 +209,7 @@ TEST_CASE("random structures: derivatives of peaks, at corners and not, are diff
       }
     }
   CHECK(smooth >= sized(20, 2));
-  CHECK(corners >= sized(4, 0));
+  if (!test_size::sanitized) CHECK(corners >= 4);
 }
 
 TEST_CASE("at a fixed frequency the derivatives of a stuck oscillator are those of the linear one") {
