@@ -15,8 +15,8 @@ void Cases::at(std::span<const double> design) {
   for (const Each& each : all_) each.peaks->at(design);
 }
 
-void Cases::trace(std::span<const double> design) {
-  for (const Each& each : all_) each.peaks->trace(design);
+void Cases::trace(std::span<const double> design, observables::Steps steps) {
+  for (const Each& each : all_) each.peaks->trace(design, steps);
 }
 
 bool Cases::stand_at(std::span<const double> design) const {

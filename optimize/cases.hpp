@@ -26,7 +26,7 @@ class Cases {
 
   /// Moves all cases to a design, by following their peaks or by a response each.
   void at(std::span<const double> design);
-  void trace(std::span<const double> design);
+  void trace(std::span<const double> design, observables::Steps steps = observables::Steps::events);
   bool stand_at(std::span<const double> design) const;
 
   std::size_t size() const { return all_.size(); }

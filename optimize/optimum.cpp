@@ -26,8 +26,8 @@ constexpr double small_gradient = 1e-8;         // of d ln V / dy: what is left 
 constexpr double as_good = 1e-13;               // relative: values that differ by rounding
 constexpr double as_good_within_limits = 1e-7;  // the same, and by what a limit's tolerance gains
 constexpr double settled_share = 0.1;           // of what a minimum may leave: where a refinement ends
-constexpr std::size_t most_retreats = 12;       // designs that are looked at again
-constexpr double far_enough = 0.01;             // of the range of a variable: from one of them to the next
+constexpr std::size_t most_retreats = 12;       // designs that are looked at again, of each distance
+constexpr std::array apart_by = {1e-2, 1e-3, 1e-4, 1e-5};             // of the range of a variable
 constexpr std::array slipping = {most_dissipation, 0.75, 0.9, 0.97};  // of k_d X: slip limits after a release
 constexpr int most_idle = 100;           // calls at designs that are known, one after the other
 constexpr double gain_outside = 0.5;     // of what a limit is exceeded by, relative
@@ -257,12 +257,13 @@ std::string Search::sentence(const Result& found) {
 bool Search::verify() {
   if (best().design.empty() || !std::isfinite(best().value)) return false;
   const int responses = cases().work().responses;
-  const bool gained = best().value < (1 - gain) * round_value_ ||
-                      (std::isfinite(round_excess_) && best().excess < (1 - gain_outside) * round_excess_);
+  const bool gained = best().excess > 0  // there a lower amplitude is none
+                          ? std::isfinite(round_excess_) && best().excess < (1 - gain_outside) * round_excess_
+                          : round_excess_ > 0 || best().value < (1 - gain) * round_value_;
   const double seen = best().value;
   start_ = best().design;
   trials_.begin("the verification");
-  cases().trace(start_);
+  cases().trace(start_, observables::Steps::curve);
   for (std::size_t c = 0; c < cases().size(); ++c)
     if (const PeakState& state = cases().state(c); !state.complete)
       note(trials_.where(c) + "the response at " + space().text(start_) +
@@ -288,7 +289,8 @@ bool Search::verify() {
 
 // Where following loses a peak again and again, the response changes from one design to the next by more than
 // it can see, and so may the amplitude jump: from here on each design has a response of its own. What was
-// tried before is better in part; of that, what is so in a response, too.
+// tried before is better in part; of that, what is so in a response, too: of designs that are far apart
+// first; where these gain nothing, of those between them, since the jump may be close by.
 void Search::retreat() {
   trials_.trace_all();
   std::vector<std::tuple<double, double, std::vector<double>>> tried;  // excess, V, design
@@ -298,16 +300,20 @@ void Search::retreat() {
   std::erase_if(tried, [](const auto& each) { return std::isnan(std::get<1>(each)); });
   std::sort(tried.begin(), tried.end());
   std::vector<std::vector<double>> looked_at{best().design};
-  for (const auto& [excess, value, design] : tried) {
-    if (!(std::tie(excess, value) < std::tie(best().excess, best().value)) ||
-        looked_at.size() > most_retreats)
-      break;
-    const bool known = std::any_of(looked_at.begin(), looked_at.end(), [&](const std::vector<double>& other) {
-      return space().distance(design, other) < far_enough;
-    });
-    if (known) continue;
-    looked_at.push_back(design);
-    trials_.evaluate(design, true);
+  for (const double far_enough : apart_by) {
+    if (best().excess == 0 && best().value < (1 - gain) * round_value_) break;
+    std::size_t retreats = 0;
+    for (const auto& [excess, value, design] : tried) {
+      if (!(std::tie(excess, value) < std::tie(best().excess, best().value)) || retreats == most_retreats)
+        break;
+      const bool known = std::any_of(
+          looked_at.begin(), looked_at.end(),
+          [&](const std::vector<double>& other) { return space().distance(design, other) < far_enough; });
+      if (known) continue;
+      looked_at.push_back(design);
+      ++retreats;
+      trials_.evaluate(design, true);
+    }
   }
   start_ = best().design;
 }

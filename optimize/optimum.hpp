@@ -76,8 +76,9 @@ struct OptimumOptions {
   int population = 0;
   unsigned long seed = 1;
   bool certificate = true;
-  bool elsewhere = true;  // with limits: searches from the lowest of designs over all the bounds, too, and by
-                          // LN_COBYLA and LD_MMA from the start, each of as many evaluations
+  bool elsewhere = true;  // with limits: searches from the lowest of designs over all the bounds, too, by the
+                          // algorithm and LN_COBYLA, and by that and LD_MMA from the start, each of as many
+                          // evaluations
   std::function<bool(const OptimumProgress&)> progress{};  // after each evaluation, and where another phase
                                                            // begins; false stops
   /// Asked all the time, in every phase, at each step of each response; false stops with reason user, as soon

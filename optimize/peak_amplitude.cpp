@@ -71,7 +71,7 @@ Vector PeakAmplitude::parameters(std::span<const double> design) const {
 }
 
 // With the places of all peaks, smooth ones as resonances and others as kinks.
-PeakState PeakAmplitude::response(std::span<const double> design) {
+PeakState PeakAmplitude::response(std::span<const double> design, observables::Steps steps) {
   PeakState found;
   found.design.assign(design.begin(), design.end());
   ++work_.responses;
@@ -82,8 +82,7 @@ PeakState PeakAmplitude::response(std::span<const double> design) {
     return found;
   }
   // Without an observer, which would have the equations evaluated at each point.
-  const auto traced =
-      observables::frequency_branch(model, window_, window_.lower, {}, 1, observables::Steps::events, go_on_);
+  const auto traced = observables::frequency_branch(model, window_, window_.lower, {}, 1, steps, go_on_);
   if (go_on_ && !go_on_()) throw Interrupted();
   work_.factorizations += traced.branch.counts.factorizations;
   const auto& points = traced.branch.points;
@@ -158,7 +157,7 @@ bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
 }
 
 // The gradient at a kink and how it moves, from responses at neighbouring designs.
-void PeakAmplitude::differences(Peak& peak) {
+void PeakAmplitude::differences(Peak& peak, observables::Steps steps) {
   std::vector<double> design = state_.design;
   const auto problem = problem_;
   peak.along.resize(peak.x.size(), static_cast<Eigen::Index>(over_.size()));
@@ -169,7 +168,7 @@ void PeakAmplitude::differences(Peak& peak) {
     const double h = small_difference * std::max(std::abs(design[k]), small_difference);
     for (const int side : {0, 1}) {
       design[k] = state_.design[k] + (side == 0 ? -h : h);
-      const PeakState beside = response(design);
+      const PeakState beside = response(design, steps);
       double nearest = HUGE_VAL;
       for (const Peak& other : beside.peaks) {
         if (is_end(other.kind) || !(std::abs(other.omega() - peak.omega()) < nearest)) continue;
@@ -237,8 +236,8 @@ void PeakAmplitude::watch() {
   state_.highest = static_cast<std::size_t>(highest - peaks.begin());
 }
 
-const PeakState& PeakAmplitude::trace(std::span<const double> design) {
-  PeakState found = response(design);
+const PeakState& PeakAmplitude::trace(std::span<const double> design, observables::Steps steps) {
+  PeakState found = response(design, steps);
   for (const auto& each : followers_)
     if (each) work_.factorizations += each->factorizations();
   followers_.clear();
@@ -255,7 +254,7 @@ const PeakState& PeakAmplitude::trace(std::span<const double> design) {
   watch();
   followers_.resize(state_.peaks.size());
   for (Peak& peak : state_.peaks)
-    if (peak.kind == PeakKind::kink) differences(peak);
+    if (peak.kind == PeakKind::kink) differences(peak, steps);
   return state_;
 }
 

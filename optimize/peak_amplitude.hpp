@@ -111,8 +111,9 @@ class PeakAmplitude {
   /// then as it was. Others that cannot be become kinks, and stay where they are.
   bool follow_to(std::span<const double> design, std::span<const std::size_t> needed);
 
-  /// At a design, by a frequency response.
-  const PeakState& trace(std::span<const double> design);
+  /// At a design, by a frequency response; with the steps of a curve by that which a study of it computes.
+  const PeakState& trace(std::span<const double> design,
+                         observables::Steps steps = observables::Steps::events);
 
   const PeakState& state() const { return state_; }
   const PeakWork& work() const { return work_; }
@@ -149,10 +150,10 @@ class PeakAmplitude {
 
  private:
   observables::ResponsePoint observe(const continuation::Vector& x, std::span<const double> design);
-  PeakState response(std::span<const double> design);
+  PeakState response(std::span<const double> design, observables::Steps steps);
   void classify(Peak& peak);
   bool measure(Peak& peak, std::span<const double> design);
-  void differences(Peak& peak);
+  void differences(Peak& peak, observables::Steps steps);
   void add_extremes();
   void watch();
   Follower& follower(std::size_t peak);

@@ -78,8 +78,8 @@ class Search {
   std::string jump(const Balance& left);
   // Other starts, once, where the search came to no design that keeps the limits.
   bool find_feasible();
-  // With limits a minimum is often one of several. From the lowest of designs over all the bounds, too, and
-  // by other algorithms from where it began.
+  // With limits a minimum is often one of several. From the lowest of designs over all the bounds, too, also
+  // by LN_COBYLA, and by other algorithms from where it began.
   bool look_elsewhere();
   // A lower design on the way to the end of a tolerance range.
   bool passed_lower();

@@ -22,7 +22,8 @@ constexpr double gain = 1e-7;                  // relative, that is worth going 
 constexpr double beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
 constexpr double limit_jumps = 2e-3;           // of a limit, relative
 constexpr double active = 1e-6;                // relative: as high as the highest case
-constexpr std::size_t most_starts = 4;         // elsewhere
+constexpr std::size_t most_starts = 8;         // elsewhere
+constexpr std::size_t most_by_cobyla = 5;      // of them, the lowest
 constexpr double apart = 0.1;        // of the range of a variable: designs that are worth two searches
 constexpr double same_level = 1e-9;  // of amplitudes, relative: both are where nothing slips at the peak
 
@@ -66,7 +67,7 @@ Balance Search::balance_here() {
 }
 
 bool Search::stand_at_best() {
-  if (!cases().stand_at(best().design)) cases().trace(best().design);
+  if (!cases().stand_at(best().design)) cases().trace(best().design, observables::Steps::curve);
   return std::isfinite(cases().value());
 }
 
@@ -104,7 +105,7 @@ std::string Search::jump(const Balance& left) {
   for (std::size_t k = 0; k < y.size(); ++k)
     y[k] -= beyond * left.left[static_cast<Eigen::Index>(k)] / left.stationarity;
   const std::vector<double> design = space().design(y);
-  cases().trace(design);
+  cases().trace(design, observables::Steps::curve);
   const std::string there = "; a little beyond, at " + space().text(design) + ", ";
   if (cases().value() > (1 + jumps) * best().value)
     return there + text("the amplitude jumps to ", cases().value(), " m");
@@ -140,9 +141,14 @@ bool Search::look_elsewhere() {
   const bool within =
       best().excess == 0;  // else such designs were looked for in vain, but by these algorithms
   double least = within ? (1 - gain) * best().value : infinity;
-  if (within)
-    for (std::vector<double>& design : lowest_elsewhere())
-      beginnings.emplace_back(std::move(design), asked_.name);
+  if (within) {
+    const auto designs = lowest_elsewhere();
+    for (const auto& design : designs) beginnings.emplace_back(design, asked_.name);
+    // Its first steps are long: it leaves a basin, and the plateau where a damper sticks, for a lower one.
+    if (asked_.name != "LN_COBYLA")
+      for (std::size_t i = 0; i < std::min(most_by_cobyla, designs.size()); ++i)
+        beginnings.emplace_back(designs[i], "LN_COBYLA");
+  }
   for (const char* other : {"LN_COBYLA", "LD_MMA"}) beginnings.emplace_back(space().start(ignored), other);
   std::vector<double> lower;
   if (within && best().value < least) {

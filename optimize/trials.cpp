@@ -45,7 +45,7 @@ void Trials::evaluate(std::span<const double> design, bool trace) {
   const int responses = cases_.work().responses;
   if (!trace) cases_.at(design);
   if (trace || (far_apart_ && cases_.value() < best_.value && responses == cases_.work().responses))
-    cases_.trace(design);
+    cases_.trace(design, trace_all_ ? observables::Steps::curve : observables::Steps::events);
   const double value = cases_.value();
   evaluations_.push_back({{design.begin(), design.end()}, value});
   excesses_.push_back(std::numeric_limits<double>::infinity());

@@ -41,7 +41,7 @@ class Trials {
 
   /// Takes the cases to a design, unless they stand there; trace: by responses, in any case.
   void evaluate(std::span<const double> design, bool trace = false);
-  /// From here on by responses in any case.
+  /// From here on by responses in any case, those that studies of them compute.
   void trace_all() { trace_all_ = true; }
   /// The same for the variables of a search. Throws std::runtime_error where a case has no response.
   void move_to(std::span<const double> y);

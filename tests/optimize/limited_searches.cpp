@@ -18,6 +18,12 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+optimize::Optimum search_from(random_limits::Search& search, const std::vector<double>& design) {
+  for (std::size_t k = 0; k < design.size(); ++k)
+    scene::set(search.scene, search.problem.over[k].name, design[k]);
+  return optimize::optimum(search.scene, search.problem, {.certificate = false, .elsewhere = false});
+}
+
 }  // namespace
 
 // A line for each, so that a long run that is cut short is not lost.
@@ -59,4 +65,45 @@ TEST_CASE("where the best design is beside others with one more peak, beyond a l
   CHECK(found.stop.reason == optimize::reasons::not_stationary);
   const std::string beyond = "a peak comes up at which a limit is exceeded by 0.00380";
   CHECK(found.stop.message.find(beyond) != std::string::npos);
+}
+
+TEST_CASE("a search that loses a peak next to its best design goes on from a design close by") {
+  auto search = random_limits::make(885);
+  const auto found = search_from(search, {3.939, 8.5564});
+  CAPTURE(found.design, found.stop.message);
+  CHECK(found.stop.reason ==
+        optimize::reasons::not_stationary);  // beside the peak, where a limit is exceeded
+  REQUIRE(found.feasible);
+  CHECK(random_limits::excess(search, found.design) <= 1e-6);
+  CHECK(found.amplitude <= 0.00033819059 * (1 + 1e-6));  // 0.0003596 where both dampers stick
+}
+
+TEST_CASE("a limit that is kept is kept at peaks that have just come up, too") {
+  auto search = random_limits::make(822);
+  const auto found = search_from(search, {90000});
+  CAPTURE(found.design, found.stop.message);
+  REQUIRE(found.feasible);
+  CHECK(random_limits::excess(search, found.design) <= 1e-6);
+  CHECK(found.amplitude <= 0.00021543642 * (1 + 1e-6));
+}
+
+TEST_CASE("a lower amplitude outside the limits is no gain: the search looks for designs within them") {
+  auto search = random_limits::make(309);
+  const auto found = search_from(search, {});
+  CAPTURE(found.design, found.stop.message);
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.amplitude <= 0.00033571063 * (1 + 1e-6));  // by LD_MMA from one of forty designs
+}
+
+TEST_CASE("of several minima the search finds the one that few starts come to") {
+  const auto [seed, known] = GENERATE(table<std::uint64_t, double>({
+      {209, 0.000288806017},  // by LN_COBYLA from two of forty designs
+      {546, 2.79964235e-06},  // by LD_SLSQP from one of forty, the others come to 2.8646e-6
+      {559, 9.1289310e-05},   // by LN_COBYLA from one of forty
+  }));
+  const auto search = random_limits::make(seed);
+  const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
+  CAPTURE(seed, found.design, found.stop.message);
+  REQUIRE(found.status == observables::Status::complete);
+  CHECK(found.amplitude <= known * (1 + 1e-6));
 }

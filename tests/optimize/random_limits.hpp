@@ -186,16 +186,17 @@ inline Lowest grid(const Search& search, std::uint64_t seed, int designs) {
   return lowest;
 }
 
-/// LN_COBYLA from the lowest of them, too.
+/// LN_COBYLA and LD_MMA from the lowest of them, too.
 inline Lowest from_grid(const Search& search, std::uint64_t seed, int designs) {
   Lowest lowest = grid(search, seed, designs);
   if (lowest.design.empty()) return lowest;
   scene::Scene there = search.scene;
   for (std::size_t k = 0; k < lowest.design.size(); ++k)
     scene::set(there, search.problem.over[k].name, lowest.design[k]);
-  lowest.take(optimize::optimum(there, search.problem,
-                                {.algorithm = "LN_COBYLA", .certificate = false, .elsewhere = false}),
-              "LN_COBYLA from the grid");
+  for (const std::string algorithm : {"LN_COBYLA", "LD_MMA"})
+    lowest.take(optimize::optimum(there, search.problem,
+                                  {.algorithm = algorithm, .certificate = false, .elsewhere = false}),
+                algorithm + " from the grid");
   return lowest;
 }
 
