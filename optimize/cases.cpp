@@ -26,6 +26,10 @@ bool Cases::stand_at(std::span<const double> design) const {
   });
 }
 
+bool Cases::are_traced() const {
+  return std::all_of(all_.begin(), all_.end(), [](const Each& each) { return each.peaks->state().traced; });
+}
+
 double Cases::weight(std::size_t c) const {
   return criterion_ == Criterion::mean ? all_[c].weight / sum_ : all_[c].weight;
 }

@@ -28,6 +28,8 @@ class Cases {
   void at(std::span<const double> design);
   void trace(std::span<const double> design, observables::Steps steps = observables::Steps::events);
   bool stand_at(std::span<const double> design) const;
+  /// Whether they came there by responses.
+  bool are_traced() const;
 
   std::size_t size() const { return all_.size(); }
   PeakAmplitude& peaks(std::size_t c) const { return *all_[c].peaks; }

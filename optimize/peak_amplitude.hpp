@@ -79,6 +79,7 @@ struct PeakState {
   std::size_t highest = 0;         // which of them
   bool unbounded = false;          // a resonance grows without bound: A_max is infinite
   bool complete = true;            // false: the response ends within the window; the peaks are those before
+  bool traced = true;              // by a response; false: by following, and others may have come up
   std::string message;             // of an unbounded or incomplete response
   continuation::Vector upper_end;  // unknowns at the upper end of the window, where the response was traced
 

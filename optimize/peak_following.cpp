@@ -64,6 +64,7 @@ const PeakState& PeakAmplitude::at(std::span<const double> design) {
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (!follow(i, design, moved[i])) return trace(design);
   state_.design.assign(design.begin(), design.end());
+  state_.traced = false;
   state_.peaks = std::move(moved);
   ++work_.followed;
   for (std::size_t i = 0; i < state_.peaks.size(); ++i)
@@ -80,6 +81,7 @@ bool PeakAmplitude::follow_to(std::span<const double> design, std::span<const st
     moved[i].kind = PeakKind::kink;
   }
   state_.design.assign(design.begin(), design.end());
+  state_.traced = false;
   state_.peaks = std::move(moved);
   ++work_.followed;
   for (std::size_t i = 0; i < state_.peaks.size(); ++i)

@@ -39,6 +39,7 @@ bool Search::goes_on() {
     std::tie(result_.status, result_.stop) = stood_->second;  // it led to nothing
   stood_.reset();
   if (result_.status == Status::complete && interrupted()) return false;
+  trials_.recall_best();
   if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
     return false;
   if (best().excess > 0) {

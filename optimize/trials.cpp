@@ -11,6 +11,7 @@ namespace {
 
 constexpr double worse = 1e-8;         // relative: an amplitude in the scatter that is higher by more counts
 constexpr double same_scatter = 1e-9;  // relative: values that were there before
+constexpr double worth = 1e-7;         // relative: a lower amplitude that is worth going back for
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
@@ -36,7 +37,7 @@ void Trials::add(const Scenario& scenario) {
   all_.push_back(scenario);
   cases_.add(scenarios_.peaks(scenario, [this] { return watch_.go_on_within(); }),
              scenarios_.weight(scenario));
-  best_.excess = std::numeric_limits<double>::infinity();
+  best_.excess = best_traced_.excess = std::numeric_limits<double>::infinity();
 }
 
 void Trials::evaluate(std::span<const double> design, bool trace) {
@@ -51,7 +52,11 @@ void Trials::evaluate(std::span<const double> design, bool trace) {
   excesses_.push_back(std::numeric_limits<double>::infinity());
   if (std::isnan(value)) return;
   const double excess = excesses_.back() = formulation_.excess();
-  if (excess < best_.excess || (excess == best_.excess && value < best_.value)) call_best();
+  const auto is_better_than = [&](const Best& best) {
+    return excess < best.excess || (excess == best.excess && value < best.value);
+  };
+  if (is_better_than(best_)) call_best();
+  if (is_better_than(best_traced_) && cases_.are_traced()) best_traced_ = here();
   tell();
 }
 
@@ -109,13 +114,28 @@ std::vector<Scenario> Trials::worse_scatter() {
   return found;
 }
 
-void Trials::call_best() {
-  best_.design = cases_.state(0).design;
-  best_.value = cases_.value();
-  best_.excess = formulation_.excess();
-  best_.cases.clear();
+Best Trials::here() {
+  Best here{cases_.state(0).design, cases_.value(), formulation_.excess()};
   for (std::size_t c = 0; c < cases_.size(); ++c)
-    best_.cases.push_back({cases_.state(c), cases_.peaks(c).problem()});
+    here.cases.push_back({cases_.state(c), cases_.peaks(c).problem()});
+  return here;
+}
+
+void Trials::call_best() {
+  best_ = here();
+  if (best_traced_.design == best_.design) best_traced_ = best_;
+}
+
+void Trials::recall_best() {
+  const auto is_better = [&](const Best& other) {
+    return other.excess < best_.excess ||
+           (other.excess == best_.excess && other.value < (1 - worth) * best_.value);
+  };
+  if (best_traced_.design.empty() || !is_better(best_traced_)) return;
+  cases_.trace(best_traced_.design, observables::Steps::curve);
+  Best now = here();
+  if (is_better(now)) best_ = std::move(now);
+  best_traced_ = best_;
 }
 
 }  // namespace arcslip::optimize

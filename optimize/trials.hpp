@@ -54,6 +54,9 @@ class Trials {
   /// Where the cases stand, when rounding has made another design look better, or new responses have another
   /// V there, or a peak at which a limit is exceeded.
   void call_best();
+  /// The best design of those of which responses are known, when a search has come to no such one from where
+  /// new responses had called it.
+  void recall_best();
 
   Watch& watch() { return watch_; }
   /// Another phase, which is told.
@@ -74,6 +77,7 @@ class Trials {
  private:
   Trials(const Trials&) = delete;
   void tell();
+  Best here();
 
   const OptimumOptions& options_;
   Watch& watch_;
@@ -84,7 +88,7 @@ class Trials {
   Formulation formulation_;
   std::vector<Evaluation> evaluations_, elsewhere_;
   std::vector<double> excesses_;
-  Best best_;
+  Best best_, best_traced_;
   bool far_apart_, trace_all_ = false;
 };
 

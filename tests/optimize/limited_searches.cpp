@@ -78,6 +78,16 @@ TEST_CASE("a search that loses a peak next to its best design goes on from a des
   CHECK(found.amplitude <= 0.00033819059 * (1 + 1e-6));  // 0.0003596 where both dampers stick
 }
 
+TEST_CASE("a search ends at no higher design than the best of which a response was known") {
+  auto search = random_limits::make(906);
+  const auto found = search_from(search, {0.7037480849, 0.1387453255, 0.09646341362, 573686.5866});
+  CAPTURE(found.design, found.stop.message);
+  REQUIRE(found.feasible);
+  CHECK(random_limits::excess(search, found.design) <= 1e-6);
+  CHECK(found.evaluations[0].amplitude == Approx(0.00039140375));
+  CHECK(found.amplitude <= found.evaluations[0].amplitude * (1 + 1e-7));
+}
+
 TEST_CASE("a limit that is kept is kept at peaks that have just come up, too") {
   auto search = random_limits::make(822);
   const auto found = search_from(search, {90000});
