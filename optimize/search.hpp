@@ -73,8 +73,8 @@ class Search {
   bool refine(const Balance& left);
   // Where the amplitude would fall farther, but a little beyond it is much higher, or a peak is there at
   // which a limit is exceeded by much: no conditions hold there. Or it has risen, as beside an end of the
-  // window where two extremes of the motion are equally high: it is a minimum perhaps, but of gradients that
-  // are not all known. Empty: none of these.
+  // window where two extremes of the motion are equally high, or a limit is exceeded, as where the peak comes
+  // to a corner: it is a minimum perhaps, but of gradients that are not all known. Empty: none of these.
   std::string jump(const Balance& left);
   // Other starts, once, where the search came to no design that keeps the limits.
   bool find_feasible();

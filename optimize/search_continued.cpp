@@ -21,6 +21,7 @@ constexpr int most_restarts = 5;
 constexpr double gain = 1e-7;                  // relative, that is worth going on from another design
 constexpr double beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
 constexpr double limit_jumps = 2e-3;           // of a limit, relative
+constexpr double limit_bends = 1e-6;           // the same: far above what curvature makes of it so near
 constexpr double active = 1e-6;                // relative: as high as the highest case
 constexpr std::size_t most_starts = 8;         // elsewhere
 constexpr std::size_t most_by_cobyla = 5;      // of them, the lowest
@@ -112,6 +113,9 @@ std::string Search::jump(const Balance& left) {
     return there + text("the amplitude jumps to ", cases().value(), " m");
   if (const double exceeded = trials_.formulation().excess(); exceeded > limit_jumps)
     return there + text("a peak comes up at which a limit is exceeded by ", exceeded);
+  else if (exceeded > limit_bends)
+    return there +
+           text("a limit is exceeded by ", exceeded, " against its gradient, since another one holds there");
   if (cases().value() > best().value)
     return there + "the amplitude has risen against its gradient, since another one holds there";
   return "";

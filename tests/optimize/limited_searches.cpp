@@ -67,6 +67,16 @@ TEST_CASE("where the best design is beside others with one more peak, beyond a l
   CHECK(found.stop.message.find(beyond) != std::string::npos);
 }
 
+TEST_CASE("where a limit has another gradient beside the best design, the end says so") {
+  auto search = random_limits::make(243);  // the peak comes to a corner of the response there
+  const auto found = search_from(search, {});
+  CAPTURE(found.design, found.stop.message);
+  REQUIRE(found.feasible);
+  CHECK(random_limits::excess(search, found.design) <= 1e-6);
+  CHECK(found.stop.reason == optimize::reasons::not_stationary);
+  CHECK(found.stop.message.find("against its gradient") != std::string::npos);
+}
+
 TEST_CASE("a search that loses a peak next to its best design goes on from a design close by") {
   auto search = random_limits::make(885);
   const auto found = search_from(search, {3.939, 8.5564});
