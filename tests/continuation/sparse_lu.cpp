@@ -84,7 +84,7 @@ TEST_CASE(
         // condition.
         const bool eliminates = std::string(name).starts_with("block");
         // Full rows of n terms round by sqrt(n).
-        const double limit = std::max({rounding, std::sqrt(n), eliminates ? n * n : 0.0});
+        const double limit = std::max({few, std::sqrt(n), eliminates ? n * n : 0.0});
         CHECK(residual(B, x, b) < limit);
         // Bordered by its null vector, J has the condition of its other eigenvalues, (n/pi)^2 at most.
         CHECK((x - exact).norm() < 1e-15 * n * n * exact.norm());
