@@ -153,7 +153,7 @@ PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const
          {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping"}) {
       const auto& element = model_->elements[e];
       const bool is_of_friction = path == "stick_percent" || path == "energy";
-      if ((is_of_friction && element.law != model::Law::jenkins) ||
+      if ((is_of_friction && !element.law->has_contact()) ||
           !is_wanted(element.name + "." + std::string(path)))
         continue;
       return [e, get = std::get<ElementQuantity::Number>(observables::element_quantity(path).get)](

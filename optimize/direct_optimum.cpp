@@ -1,5 +1,6 @@
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/optimize/design_space.hpp>
 #include <arcslip/optimize/optimum.hpp>
 #include <arcslip/optimize/peak_amplitude.hpp>
@@ -52,8 +53,8 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
   const observables::CurveRange range{problem.over[0].name, problem.over[0].lower, problem.over[0].upper,
                                       problem.frequency_from, problem.frequency_to};
   DirectOptimum result;
-  const bool slides = std::any_of(scene.elements.begin(), scene.elements.end(),
-                                  [](const scene::Part& part) { return part.type == &scene::jenkins_type; });
+  const bool slides =
+      std::any_of(scene.elements.begin(), scene.elements.end(), observables::is_friction_part);
   if (slides && scene.harmonics.friction == scene::Friction::sampled) {
     result.message =
         "curves of peaks are followed with exact friction only: sampled, a response has a kink wherever a "

@@ -124,10 +124,9 @@ PeakState PeakAmplitude::response(std::span<const double> design, observables::S
 // Whose corner a nonsmooth peak is, if it is one where an element begins to slip.
 void PeakAmplitude::classify(Peak& peak) {
   const Vector p = parameters(state_.design);
-  for (const hbm::SlipCorner& corner :
-       hbm::slip_corners_near(*problem_, peak.x.head(problem_->size()), p, at_limit)) {
+  for (const hbm::Corner& corner : hbm::corners_near(*problem_, peak.x.head(problem_->size()), p, at_limit)) {
     hbm::CornerSides sides(problem_, corner, observables::amplitude_quantity(problem_));
-    if (!sides.slopes(with_angles(peak.x, corner), p).is_maximum()) continue;
+    if (!sides.slopes(hbm::with_angles(peak.x, corner), p).is_maximum()) continue;
     peak.kind = PeakKind::corner;
     peak.corner = corner;
     return;

@@ -7,7 +7,7 @@
 // tangent, and Newton's method on the equations of the peak, in as many steps as they need.
 //
 //   resonance   dA/ds = 0 along the response (continuation/stationary.hpp)
-//   corner      at which an element begins to slip (hbm/slip_corner.hpp), with slopes of opposite sign on its
+//   corner      at which an element begins to slip (hbm/corner.hpp), with slopes of opposite sign on its
 //               sides
 //   lower_end, upper_end   the response at the ends of the window; of several extremes of the motion that are
 //                          nearly as high there, one for each, since A has a kink where two are equal
@@ -43,15 +43,15 @@ const char* name(PeakKind kind);
 
 struct Peak {
   PeakKind kind = PeakKind::resonance;
-  continuation::Vector x;                   // unknowns and omega (rad/s)
-  std::optional<hbm::SlipCorner> corner{};  // where it sits at one
-  double amplitude = 0;                     // m
-  continuation::Vector gradient{};          // dA/dp of the design parameters, m over their units
-  continuation::Matrix along{};             // of a kink: dx/dp, by responses beside it; else empty
-  double slope = 0;                         // of an end of the window: dA/domega, m s/rad
-  std::optional<double> instant{};          // of which extreme: its angle; none: of the largest
-  bool is_further = false;                  // one of several extremes at one end of the window, not the first
-  std::uint64_t piece = 0;                  // of the equations of motion there; 0 at a corner, between two
+  continuation::Vector x;               // unknowns and omega (rad/s)
+  std::optional<hbm::Corner> corner{};  // where it sits at one
+  double amplitude = 0;                 // m
+  continuation::Vector gradient{};      // dA/dp of the design parameters, m over their units
+  continuation::Matrix along{};         // of a kink: dx/dp, by responses beside it; else empty
+  double slope = 0;                     // of an end of the window: dA/domega, m s/rad
+  std::optional<double> instant{};      // of which extreme: its angle; none: of the largest
+  bool is_further = false;              // one of several extremes at one end of the window, not the first
+  std::uint64_t piece = 0;              // of the equations of motion there; 0 at a corner, between two
 
   double omega() const { return x[x.size() - 1]; }
   /// Of an end of the window: the response rises inwards, so that there is a higher peak within.

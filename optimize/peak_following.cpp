@@ -99,7 +99,7 @@ Follower& PeakAmplitude::follower(std::size_t peak) {
     equations = continuation::stationary_points(problem_, model::frequency,
                                                 observables::amplitude_quantity(problem_));
   else if (of.kind == PeakKind::corner)
-    equations = hbm::slip_corner_points(problem_, *of.corner);
+    equations = hbm::corner_points(problem_, *of.corner);
   else
     p[model::frequency] = of.omega();
   made = std::make_unique<Follower>(equations, over_, p);

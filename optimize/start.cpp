@@ -1,6 +1,5 @@
 #include <arcslip/optimize/start.hpp>
 
-#include <arcslip/hbm/slip_corner.hpp>
 #include <arcslip/optimize/reasons.hpp>
 
 #include <algorithm>
@@ -72,17 +71,20 @@ bool moves_highest(const PeakState& state, std::size_t k) {
   });
 }
 
-// k_d X over mu F_n, the most among the elements that stick at a peak and whose limit parameter k is.
+// The force over its limit, the most among the elements that stick at a peak and whose limit parameter k
+// moves.
 double closest_to_slip(PeakAmplitude& peaks, const observables::ResponsePoint& point, int parameter) {
   double most = 0;
   const Vector p = peaks.parameters(peaks.state().design);
   for (std::size_t e = 0; e < point.elements.size(); ++e) {
-    const auto& fields = peaks.problem()->model().elements[e].parameters;
+    const auto& part = peaks.problem()->model().elements[e];
     const auto& element = point.elements[e];
-    if (!element.has_stick || (fields[1] != parameter && fields[2] != parameter)) continue;
-    if (element.slip_angles.empty() && element.fundamental.in_phase > 0)
-      most = std::max(
-          most, element.fundamental.in_phase / hbm::slip_limit(*peaks.problem(), static_cast<int>(e), p));
+    bool limits = false;
+    for (std::size_t field = 0; field < part.parameters.size(); ++field)
+      limits =
+          limits || (part.parameters[field] == parameter && part.law->limited_by(static_cast<int>(field)));
+    if (limits && element.has_stick && element.slip_angles.empty() && element.fundamental.in_phase > 0)
+      most = std::max(most, element.fundamental.in_phase / part.law->traits(part.fields(p), 0).limit);
   }
   return most;
 }

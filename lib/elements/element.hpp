@@ -27,12 +27,12 @@ class Element {
  public:
   virtual ~Element() = default;
 
-  /// u: harmonics.size(). fields: as listed with the element's type. The Jacobian is made only when asked
-  /// for.
+  /// u: harmonics.size() coefficients of each direction, and of each auxiliary unknown after them. fields: as
+  /// listed with the element's type. The Jacobian is made only when asked for.
   virtual void move_to(In u, std::span<const double> fields, bool jacobian) = 0;
 
-  virtual const Eigen::VectorXd& force() const = 0;            // F(u), size
-  virtual const Eigen::MatrixXd& jacobian() const = 0;         // dF/du, size x size
+  virtual const Eigen::VectorXd& force() const = 0;            // F(u), as u
+  virtual const Eigen::MatrixXd& jacobian() const = 0;         // dF/du
   virtual void field_derivative(int field, Out dF) const = 0;  // dF/d(fields[field]) at the last place
 
   /// Number of the smooth piece of F that the last place lies on.

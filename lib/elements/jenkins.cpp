@@ -1,217 +1,147 @@
 #include <arcslip/elements/jenkins.hpp>
 
 #include <arcslip/elements/friction_phases.hpp>
-#include <arcslip/elements/moments.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 namespace arcslip::elements {
 namespace {
 
-enum Field { stiffness = 0, friction_coefficient = 1, normal_load = 2 };
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double wrapped(double angle) {
-  const double turn = 2 * std::numbers::pi;
-  angle = std::fmod(angle, turn);
-  return angle < 0 ? angle + turn : angle;
+enum { stiffness_field, friction_coefficient_field, normal_load_field };
+
+constexpr scene::Field all_fields[] = {
+    {.name = "stiffness",
+     .unit = "N/m",
+     .lower = 0,
+     .upper = infinity,
+     .lower_open = true,
+     .help = "tangential stiffness of the contact in stick"},
+    {.name = "friction_coefficient",
+     .unit = "-",
+     .lower = 0,
+     .upper = infinity,
+     .help = "Coulomb friction coefficient"},
+    {.name = "normal_load",
+     .unit = "N",
+     .lower = 0,
+     .upper = infinity,
+     .help = "normal load; the slip limit is friction_coefficient * normal_load"},
+};
+
+double limit(Fields fields) {
+  return fields[friction_coefficient_field] * fields[normal_load_field];
 }
 
-class Jenkins final : public Element {
+class Jenkins final : public PlainLaw {
  public:
-  explicit Jenkins(const Harmonics& h)
-      : h_(h),
-        phases_(h),
-        moments_(h),
-        A_(h.size()),
-        B_(h.size()),
-        F_(h.size()),
-        J_(h.size(), h.size()),
-        integral_(h.size()),
-        anchor_(h.size()),
-        sum_(static_cast<std::size_t>(2 * h.order + 1)),
-        half_(sum_.size()),
-        inverse_(sum_.size()) {
-    inverse_[0] = 0;
-    for (std::size_t k = 1; k < inverse_.size(); ++k) inverse_[k] = 1.0 / static_cast<double>(k);
+  std::string_view name() const override { return "jenkins"; }
+  std::string_view help() const override { return "a spring in series with a slider: macroslip"; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+
+  bool antisymmetric() const override { return true; }
+  bool has_contact() const override { return true; }
+  Traits traits(Fields fields, int) const override {
+    return {.stiffness = fields[stiffness_field],
+            .stiffness_field = stiffness_field,
+            .far_work = 4 * limit(fields),
+            .limit = limit(fields)};
+  }
+  bool limited_by(int field) const override { return field != stiffness_field; }
+
+  std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override {
+    return sampling.exact ? make_jenkins(harmonics) : make_sampled_jenkins(harmonics, sampling.samples);
   }
 
-  void move_to(In u, std::span<const double> fields, bool jacobian) override {
-    fields_ = {fields[0], fields[1], fields[2]};
-    const double kd = fields[stiffness], p = fields[friction_coefficient] * fields[normal_load];
-    const double reach = series_bound(h_, u, 0);
-    limit_ = p;
-    sliding_ = nullptr;
-    frictionless_ = p == 0 && reach == 0;
-    if (frictionless_) {
-      A_.setZero();
-      B_.setZero();
-      F_.setZero();
-      if (jacobian) J_.setZero();
-      return;
-    }
-    if (h_.odd && kd * reach <= p) {  // surely stuck: half the range of x is at most `reach`
-      stick(u, kd, jacobian);
-      return;
-    }
-    const auto& phases = phases_.find(u, p / kd);
-    if (phases.empty()) {
-      stick(u, kd, jacobian);
-      return;
-    }
-    slide(u, phases, kd, p, jacobian);
+  std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
+    return make_jenkins_corners(harmonics);
   }
 
-  const Eigen::VectorXd& force() const override { return F_; }
-  const Eigen::MatrixXd& jacobian() const override { return J_; }
-
-  void field_derivative(int field, Out dF) const override {
-    switch (field) {
-      case stiffness:
-        dF = A_;
-        break;
-      case friction_coefficient:
-        dF = fields_[normal_load] * B_;
-        break;
-      default:
-        dF = fields_[friction_coefficient] * B_;
-        break;
-    }
-  }
-
-  std::uint64_t piece() const override {
-    if (frictionless_ || limit_ == 0) return 0;                 // no force, whatever the phases
-    if (!sliding_) return h_.odd ? 1 : 2 + phases_.extremes();  // the centre follows both extremes
-    std::uint64_t hash = 1469598103934665603ull;
-    for (const FrictionPhase& phase : *sliding_) {
-      hash = (hash ^ static_cast<std::uint64_t>(2 + phase.sign)) * 1099511628211ull;
-      hash = (hash ^ static_cast<std::uint64_t>(2 + phase.slip_sign)) * 1099511628211ull;
-    }
-    return hash;
-  }
-
-  bool friction(FrictionState& state) const override {
-    state.slip_onsets.clear();
-    state.slip_ends.clear();
-    state.stick_share = frictionless_ ? 0 : 1;
-    if (!sliding_) return true;
-    double stuck = 0;
-    for (const FrictionPhase& phase : *sliding_) {
-      stuck += phase.end - phase.begin;
-      if (phase.slip_end == phase.end) continue;
-      for (double shift = 0; shift < 2 * std::numbers::pi - 1e-9; shift += h_.span()) {
-        state.slip_onsets.push_back(wrapped(phase.end + shift));
-        state.slip_ends.push_back(wrapped(phase.slip_end + shift));
+  Eigen::MatrixXd force_at(const Harmonics& h, In u, Fields fields, Angles angles) const override {
+    const double stiffness = fields[stiffness_field], p = limit(fields);
+    Eigen::MatrixXd force = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(angles.size()), 1);
+    if (stiffness == 0 || p == 0) return force;
+    FrictionPhases search(h);
+    const auto& phases = search.find(u, p / stiffness);
+    const double centre = h.odd ? 0 : 0.5 * (search.highest().x + search.lowest().x);
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      const double x = series_values(h, u, angles[i]).x;
+      auto& f = force(static_cast<Eigen::Index>(i), 0);
+      if (phases.empty()) {
+        f = stiffness * (x - centre);
+        continue;
       }
+      const double spans = std::floor((angles[i] - phases.front().begin) / h.span());
+      const double theta = angles[i] - spans * h.span();
+      const double sign = h.odd && std::fmod(spans, 2) != 0 ? -1 : 1;  // x(theta + pi) = -x(theta)
+      const auto after =
+          std::upper_bound(phases.begin(), phases.end(), theta,
+                           [](double t, const FrictionPhase& phase) { return t < phase.begin; });
+      const FrictionPhase& phase = after == phases.begin() ? phases.front() : *(after - 1);
+      const double stick = phase.sign * p + stiffness * (sign * x - phase.anchor_x);
+      f = sign * (theta < phase.end ? stick : phase.slip_sign * p);
     }
-    std::sort(state.slip_onsets.begin(), state.slip_onsets.end());
-    std::sort(state.slip_ends.begin(), state.slip_ends.end());
-    state.stick_share = stuck / h_.span();
-    return true;
+    return force;
   }
 
- private:
-  void stick(In u, double kd, bool jacobian) {
-    A_ = u;
-    B_.setZero();
-    if (jacobian) {
-      J_.setZero();
-      J_.diagonal().setConstant(kd);
-    }
-    if (!h_.odd) {
-      const Reversal high = phases_.highest(), low = phases_.lowest();
-      A_[0] -= 0.5 * (high.x + low.x);
-      if (jacobian) {
-        series_basis(h_, high.theta, anchor_);
-        series_basis(h_, low.theta, integral_);
-        J_.row(0) -= 0.5 * kd * (anchor_ + integral_).transpose();
-      }
-    }
-    F_ = kd * A_;
+  int memory() const override { return 1; }
+  int slider_direction(int) const override { return 0; }
+
+  void memory_at(Fields fields, In q, In f, Out z) const override {
+    z[0] = q[0] - f[0] / fields[stiffness_field];
   }
 
-  // Integral of the basis over an interval from the powers at its middle (sum_) and its half length (half_).
-  void integrate_basis(double length) {
-    for (int i = 0; i < h_.cosines(); ++i) {
-      const auto n = static_cast<std::size_t>(h_.cosine_order(i));
-      integral_[i] = n == 0 ? length : 2 * half_[n].imag() * inverse_[n] * sum_[n].real();
-    }
-    for (int j = 0; j < h_.sines(); ++j) {
-      const auto n = static_cast<std::size_t>(h_.sine_order(j));
-      integral_[h_.cosines() + j] = 2 * half_[n].imag() * inverse_[n] * sum_[n].imag();
-    }
+  void begin(Fields fields, In q, Out z, StepEnd& at) const override {
+    const double k = fields[stiffness_field], elastic = k * (q[0] - z[0]), p = limit(fields);
+    at.f[0] = std::clamp(elastic, -p, p);
+    at.f_q(0, 0) = k;
+    at.f_z(0, 0) = -k;
+    if (at.f[0] != elastic) z[0] = q[0] - at.f[0] / k;
   }
 
-  void powers_of(double begin, double end, int count) {
-    powers(0.5 * (begin + end), count, sum_.data());
-    powers(0.5 * (end - begin), count, half_.data());
+  void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
+    const double k = fields[stiffness_field], p = limit(fields), f = start.f[0] + k * dq[0];
+    const bool sticks = std::abs(f) < p;
+    end.f[0] = sticks ? f : std::copysign(p, f);
+    end.f_q(0, 0) = sticks ? k : 0;
+    end.f_z(0, 0) = sticks ? -k : 0;
+    end.z_q(0, 0) = sticks ? 0 : 1;
+    end.z_z(0, 0) = sticks ? 1 : 0;
+    const double way = (end.f[0] - start.f[0]) / k, slip = sticks ? 0 : dq[0] - way;
+    end.dz[0] = slip;
+    end.dissipated = 0.5 * (start.f[0] + end.f[0]) * slip;
+    end.stick_share = slip == 0 ? 1 : std::abs(way) / (std::abs(way) + std::abs(slip));
+    if (p <= 0) end.stick_share = 0;
   }
 
-  void slide(In u, const std::vector<FrictionPhase>& phases, double kd, double p, bool jacobian) {
-    sliding_ = &phases;
-    const double kappa = (h_.odd ? 2 : 1) / std::numbers::pi;
-    A_.setZero();
-    B_.setZero();
-    if (jacobian) J_.setZero();
-    moments_.clear();
-    for (const FrictionPhase& phase : phases) {
-      powers_of(phase.begin, phase.end, 2 * h_.order + 1);
-      moments_.add_interval(phase.end - phase.begin, sum_.data(), half_.data());
-      integrate_basis(phase.end - phase.begin);
-      A_ -= kappa * phase.anchor_x * integral_;
-      B_ += kappa * phase.sign * integral_;
-      if (jacobian) {
-        basis_at_begin();
-        J_.noalias() -= (kappa * kd * integral_) * anchor_.transpose();
-      }
-      if (phase.slip_end > phase.end) {
-        powers_of(phase.end, phase.slip_end, h_.order + 1);
-        integrate_basis(phase.slip_end - phase.end);
-        B_ += kappa * phase.slip_sign * integral_;
-      }
-    }
-    moments_.close();
-    moments_.times(u, kappa, A_);
-    if (jacobian) moments_.add_to(J_, kappa * kd);
-    if (!h_.odd) {
-      A_[0] *= 0.5;
-      B_[0] *= 0.5;
-      if (jacobian) J_.row(0) *= 0.5;
-    }
-    F_ = kd * A_ + p * B_;
+  double stored(Fields fields, In q, In z) const override {
+    const double stretch = q[0] - z[0];
+    return 0.5 * fields[stiffness_field] * stretch * stretch;
   }
 
-  // phi at the beginning of the interval of the last powers_of(): exp(i n (s - d)).
-  void basis_at_begin() {
-    for (int i = 0; i < h_.cosines(); ++i) {
-      const auto n = static_cast<std::size_t>(h_.cosine_order(i));
-      anchor_[i] = sum_[n].real() * half_[n].real() + sum_[n].imag() * half_[n].imag();
+  std::optional<std::vector<Automaton>> automata(Fields fields) const override {
+    const double k = fields[stiffness_field], p = limit(fields);
+    Automaton contact(0);
+    if (p <= 0) {
+      contact.add("free", 0, 0, 0).follows(1, 0, 0);
+    } else {
+      Mode& stick = contact.add("stick", k, -k, 0);
+      stick.leaves_where(-k, 0, k, p, 1);
+      stick.leaves_where(k, 0, -k, p, 2);
+      contact.add("slip+", 0, 0, p).follows(1, -p / k, 1).leaves_where(0, 1, 0, 0, 0);
+      contact.add("slip-", 0, 0, -p).follows(1, p / k, -1).leaves_where(0, -1, 0, 0, 0);
     }
-    for (int j = 0; j < h_.sines(); ++j) {
-      const auto n = static_cast<std::size_t>(h_.sine_order(j));
-      anchor_[h_.cosines() + j] = sum_[n].imag() * half_[n].real() - sum_[n].real() * half_[n].imag();
-    }
+    return std::vector{contact};
   }
-
-  Harmonics h_;
-  FrictionPhases phases_;
-  Moments moments_;
-  Eigen::VectorXd A_, B_, F_;
-  Eigen::MatrixXd J_;
-  Eigen::VectorXd integral_, anchor_;
-  std::vector<std::complex<double>> sum_, half_;
-  std::vector<double> inverse_;
-  std::array<double, 3> fields_{};
-  const std::vector<FrictionPhase>* sliding_ = nullptr;
-  double limit_ = 0;
-  bool frictionless_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics) {
-  return std::make_unique<Jenkins>(harmonics);
+const PlainLaw& jenkins() {
+  static const Jenkins law;
+  return law;
 }
 
 }  // namespace arcslip::elements

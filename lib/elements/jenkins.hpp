@@ -20,11 +20,27 @@
 //
 // Fields: stiffness k_d (N/m), friction_coefficient mu (-), normal_load F_n (N).
 
-#include <arcslip/elements/element.hpp>
+// In time the slider z rests while |k_d (q - z)| < p, and follows q at |f| = p. A step in which q moves one
+// way is exact: f = clamp(f_0 + k_d dq, -p, p).
+
+#include <arcslip/elements/law.hpp>
 
 namespace arcslip::elements {
 
+/// "jenkins".
+const PlainLaw& jenkins();
+
 std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics);
+
+/// Where it begins to slip at a reversal of its motion w: stuck since the reversal theta_a, where f = s_a p,
+/// it comes to s p just at the reversal theta_r. Angles theta_a, theta_r;
+///
+///   h = (s k_d (w(theta_r) - w(theta_a)) - (1 - s s_a) p) / 2,  N
+///
+/// From full stick, theta_a is where w is least and theta_r where it is largest: h = k_d (max w - min w)/2 -
+/// p. Of an element that sticks, s = s_a is the corner where another reversal becomes the highest or the
+/// lowest, and the mean of its force is told by that.
+std::unique_ptr<Corners> make_jenkins_corners(const Harmonics& harmonics);
 
 /// The same law sampled at `samples` equal intervals of the period (alternating frequency/time, Cameron &
 /// Griffin 1989), with the exact Jacobian of the sampled force. For comparison; its error stalls near

@@ -3,6 +3,7 @@
 #include <arcslip/continuation/dense_algebra.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace arcslip::hbm {
@@ -45,13 +46,15 @@ class Independent {
 // Directions of the parts that are much stiffer than the softest, stiffest first.
 Directions stiff_directions(const model::Model& model) {
   std::vector<std::pair<double, Eigen::VectorXd>> all;
-  const auto add = [&](int parameter, const Eigen::VectorXd& d) {
-    const double k = std::abs(model.parameters[static_cast<std::size_t>(parameter)].value) * d.squaredNorm();
-    if (k > 0) all.emplace_back(k, d);
+  const auto add = [&](double stiffness, const model::Direction& d) {
+    const double k = std::abs(stiffness) * d.squaredNorm();
+    if (k > 0 && std::isfinite(stiffness)) all.emplace_back(k, d);
   };
-  for (const auto& spring : model.springs) add(spring.parameter, spring.direction);
+  const continuation::Vector p = model::defaults(model);
+  for (const auto& spring : model.springs) add(p[spring.parameter], spring.direction);
   for (const auto& element : model.elements)
-    if (element.law == model::Law::jenkins) add(element.parameters[0], element.direction);
+    for (std::size_t i = 0; i < element.directions.size(); ++i)
+      add(element.law->traits(element.fields(p), static_cast<int>(i)).stiffness, element.directions[i]);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   Directions stiff;
   for (const auto& [k, d] : all)
@@ -79,7 +82,8 @@ Directions stiff_between_elements(const Directions& stiff, const Independent& el
 
 Coordinates coordinates(const model::Model& model) {
   Directions directions;
-  for (const auto& element : model.elements) directions.push_back(element.direction);
+  for (const auto& element : model.elements)
+    directions.insert(directions.end(), element.directions.begin(), element.directions.end());
   if (directions.empty()) directions.push_back(model.response);
   Independent elements(model.dofs);
   for (const Eigen::VectorXd& d : directions) elements.add(d);

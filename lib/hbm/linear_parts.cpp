@@ -27,10 +27,9 @@ Complex amplitude(int harmonic, double cosine, double sine) {
 
 }  // namespace
 
-DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x) {
+DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(P.cols());
-  for (Eigen::Index i = 0; i < in_x.size(); ++i)
-    if (in_x[i] != 0) d += in_x[i] * P.row(i).transpose();
+  for (model::Direction::InnerIterator x(in_x); x; ++x) d += x.value() * P.row(x.index()).transpose();
   const double least = rounding * d.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < d.size(); ++i)
     if (d[i] != 0 && std::abs(d[i]) >= least) entries_.emplace_back(i, d[i]);

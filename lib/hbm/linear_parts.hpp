@@ -24,7 +24,7 @@ using ComplexMatrix = Eigen::MatrixXcd;
 /// stands in its own row and column, and added to softer ones, it would leave nothing of them.
 class DirectionInY {
  public:
-  DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x);
+  DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x);
 
   const std::vector<std::pair<Eigen::Index, double>>& entries() const { return entries_; }
   /// d . y

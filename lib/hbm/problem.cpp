@@ -11,25 +11,23 @@ namespace arcslip::hbm {
 using continuation::Evaluated;
 using continuation::Needs;
 
-HbmEvaluator::HbmEvaluator(std::shared_ptr<const model::Model> model, const Coordinates& coordinates,
-                           const Harmonics& harmonics)
-    : model_(std::move(model)),
-      harmonics_(harmonics),
-      r_(coordinates.unknowns),
-      stiffness_(*model_, coordinates, harmonics),
-      u_(r_ * harmonics.size()),
+HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
+    : model_(problem.shared_model()),
+      displacements_(problem.coordinates().unknowns * problem.harmonics().size()),
+      stiffness_(*model_, problem.coordinates(), problem.harmonics()),
+      u_(problem.size()),
       R_(u_.size()),
-      derivative_(harmonics.size()),
       jacobian_(Eigen::MatrixXd(u_.size(), u_.size())) {
-  for (const auto& element : model_->elements) {
-    Part part;
-    part.element = model::make_element(*model_, element, harmonics);
-    part.parameters = element.parameters;
-    const Vector d = coordinates.P.leftCols(r_).transpose() * element.direction;
-    for (int i = 0; i < r_; ++i)
-      if (std::abs(d[i]) > 1e-12 * d.norm()) part.direction.emplace_back(i, d[i]);
+  for (std::size_t e = 0; e < model_->elements.size(); ++e) {
+    const auto& element = model_->elements[e];
+    Part part{model::make_element(*model_, element, problem.harmonics()),
+              problem.map_of(e),
+              element.parameters,
+              {},
+              {}};
     part.fields.resize(element.parameters.size());
-    part.motion.resize(harmonics.size());
+    part.motion.resize(part.map.size());
+    derivative_.resize(std::max(derivative_.size(), part.motion.size()));
     parts_.push_back(std::move(part));
   }
 }
@@ -42,37 +40,34 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
   if (!stiffness_.move_to(p)) return Evaluated::outside_domain;
   const bool jacobian = needs == Needs::jacobian;
   auto& J = std::get<Eigen::MatrixXd>(jacobian_);
-  const int c = harmonics_.size();
+  R_.tail(R_.size() - displacements_).setZero();
   stiffness_.residual(u_, force_factor_, R_);
   if (jacobian) J.setZero();
   for (Part& part : parts_) {
     for (std::size_t k = 0; k < part.fields.size(); ++k) part.fields[k] = p[part.parameters[k]];
-    part.motion.setZero();
-    for (const auto& [i, weight] : part.direction) part.motion += weight * u_.segment(i * c, c);
+    part.map.gather(u_, part.motion);
     part.element->move_to(part.motion, part.fields, jacobian);
-    for (const auto& [i, weight] : part.direction) R_.segment(i * c, c) += weight * part.element->force();
-    if (!jacobian) continue;
-    for (const auto& [j, wj] : part.direction)
-      for (const auto& [i, wi] : part.direction)
-        J.block(i * c, j * c, c, c) += (wi * wj) * part.element->jacobian();
+    part.map.add(part.element->force(), R_);
+    if (jacobian) part.map.add(part.element->jacobian(), J);
   }
   if (jacobian) stiffness_.add_to(J);
   return R_.allFinite() ? Evaluated::ok : Evaluated::failed;
 }
 
 void HbmEvaluator::parameter_derivative(int k, continuation::Out dR) const {
+  dR.tail(dR.size() - displacements_).setZero();
   if (k == static_cast<int>(model_->parameters.size())) {  // the excitation factor
     stiffness_.force(dR);
     dR = -dR;
     return;
   }
   stiffness_.parameter_derivative(k, u_, force_factor_, dR);
-  const int c = harmonics_.size();
   for (const Part& part : parts_)
     for (std::size_t field = 0; field < part.parameters.size(); ++field) {
       if (part.parameters[field] != k) continue;
-      part.element->field_derivative(static_cast<int>(field), derivative_);
-      for (const auto& [i, weight] : part.direction) dR.segment(i * c, c) += weight * derivative_;
+      auto dF = derivative_.head(part.map.size());
+      part.element->field_derivative(static_cast<int>(field), dF);
+      part.map.add(dF, dR);
     }
 }
 
@@ -87,10 +82,40 @@ HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonic
     : model_(std::move(model)),
       harmonics_(harmonics),
       coordinates_(hbm::coordinates(*model_)),
+      blocks_(coordinates_.unknowns),
       parameters_(model_->parameters),
       displacement_(displacement) {
   parameters_[model::frequency].scale = frequency;
   parameters_.push_back({"excitation_factor", "-", 1, 1, 0, 1e300});
+  for (const auto& element : model_->elements) blocks_ += element.law->auxiliary();
+}
+
+Vector HbmProblem::scales() const {
+  Vector scales = Vector::Constant(size(), displacement_);
+  const Vector p = continuation::parameter_values(*this);
+  Eigen::Index at = coordinates_.unknowns * harmonics_.size();
+  for (const auto& element : model_->elements) {
+    const Eigen::Index size = element.law->auxiliary() * harmonics_.size();
+    if (size > 0) scales.segment(at, size).setConstant(element.law->auxiliary_scale(element.fields(p)));
+    at += size;
+  }
+  return scales;
+}
+
+ElementMap HbmProblem::map_of(std::size_t e) const {
+  const auto& element = model_->elements[e];
+  std::vector<ElementMap::Share> shares;
+  int block = 0;
+  for (const model::Direction& direction : element.directions) {
+    const Vector d = coordinates_.P.leftCols(coordinates_.unknowns).transpose() * direction;
+    for (int i = 0; i < coordinates_.unknowns; ++i)
+      if (std::abs(d[i]) > 1e-12 * d.norm()) shares.push_back({block, i, d[i]});
+    ++block;
+  }
+  int own = coordinates_.unknowns;
+  for (std::size_t before = 0; before < e; ++before) own += model_->elements[before].law->auxiliary();
+  for (int k = 0; k < element.law->auxiliary(); ++k) shares.push_back({block++, own++, 1});
+  return {std::move(shares), block, harmonics_};
 }
 
 Vector parameters_at(const HbmProblem& problem, double omega) {
@@ -103,8 +128,8 @@ namespace {
 
 constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch that closes on itself never ends
 
-// The branch from rest through the excitation factors from -1 to 1. All laws are antisymmetric: u at -1 is
-// -u at 1. So it may leave rest on either side, or come back through 0, where u need not be zero.
+// The branch from rest through the excitation factors from -1 to 1. Where all laws are antisymmetric, u at -1
+// is -u at 1: so it may leave rest on either side, or come back through 0, where u need not be zero.
 std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p,
                            const std::function<bool()>& go_on) {
   const int factor = problem->excitation_factor();
@@ -118,6 +143,7 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   options.go_on = go_on;
   const auto branch = continuation::trace(problem, {Vector::Zero(problem->size()), p, factor, 1}, options);
   if (branch.stop.reason != continuation::StopReason::boundary) return {};
+  if (!problem->model().antisymmetric && branch.points.back().parameter < 0) return {};
   return branch.points.back().parameter * branch.points.back().u;
 }
 

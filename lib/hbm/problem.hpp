@@ -1,13 +1,15 @@
 #pragma once
 // Harmonic balance as a continuation problem:
 //
-//   R(u, p) = Z(omega) u + sum_e D_e^T F_e(D_e u) - factor f = 0
+//   R(u, p) = Z(omega) u + sum_e E_e^T F_e(E_e u) - factor f = 0
 //
 // u: the coefficients of the nonlinear coordinates (coordinates.hpp), each in the layout of
-// elements/harmonics.hpp. p: the model's parameters ("frequency" first, rad/s), and last "excitation_factor",
+// elements/harmonics.hpp, and then the auxiliary unknowns of laws that have some, whose equations are rows of
+// F_e. p: the model's parameters ("frequency" first, rad/s), and last "excitation_factor",
 // which scales all forces and leads from rest (u = 0 at 0) to the scene (1).
 
 #include <arcslip/hbm/dynamic_stiffness.hpp>
+#include <arcslip/hbm/element_map.hpp>
 
 #include <functional>
 #include <memory>
@@ -18,8 +20,7 @@ namespace arcslip::hbm {
 
 class HbmEvaluator final : public continuation::Evaluator {
  public:
-  HbmEvaluator(std::shared_ptr<const model::Model> model, const Coordinates& coordinates,
-               const Harmonics& harmonics);
+  explicit HbmEvaluator(const class HbmProblem& problem);
 
   continuation::Evaluated move_to(continuation::In u, continuation::In p, continuation::Needs needs) override;
   const Vector& residual() const override { return R_; }
@@ -38,15 +39,14 @@ class HbmEvaluator final : public continuation::Evaluator {
  private:
   struct Part {
     std::unique_ptr<elements::Element> element;
+    ElementMap map;
     std::vector<int> parameters;
-    std::vector<std::pair<int, double>> direction;  // unknown coordinate, weight
     std::vector<double> fields;
     Vector motion;
   };
 
   std::shared_ptr<const model::Model> model_;
-  Harmonics harmonics_;
-  int r_;
+  Eigen::Index displacements_;  // before the auxiliary unknowns
   DynamicStiffness stiffness_;
   std::vector<Part> parts_;
   Vector u_, R_;
@@ -62,18 +62,20 @@ class HbmProblem final : public continuation::Problem {
   HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
              double frequency);
 
-  int size() const override { return coordinates_.unknowns * harmonics_.size(); }
+  int size() const override { return blocks() * harmonics_.size(); }
   std::span<const continuation::Parameter> parameters() const override { return parameters_; }
-  Vector scales() const override { return Vector::Constant(size(), displacement_); }
+  Vector scales() const override;
   std::unique_ptr<continuation::Evaluator> evaluator() const override { return hbm_evaluator(); }
-  std::unique_ptr<HbmEvaluator> hbm_evaluator() const {
-    return std::make_unique<HbmEvaluator>(model_, coordinates_, harmonics_);
-  }
+  std::unique_ptr<HbmEvaluator> hbm_evaluator() const { return std::make_unique<HbmEvaluator>(*this); }
 
   const model::Model& model() const { return *model_; }
   std::shared_ptr<const model::Model> shared_model() const { return model_; }
   const Harmonics& harmonics() const { return harmonics_; }
   const Coordinates& coordinates() const { return coordinates_; }
+  /// Coordinates and auxiliary unknowns, harmonics().size() coefficients each.
+  int blocks() const { return blocks_; }
+  /// Where the unknowns of an element stand.
+  ElementMap map_of(std::size_t element) const;
   double displacement() const { return displacement_; }
   int excitation_factor() const { return static_cast<int>(parameters_.size()) - 1; }
 
@@ -81,6 +83,7 @@ class HbmProblem final : public continuation::Problem {
   std::shared_ptr<const model::Model> model_;
   Harmonics harmonics_;
   Coordinates coordinates_;
+  int blocks_;
   std::vector<continuation::Parameter> parameters_;
   double displacement_;
 };

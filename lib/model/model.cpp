@@ -1,8 +1,6 @@
 #include <arcslip/model/model.hpp>
 
 #include <arcslip/continuation/dense_algebra.hpp>
-#include <arcslip/elements/cubic_spring.hpp>
-#include <arcslip/elements/jenkins.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +10,9 @@ namespace {
 
 constexpr double held = 1e-12;  // a mean position: its stiffness relative to that of its springs
 
-Eigen::VectorXd vector_of(const scene::Direction& direction, int dofs) {
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(dofs);
-  for (const scene::Term& term : direction) d[term.dof] += term.weight;
+Direction sparse(const scene::Direction& direction, int dofs) {
+  Direction d(dofs);
+  for (const scene::Term& term : direction) d.coeffRef(term.dof) += term.weight;
   return d;
 }
 
@@ -31,33 +29,35 @@ class Builder {
     for (const auto& part : scene_.dampers) model_.dampers.push_back(linear(part));
     for (const auto& part : scene_.springs) model_.springs.push_back(linear(part));
     for (const auto& part : scene_.elements) {
-      const Law law = part.type == &scene::jenkins_type ? Law::jenkins : Law::cubic_spring;
-      std::vector<int> fields;
-      for (std::size_t k = 0; k < part.values.size(); ++k) fields.push_back(parameter(part, k));
-      model_.elements.push_back({part.name, law, std::move(fields), vector_of(part.direction, model_.dofs)});
+      NonlinearPart element{part.name, elements::law_of(part), {}, {}};
+      for (std::size_t k = 0; k < part.values.size(); ++k) element.parameters.push_back(parameter(part, k));
+      for (const auto& direction : part.directions)
+        element.directions.push_back(sparse(direction, model_.dofs));
+      model_.antisymmetric = model_.antisymmetric && element.law->antisymmetric();
+      model_.elements.push_back(std::move(element));
     }
     bool even = false;
     model_.force_harmonic = scene_.harmonics.order;
     for (const auto& part : scene_.excitation) {
-      model_.forces.push_back(
-          {part.harmonic, parameter(part, 0), parameter(part, 1), vector_of(part.direction, model_.dofs)});
+      model_.forces.push_back({part.harmonic, parameter(part, 0), parameter(part, 1),
+                               sparse(part.directions.front(), model_.dofs)});
       even = even || part.harmonic % 2 == 0;
       if (part.harmonic > 0) model_.force_harmonic = std::min(model_.force_harmonic, part.harmonic);
     }
-    model_.response = vector_of(scene_.response, model_.dofs);
-    model_.harmonics = {scene_.harmonics.order, !even};
+    model_.response = sparse(scene_.response, model_.dofs);
+    model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric};
     model_.settings = scene_.harmonics;
     return std::move(model_);
   }
 
  private:
   LinearPart linear(const scene::Part& part) {
-    return {parameter(part, 0), vector_of(part.direction, model_.dofs)};
+    return {parameter(part, 0), sparse(part.directions.front(), model_.dofs)};
   }
 
   // The parameter of one field: a new one, or that of the tie which the field belongs to.
   int parameter(const scene::Part& part, std::size_t field) {
-    const scene::Field& f = part.type->fields[field];
+    const scene::Field& f = part.fields()[field];
     const std::string own = part.name + "." + std::string(f.name);
     std::string name = own;
     for (const auto& tie : scene_.ties)
@@ -96,23 +96,31 @@ int parameter_index(const Model& model, const std::string& name) {
 
 std::unique_ptr<elements::Element> make_element(const Model& model, const NonlinearPart& part,
                                                 const elements::Harmonics& harmonics) {
-  if (part.law == Law::cubic_spring) return elements::make_cubic_spring(harmonics);
-  if (model.settings.friction == scene::Friction::sampled)
-    return elements::make_sampled_jenkins(harmonics, model.settings.samples);
-  return elements::make_jenkins(harmonics);
+  return part.law->element(harmonics,
+                           {model.settings.friction == scene::Friction::exact, model.settings.samples});
+}
+
+continuation::Vector defaults(const Model& model) {
+  continuation::Vector p(static_cast<Eigen::Index>(model.parameters.size()));
+  for (std::size_t k = 0; k < model.parameters.size(); ++k)
+    p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
+  return p;
+}
+
+std::vector<double> NonlinearPart::fields(const continuation::Vector& p) const {
+  std::vector<double> values;
+  for (const int k : parameters) values.push_back(p[k]);
+  return values;
+}
+
+void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum) {
+  for (Direction::InnerIterator j(d); j; ++j)
+    for (Direction::InnerIterator i(d); i; ++i) sum(i.index(), j.index()) += factor * i.value() * j.value();
 }
 
 Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuation::Vector& p, int dofs) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dofs, dofs);
-  std::vector<Eigen::Index> acted_on;  // few: whole outer products would cost dofs^2 for each part
-  for (const LinearPart& part : parts) {
-    const Eigen::VectorXd& d = part.direction;
-    acted_on.clear();
-    for (Eigen::Index i = 0; i < d.size(); ++i)
-      if (d[i] != 0) acted_on.push_back(i);
-    for (const Eigen::Index j : acted_on)
-      for (const Eigen::Index i : acted_on) sum(i, j) += p[part.parameter] * d[i] * d[j];
-  }
+  for (const LinearPart& part : parts) add_outer(p[part.parameter], part.direction, sum);
   return sum;
 }
 
@@ -125,12 +133,12 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(model.dofs, model.dofs);
   for (const LinearPart& spring : model.springs)
     if (const double k = p[spring.parameter]; k != 0)
-      K += (negative ? k : 1 / spring.direction.squaredNorm()) * spring.direction *
-           spring.direction.transpose();
-  const double typical = K.cwiseAbs().maxCoeff();
+      add_outer(negative ? k : 1 / spring.direction.squaredNorm(), spring.direction, K);
+  const double largest = K.cwiseAbs().maxCoeff(), typical = largest > 0 ? largest : 1;
   for (const NonlinearPart& element : model.elements)
-    if (element.law == Law::cubic_spring && p[element.parameters[0]] != 0)
-      K += (typical > 0 ? typical : 1) * element.direction * element.direction.transpose();
+    for (std::size_t i = 0; i < element.directions.size(); ++i)
+      if (element.law->traits(element.fields(p), static_cast<int>(i)).holds_mean)
+        add_outer(typical, element.directions[i], K);
   const Eigen::VectorXd size = K.cwiseAbs().rowwise().maxCoeff();
   for (int i = 0; i < model.dofs; ++i)
     if (size[i] == 0) return i;

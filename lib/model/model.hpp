@@ -4,38 +4,43 @@
 // keeps the defaults.
 
 #include <arcslip/continuation/problem.hpp>
-#include <arcslip/elements/element.hpp>
+#include <arcslip/elements/law.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace arcslip::model {
 
+/// d, of as many entries as there are degrees of freedom, most of them 0.
+using Direction = Eigen::SparseVector<double>;
+
 /// A mass, damper or spring: value * d d^T on the degrees of freedom.
 struct LinearPart {
   int parameter;
-  Eigen::VectorXd direction;  // d, dofs
+  Direction direction;
 };
 
-enum class Law { jenkins, cubic_spring };
-
-/// A nonlinear element: its force law acts on d . x, along d.
+/// A nonlinear element: its law acts on q_i = d_i . x, along d_i.
 struct NonlinearPart {
   std::string name;
-  Law law;
+  std::shared_ptr<const elements::Law> law;
   std::vector<int> parameters;  // of its fields
-  Eigen::VectorXd direction;
+  std::vector<Direction> directions;
+
+  std::vector<double> fields(const continuation::Vector& p) const;
 };
 
 /// (cosine cos n theta + sine sin n theta) d.
 struct Force {
   int harmonic;
   int cosine, sine;  // parameters
-  Eigen::VectorXd direction;
+  Direction direction;
 };
 
 struct Model {
@@ -45,9 +50,9 @@ struct Model {
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<NonlinearPart> elements;
   std::vector<Force> forces;
-  Eigen::VectorXd response;  // direction whose motion is observed
-  elements::Harmonics
-      harmonics;  // odd only, where no even harmonic is excited: all laws here are antisymmetric
+  Eigen::VectorXd response;       // direction whose motion is observed
+  elements::Harmonics harmonics;  // odd only, where no even one is excited and all laws are antisymmetric
+  bool antisymmetric = true;      // all laws are
   scene::Harmonics settings;
   int force_harmonic = 1;  // lowest order excited: the fundamental
 };
@@ -61,16 +66,22 @@ Model build(const scene::Scene& scene);
 /// Index of a parameter; a tied field leads to its tie. Throws scene::ParameterError.
 int parameter_index(const Model& model, const std::string& name);
 
-/// The law of one element for a set of harmonics.
+/// One element for a set of harmonics.
 std::unique_ptr<elements::Element> make_element(const Model& model, const NonlinearPart& part,
                                                 const elements::Harmonics& harmonics);
+
+/// Default values of the parameters.
+continuation::Vector defaults(const Model& model);
+
+/// sum += factor d d^T.
+void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum);
 
 /// sum of p * d d^T.
 Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuation::Vector& p, int dofs);
 
-/// Where the mean position is an unknown: a degree of freedom whose mean no spring holds, neither linear nor
-/// cubic, directly or through others. Friction forces do not depend on it, so that it would be arbitrary or
-/// drift. Empty where there is none.
+/// Where the mean position is an unknown: a degree of freedom whose mean nothing holds, no spring and no law,
+/// directly or through others. Friction forces do not depend on it, so that it would be arbitrary or drift.
+/// Empty where there is none.
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p);
 
 }  // namespace arcslip::model

@@ -19,7 +19,10 @@ std::string stiffness_apart(const Model& model, const continuation::Vector& p) {
   };
   for (const auto& spring : model.springs) look(spring.parameter);
   for (const auto& element : model.elements)
-    if (element.law == Law::jenkins) look(element.parameters[0]);
+    for (std::size_t i = 0; i < element.directions.size(); ++i) {
+      const int field = element.law->traits(element.fields(p), static_cast<int>(i)).stiffness_field;
+      if (field >= 0) look(element.parameters[static_cast<std::size_t>(field)]);
+    }
   if (stiffest < 0 || p[stiffest] < far_apart * p[softest]) return {};
   std::ostringstream text;
   text.precision(4);

@@ -6,10 +6,12 @@ namespace arcslip::observables {
 
 double element_energy(const elements::Harmonics& h, elements::In w, elements::In F) {
   double sum = 0;
-  for (int j = 0; j < h.sines(); ++j) {
-    const int n = h.sine_order(j), c = h.cosine_index(n), s = h.sine_index(n);
-    sum += n * (F[c] * w[s] - F[s] * w[c]);
-  }
+  for (Eigen::Index direction = 0; direction < F.size(); direction += h.size())
+    for (int j = 0; j < h.sines(); ++j) {
+      const int n = h.sine_order(j);
+      const Eigen::Index c = direction + h.cosine_index(n), s = direction + h.sine_index(n);
+      sum += n * (F[c] * w[s] - F[s] * w[c]);
+    }
   return std::numbers::pi * sum;
 }
 

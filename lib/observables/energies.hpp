@@ -12,8 +12,8 @@
 
 namespace arcslip::observables {
 
-/// Taken out by an element; motion, force: its coefficients, harmonics.size(). It is the area of the loop
-/// that the force makes over the element's displacement.
+/// Taken out by an element; motion, force: their coefficients, harmonics.size() of each direction. With one
+/// it is the area of the loop that the force makes over the element's displacement.
 double element_energy(const elements::Harmonics& harmonics, elements::In motion, elements::In force);
 
 /// Put in by the excitation at unknowns u, with the parameters of the last place of `at`.

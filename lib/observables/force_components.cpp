@@ -35,9 +35,13 @@ ForceComponents force_components(const hbm::HbmProblem& problem, const hbm::HbmE
   result.viscous = omega * forms.damping / square;
   result.excitation += forms.force / square;
   for (std::size_t e = 0; e < at.element_count(); ++e) {
-    const Complex Q = amplitude_of(h, at.element_motion(e), n), F = amplitude_of(h, at.element(e).force(), n);
-    const bool contact = problem.model().elements[e].law == model::Law::jenkins;
-    (contact ? result.contact : result.nonlinear_spring) += F * std::conj(Q) / square;
+    const auto& law = *problem.model().elements[e].law;
+    PhaseParts& sum = law.has_contact() ? result.contact : result.nonlinear_spring;
+    for (int i = 0; i < law.directions(); ++i) {
+      const Complex Q = amplitude_of(h, at.element_motion(e).segment(i * h.size(), h.size()), n);
+      const Complex F = amplitude_of(h, at.element(e).force().segment(i * h.size(), h.size()), n);
+      sum += F * std::conj(Q) / square;
+    }
   }
   return result;
 }
@@ -100,9 +104,12 @@ void Maxima::add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements:
     v_.head(nc).setZero();
     element.maxima.sine = largest_.of(v_);
   }
-  if (model.dofs != 1 || model.elements.size() != 1 || !point.elements[0].has_stick) return;
+  if (model.dofs != 1 || model.elements.size() != 1 || !point.elements[0].has_stick ||
+      model.elements[0].directions.size() != 1)
+    return;
   const double omega = model.force_harmonic * point.omega;
-  const double contact = std::abs(model.elements[0].direction[0] / model.response[0]) / point.amplitude;
+  const double contact =
+      std::abs(model.elements[0].directions[0].coeff(0) / model.response[0]) / point.amplitude;
   const ForceMaxima& force = point.elements[0].maxima;
   point.maxima.force_per_displacement = {
       point.forces.spring +

@@ -1,6 +1,5 @@
 #include <arcslip/observables/histories.hpp>
 
-#include <arcslip/elements/jenkins_force.hpp>
 #include <arcslip/hbm/problem.hpp>
 
 #include <algorithm>
@@ -44,12 +43,8 @@ ElementHistory element_history(const hbm::HbmProblem& problem, const hbm::HbmEva
     result.sine.push_back(elements::series_values(h, sines, theta).x);
     result.series.push_back(result.cosine.back() + result.sine.back());
   }
-  const auto field = [&](std::size_t k) { return p[part.parameters[k]]; };
-  if (part.law == model::Law::jenkins) {
-    result.force = elements::jenkins_force(h, u, field(0), field(1) * field(2), angles);
-  } else {
-    for (double x : result.displacement) result.force.push_back(field(0) * x * x * x);
-  }
+  const Eigen::MatrixXd force = part.law->force_at(h, u, part.fields(p), angles);
+  result.force.assign(force.data(), force.data() + force.rows());
   return result;
 }
 

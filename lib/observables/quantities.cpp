@@ -1,5 +1,7 @@
 #include <arcslip/observables/quantities.hpp>
 
+#include <arcslip/elements/law.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -98,9 +100,13 @@ bool has_one_friction_element(const Point& point) {
   return std::count_if(point.elements.begin(), point.elements.end(), is_friction) == 1;
 }
 
+}  // namespace
+
 bool is_friction_part(const scene::Part& part) {
-  return part.type == &scene::jenkins_type;
+  return elements::law_of(part)->has_contact();
 }
+
+namespace {
 
 bool one_friction_part(const scene::Scene& scene) {
   return std::count_if(scene.elements.begin(), scene.elements.end(), is_friction_part) == 1;

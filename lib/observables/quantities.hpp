@@ -36,6 +36,9 @@ struct Quantity {
 using ResponseQuantity = Quantity<ResponsePoint>;
 using ElementQuantity = Quantity<ElementResponse>;
 
+/// Whether an element of a scene sticks and slips.
+bool is_friction_part(const scene::Part& part);
+
 std::span<const ResponseQuantity> response_quantities();
 std::span<const ElementQuantity> element_quantities();
 

@@ -17,17 +17,20 @@ using continuation::Vector;
 constexpr double search_ratio = 4;  // of frequencies: the window in which other responses are looked for
 constexpr double same = 1e-6;       // responses that differ by less, relatively, are one
 
-bool has_cubic_spring(const model::Model& model) {
+bool may_have_several(const model::Model& model) {
+  const Vector p = model::defaults(model);
   return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
-    return element.law == model::Law::cubic_spring &&
-           model.parameters[static_cast<std::size_t>(element.parameters[0])].value != 0;
+    const std::vector<double> fields = element.fields(p);
+    for (int i = 0; i < element.law->directions(); ++i)
+      if (element.law->traits(fields, i).several_responses) return true;
+    return false;
   });
 }
 
 // Adds those at which a frequency branch through a wide window passes omega.
 void add_others(const std::shared_ptr<const model::Model>& model, double omega, const GoOn& go_on,
                 ResponsesAt& found) {
-  if (!has_cubic_spring(*model)) return;
+  if (!may_have_several(*model)) return;
   const FrequencyWindow window{omega / search_ratio, omega * search_ratio};
   const auto swept = frequency_branch(model, window, window.lower, {}, 1, Steps::curve, go_on);
   const Vector p = hbm::parameters_at(*swept.problem, omega);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double like = 0.9;  // cosine of two tangents of which one serves as border row for the other
 constexpr double room = 10;   // steps of a difference that have to lie in its smooth piece
-constexpr double inside_stick = 1e-8;  // of mu F_n: from a corner
+constexpr double below_corner = 1e-8;  // of its size: from a corner
 
 }  // namespace
 
@@ -88,11 +88,11 @@ bool Sensitivity::at_resonance(In x, In p, std::span<const int> parameters, Out 
   return differentiate(parameters, gradient);
 }
 
-bool Sensitivity::at_corner(const hbm::SlipCorner& corner, In x, In p, std::span<const int> parameters,
+bool Sensitivity::at_corner(const hbm::Corner& corner, In x, In p, std::span<const int> parameters,
                             Out gradient) {
   if (!move_to(x, p)) return false;
   corner_ = corner;
-  hbm::slip_excess_gradient(*problem_, corner, p_, border_.rows.col(0));
+  hbm::corner_gradient(*problem_, corner, u_, p_, border_.rows.col(0));
   border_.corner(0, 0) = 0;
   return factorize() && differentiate(parameters, gradient) && condition_derivatives(gradient);
 }
@@ -100,7 +100,7 @@ bool Sensitivity::at_corner(const hbm::SlipCorner& corner, In x, In p, std::span
 bool Sensitivity::condition_derivatives(Out gradient) {
   for (std::size_t k = 0; k < parameters_.size(); ++k)
     gradient[static_cast<Eigen::Index>(k)] -=
-        multiplier() * hbm::slip_excess_derivative(*problem_, *corner_, u_, p_, parameters_[k]);
+        multiplier() * hbm::corner_derivative(*problem_, *corner_, u_, p_, parameters_[k]);
   return gradient.allFinite();
 }
 
@@ -122,7 +122,7 @@ bool Sensitivity::differentiate(std::span<const int> parameters, Out gradient) {
 bool Sensitivity::second_derivatives(const continuation::Matrix& tangents,
                                      Eigen::Ref<continuation::Matrix> second) {
   const auto m = static_cast<Eigen::Index>(parameters_.size());
-  if (corner_ && !stick_side()) return false;
+  if (corner_ && !side_below()) return false;
   u0_ = u_;
   p0_ = p_;
   const std::uint64_t piece = evaluator_->piece();
@@ -157,10 +157,10 @@ bool Sensitivity::second_derivatives(const continuation::Matrix& tangents,
   return second.allFinite();
 }
 
-// From a corner to a place beside it, where the element sticks; w and g are those of that side.
-bool Sensitivity::stick_side() {
+// From a corner to a place beside it, where h < 0; w and g are those of that side.
+bool Sensitivity::side_below() {
   const auto& dh = border_.rows.col(0);
-  u_ -= inside_stick * hbm::slip_excess_size(*problem_, *corner_, u_, p_) / dh.squaredNorm() * dh;
+  u_ -= below_corner * hbm::corner_size(*problem_, *corner_, u_, p_) / dh.squaredNorm() * dh;
   if (evaluator_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return false;
   evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
   Vector unused(static_cast<Eigen::Index>(parameters_.size()));
@@ -176,10 +176,10 @@ void Sensitivity::slopes_of_lagrangian(const continuation::Matrix& tangents, Out
   L_x_.head(n).noalias() -= std::get<continuation::Matrix>(evaluator_->jacobian()).transpose() * w;
   evaluator_->parameter_derivative(model::frequency, F_p_);
   L_x_[n] = quantity_.parameter_derivative(*evaluator_, u_, p_, model::frequency) - w.dot(F_p_);
-  std::optional<hbm::SlipCorner> corner = corner_;
+  std::optional<hbm::Corner> corner = corner_;
   if (corner) {
-    hbm::slip_excess(*problem_, *corner, u_, p_);
-    hbm::slip_excess_gradient(*problem_, *corner, p_, F_p_);
+    hbm::corner_excess(*problem_, *corner, u_, p_);
+    hbm::corner_gradient(*problem_, *corner, u_, p_, F_p_);
     L_x_.head(n) -= multiplier() * F_p_;
   }
   for (std::size_t k = 0; k < parameters_.size(); ++k) {
@@ -188,8 +188,7 @@ void Sensitivity::slopes_of_lagrangian(const continuation::Matrix& tangents, Out
     slopes[column] = L_x_.dot(tangents.col(column)) - w.dot(F_p_) +
                      quantity_.parameter_derivative(*evaluator_, u_, p_, parameters_[k]);
     if (corner)
-      slopes[column] -=
-          multiplier() * hbm::slip_excess_derivative(*problem_, *corner, u_, p_, parameters_[k]);
+      slopes[column] -= multiplier() * hbm::corner_derivative(*problem_, *corner, u_, p_, parameters_[k]);
   }
 }
 

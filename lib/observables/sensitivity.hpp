@@ -10,7 +10,7 @@
 //   at a frequency   r = omega - const: g = dA/domega along the branch.
 //   at a resonance   A is stationary along the branch, so that g = 0 whatever row r_x is there (envelope
 //                    theorem): the tangent is, and the system is regular at folds too.
-//   at a corner      r = h, the slip limit of an element (hbm/slip_corner.hpp), on which the peak sits. F_x
+//   at a corner      r = h, the slip limit of an element (hbm/corner.hpp), on which the peak sits. F_x
 //                    and F_p jump along h_x and h_p: g takes up the jump, and both sides give the same.
 //
 // The second derivative needs no other solution. Along D_k = (dx/dp_k, e_k) F and r stay zero to first order.
@@ -29,7 +29,7 @@
 
 #include <arcslip/continuation/linear_solver.hpp>
 #include <arcslip/continuation/stationary.hpp>
-#include <arcslip/hbm/slip_corner.hpp>
+#include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/amplitude.hpp>
 
 #include <cstdint>
@@ -50,7 +50,7 @@ class Sensitivity {
                     continuation::Out gradient);
   bool at_resonance(continuation::In x, continuation::In p, std::span<const int> parameters,
                     continuation::Out gradient);
-  bool at_corner(const hbm::SlipCorner& corner, continuation::In x, continuation::In p,
+  bool at_corner(const hbm::Corner& corner, continuation::In x, continuation::In p,
                  std::span<const int> parameters, continuation::Out gradient);
 
   /// d2A/dp_j dp_k where the last gradient was, symmetric. tangents: dx/dp_k of what is followed there, n +
@@ -76,7 +76,7 @@ class Sensitivity {
   bool factorize();
   bool differentiate(std::span<const int> parameters, continuation::Out gradient);
   bool condition_derivatives(continuation::Out gradient);
-  bool stick_side();
+  bool side_below();
   void slopes_of_lagrangian(const continuation::Matrix& tangents, continuation::Out slopes);
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
@@ -87,8 +87,8 @@ class Sensitivity {
   std::unique_ptr<continuation::LinearSolver> solver_;
   continuation::Borders border_;
   continuation::Vector u_, p_, scales_, tangent_, z_, x_, F_p_;
-  std::vector<int> parameters_;              // of the last gradient
-  std::optional<hbm::SlipCorner> corner_{};  // at which the place of the last gradient is held
+  std::vector<int> parameters_;          // of the last gradient
+  std::optional<hbm::Corner> corner_{};  // at which the place of the last gradient is held
   continuation::Vector u0_, p0_, L_x_;
   Extreme extreme_{};
 };

@@ -19,8 +19,8 @@ using continuation::Vector;
 constexpr double grown = 1e5;   // |u| in scales: where it is asked whether a response just ahead is unbounded
 constexpr double ahead = 1e-2;  // of the parameter
 constexpr const char* window_event = "window";
-constexpr const char* stick_event = "stick";  // the slope vanishes on this side of a corner
-constexpr const char* slip_event = "slip";
+constexpr const char* below_event = "below";  // the slope vanishes on this side of a corner
+constexpr const char* above_event = "above";
 constexpr int most_parts = 64;
 
 // n: where the frequency stands among the unknowns.
@@ -97,14 +97,14 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     end.direction = before < 0 ? -1 : 1;
     const bool leaves = branch.stop.reason == StopReason::event;
     const std::string by = leaves ? branch.events.back().monitor : "";
-    const bool passes = leaves ? by == stick_event || by == slip_event
+    const bool passes = leaves ? by == below_event || by == above_event
                                : !at.corner && branch.stop.reason == StopReason::step_too_small;
     end.left_window = by == window_event;
     end.vanishes = by == event_kinds::fold;
     if (!passes) break;
     Place place{end.x, end.over, end.direction, at.corner};
-    if (place.corner) place.corner = at_angles(*place.corner, last.u);
-    auto next = leaves ? leave_corner(place, by == slip_event) : to_corner(place);
+    if (place.corner) place.corner = hbm::at_angles(*place.corner, last.u);
+    auto next = leaves ? leave_corner(place, by == above_event) : to_corner(place);
     if (!next && kind_.maximum && is_surpassed(place)) end.vanishes = true;
     if (!next && !end.vanishes) next = seen_beyond(place);
     if (!next) break;
@@ -134,8 +134,8 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
       monitor.terminal = true;
       monitors.push_back(std::move(monitor));
     };
-    add(stick_event, &hbm::CornerSlopes::stick);
-    add(slip_event, &hbm::CornerSlopes::slip);
+    add(below_event, &hbm::CornerSlopes::below);
+    add(above_event, &hbm::CornerSlopes::above);
   }
   const auto second = continuation::cusp_monitor().value;
   const double begin = arclength_;
@@ -144,8 +144,8 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
   const auto record = [&](const Accepted& now, const continuation::Event* event) {
     const double arclength = begin + now.arclength;
     const bool terminal =
-        event && (event->monitor == window_event || event->monitor == stick_event ||
-                  event->monitor == slip_event || (corner && event->monitor == event_kinds::fold));
+        event && (event->monitor == window_event || event->monitor == below_event ||
+                  event->monitor == above_event || (corner && event->monitor == event_kinds::fold));
     if (event && (!terminal || event->monitor == event_kinds::fold)) {
       result_.events.push_back(
           {arclength, {event->monitor, event->nonsmooth, event->located, section_->observe(now, held)}});
@@ -154,7 +154,7 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
     if (std::exchange(first, false)) return true;
     result_.points.push_back(
         {arclength, corner ? 0 : second(now), section_->observe(now, held), from.corner});
-    if (corner) result_.points.back().corner = at_angles(*from.corner, now.u);
+    if (corner) result_.points.back().corner = hbm::at_angles(*from.corner, now.u);
     if (terminal) return true;
     const double omega = now.u[n];
     if (now.u.head(n).norm() > grown * problem_->displacement()) {
@@ -170,9 +170,9 @@ continuation::Branch SpecialCurveTracer::trace(const Place& from) {
   auto options = way_.options();
   options.go_on = go_on_;
   continuation::Branch branch =
-      continuation::trace(corner ? hbm::slip_corner_points(problem_, *from.corner) : smooth_,
-                          {corner ? with_angles(from.x, *from.corner) : from.x, parameters(from.x, from.over),
-                           way_.index, from.direction},
+      continuation::trace(corner ? hbm::corner_points(problem_, *from.corner) : smooth_,
+                          {corner ? hbm::with_angles(from.x, *from.corner) : from.x,
+                           parameters(from.x, from.over), way_.index, from.direction},
                           options, std::move(monitors), record);
   speak_of_scene(problem_->model(), parameters(from.x, from.over), branch);
   if (!branch.points.empty()) {  // what was seen beyond a terminal event is none of it
@@ -189,18 +189,6 @@ Vector SpecialCurveTracer::parameters(const Vector& x, double over) const {
   Vector p = hbm::parameters_at(*problem_, x[problem_->size()]);
   p[way_.index] = over;
   return p;
-}
-
-Vector SpecialCurveTracer::with_angles(const Vector& x, const hbm::SlipCorner& corner) {
-  Vector all(x.size() + 2);
-  all << x, corner.anchor, corner.reversal;
-  return all;
-}
-
-hbm::SlipCorner SpecialCurveTracer::at_angles(hbm::SlipCorner corner, const Vector& all) {
-  corner.anchor = all[all.size() - 2];
-  corner.reversal = all[all.size() - 1];
-  return corner;
 }
 
 namespace {

@@ -5,9 +5,9 @@
 //
 // A special point may come to a corner of the branches, where a friction element begins to slip at a reversal
 // of its motion, and sit there while the parameter goes on: the slope has opposite signs on the two sides.
-// The curve then follows the corner (hbm/slip_corner.hpp), until the slope vanishes on one of the sides.
+// The curve then follows the corner (hbm/corner.hpp), until the slope vanishes on one of the sides.
 
-#include <arcslip/hbm/slip_corner.hpp>
+#include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/curve_section.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
@@ -71,7 +71,7 @@ struct SpecialCurve {
     double arclength = 0;
     double second = 0;  // derivative of the quantity along the frequency branch; 0 at corners
     ResponsePoint point;
-    std::optional<hbm::SlipCorner> corner{};  // none on smooth parts
+    std::optional<hbm::Corner> corner{};  // none on smooth parts
   };
   struct EventAt {
     double arclength = 0;
@@ -115,7 +115,7 @@ class SpecialCurveTracer {
     continuation::Vector x;  // unknowns and frequency
     double over = 0;
     int direction = 1;
-    std::optional<hbm::SlipCorner> corner;  // none on smooth parts
+    std::optional<hbm::Corner> corner;  // none on smooth parts
   };
 
   continuation::Branch trace(const Place& from);
@@ -129,12 +129,12 @@ class SpecialCurveTracer {
     Place place;
     hbm::CornerSlopes slopes;
   };
-  std::optional<Beside> corner_beside(const Place& at, const hbm::SlipCorner& corner, int direction,
+  std::optional<Beside> corner_beside(const Place& at, const hbm::Corner& corner, int direction,
                                       double beside) const;
   bool is_special(const hbm::CornerSlopes& slopes) const;
-  std::optional<Place> leave_corner(const Place& at, bool slip);
+  std::optional<Place> leave_corner(const Place& at, bool above);
   std::optional<Place> to_crossing_corner(const Place& at);
-  std::optional<Place> from_corner(const Place& at, bool slip) const;
+  std::optional<Place> from_corner(const Place& at, bool above) const;
   std::optional<Place> seen_beyond(const Place& at);
   std::optional<continuation::Vector> at_depth(const Place& at, double depth, double reach) const;
   bool is_surpassed(const Place& at) const;
@@ -143,8 +143,6 @@ class SpecialCurveTracer {
                                                 const continuation::Vector& row, double reach) const;
   bool is_same(const continuation::Vector& x, const continuation::Vector& y) const;
   // The unknowns at a corner: those of the smooth parts, and its two angles.
-  static continuation::Vector with_angles(const continuation::Vector& x, const hbm::SlipCorner& corner);
-  static hbm::SlipCorner at_angles(hbm::SlipCorner corner, const continuation::Vector& all);
   continuation::Vector parameters(const continuation::Vector& x, double over) const;
   bool inside(double over) const { return over >= way_.lower() && over <= way_.upper(); }
 

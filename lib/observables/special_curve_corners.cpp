@@ -48,18 +48,19 @@ std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem&
 
 // The corner a little along the parameter, and the slopes on its sides.
 std::optional<SpecialCurveTracer::Beside> SpecialCurveTracer::corner_beside(const Place& at,
-                                                                            const hbm::SlipCorner& corner,
+                                                                            const hbm::Corner& corner,
                                                                             int direction,
                                                                             double beside) const {
   const Eigen::Index n = problem_->size();
+  const auto unknowns = n + 1 + static_cast<Eigen::Index>(corner.angles.size());
   const double over = at.over * (1 + direction * beside);
   if (!inside(over)) return {};
-  const auto v = corrected(*hbm::slip_corner_points(problem_, corner), with_angles(at.x, corner), over,
-                           Vector::Unit(n + 4, n + 3), near_corner);
+  const auto v = corrected(*hbm::corner_points(problem_, corner), hbm::with_angles(at.x, corner), over,
+                           Vector::Unit(unknowns + 1, unknowns), near_corner);
   if (!v) return {};
-  const Vector all = v->head(n + 3);
+  const Vector all = v->head(unknowns);
   hbm::CornerSides sides(problem_, corner, kind_.quantity);
-  return Beside{{all.head(n + 1), over, direction, at_angles(corner, all)},
+  return Beside{{all.head(n + 1), over, direction, hbm::at_angles(corner, all)},
                 sides.slopes(all, parameters(all, over))};
 }
 
@@ -71,7 +72,7 @@ bool SpecialCurveTracer::is_special(const hbm::CornerSlopes& slopes) const {
 // corner is special neither before nor behind the place where that changes its sign, the special point ends.
 std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Place& at) {
   for (const auto& corner :
-       hbm::slip_corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), near_corner))
+       hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), near_corner))
     for (const double beside : besides) {
       std::vector<hbm::CornerSlopes> found;
       for (const int direction : {at.direction, -at.direction}) {
@@ -80,7 +81,8 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Pla
         if (is_special(there->slopes)) return there->place;
         found.push_back(there->slopes);
       }
-      if (found.size() == 2 && (found[0].stick * found[1].stick < 0) != (found[0].slip * found[1].slip < 0)) {
+      if (found.size() == 2 &&
+          (found[0].below * found[1].below < 0) != (found[0].above * found[1].above < 0)) {
         result_.end.vanishes = true;
         return {};
       }
@@ -90,18 +92,18 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Pla
 
 // What goes on from a corner where the slope on one side changes its sign: where it vanishes, a smooth curve
 // begins on that side. Where it jumps, another corner crosses this one.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::leave_corner(const Place& at, bool slip) {
+std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::leave_corner(const Place& at, bool above) {
   hbm::CornerSides sides(problem_, *at.corner, kind_.quantity);
-  const auto slopes = sides.slopes(with_angles(at.x, *at.corner), parameters(at.x, at.over));
-  const double changes = slip ? slopes.slip : slopes.stick, other = slip ? slopes.stick : slopes.slip;
-  return std::abs(changes) <= zero_slope * std::abs(other) ? from_corner(at, slip) : to_crossing_corner(at);
+  const auto slopes = sides.slopes(hbm::with_angles(at.x, *at.corner), parameters(at.x, at.over));
+  const double changes = above ? slopes.above : slopes.below, other = above ? slopes.below : slopes.above;
+  return std::abs(changes) <= zero_slope * std::abs(other) ? from_corner(at, above) : to_crossing_corner(at);
 }
 
 // Where two corners cross, they change places along the frequency, and another slope lies between them than
 // before. The special point goes on at one of them, or, where it is at neither, has met the other one.
 std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_crossing_corner(const Place& at) {
   const auto crossing =
-      hbm::slip_corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), at_corner);
+      hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), at_corner);
   bool found = false;
   for (const auto& corner : crossing)
     for (const double beside : besides)
@@ -181,12 +183,12 @@ bool SpecialCurveTracer::is_surpassed(const Place& at) const {
 // The smooth curve that begins where the slope vanishes on one side of a corner. There h is given, not the
 // parameter, which may change with h by any power: with its root where h grows from slip, so that h is no
 // linear function of the way.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const Place& at, bool slip) const {
+std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const Place& at, bool above) const {
   const Eigen::Index n = problem_->size();
-  const double size = hbm::slip_excess_size(*problem_, *at.corner, at.x.head(n), parameters(at.x, at.over));
+  const double size = hbm::corner_size(*problem_, *at.corner, at.x.head(n), parameters(at.x, at.over));
   for (const double beside : besides) {
     const auto v =
-        at_depth(at, (slip ? beside : -beside) * size, near_corner + root_reach * std::sqrt(beside));
+        at_depth(at, (above ? beside : -beside) * size, near_corner + root_reach * std::sqrt(beside));
     if (!v) continue;
     const double over = (*v)[n + 1];
     if (inside(over) && std::abs(over - at.over) > least_change * at.over)
@@ -203,21 +205,21 @@ std::optional<Vector> SpecialCurveTracer::at_depth(const Place& at, double depth
   one_step.iterations = 1;
   continuation::Counts counts;
   continuation::Corrector corrector(*smooth_, parameters(at.x, at.over), way_.index, one_step, counts);
-  hbm::SlipCorner corner = *at.corner;
+  hbm::Corner corner = *at.corner;
   Vector v(n + 2), scales(n + 2), d(n), row = Vector::Zero(n + 2);
   v << at.x, at.over;
   scales << smooth_->scales(), at.over;
   const Vector begin = v;
   for (int k = 0; k < most_steps; ++k) {
     const Vector p = parameters(v.head(n + 1), v[n + 1]);
-    const auto h = hbm::slip_excess(*problem_, corner, v.head(n), p);
+    const auto h = hbm::corner_excess(*problem_, corner, v.head(n), p);
     if (!h || !((v - begin).cwiseQuotient(scales).norm() <= reach * (1 + begin.cwiseQuotient(scales).norm())))
       return {};
-    hbm::slip_excess_direction(*problem_, corner, v.head(n), p, d);
+    hbm::corner_direction(*problem_, corner, v.head(n), p, d);
     v.head(n) += (depth - *h) / d.squaredNorm() * d;
-    hbm::slip_excess_gradient(*problem_, corner, p, d);
+    hbm::corner_gradient(*problem_, corner, v.head(n), p, d);
     row.head(n) = d;
-    row[n + 1] = hbm::slip_excess_derivative(*problem_, corner, v.head(n), p, way_.index);
+    row[n + 1] = hbm::corner_derivative(*problem_, corner, v.head(n), p, way_.index);
     row /= row.norm();
     if (corrector.correct(v, row, false).converged && std::abs(depth - *h) <= same_depth * std::abs(depth))
       return v;

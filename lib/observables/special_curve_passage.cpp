@@ -56,10 +56,9 @@ std::size_t SpecialCurveTracer::passage(const SpecialCurve& curve, std::size_t p
   Vector sought(n + 2), scales(n + 2);
   sought << through.x, through.over;
   scales << smooth_->scales(), smooth_->parameters()[static_cast<std::size_t>(way_.index)].scale;
-  const auto lies_on = [&](const std::optional<hbm::SlipCorner>& corner, const Vector& guess,
-                           const Vector& row) {
-    const auto problem = corner ? hbm::slip_corner_points(problem_, *corner) : smooth_;
-    const Vector x = corner ? with_angles(guess.head(n + 1), *corner) : Vector(guess.head(n + 1));
+  const auto lies_on = [&](const std::optional<hbm::Corner>& corner, const Vector& guess, const Vector& row) {
+    const auto problem = corner ? hbm::corner_points(problem_, *corner) : smooth_;
+    const Vector x = corner ? hbm::with_angles(guess.head(n + 1), *corner) : Vector(guess.head(n + 1));
     Vector border = Vector::Zero(x.size() + 1);
     border.head(n + 1) = row.head(n + 1);
     border[x.size()] = row[n + 1];

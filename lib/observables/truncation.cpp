@@ -2,7 +2,7 @@
 
 #include <arcslip/continuation/dense_algebra.hpp>
 #include <arcslip/continuation/neighbours.hpp>
-#include <arcslip/hbm/slip_corner.hpp>
+#include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr int least_tail = 9;            // orders above N looked at: N + 9 at l
 constexpr double linear_motion = 1e-13;  // forces left out, relative: below, nothing is neglected
 constexpr double near_a_fold =
     1e-4;                           // a step along the branch, relative to |u|: beyond, its bend is asked for
-constexpr double at_corner = 1e-6;  // |h| over mu F_n
+constexpr double at_corner = 1e-6;  // |h| over its size
 constexpr double converging = 0.3;  // second sweep over the first
 constexpr double small_change = 0.1;  // of the response, over its amplitude
 constexpr double cancelled = 0.02;    // |dA| over the change of the response
@@ -26,6 +26,16 @@ constexpr double tolerance = 1e-6;  // of the response, over its amplitude: belo
 
 elements::Harmonics widened(const elements::Harmonics& h) {
   return {2 * h.order + least_tail, h.odd};
+}
+
+// Whether some element is stiffer in large motions than at rest.
+bool stiffen(const model::Model& model, const Vector& p) {
+  return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
+    const std::vector<double> fields = element.fields(p);
+    for (int i = 0; i < element.law->directions(); ++i)
+      if (element.law->traits(fields, i).stiffness != element.law->stiffness(fields, i, 0)) return true;
+    return false;
+  });
 }
 
 }  // namespace
@@ -41,10 +51,11 @@ double highest_natural_frequency(const model::Model& model, const Vector& p,
   Eigen::MatrixXd K = model::assemble(model.springs, p, model.dofs);
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const auto& element = model.elements[e];
-    double stiffness = p[element.parameters[0]];
-    if (element.law == model::Law::cubic_spring)
-      stiffness *= e < motions.size() ? 3 * motions[e] * motions[e] : 0;
-    K += stiffness * element.direction * element.direction.transpose();
+    for (std::size_t i = 0; i < element.directions.size(); ++i) {
+      const double reach = e < motions.size() ? motions[e] : 0;
+      const double stiffness = element.law->stiffness(element.fields(p), static_cast<int>(i), reach);
+      model::add_outer(stiffness, element.directions[i], K);
+    }
   }
   // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift >
   // 0.
@@ -63,8 +74,7 @@ Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p
       free_(free),
       wide_(problem, widened(problem.harmonics())),
       highest_(highest_natural_frequency(problem.model(), p)),
-      stiffens_(std::any_of(problem.model().elements.begin(), problem.model().elements.end(),
-                            [](const auto& e) { return e.law == model::Law::cubic_spring; })),
+      stiffens_(stiffen(problem.model(), p)),
       base_(wide_.problem().size()),
       residual_(base_.size()),
       response_(wide_.problem().harmonics().size()),
@@ -112,8 +122,13 @@ bool Truncation::resonance_left_out(const continuation::Accepted& now) {
   std::vector<double> motions;
   for (std::size_t e = 0; e < wide_.at().element_count(); ++e) {
     const auto& h = wide_.problem().harmonics();
-    const Vector& motion = wide_.at().element_motion(e);
-    motions.push_back(elements::series_bound(h, motion, 0) + (h.odd ? 0 : std::abs(motion[0])));
+    const int directions = problem_.model().elements[e].law->directions();
+    double largest = 0;
+    for (int i = 0; i < directions; ++i) {
+      const auto motion = wide_.at().element_motion(e).segment(i * h.size(), h.size());
+      largest = std::max(largest, elements::series_bound(h, motion, 0) + (h.odd ? 0 : std::abs(motion[0])));
+    }
+    motions.push_back(largest);
   }
   return reach < highest_natural_frequency(problem_.model(), now.p, motions);
 }
@@ -171,10 +186,10 @@ std::optional<Truncation::Slopes> Truncation::slopes(const continuation::Accepte
 
 // The change at which the slip corner next to the point remains one.
 bool Truncation::to_corner(const continuation::Accepted& now) {
-  std::optional<hbm::SlipCorner> corner;
+  std::optional<hbm::Corner> corner;
   double least = 0;
-  for (hbm::SlipCorner& each : hbm::slip_corners_near(problem_, now.u, now.p, at_corner)) {
-    const auto excess = hbm::slip_excess(problem_, each, now.u, now.p);
+  for (hbm::Corner& each : hbm::corners_near(problem_, now.u, now.p, at_corner)) {
+    const auto excess = hbm::corner_excess(problem_, each, now.u, now.p);
     if (!excess || (corner && !(std::abs(*excess) < least))) continue;
     corner = each;
     least = std::abs(*excess);
@@ -183,8 +198,8 @@ bool Truncation::to_corner(const continuation::Accepted& now) {
   wide_.embed(now.u, base_);
   WideEquations::Border border;
   border.row.resize(base_.size());
-  hbm::slip_excess_gradient(wide_.problem(), *corner, now.p, border.row);
-  border.parameter = hbm::slip_excess_derivative(wide_.problem(), *corner, base_, now.p, free_);
+  hbm::corner_gradient(wide_.problem(), *corner, base_, now.p, border.row);
+  border.parameter = hbm::corner_derivative(wide_.problem(), *corner, base_, now.p, free_);
   if (!solver_) solver_ = continuation::suitable_solver(wide_.at().jacobian());
   if (!wide_.factorize_kept(border, free_, *solver_)) return false;
   return wide_.solve(*solver_, residual_, border, change_) <= converging;

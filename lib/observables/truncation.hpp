@@ -10,7 +10,7 @@
 //   a value of q       d_q + c t_q + c^2 q''/2 = 0, the root that is next to 0
 //   an extremum        none: dA/ds = 0
 //   a fold             it moves along the branch to where dq/ds is zero again, c = -d_q' / q''
-//   a corner           h = 0 (hbm/slip_corner.hpp) holds for d + c t
+//   a corner           h = 0 (hbm/corner.hpp) holds for d + c t
 //
 // Derivatives by s are differences along t. The estimate is |dA|, not a bound. It is flagged where it may be
 // far too low: N omega is below the highest natural frequency with all elements at their stiffest, so that a

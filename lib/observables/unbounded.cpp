@@ -21,8 +21,11 @@ constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an
 
 }  // namespace
 
-Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::Vector& p,
-                            const continuation::Vector& u) {
+namespace {
+
+// power: of the amplitude, from which on an elastic force bounds the response.
+Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                      const continuation::Vector& u, double power) {
   const auto& model = problem.model();
   const auto evaluator = problem.hbm_evaluator();
   Unboundedness result;
@@ -40,14 +43,15 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
   double amplitude = 0, sliders = 0;
   bool restoring = false;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const auto& w = evaluator->element_motion(e);
-    const double size = w.norm();
-    amplitude = std::max(amplitude, size);
-    if (model.elements[e].law == model::Law::cubic_spring)
-      restoring = restoring || (p[model.elements[e].parameters[0]] != 0 && size > negligible * u.norm());
-    else
-      sliders += 4 / std::numbers::pi * p[model.elements[e].parameters[1]] *
-                 p[model.elements[e].parameters[2]] * size;
+    const auto& element = model.elements[e];
+    for (std::size_t i = 0; i < element.directions.size(); ++i) {
+      const double size =
+          evaluator->element_motion(e).segment(static_cast<Eigen::Index>(i) * h.size(), h.size()).norm();
+      const elements::Traits traits = element.law->traits(element.fields(p), static_cast<int>(i));
+      amplitude = std::max(amplitude, size);
+      restoring = restoring || (traits.far_power >= power && size > negligible * u.norm());
+      sliders += traits.far_work / std::numbers::pi * size;
+    }
   }
   if (model.elements.empty()) amplitude = u.norm();
   continuation::Vector f(u.size());
@@ -80,6 +84,17 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
   return result;
 }
 
+// A response that grows on its branch grows with all elastic forces that grow no faster than it does; the
+// pole of the response without elements is moved by those that grow as fast.
+constexpr double faster = 1.5, as_fast = 1;
+
+}  // namespace
+
+Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                            const continuation::Vector& u) {
+  return balance(problem, p, u, faster);
+}
+
 Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega) {
   const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
   const continuation::Vector p = hbm::parameters_at(problem, omega * (1 + beside));
@@ -87,7 +102,7 @@ Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& mod
   const double off =
       hbm::linear_response(problem, hbm::parameters_at(problem, omega * (1 + further_off))).norm();
   if (!u.allFinite() || !(u.norm() > grows * off)) return {};
-  return unboundedness(problem, p, large * u);
+  return balance(problem, p, large * u, as_fast);
 }
 
 double beyond_pole(const std::vector<std::pair<double, double>>& course, double width) {

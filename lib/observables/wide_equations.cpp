@@ -30,7 +30,7 @@ WideEquations::WideEquations(const hbm::HbmProblem& problem, const elements::Har
       part_(u_.size()),
       kept_part_(problem.size() + 1) {
   for (int j = kept_.sines(); j < wide_.sines(); ++j) orders_.push_back(wide_.sine_order(j));
-  const int side = 2 * problem.coordinates().unknowns;
+  const int side = 2 * problem.blocks();
   block_.resize(side, side);
   harmonic_.resize(side);
   harmonic_residual_.resize(side);
@@ -48,7 +48,7 @@ bool WideEquations::move_to_wide(In wide, In p) {
 
 void WideEquations::factorize(int q) {
   const auto& J = std::get<Eigen::MatrixXd>(evaluator_->jacobian());
-  const int r = narrow_.coordinates().unknowns, c = wide_.size();
+  const int r = narrow_.blocks(), c = wide_.size();
   for (std::size_t k = 0; k < orders_.size(); ++k) {
     const int place[2] = {wide_.cosine_index(orders_[k]), wide_.sine_index(orders_[k])};
     for (int j = 0; j < 2 * r; ++j)
@@ -60,7 +60,7 @@ void WideEquations::factorize(int q) {
 
 bool WideEquations::factorize_kept(const Border& border, int q, continuation::LinearSolver& solver) const {
   const auto& J = std::get<Eigen::MatrixXd>(evaluator_->jacobian());
-  const int n = narrow_.size(), r = narrow_.coordinates().unknowns, c = wide_.size();
+  const int n = narrow_.size(), r = narrow_.blocks(), c = wide_.size();
   std::vector<int> place;
   for (int i = 0; i < r; ++i) {
     for (int k = 0; k < kept_.cosines(); ++k) place.push_back(i * c + k);
@@ -82,7 +82,7 @@ bool WideEquations::factorize_kept(const Border& border, int q, continuation::Li
 
 double WideEquations::solve(const continuation::LinearSolver& kept, const Vector& r, const Border& border,
                             Change& change, double enough) {
-  const int unknowns = narrow_.coordinates().unknowns, c = wide_.size(), n = narrow_.size();
+  const int unknowns = narrow_.blocks(), c = wide_.size(), n = narrow_.size();
   change.u.setZero(u_.size());
   change.parameter = 0;
   rest_ = r;  // the equations' residual at the change so far
@@ -132,7 +132,7 @@ void WideEquations::apply(const Change& change, int q, Vector& y) const {
 
 void WideEquations::embed(In u, Vector& wide) const {
   wide.setZero(problem_.size());
-  const int unknowns = narrow_.coordinates().unknowns;
+  const int unknowns = narrow_.blocks();
   for (int i = 0; i < unknowns; ++i) {
     const auto from = u.segment(i * kept_.size(), kept_.size());
     auto to = wide.segment(i * wide_.size(), wide_.size());
@@ -142,7 +142,7 @@ void WideEquations::embed(In u, Vector& wide) const {
 }
 
 void WideEquations::take_kept(Vector& wide, Out kept) const {
-  const int unknowns = narrow_.coordinates().unknowns;
+  const int unknowns = narrow_.blocks();
   for (int i = 0; i < unknowns; ++i) {
     auto from = wide.segment(i * wide_.size(), wide_.size());
     auto to = kept.segment(i * kept_.size(), kept_.size());

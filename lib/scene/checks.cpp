@@ -12,8 +12,11 @@ bool any_value(const std::vector<Part>& parts) {
 // Marks the degrees of freedom on which parts act. A value of zero does nothing; an element counts as it is.
 void mark(const std::vector<Part>& parts, bool even_zero, std::vector<bool>& acted_on) {
   for (const Part& part : parts) {
-    for (const Term& term : part.direction) {
-      if (even_zero || part.values.front() != 0) {
+    if (!even_zero && part.values.front() == 0) {
+      continue;
+    }
+    for (const Direction& direction : part.directions) {
+      for (const Term& term : direction) {
         acted_on[static_cast<std::size_t>(term.dof)] = true;
       }
     }

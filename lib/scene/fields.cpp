@@ -1,7 +1,8 @@
-// The tables of what each part of a scene holds: the one place of names, units, bounds and defaults.
+// What masses, springs, dampers and forces hold: names, units, bounds and defaults. Those of the elements
+// stand with their laws.
+#include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 
-#include <array>
 #include <numbers>
 
 namespace arcslip::scene {
@@ -32,44 +33,41 @@ constexpr Field force_fields[] = {
      .default_value = 0.0,
      .help = "amplitude of the force along sin(harmonic w t)"},
 };
-constexpr Field jenkins_fields[] = {
-    {.name = "stiffness",
-     .unit = "N/m",
-     .lower = 0,
-     .upper = infinity,
-     .lower_open = true,
-     .help = "tangential stiffness of the contact in stick"},
-    {.name = "friction_coefficient",
-     .unit = "-",
-     .lower = 0,
-     .upper = infinity,
-     .help = "Coulomb friction coefficient"},
-    {.name = "normal_load",
-     .unit = "N",
-     .lower = 0,
-     .upper = infinity,
-     .help = "normal load; the slip limit is friction_coefficient * normal_load"},
-};
-constexpr Field cubic_spring_fields[] = {
-    {.name = "stiffness",
-     .unit = "N/m^3",
-     .lower = -infinity,
-     .upper = infinity,
-     .help = "force = stiffness * displacement^3"},
+class Section final : public PartType {
+ public:
+  constexpr Section(std::string_view name, std::span<const Field> fields) : name_(name), fields_(fields) {}
+  std::string_view name() const override { return name_; }
+  std::span<const Field> fields(const Settings&) const override { return fields_; }
+
+ private:
+  std::string_view name_;
+  std::span<const Field> fields_;
 };
 
 }  // namespace
 
-constinit const PartType mass_type{"mass", mass_fields};
-constinit const PartType spring_type{"spring", spring_fields};
-constinit const PartType damper_type{"damper", damper_fields};
-constinit const PartType force_type{"force", force_fields};
-constinit const PartType jenkins_type{"jenkins", jenkins_fields};
-constinit const PartType cubic_spring_type{"cubic_spring", cubic_spring_fields};
+const PartType& mass_type() {
+  static const Section type("mass", mass_fields);
+  return type;
+}
 
-std::span<const PartType* const> element_types() {
-  static constexpr std::array<const PartType*, 2> types = {&jenkins_type, &cubic_spring_type};
-  return types;
+const PartType& spring_type() {
+  static const Section type("spring", spring_fields);
+  return type;
+}
+
+const PartType& damper_type() {
+  static const Section type("damper", damper_fields);
+  return type;
+}
+
+const PartType& force_type() {
+  static const Section type("force", force_fields);
+  return type;
+}
+
+std::span<const Field> Part::fields() const {
+  return type->fields(options);
 }
 
 double to_rad_per_s(FrequencyUnit unit) {

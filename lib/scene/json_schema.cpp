@@ -89,32 +89,6 @@ Node one_place() {
   return {std::move(choices)};
 }
 
-Node part_of(const PartType& type, bool with_type) {
-  Object properties{{"name", of_type("string")}};
-  std::vector<std::string> required{"name"};
-  if (with_type) {
-    properties.push_back({"type", of({{"const", node(type.name)}})});
-    required.emplace_back("type");
-  }
-  add_place(properties);
-  if (&type == &force_type) {
-    properties.push_back({"harmonic", of({{"type", node("integer")},
-                                          {"minimum", node(1)},
-                                          {"maximum", node(largest_order)},
-                                          {"default", node(Part{}.harmonic)},
-                                          {"description", node("of the force")}})});
-  }
-  for (const Field& field : type.fields) {
-    properties.push_back({std::string(field.name), number_of(field)});
-    if (!field.default_value) {
-      required.emplace_back(field.name);
-    }
-  }
-  Object object = object_of(std::move(properties), required);
-  object.push_back({"oneOf", one_place()});
-  return of(std::move(object));
-}
-
 template <class Words, class Choice>
 Node one_of_words(const Words& words, Choice otherwise) {
   return of({{"enum", node(texts(words))}, {"default", node(word_of(words, otherwise))}});
@@ -152,6 +126,70 @@ Object schema_of_key(const Key& key) {
   return std::get<Object>(read_tree(key.schema.empty() ? std::string("{}") : key.schema).value);
 }
 
+Node place_object() {
+  Object place;
+  add_place(place);
+  Object object = object_of(std::move(place), {});
+  object.push_back({"oneOf", one_place()});
+  return of(std::move(object));
+}
+
+/// A key with its meaning and default.
+Node described_key(const Key& key) {
+  Object value = schema_of_key(key);
+  const std::string unit = key.unit == "frequency"   ? "the scene's unit"
+                           : key.unit == "parameter" ? "the parameter's unit"
+                                                     : key.unit;
+  value.push_back({"description", node(with_unit(key.help, unit))});
+  if (!key.otherwise.empty()) {
+    value.push_back({"default", read_tree(key.otherwise)});
+  }
+  return of(std::move(value));
+}
+
+Node part_of(const PartType& type, bool with_type) {
+  Object properties{{"name", of_type("string")}};
+  std::vector<std::string> required{"name"};
+  if (with_type) {
+    properties.push_back({"type", of({{"const", node(type.name())}})});
+    required.emplace_back("type");
+  }
+  if (type.slots().empty()) {
+    add_place(properties);
+  }
+  for (const std::string_view slot : type.slots()) {
+    properties.push_back({std::string(slot), place_object()});
+    required.emplace_back(slot);
+  }
+  for (const Key& option : type.options()) {
+    properties.push_back({option.name, described_key(option)});
+    if (option.required) {
+      required.push_back(option.name);
+    }
+  }
+  if (&type == &force_type()) {
+    properties.push_back({"harmonic", of({{"type", node("integer")},
+                                          {"minimum", node(1)},
+                                          {"maximum", node(largest_order)},
+                                          {"default", node(Part{}.harmonic)},
+                                          {"description", node("of the force")}})});
+  }
+  for (const Field& field : type.fields({})) {
+    properties.push_back({std::string(field.name), number_of(field)});
+    if (!field.default_value) {
+      required.emplace_back(field.name);
+    }
+  }
+  Object object = object_of(std::move(properties), required);
+  if (!type.options().empty()) {
+    object.back().value = of_type("number");  // fields that the options bring
+  }
+  if (type.slots().empty()) {
+    object.push_back({"oneOf", one_place()});
+  }
+  return of(std::move(object));
+}
+
 Node study_of(const StudyType& type) {
   Object properties{
       {"name", of({{"type", node("string")}, {"minLength", node(1)}, {"maxLength", node(100)}})},
@@ -159,15 +197,7 @@ Node study_of(const StudyType& type) {
   std::vector<std::string> required{"kind"};
   Object needs;  // keys that stand together or not at all
   for (const Key& key : type.keys()) {
-    Object value = schema_of_key(key);
-    const std::string unit = key.unit == "frequency"   ? "the scene's unit"
-                             : key.unit == "parameter" ? "the parameter's unit"
-                                                       : key.unit;
-    value.push_back({"description", node(with_unit(key.help, unit))});
-    if (!key.otherwise.empty()) {
-      value.push_back({"default", read_tree(key.otherwise)});
-    }
-    properties.push_back({key.name, of(std::move(value))});
+    properties.push_back({key.name, described_key(key)});
     if (key.required) {
       required.push_back(key.name);
     } else if (const std::vector<std::string> beside = keys_beside(key.type); !beside.empty()) {
@@ -188,20 +218,16 @@ Node study_of(const StudyType& type) {
 
 Node schema_of(const Catalogue& catalogue) {
   Object structure{{"dofs", list_of(of_type("string"), 1)},
-                   {"masses", list_of(part_of(mass_type, false))},
-                   {"springs", list_of(part_of(spring_type, false))},
-                   {"dampers", list_of(part_of(damper_type, false))}};
+                   {"masses", list_of(part_of(mass_type(), false))},
+                   {"springs", list_of(part_of(spring_type(), false))},
+                   {"dampers", list_of(part_of(damper_type(), false))}};
   Node::List elements, studies;
-  for (const PartType* type : element_types()) {
+  for (const PartType* type : catalogue.elements) {
     elements.push_back(part_of(*type, true));
   }
   for (const StudyType* type : catalogue.studies) {
     studies.push_back(study_of(*type));
   }
-  Object place;
-  add_place(place);
-  Object response = object_of(std::move(place), {});
-  response.push_back({"oneOf", one_place()});
   Object samples{{"type", node("integer")}, {"default", node(Harmonics{}.samples)}};
   add_bounds(1, false, largest_samples, samples);
   Object order{{"type", node("integer")}, {"default", node(Harmonics{}.order)}};
@@ -213,13 +239,13 @@ Node schema_of(const Catalogue& catalogue) {
        {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
        {"structure", of(object_of(std::move(structure), {"dofs"}))},
        {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
-       {"excitation", list_of(part_of(force_type, false), 1)},
+       {"excitation", list_of(part_of(force_type(), false), 1)},
        {"ties", map_of(list_of(of_type("string"), 1))},
        {"harmonics", of(object_of({{"order", of(std::move(order))},
                                    {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
                                    {"samples", of(std::move(samples))}},
                                   {}))},
-       {"response", of(std::move(response))},
+       {"response", place_object()},
        {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
       {"format", "structure", "excitation"});
   Object schema{{"$schema", node("https://json-schema.org/draft/2020-12/schema")},

@@ -31,9 +31,13 @@ Slot<Value> find_slot(AnyScene& scene, std::string_view name) {
   }
   for (auto* section : sections(scene)) {
     for (auto& part : *section) {
-      for (std::size_t i = 0; part.name == name.substr(0, dot) && i < part.type->fields.size(); ++i) {
-        if (part.type->fields[i].name == name.substr(dot + 1)) {
-          return {&part.type->fields[i], &part.values[i]};
+      if (part.name != name.substr(0, dot)) {
+        continue;
+      }
+      const std::span<const Field> fields = part.fields();
+      for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (fields[i].name == name.substr(dot + 1)) {
+          return {&fields[i], &part.values[i]};
         }
       }
     }
@@ -75,7 +79,7 @@ std::vector<std::string> parameter_names(const Scene& scene) {
   }
   for (const auto* section : sections(scene)) {
     for (const Part& part : *section) {
-      for (const Field& field : part.type->fields) {
+      for (const Field& field : part.fields()) {
         names.push_back(part.name + '.' + std::string(field.name));
       }
     }

@@ -1,6 +1,8 @@
 #include <arcslip/scene/read_parts.hpp>
 
+#include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/read_studies.hpp>
+#include <arcslip/scene/study_keys.hpp>
 #include <arcslip/scene/words.hpp>
 
 #include <algorithm>
@@ -31,10 +33,10 @@ std::string objection(const std::string& name) {
   return {};
 }
 
-const PartType* read_type(const Keys& keys, Faults& faults) {
+const PartType* read_type(const Keys& keys, std::span<const PartType* const> types, Faults& faults) {
   std::vector<std::string> known;
-  for (const PartType* type : element_types()) {
-    known.emplace_back(type->name);
+  for (const PartType* type : types) {
+    known.emplace_back(type->name());
   }
   const std::string wanted = "one of " + listed(known);
   const Place place = keys.require("type", wanted, faults);
@@ -42,8 +44,8 @@ const PartType* read_type(const Keys& keys, Faults& faults) {
   if (!text) {
     return nullptr;
   }
-  for (const PartType* type : element_types()) {
-    if (type->name == *text) {
+  for (const PartType* type : types) {
+    if (type->name() == *text) {
       return type;
     }
   }
@@ -52,32 +54,75 @@ const PartType* read_type(const Keys& keys, Faults& faults) {
 }
 
 // The keys of a part. An element whose type is not known may have any.
-std::vector<std::string> keys_of(const PartType* type, bool is_element) {
-  if (type == nullptr) {
+std::vector<std::string> keys_of(const Part& part, bool is_element) {
+  if (part.type == nullptr) {
     return {};
   }
-  std::vector<std::string> keys = {"name", "at", "between", "direction"};
+  std::vector<std::string> keys = {"name"};
   if (is_element) {
-    keys.insert(keys.begin() + 1, "type");
+    keys.emplace_back("type");
   }
-  if (type == &force_type) {
+  const auto slots = part.type->slots();
+  for (const std::string_view slot : slots) {
+    keys.emplace_back(slot);
+  }
+  if (slots.empty()) {
+    keys.insert(keys.end(), {"at", "between", "direction"});
+  }
+  for (const Key& option : part.type->options()) {
+    keys.push_back(option.name);
+  }
+  if (part.type == &force_type()) {
     keys.emplace_back("harmonic");
   }
-  for (const Field& field : type->fields) {
+  for (const Field& field : part.fields()) {
     keys.emplace_back(field.name);
   }
   return keys;
 }
 
-Part read_part(const Place& place, const PartType* section_type, const Dofs& dofs, Names& names,
-               Faults& faults) {
+Settings read_options(const PartType& type, const Place& place, const Dofs& dofs, Faults& faults) {
+  if (type.options().empty()) {
+    return {};
+  }
+  Faults others;  // told with the keys of the part, which these options decide
+  const Names none;
+  return type.read_options({Keys(place, {}, others), any_number, Parameters({}, true, none), dofs, faults});
+}
+
+std::vector<Direction> read_directions(const PartType& type, const Keys& keys, const Dofs& dofs,
+                                       Faults& faults) {
+  if (type.slots().empty()) {
+    const auto direction = read_direction(keys, dofs, faults);
+    return std::vector<Direction>(direction ? 1 : 0, direction.value_or(Direction{}));
+  }
+  std::vector<Direction> directions;
+  for (const std::string_view slot : type.slots()) {
+    const Place place =
+        keys.require(slot, "an object with one of \"at\", \"between\", \"direction\"", faults);
+    if (place.node == nullptr) {
+      continue;
+    }
+    const Keys within(place, {"at", "between", "direction"}, faults);
+    if (const auto direction = read_direction(within, dofs, faults)) {
+      directions.push_back(*direction);
+    }
+  }
+  return directions;
+}
+
+Part read_part(const Place& place, const PartType* section_type, std::span<const PartType* const> types,
+               const Dofs& dofs, Names& names, Faults& faults) {
   Part part;
   part.type = section_type;
   if (section_type == nullptr && place.node->get<Node::Object>() != nullptr) {
     Faults duplicates;  // told below, once the type tells which keys are allowed
-    part.type = read_type(Keys(place, {}, duplicates), faults);
+    part.type = read_type(Keys(place, {}, duplicates), types, faults);
   }
-  const Keys keys(place, keys_of(part.type, section_type == nullptr), faults);
+  if (part.type != nullptr) {
+    part.options = read_options(*part.type, place, dofs, faults);
+  }
+  const Keys keys(place, keys_of(part, section_type == nullptr), faults);
   if (!keys.is_object()) {
     names.set_incomplete();
     return part;
@@ -86,20 +131,23 @@ Part read_part(const Place& place, const PartType* section_type, const Dofs& dof
   const auto text = read_string(name, "a string, the name of the part", faults);
   if (text && names.add(*text, name.pointer, faults)) {
     part.name = *text;
-    names.set_type(part.name, part.type);
+    if (part.type != nullptr) {
+      names.set_fields(part.name, part.fields());
+    } else {
+      names.set_unknown(part.name);
+    }
   } else if (!text || !objection(*text).empty()) {
     names.set_incomplete();
   }
-  if (const auto direction = read_direction(keys, dofs, faults)) {
-    part.direction = *direction;
-  }
   if (part.type == nullptr) {
+    read_direction(keys, dofs, faults);
     return part;
   }
-  if (part.type == &force_type) {
+  part.directions = read_directions(*part.type, keys, dofs, faults);
+  if (part.type == &force_type()) {
     part.harmonic = read_integer(keys.find("harmonic"), 1, largest_order, faults).value_or(part.harmonic);
   }
-  for (const Field& field : part.type->fields) {
+  for (const Field& field : part.fields()) {
     const Place value =
         field.default_value ? keys.find(field.name) : keys.require(field.name, allowed_text(field), faults);
     part.values.push_back(read_number(value, field, faults).value_or(field.default_value.value_or(0)));
@@ -123,15 +171,15 @@ bool Names::add(const std::string& name, const std::string& pointer, Faults& fau
 }
 
 bool Names::may_exist(std::string_view parameter) const {
-  const auto part = types_.find(parameter.substr(0, parameter.find('.')));
-  return part == types_.end() ? !complete_ : part->second == nullptr;
+  const auto part = parts_.find(parameter.substr(0, parameter.find('.')));
+  return part == parts_.end() ? !complete_ : !part->second;
 }
 
 const Field* Names::field(std::string_view parameter, const std::string& pointer, Faults& faults) const {
   const std::size_t dot = parameter.find('.');
-  const auto part = types_.find(parameter.substr(0, dot));
-  if (dot != std::string_view::npos && part != types_.end() && part->second != nullptr) {
-    for (const Field& field : part->second->fields) {
+  const auto part = parts_.find(parameter.substr(0, dot));
+  if (dot != std::string_view::npos && part != parts_.end() && part->second) {
+    for (const Field& field : *part->second) {
       if (field.name == parameter.substr(dot + 1)) {
         return &field;
       }
@@ -146,22 +194,26 @@ const Field* Names::field(std::string_view parameter, const std::string& pointer
   return nullptr;
 }
 
-void Names::set_type(const std::string& part, const PartType* type) {
-  types_.emplace(part, type);
-  for (std::size_t i = 0; type != nullptr && i < type->fields.size(); ++i) {
-    fields_.push_back(part + '.' + std::string(type->fields[i].name));
+void Names::set_fields(const std::string& part, std::span<const Field> fields) {
+  parts_.emplace(part, fields);
+  for (const Field& field : fields) {
+    fields_.push_back(part + '.' + std::string(field.name));
   }
 }
 
-std::vector<Part> read_parts(const Place& place, const PartType* type, const Dofs& dofs, Names& names,
-                             Faults& faults) {
+void Names::set_unknown(const std::string& part) {
+  parts_.emplace(part, std::nullopt);
+}
+
+std::vector<Part> read_parts(const Place& place, const PartType* type, std::span<const PartType* const> types,
+                             const Dofs& dofs, Names& names, Faults& faults) {
   std::vector<Part> parts;
   const Node::List* list = read_list(place, "a list of objects", faults);
   if (place.node != nullptr && list == nullptr) {
     names.set_incomplete();
   }
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    parts.push_back(read_part({&(*list)[i], child(place.pointer, i)}, type, dofs, names, faults));
+    parts.push_back(read_part({&(*list)[i], child(place.pointer, i)}, type, types, dofs, names, faults));
   }
   return parts;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -21,14 +22,15 @@ struct Dofs {
   bool complete = true;
 };
 
-/// The names of parts and ties, which share one namespace, and what is known of the parts' types. What
+/// The names of parts and ties, which share one namespace, and what is known of the parts' fields. What
 /// follows from a fault that is already told (a part without a type, a part without a name) is not told
 /// again.
 class Names {
  public:
   /// Tells a fault where the name is not allowed or taken.
   bool add(const std::string& name, const std::string& pointer, Faults& faults);
-  void set_type(const std::string& part, const PartType* type);
+  void set_fields(const std::string& part, std::span<const Field> fields);
+  void set_unknown(const std::string& part);  // what fields it has
   void set_incomplete() { complete_ = false; }
 
   /// The field of "part.field" or, with a hint among all such names, a fault. Nothing without a fault where
@@ -40,8 +42,8 @@ class Names {
   const std::vector<std::string>& fields() const { return fields_; }
 
  private:
-  std::unordered_map<std::string, std::string> pointers_;      // of the first use of a name
-  std::map<std::string, const PartType*, std::less<>> types_;  // null: a type that is not known
+  std::unordered_map<std::string, std::string> pointers_;  // of the first use of a name
+  std::map<std::string, std::optional<std::span<const Field>>, std::less<>> parts_;  // none: not known
   std::vector<std::string> fields_;
   bool complete_ = true;
 };
@@ -49,8 +51,8 @@ class Names {
 Dofs read_dofs(const Place& place, Faults& faults);
 /// The direction of an object that holds one of "at", "between" and "direction".
 std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults);
-/// A section with parts of one type, or of any element type where `type` is null.
-std::vector<Part> read_parts(const Place& place, const PartType* type, const Dofs& dofs, Names& names,
-                             Faults& faults);
+/// A section with parts of one type or, where `type` is null, of any of `types`.
+std::vector<Part> read_parts(const Place& place, const PartType* type, std::span<const PartType* const> types,
+                             const Dofs& dofs, Names& names, Faults& faults);
 
 }  // namespace arcslip::scene::file

@@ -55,7 +55,7 @@ Direction read_response(const Place& place, const Dofs& dofs, Faults& faults) {
 std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, Names& names, Faults& faults) {
   constexpr const char* wanted = "a list of at least one force";
   const Place place = root.require("excitation", wanted, faults);
-  std::vector<Part> forces = read_parts(place, &force_type, dofs, names, faults);
+  std::vector<Part> forces = read_parts(place, &force_type(), {}, dofs, names, faults);
   if (place.node != nullptr && place.node->get<Node::List>() != nullptr && forces.empty()) {
     faults.add(place.pointer, std::string("found an empty list, must be ") + wanted);
   }
@@ -88,10 +88,10 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, Faults& faults) {
   }
   const Dofs dofs = read_dofs(structure.require("dofs", "a list of at least one name", faults), faults);
   scene.dofs = dofs.names;
-  scene.masses = read_parts(structure.find("masses"), &mass_type, dofs, names, faults);
-  scene.springs = read_parts(structure.find("springs"), &spring_type, dofs, names, faults);
-  scene.dampers = read_parts(structure.find("dampers"), &damper_type, dofs, names, faults);
-  scene.elements = read_parts(root.find("elements"), nullptr, dofs, names, faults);
+  scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, names, faults);
+  scene.springs = read_parts(structure.find("springs"), &spring_type(), {}, dofs, names, faults);
+  scene.dampers = read_parts(structure.find("dampers"), &damper_type(), {}, dofs, names, faults);
+  scene.elements = read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, names, faults);
   if (is_sound(before_parts)) {
     check_structure(scene, faults);
   }
@@ -129,9 +129,14 @@ Scene read_scene(const Node& root, const Catalogue& catalogue) {
   return scene;
 }
 
-// The kinds of the scene's own studies.
+// What the scene itself has.
 Catalogue catalogue_of(const Scene& scene) {
   Catalogue catalogue;
+  for (const Part& part : scene.elements) {
+    if (catalogue.element(part.type->name()) == nullptr) {
+      catalogue.elements.push_back(part.type);
+    }
+  }
   for (const Study& study : scene.studies) {
     if (catalogue.study(study.type->name()) == nullptr) {
       catalogue.studies.push_back(study.type);
@@ -157,6 +162,21 @@ Scene read_file(const std::string& path, const Catalogue& catalogue, const StopR
 
 void check(const Scene& scene) {
   file::Faults faults;
+  for (std::size_t i = 0; i < scene.elements.size(); ++i) {
+    const Part& part = scene.elements[i];
+    if (part.type == nullptr) {
+      faults.add(file::child("/elements", i), "found no type, must be a law of force");
+    } else if (part.directions.size() != part.type->direction_count()) {
+      faults.add(file::child("/elements", i), "found " + std::to_string(part.directions.size()) +
+                                                  " directions, must be " +
+                                                  std::to_string(part.type->direction_count()) +
+                                                  " for the type " + file::shown(part.type->name()));
+    } else if (part.values.size() != part.fields().size()) {
+      faults.add(file::child("/elements", i), "found " + std::to_string(part.values.size()) +
+                                                  " values, must be " + std::to_string(part.fields().size()) +
+                                                  " for the type " + file::shown(part.type->name()));
+    }
+  }
   for (std::size_t i = 0; i < scene.studies.size(); ++i) {
     if (scene.studies[i].type == nullptr) {
       faults.add(file::child("/studies", i), "found no kind, must be a study of some kind");

@@ -1,6 +1,7 @@
 #pragma once
 // A scene: what a user wrote, checked and resolved, as plain data in the user's own units.
 
+#include <arcslip/scene/field.hpp>
 #include <arcslip/scene/settings.hpp>
 
 #include <cstddef>
@@ -16,27 +17,12 @@
 
 namespace arcslip::scene {
 
+class PartType;   // part_type.hpp
 class StudyType;  // study_type.hpp
 struct Catalogue;
 
 enum class FrequencyUnit { hertz, radian_per_second };
 enum class Friction { exact, sampled };
-/// One scalar of a part. It is a parameter of the scene under the name "part.field".
-struct Field {
-  std::string_view name;
-  std::string_view unit;                  // SI, "-" for a pure number
-  double lower, upper;                    // closed bounds
-  bool lower_open = false;                // true: the lower bound itself is not allowed
-  std::optional<double> default_value{};  // none: the field is required
-  std::string_view help{};
-};
-
-/// What a section of the scene may hold: a type's name and its scalar fields, in the order of Part::values.
-struct PartType {
-  std::string_view name;
-  std::span<const Field> fields;
-};
-
 /// The direction in which a part acts on the degrees of freedom: sum of weight * x_dof. Ground has no term.
 struct Term {
   int dof;
@@ -45,13 +31,16 @@ struct Term {
 };
 using Direction = std::vector<Term>;
 
-/// A mass, spring, damper, element or force: a type, a direction, and one value for each field of the type.
+/// A mass, spring, damper, element or force: a type, its directions, and one value for each of its fields.
 struct Part {
   std::string name;
   const PartType* type = nullptr;
-  Direction direction;
+  std::vector<Direction> directions;  // as the type's slots; one where it has none
   std::vector<double> values;
-  int harmonic = 1;  // excitation only: order of the harmonic of the force
+  int harmonic = 1;    // excitation only: order of the harmonic of the force
+  Settings options{};  // of the type; empty: its defaults
+
+  std::span<const Field> fields() const;
   friend bool operator==(const Part&, const Part&) = default;
 };
 
@@ -94,13 +83,11 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-extern const PartType mass_type, spring_type, damper_type,
-    force_type;                           // fields: value; value; value; cosine, sine
-extern const PartType jenkins_type;       // stiffness, friction_coefficient, normal_load
-extern const PartType cubic_spring_type;  // stiffness (N/m^3)
-
-/// Every type that the section "elements" knows.
-std::span<const PartType* const> element_types();
+/// What the other sections hold. Fields: value; value; value; cosine, sine.
+const PartType& mass_type();
+const PartType& spring_type();
+const PartType& damper_type();
+const PartType& force_type();
 
 /// One fault of a scene file.
 struct Fault {
@@ -135,7 +122,7 @@ inline constexpr int largest_samples = 1'000'000;       // per period
 inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 
-/// Reads format "arcslip-scene-1". catalogue: the kinds of studies that it may hold, as
+/// Reads format "arcslip-scene-1". catalogue: the laws of force and the kinds of studies that it may hold, as
 /// studies::catalogue(). Throws SceneError with every fault found.
 Scene read(std::istream& in, const Catalogue& catalogue);
 /// The same from a file. Throws FileError where the file cannot be read.

@@ -1,61 +1,19 @@
 #pragma once
 // A kind of study: what its settings are called in a scene file, and what it computes. Kinds stand in a
-// Catalogue, which whoever reads a scene passes; the reader, the writer and the command know none by name.
+// Catalogue, as laws of force do, which whoever reads a scene passes; the reader, the writer and the command
+// know none by name.
 
 #include <arcslip/results/figure.hpp>
 #include <arcslip/results/progress.hpp>
 #include <arcslip/results/result.hpp>
-#include <arcslip/scene/json_tree.hpp>
-#include <arcslip/scene/settings.hpp>
+#include <arcslip/scene/part_type.hpp>
+#include <arcslip/scene/scene.hpp>
 
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace arcslip::scene {
-
-struct Scene;
-struct Study;
-
-namespace file {
-struct Reading;
-}
-
-/// What the value of a key is.
-enum class KeyType {
-  number,
-  whole,
-  text,
-  word,        // one of a few
-  frequency,   // in the scene's unit
-  window,      // [lower, upper] of frequencies
-  parameter,   // the name of one
-  value,       // of the parameter that the key "over" names
-  parameters,  // a list of names
-  followed,    // the name of a parameter over a range
-  other        // lists and objects
-};
-
-/// The keys beside one of this type without which it says nothing: "bounds", pairs [lower, upper] of parameters;
-/// "from" and "to" of one that is followed.
-std::vector<std::string> keys_beside(KeyType type);
-
-/// One key of a study, as a scene file, an option of a command, a page of documentation and a JSON Schema
-/// have it.
-struct Key {
-  std::string name;
-  KeyType type = KeyType::other;
-  std::string unit;     // "s", "-"; "frequency", "parameter": that of the scene's frequencies, of a parameter
-  std::string allowed;  // "an integer from 1 to 10000000"
-  std::string otherwise;  // the default, as JSON; "": the key is required, or what it says is not there
-  bool required = false;
-  std::string help;
-  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
-  bool lower_open = false;           // of numbers: the lower bound itself is not allowed
-  std::vector<std::string> words{};  // of KeyType::word
-  std::string schema{};              // of KeyType::other: the JSON Schema of its value
-};
 
 /// A parameter to which a study itself gives values, and how: `which the study is "over"`.
 struct Taken {
@@ -101,11 +59,14 @@ class StudyType {
                                                results::Sink& sink) const = 0;
 };
 
-/// The kinds of studies that a reader knows. They outlive every scene.
+/// What a reader knows: the laws of force of the section "elements", and the kinds of studies. They outlive
+/// every scene.
 struct Catalogue {
+  std::vector<const PartType*> elements;
   std::vector<const StudyType*> studies;
 
-  /// The kind of that name, or null.
+  /// The law or the kind of that name, or null.
+  const PartType* element(std::string_view name) const;
   const StudyType* study(std::string_view name) const;
 };
 

@@ -1,5 +1,6 @@
 // A scene as the tree of its file, with every default.
 #include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/words.hpp>
@@ -64,20 +65,28 @@ std::string json_text(const Node& value) {
 
 namespace {
 
-Node parts_node(const std::vector<Part>& parts, const std::vector<std::string>& dofs,
-                bool with_type = false) {
+Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_type = false) {
+  const std::vector<std::string>& dofs = scene.dofs;
   Node::List list;
   for (const Part& part : parts) {
     Node::Object object = {{"name", node(part.name)}};
     if (with_type) {
-      object.push_back({"type", node(part.type->name)});
+      object.push_back({"type", node(part.type->name())});
     }
-    object.push_back(place_member(part.direction, dofs));
-    if (part.type == &force_type) {
+    const auto slots = part.type->slots();
+    if (slots.empty()) {
+      object.push_back(place_member(part.directions.front(), dofs));
+    }
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      object.push_back({std::string(slots[i]), {Node::Object{place_member(part.directions[i], dofs)}}});
+    }
+    part.type->write_options(part.options, scene, object);
+    if (part.type == &force_type()) {
       object.push_back({"harmonic", node(part.harmonic)});
     }
-    for (std::size_t i = 0; i < part.type->fields.size(); ++i) {
-      object.push_back({std::string(part.type->fields[i].name), node(part.values[i])});
+    const std::span<const Field> fields = part.fields();
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      object.push_back({std::string(fields[i].name), node(part.values[i])});
     }
     list.push_back({std::move(object)});
   }
@@ -121,15 +130,15 @@ Node studies_node(const Scene& scene) {
 
 Node tree(const Scene& scene) {
   const Node structure{Node::Object{{"dofs", node(scene.dofs)},
-                                    {"masses", parts_node(scene.masses, scene.dofs)},
-                                    {"springs", parts_node(scene.springs, scene.dofs)},
-                                    {"dampers", parts_node(scene.dampers, scene.dofs)}}};
+                                    {"masses", parts_node(scene.masses, scene)},
+                                    {"springs", parts_node(scene.springs, scene)},
+                                    {"dampers", parts_node(scene.dampers, scene)}}};
   return {Node::Object{{"format", node(format_name)},
                        {"title", node(scene.title)},
                        {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))},
                        {"structure", structure},
-                       {"elements", parts_node(scene.elements, scene.dofs, true)},
-                       {"excitation", parts_node(scene.excitation, scene.dofs)},
+                       {"elements", parts_node(scene.elements, scene, true)},
+                       {"excitation", parts_node(scene.excitation, scene)},
                        {"ties", ties_node(scene.ties)},
                        {"harmonics", harmonics_node(scene.harmonics)},
                        {"response", {Node::Object{place_member(scene.response, scene.dofs)}}},

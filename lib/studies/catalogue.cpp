@@ -1,5 +1,6 @@
 #include <arcslip/studies/catalogue.hpp>
 
+#include <arcslip/elements/law.hpp>
 #include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace arcslip::studies {
 
 scene::Catalogue catalogue() {
-  return {{&frf(), &trace(), &peaks(), &folds(), &time(), &point()}};
+  return {elements::laws(), {&frf(), &trace(), &peaks(), &folds(), &time(), &point()}};
 }
 
 void run(const scene::Scene& scene, const scene::RunOptions& options, results::Sink& sink) {

@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of studies of responses, and running them: from a scene to its results.
+// The laws of force and the kinds of studies of responses, and running them: from a scene to its results.
 //
 //   const auto scene = scene::read_file("scene.json", studies::catalogue());
 //   results::write_json(out, studies::run(scene));

@@ -94,10 +94,10 @@ void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<
 }
 
 void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown) {
-  const auto is_friction = [](const scene::Part& element) { return element.type == &scene::jenkins_type; };
-  const bool one = std::count_if(scene.elements.begin(), scene.elements.end(), is_friction) == 1;
+  using observables::is_friction_part;
+  const bool one = std::count_if(scene.elements.begin(), scene.elements.end(), is_friction_part) == 1;
   for (const scene::Part& element : scene.elements)
-    if (is_friction(element))
+    if (is_friction_part(element))
       shown.push_back({(one ? "" : element.name + " ") + "stick (%)",
                        {"elements", element.name, "stick_percent"},
                        "%.4f"});

@@ -1,5 +1,6 @@
 #include <arcslip/studies/figures.hpp>
 
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/units.hpp>
 
@@ -211,7 +212,7 @@ constexpr std::size_t most_instants = 20'000;
 std::vector<std::size_t> friction_of(const scene::Scene& scene) {
   std::vector<std::size_t> indices;
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-    if (scene.elements[e].type == &scene::jenkins_type) {
+    if (observables::is_friction_part(scene.elements[e])) {
       indices.push_back(e);
     }
   }

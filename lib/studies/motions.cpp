@@ -1,5 +1,6 @@
 #include <arcslip/studies/motions.hpp>
 
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
 
@@ -39,7 +40,7 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
     };
     of_element("displacement", "m", "of the element", &time::ElementHistory::displacement);
     of_element("force", "N", "against the motion", &time::ElementHistory::force);
-    if (scene.elements[e].type == &scene::jenkins_type)
+    if (observables::is_friction_part(scene.elements[e]))
       of_element("slider", "m", "friction elements: where the slider is", &time::ElementHistory::slider);
   }
   return table;

@@ -1,8 +1,8 @@
 #include <arcslip/time/equation_of_motion.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace arcslip::time {
 
@@ -18,10 +18,10 @@ void EquationOfMotion::force(double t, Vector& f) const {
   }
 }
 
-bool EquationOfMotion::is_piecewise_linear() const {
-  return std::none_of(elements.begin(), elements.end(), [](const Element& element) {
-    return element.law == model::Law::cubic_spring && element.stiffness != 0;
-  });
+void EquationOfMotion::add(std::string name, std::shared_ptr<const elements::Law> law,
+                           std::vector<double> fields, Matrix directions) {
+  elements.push_back({std::move(name), std::move(law), std::move(fields), std::move(directions), memory});
+  memory += elements.back().law->memory();
 }
 
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p) {
@@ -31,12 +31,10 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
   equation.C = model::assemble(model.dampers, p, model.dofs);
   equation.K = model::assemble(model.springs, p, model.dofs);
   for (const model::NonlinearPart& part : model.elements) {
-    Element element{part.name, part.law, part.direction, p[part.parameters[0]]};
-    if (part.law == model::Law::jenkins) {
-      element.slip_limit = p[part.parameters[1]] * p[part.parameters[2]];
-      element.slider = equation.sliders++;
-    }
-    equation.elements.push_back(std::move(element));
+    Matrix directions(model.dofs, static_cast<Eigen::Index>(part.directions.size()));
+    for (std::size_t i = 0; i < part.directions.size(); ++i)
+      directions.col(static_cast<Eigen::Index>(i)) = part.directions[i];
+    equation.add(part.name, part.law, part.fields(p), std::move(directions));
   }
   for (const model::Force& part : model.forces)
     equation.forces.push_back({part.direction, part.harmonic, p[part.cosine], p[part.sine]});
@@ -46,7 +44,7 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
 }
 
 State at_rest(const EquationOfMotion& equation) {
-  return {Vector::Zero(equation.dofs()), Vector::Zero(equation.dofs()), Vector::Zero(equation.sliders)};
+  return {Vector::Zero(equation.dofs()), Vector::Zero(equation.dofs()), Vector::Zero(equation.memory)};
 }
 
 }  // namespace arcslip::time

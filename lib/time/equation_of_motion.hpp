@@ -3,16 +3,14 @@
 //
 //   M x'' + C x' + K x + sum_e d_e f_e(d_e . x) = sum_k d_k (c_k cos n_k omega t + s_k sin n_k omega t)
 //
-// Force laws on q = d . x:
-//   cubic spring    f = k3 q^3
-//   Jenkins         f = kd (q - z), |f| <= mu Fn; the slider z rests, or follows q at |f| = mu Fn
-//
-// The state is (x, x', z): a friction element remembers where its slider is.
+// q = d . x, with a sum over the directions of each element. Laws may remember: the state is (x, x', z), and
+// the slider of a friction element is where its z is (elements/law.hpp).
 
 #include <arcslip/model/model.hpp>
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,11 +22,10 @@ using Vector = Eigen::VectorXd;
 /// One nonlinear element with its numbers.
 struct Element {
   std::string name;
-  model::Law law = model::Law::jenkins;
-  Vector direction;       // d, dofs
-  double stiffness = 0;   // kd (N/m), or k3 (N/m^3)
-  double slip_limit = 0;  // mu Fn, N; Jenkins only
-  int slider = -1;        // index in State::z; -1: no memory
+  std::shared_ptr<const elements::Law> law;
+  std::vector<double> fields;
+  Matrix directions;  // dofs x directions, d in each column
+  int memory = 0;     // where its own begins in State::z
 };
 
 /// (cosine cos n omega t + sine sin n omega t) d.
@@ -43,8 +40,8 @@ struct EquationOfMotion {
   Matrix M, C, K;    // dofs x dofs; kg, N s/m, N/m
   std::vector<Element> elements;
   std::vector<HarmonicForce> forces;
-  Vector response;  // direction whose motion is observed
-  int sliders = 0;
+  Vector response;                     // direction whose motion is observed
+  int memory = 0;                      // numbers in State::z
   std::vector<std::string> dof_names;  // for messages; may be empty
 
   int dofs() const { return static_cast<int>(M.rows()); }
@@ -52,18 +49,19 @@ struct EquationOfMotion {
   double period() const;
   /// The excitation at time t (s), N.
   void force(double t, Vector& f) const;
-  /// True where the motion between two events is that of a linear system: no cubic spring.
-  bool is_piecewise_linear() const;
+  /// With its memory after that of the elements before.
+  void add(std::string name, std::shared_ptr<const elements::Law> law, std::vector<double> fields,
+           Matrix directions);
 };
 
 struct State {
-  Vector x, v, z;  // m, m/s, m; z: sliders
+  Vector x, v, z;  // m, m/s; z: the memory of all elements, m for sliders
 };
 
 /// p: as model.parameters, "frequency" included (rad/s).
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p);
 
-/// Everything at rest, sliders without force.
+/// Everything at rest, without memory of force.
 State at_rest(const EquationOfMotion& equation);
 
 }  // namespace arcslip::time

@@ -12,10 +12,8 @@ namespace {
 double elastic_and_kinetic(const EquationOfMotion& equation, const State& state) {
   double energy = 0.5 * state.v.dot(equation.M * state.v) + 0.5 * state.x.dot(equation.K * state.x);
   for (const Element& element : equation.elements)
-    if (element.slider >= 0) {
-      const double stretch = element.direction.dot(state.x) - state.z[element.slider];
-      energy += 0.5 * element.stiffness * stretch * stretch;
-    }
+    energy += element.law->stored(element.fields, element.directions.transpose() * state.x,
+                                  state.z.segment(element.memory, element.law->memory()));
   return energy;
 }
 
@@ -62,10 +60,11 @@ class Recorder {
  public:
   Recorder(const EquationOfMotion& equation, const March& march, std::span<const double> instants)
       : equation_(equation), march_(march), instants_(instants) {
-    for (const Friction& friction : march.frictions())
-      motion_.friction.push_back({equation.elements[static_cast<std::size_t>(friction.element)].name});
-    for (const Element& element : equation.elements)
+    for (const Element& element : equation.elements) {
+      records_.push_back(element.law->has_contact() ? static_cast<int>(motion_.friction.size()) : -1);
+      if (element.law->has_contact()) motion_.friction.push_back({element.name});
       motion_.history.elements.push_back({element.name, {}, {}, {}});
+    }
     motion_.amplitude = -1;
     start_energy_ = elastic_and_kinetic(equation, march.state());
   }
@@ -82,15 +81,14 @@ class Recorder {
     const auto work = piece.work(s);
     motion_.energy.input += work.input;
     motion_.energy.viscous += work.viscous;
-    for (std::size_t i = 0; i < motion_.friction.size(); ++i) {
-      const Friction& friction = march_.frictions()[i];
-      if (friction.stuck()) motion_.friction[i].stick_time += s * h;
-      if (friction.slip == 0) continue;
-      piece.displacement(friction.direction, series_);
-      const double start = series_[0];
-      series_[0] = 0;
-      motion_.friction[i].energy += friction.slip * friction.limit * value(series_, s);
-      series_[0] = start;
+    for (const Contact& contact : march_.contacts()) {
+      const int record = records_[static_cast<std::size_t>(contact.element)];
+      if (record < 0) continue;
+      FrictionRecord& friction = motion_.friction[static_cast<std::size_t>(record)];
+      if (!contact.follows())
+        friction.stick_time += s * h;
+      else
+        friction.energy += dissipated(contact, s);
     }
     const double A = motion_.amplitude;
     extremes_.visit(piece, equation_.response, s, -A, A, [&](double at, double x) {
@@ -120,17 +118,47 @@ class Recorder {
     history.displacement.push_back(value(series_, s));
     piece.velocity(equation_.response, series_);
     history.velocity.push_back(value(series_, s));
-    for (std::size_t e = 0; e < equation_.elements.size(); ++e) {
-      piece.displacement(equation_.elements[e].direction, series_);
-      history.elements[e].displacement.push_back(value(series_, s));
+    for (const Contact& contact : march_.contacts()) {
+      ElementHistory& element = history.elements[static_cast<std::size_t>(contact.element)];
+      const bool first = element.force.size() < history.time.size();
+      if (first) {
+        q_.resize(contact.directions.cols());
+        for (std::size_t k = 0; k < contact.along.size(); ++k) {
+          piece.displacement(contact.along[k], series_);
+          q_[static_cast<Eigen::Index>(k)] = value(series_, s);
+        }
+        element.displacement.push_back(q_[0]);
+        element.force.push_back(0);
+        if (contact.slider == 0) element.slider.push_back(march_.memory(contact, q_));
+      }
+      element.force.back() += march_.force(contact, q_);
     }
-    for (const Friction& friction : march_.frictions()) {
-      ElementHistory& element = history.elements[static_cast<std::size_t>(friction.element)];
-      element.force.push_back(march_.force(friction, element.displacement.back()));
-      element.slider.push_back(march_.slider(friction, element.displacement.back()));
+  }
+
+  // The work of a slider that follows, integral of f z' dt over the piece: f along the direction that it
+  // follows. Its force is constant or linear in q.
+  double dissipated(const Contact& contact, double s) {
+    if (contact.slider < 0) return 0;
+    const elements::Mode& mode = contact.mode();
+    LinearMotion::Series way{}, force{};
+    force[0] = mode.f_0[contact.slider];
+    bool constant = true;
+    for (Eigen::Index k = 0; k < contact.directions.cols(); ++k) {
+      march_.piece().displacement(contact.along[static_cast<std::size_t>(k)], series_);
+      const double rate = mode.f_q(contact.slider, k);
+      constant = constant && rate == 0;
+      for (std::size_t j = 0; j < series_.size(); ++j) {
+        way[j] += mode.z_q[k] * series_[j];
+        force[j] += rate * series_[j];
+      }
     }
-    for (ElementHistory& element : history.elements)  // a cubic spring of stiffness 0
-      element.force.resize(element.displacement.size());
+    way[0] = 0;
+    if (constant) return force[0] * value(way, s);
+    double sum = 0;
+    for (std::size_t j = 1; j < way.size(); ++j)
+      for (std::size_t i = 0; i < force.size(); ++i)
+        sum += static_cast<double>(j) * way[j] * force[i] * std::pow(s, i + j) / static_cast<double>(i + j);
+    return sum;
   }
 
   const EquationOfMotion& equation_;
@@ -140,15 +168,14 @@ class Recorder {
   double start_energy_;
   Extremes extremes_;
   LinearMotion::Series series_{};
+  Vector q_;
+  std::vector<int> records_;  // of each element in motion_.friction; -1: none
   EventDrivenMotion motion_;
 };
 
 }  // namespace
 
 EventDriven::EventDriven(const EquationOfMotion& equation, const EventLimits& limits) : equation_(equation) {
-  if (!equation.is_piecewise_linear())
-    throw NotPiecewiseLinear(
-        "an exact integration between events needs linear laws between them: this scene has a cubic spring");
   march_ = std::make_unique<March>(equation_, limits);
 }
 
@@ -167,19 +194,22 @@ EventDrivenMotion EventDriven::integrate(const State& start, double from, double
 
 PeriodMap EventDriven::map(const State& start, double to) {
   march_->begin(start, 0, true);
-  const auto& frictions = march_->frictions();
-  std::vector<Range> ranges(frictions.size());
+  const auto& contacts = march_->contacts();
+  std::vector<Range> ranges(contacts.size());
   Extremes extremes;
   PeriodMap map;
   while (march_->find(to)) {
     map.size = std::max(map.size, march_->size());
     const LinearMotion& piece = march_->piece();
-    for (std::size_t i = 0; i < frictions.size() && march_->s() > 0; ++i) {
+    for (std::size_t i = 0; i < contacts.size() && march_->s() > 0; ++i) {
+      if (contacts[i].slider < 0) continue;
       Range& range = ranges[i];
-      if (frictions[i].free()) range.up = range.down = true;
-      (frictions[i].slip > 0 ? range.up : range.down) |= frictions[i].slip != 0;
+      if (contacts[i].follows()) {
+        range.up = range.up || contacts[i].mode().way >= 0;
+        range.down = range.down || contacts[i].mode().way <= 0;
+      }
       if (!range.resting()) continue;
-      const Vector& d = frictions[i].direction;
+      const Vector& d = contacts[i].along[static_cast<std::size_t>(contacts[i].slider)];
       extremes.visit(piece, d, march_->s(), range.low, range.high, [&](double s, double q) {
         if (q > range.high) range.high = q, range.dhigh = piece.along(d, s);
         if (q < range.low) range.low = q, range.dlow = piece.along(d, s);
@@ -191,9 +221,9 @@ PeriodMap EventDriven::map(const State& start, double to) {
   map.message = march_->message();
   map.end = march_->state();
   map.monodromy = march_->monodromy();
-  for (std::size_t i = 0; i < frictions.size(); ++i)
+  for (std::size_t i = 0; i < contacts.size(); ++i)
     if (ranges[i].resting() && ranges[i].dhigh.size() > 0)
-      map.resting.push_back({frictions[i].slider, 0.5 * (ranges[i].high + ranges[i].low),
+      map.resting.push_back({contacts[i].memory, 0.5 * (ranges[i].high + ranges[i].low),
                              0.5 * (ranges[i].dhigh + ranges[i].dlow).tail(map.monodromy.cols())});
   return map;
 }

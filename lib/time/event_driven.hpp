@@ -1,21 +1,23 @@
 #pragma once
-// Exact motion of structures with friction: between two events, slip onset or slip end, the structure is
-// linear, and its motion is a power series (linear_motion.hpp). Jenkins elements only.
+// Exact motion of structures with piecewise linear laws: between two events, at which an element goes from
+// one of its modes to another, the structure is linear, and its motion is a power series (linear_motion.hpp).
+// The modes and their guards are those of the laws' automata (elements/automaton.hpp). For a Jenkins element:
 //
 //   stick:  f = k_d (q - z), z rests    until  |f| passes mu F_n
 //   slip:   f = sigma mu F_n, z = q - sigma mu F_n/k_d    until  sigma q' falls below zero
 //
-// In each piece both conditions are polynomials; their first roots are found with bounds of their curvature
+// In each piece the guards are polynomials; their first roots are found with bounds of their curvature
 // (polynomial.hpp), so that no event is missed but those whose slip or return is below rounding, and are
-// exact to the last digit. A condition that begins within rounding of zero is judged by where it goes; so
-// several events in one instant, events at the start, grazing and slip again at once need no care of their
-// own. x, x' and x'' are continuous at every event. An element without normal load follows without force.
+// exact to the last digit. A guard that begins within rounding of zero is judged by where it goes; so several
+// events in one instant, events at the start, grazing and slip again at once need no care of their own. x, x'
+// and the forces are continuous at every event.
 //
-// Contact at the start follows from the state: |f| < mu F_n sticks; at the limit the motion decides. A slider
-// that is beyond its limit is drawn after, |f| = mu F_n.
+// At the start each element is in the first mode of its automata, after its memory was drawn to where it must
+// be (Law::begin); guards decide the rest.
 //
-// Derivatives with respect to the start run along as columns of the same series. At a slip onset dz := dq
-// from there on; at a slip end q' = 0, so that nothing jumps. Source: docs/theory.md, section 9.
+// Derivatives with respect to the start run along as columns of the same series. A memory that follows has
+// those of what it follows from there on; the forces are continuous, so that nothing jumps. Source:
+// docs/theory.md, section 9.
 
 #include <arcslip/time/motion.hpp>
 #include <arcslip/time/period_map.hpp>
@@ -24,10 +26,13 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace arcslip::time {
 
-/// A scene with a law that is not piecewise linear.
+/// A structure with a law that is not piecewise linear.
 class NotPiecewiseLinear : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -37,13 +42,10 @@ class SingularMass : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class EventKind { slip_onset, slip_end };
-
 struct ContactEvent {
-  double time = 0;  // s
-  int element = 0;  // index in EquationOfMotion::elements
-  EventKind kind = EventKind::slip_onset;
-  int direction = 0;  // sign of the slip velocity
+  double time = 0;            // s
+  int element = 0;            // index in EquationOfMotion::elements
+  std::string_view from, to;  // modes of its law: "stick", "slip+"
 };
 
 enum class EndReason {
@@ -62,7 +64,7 @@ struct EventLimits {
   std::function<bool()> stop{};  // asked now and then; true ends it
 };
 
-/// One friction element over the interval.
+/// One element with a contact over the interval.
 struct FrictionRecord {
   std::string name;
   double stick_time = 0;  // s
@@ -75,7 +77,7 @@ struct EventDrivenMotion {
   double time = 0;  // s, where it ended
   State end;
   std::vector<ContactEvent> events;      // in the order of time
-  std::vector<FrictionRecord> friction;  // of each Jenkins element
+  std::vector<FrictionRecord> friction;  // of each element with a contact
   EnergyBalance energy;
   double amplitude = 0;       // max |response|, m
   double amplitude_time = 0;  // s

@@ -30,9 +30,12 @@ State state_of(const hbm::HbmProblem& problem, elements::In u, const continuatio
   evaluator->move_to(u, p, continuation::Needs::residual);
   for (std::size_t e = 0; e < equation.elements.size(); ++e) {
     const Element& element = equation.elements[e];
-    if (element.slider < 0) continue;
-    const double force = elements::series_values(problem.harmonics(), evaluator->element(e).force(), 0).x;
-    state.z[element.slider] = element.direction.dot(state.x) - force / element.stiffness;
+    const auto& h = problem.harmonics();
+    const Vector q = element.directions.transpose() * state.x;
+    Vector f(q.size());
+    for (Eigen::Index i = 0; i < f.size(); ++i)
+      f[i] = elements::series_values(h, evaluator->element(e).force().segment(i * h.size(), h.size()), 0).x;
+    element.law->memory_at(element.fields, q, f, state.z.segment(element.memory, element.law->memory()));
   }
   return state;
 }

@@ -14,29 +14,32 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double rounding = 8;     // a residual of as many roundings of its terms is zero
 constexpr double stagnated = 1e3;  // as many are, where no step makes them fewer
 constexpr double flat = 0.5;       // of the slope that a search begins with: low enough
-constexpr int largest_bisections = 60;
-
-bool is_jenkins(const Element& element) {
-  return element.law == model::Law::jenkins;
-}
+constexpr int largest_bisections = 60, largest_halvings = 10;
 
 }  // namespace
 
 ImplicitElements::ImplicitElements(std::vector<Element> elements, int dofs) : elements_(std::move(elements)) {
-  const auto count = static_cast<Eigen::Index>(elements_.size());
-  D_.resize(dofs, count);
-  int sliders = 0;
-  for (Eigen::Index e = 0; e < count; ++e) {
-    const Element& element = elements_[static_cast<std::size_t>(e)];
-    D_.col(e) = element.direction;
-    sliders += element.slider >= 0 ? 1 : 0;
+  Eigen::Index directions = 0, tangents = 0;
+  int memory = 0;
+  for (const Element& element : elements_) {
+    const int own = element.law->directions();
+    first_.push_back(directions);
+    ends_.emplace_back(own, element.law->memory());
+    convex_ = convex_ && element.law->symmetric_step();
+    directions += own;
+    tangents += own * own;
+    memory = std::max(memory, element.memory + element.law->memory());
   }
+  D_.resize(dofs, directions);
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    D_.middleCols(first_[e], elements_[e].directions.cols()) = elements_[e].directions;
   size_of_D_ = D_.cwiseAbs();
   J_.resize(dofs, dofs);
   lu_ = continuation::LU<double>(dofs);
-  for (Vector* v : {&factored_, &q_, &force_, &stiffness_, &new_force_, &tangent_, &dq_}) v->setZero(count);
-  for (Vector* v : {&z_, &slip_}) v->setZero(sliders);
-  for (Vector* v : {&b_, &residual_, &size_, &step_, &trial_}) v->setZero(dofs);
+  for (Vector* v : {&factored_, &tangent_}) v->setZero(tangents);
+  for (Vector* v : {&q_, &force_, &last_q_, &new_force_, &dq_}) v->setZero(directions);
+  for (Vector* v : {&z_, &dz_, &last_z_}) v->setZero(memory);
+  for (Vector* v : {&b_, &residual_, &size_, &step_, &trial_, &halved_}) v->setZero(dofs);
 }
 
 void ImplicitElements::set_matrix(const Matrix& A) {
@@ -48,16 +51,12 @@ void ImplicitElements::set_matrix(const Matrix& A) {
 void ImplicitElements::begin_at(const Vector& q, const Vector& z) {
   q_ = q;
   z_ = z;
-  slip_.setZero();
-  for (Eigen::Index e = 0; e < q_.size(); ++e) {
-    const Element& element = elements_[static_cast<std::size_t>(e)];
-    if (is_jenkins(element)) {
-      const double f = element.stiffness * (q_[e] - z_[element.slider]);
-      force_[e] = std::clamp(f, -element.slip_limit, element.slip_limit);
-      if (force_[e] != f) z_[element.slider] = q_[e] - force_[e] / element.stiffness;
-    } else {
-      force_[e] = element.stiffness * q_[e] * q_[e] * q_[e];
-    }
+  dz_.setZero();
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Element& element = elements_[e];
+    const auto d = element.directions.cols(), m = ends_[e].dz.size();
+    element.law->begin(element.fields, q_.segment(first_[e], d), z_.segment(element.memory, m), ends_[e]);
+    force_.segment(first_[e], d) = ends_[e].f;
   }
   new_force_ = force_;
 }
@@ -65,18 +64,16 @@ void ImplicitElements::begin_at(const Vector& q, const Vector& z) {
 // Forces and tangents after the increment y.
 void ImplicitElements::evaluate(const Vector& y) {
   dq_.noalias() = D_.transpose() * y;
-  for (Eigen::Index e = 0; e < dq_.size(); ++e) {
-    const Element& element = elements_[static_cast<std::size_t>(e)];
-    if (is_jenkins(element)) {
-      const double f = force_[e] + element.stiffness * dq_[e];
-      const bool sticks = std::abs(f) < element.slip_limit;
-      new_force_[e] = sticks ? f : std::copysign(element.slip_limit, f);
-      tangent_[e] = sticks ? element.stiffness : 0;
-    } else {
-      const double q = q_[e] + dq_[e];
-      new_force_[e] = element.stiffness * q * q * q;
-      tangent_[e] = 3 * element.stiffness * q * q;
-    }
+  Eigen::Index at = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Element& element = elements_[e];
+    elements::StepEnd& end = ends_[e];
+    const auto d = end.f.size(), m = end.dz.size(), i = first_[e];
+    element.law->step(element.fields, {q_.segment(i, d), z_.segment(element.memory, m), force_.segment(i, d)},
+                      dq_.segment(i, d), end);
+    new_force_.segment(i, d) = end.f;
+    tangent_.segment(at, d * d) = end.f_q.reshaped();
+    at += d * d;
   }
 }
 
@@ -90,7 +87,18 @@ double ImplicitElements::residual(const Vector& y) {
   size_ = b_.cwiseAbs();
   size_.noalias() += size_of_A_ * trial_;
   dq_.noalias() = size_of_D_.transpose() * trial_;
-  dq_ = new_force_.cwiseAbs() + tangent_.cwiseAbs().cwiseProduct(dq_);
+  Eigen::Index t = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const auto d = ends_[e].f.size();
+    if (d == 1) {
+      dq_[first_[e]] *= std::abs(tangent_[t]);
+    } else {
+      auto own = dq_.segment(first_[e], d);
+      own = (ends_[e].f_q.cwiseAbs() * own).eval();
+    }
+    t += d * d;
+  }
+  dq_ += new_force_.cwiseAbs();
   size_.noalias() += size_of_D_ * dq_;
   if (!residual_.allFinite() || !size_.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0;
@@ -103,10 +111,15 @@ double ImplicitElements::residual(const Vector& y) {
 bool ImplicitElements::factorize() {
   if (has_factors_ && factored_ == tangent_) return true;
   J_ = A_;
-  for (Eigen::Index e = 0; e < tangent_.size(); ++e) {
-    if (tangent_[e] == 0) continue;
-    for (Eigen::Index j = 0; j < J_.cols(); ++j)
-      if (D_(j, e) != 0) J_.col(j) += tangent_[e] * D_(j, e) * D_.col(e);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Matrix& T = ends_[e].f_q;
+    for (Eigen::Index l = 0; l < T.cols(); ++l)
+      for (Eigen::Index k = 0; k < T.rows(); ++k) {
+        if (T(k, l) == 0) continue;
+        const auto row = D_.col(first_[e] + k), column = D_.col(first_[e] + l);
+        for (Eigen::Index j = 0; j < J_.cols(); ++j)
+          if (column[j] != 0) J_.col(j) += T(k, l) * column[j] * row;
+      }
   }
   lu_.factorize(J_);
   factored_ = tangent_;
@@ -140,80 +153,96 @@ double ImplicitElements::search(const Vector& y, double slope) {
   return share;
 }
 
+// The share of step_ at which the residual is smaller than `size`, which it is at y.
+double ImplicitElements::halve(const Vector& y, double size) {
+  double share = 1;
+  for (int i = 0; i < largest_halvings; ++i, share /= 2) {
+    halved_ = y + share * step_;
+    if (residual(halved_) < size) return share;
+  }
+  return 1;
+}
+
 Solved ImplicitElements::solve(const Vector& b, Vector& y) {
   b_ = b;
   if (!y.allFinite()) y.setZero();
-  for (Eigen::Index e = 0; e < q_.size(); ++e) {
-    const Element& element = elements_[static_cast<std::size_t>(e)];
-    stiffness_[e] = is_jenkins(element) ? element.stiffness : 3 * element.stiffness * q_[e] * q_[e];
-  }
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < largest_iterations; ++i) {
     const double size = residual(y);
     if (!std::isfinite(size)) return Solved::not_finite;
     if (size <= rounding || (size <= stagnated && size > flat * last)) {
       dq_.noalias() = D_.transpose() * y;
-      for (Eigen::Index e = 0; e < dq_.size(); ++e) {
-        const Element& element = elements_[static_cast<std::size_t>(e)];
-        if (is_jenkins(element))
-          slip_[element.slider] = slides(static_cast<std::size_t>(e))
-                                      ? dq_[e] - (new_force_[e] - force_[e]) / element.stiffness
-                                      : 0;
-      }
+      for (std::size_t e = 0; e < elements_.size(); ++e)
+        dz_.segment(elements_[e].memory, ends_[e].dz.size()) = ends_[e].dz;
       return Solved::yes;
     }
     last = size;
     if (!factorize()) return Solved::singular;
     lu_.solve(residual_, step_);
     if (!step_.allFinite()) return Solved::not_finite;
+    if (!convex_) {
+      y += halve(y, size) * step_;
+      continue;
+    }
     const double slope = -residual_.dot(step_);
     y += (slope < 0 ? search(y, slope) : 1.0) * step_;
   }
   return Solved::no;
 }
 
-bool ImplicitElements::slides(std::size_t element) const {
-  return is_jenkins(elements_[element]) && tangent_[static_cast<Eigen::Index>(element)] == 0;
-}
-
 void ImplicitElements::accept() {
+  last_q_ = q_;
+  last_z_ = z_;
   q_ += dq_;
-  z_ += slip_;
+  z_ += dz_;
   force_ = new_force_;
 }
 
 double ImplicitElements::energy() const {
   double sum = 0;
-  for (Eigen::Index e = 0; e < q_.size(); ++e) {
-    const Element& element = elements_[static_cast<std::size_t>(e)];
-    sum += is_jenkins(element) ? 0.5 * force_[e] * force_[e] / element.stiffness : 0.25 * force_[e] * q_[e];
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Element& element = elements_[e];
+    sum += element.law->stored(element.fields, q_.segment(first_[e], element.directions.cols()),
+                               z_.segment(element.memory, ends_[e].dz.size()));
   }
   return sum;
 }
 
-void ImplicitElements::force_change(const Matrix& dx, const Matrix& dz, Matrix& df) const {
-  df.noalias() = D_.transpose() * dx;
-  for (Eigen::Index e = 0; e < q_.size(); ++e) {
-    const Element& element = elements_[static_cast<std::size_t>(e)];
-    if (is_jenkins(element)) df.row(e) -= dz.row(element.slider);
-    df.row(e) *= stiffness_[e];
+void ImplicitElements::force_change(const Matrix& dx, const Matrix& dz, Matrix& df) {
+  dq_columns_.noalias() = D_.transpose() * dx;
+  df.resize(dq_columns_.rows(), dq_columns_.cols());
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Element& element = elements_[e];
+    const auto d = element.directions.cols(), m = ends_[e].dz.size(), i = first_[e];
+    elements::StepEnd at(static_cast<int>(d), static_cast<int>(m));
+    Vector z = last_z_.segment(element.memory, m);
+    element.law->begin(element.fields, last_q_.segment(i, d), z, at);
+    df.middleRows(i, d).noalias() = at.f_q * dq_columns_.middleRows(i, d);
+    df.middleRows(i, d).noalias() += at.f_z * dz.middleRows(element.memory, m);
   }
 }
 
 void ImplicitElements::differentiate(const Matrix& dx, Matrix& dz, Matrix& db) {
-  df_.noalias() = D_.transpose() * dx;
-  for (Eigen::Index e = 0; e < q_.size(); ++e) {
-    const Element& element = elements_[static_cast<std::size_t>(e)];
-    if (is_jenkins(element)) df_.row(e) -= dz.row(element.slider);
-    df_.row(e) *= tangent_[e];
+  dq_columns_.noalias() = D_.transpose() * dx;
+  df_.resize(dq_columns_.rows(), dq_columns_.cols());
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const elements::StepEnd& end = ends_[e];
+    const auto d = end.f.size(), m = end.dz.size(), i = first_[e];
+    df_.middleRows(i, d).noalias() = end.f_q * dq_columns_.middleRows(i, d);
+    df_.middleRows(i, d).noalias() += end.f_z * dz.middleRows(elements_[e].memory, m);
   }
   db.noalias() -= D_ * df_;
   factorize();
   lu_.solve_columns(db, df_);
   db = df_;
-  for (Eigen::Index e = 0; e < q_.size(); ++e)
-    if (slides(static_cast<std::size_t>(e)))
-      dz.row(elements_[static_cast<std::size_t>(e)].slider) = D_.col(e).transpose() * (dx + db);
+  dq_columns_.noalias() = D_.transpose() * (dx + db);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const elements::StepEnd& end = ends_[e];
+    const auto d = end.f.size(), m = end.dz.size();
+    if (m == 0) continue;
+    auto own = dz.middleRows(elements_[e].memory, m);
+    own = (end.z_z * own + end.z_q * dq_columns_.middleRows(first_[e], d)).eval();
+  }
 }
 
 }  // namespace arcslip::time

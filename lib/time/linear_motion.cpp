@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 
 namespace arcslip::time {
 namespace {
@@ -38,23 +39,38 @@ double largest_over(const continuation::Cholesky& mass, const Matrix& A) {
   return continuation::symmetric_eigenvalues(mass.reduced(A)).cwiseAbs().maxCoeff();
 }
 
+// A diagonal matrix above (sign 1) all stiffnesses of a part, or below (-1) them, and 0: by the sums of the
+// rows' absolute values, where there are several directions.
+Matrix bound(const LinearMotion::Part& part, double sign) {
+  const Eigen::Index d = part.directions.cols();
+  Vector most = Vector::Zero(d);
+  for (const Matrix& T : part.stiffnesses)
+    for (Eigen::Index i = 0; i < d; ++i) {
+      const double beside = T.row(i).cwiseAbs().sum() - std::abs(T(i, i));
+      most[i] = std::max(most[i], sign * T(i, i) + beside);
+    }
+  return sign * most.asDiagonal();
+}
+
 }  // namespace
 
-LinearMotion::LinearMotion(const EquationOfMotion& equation) : equation_(equation) {
+LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts)
+    : equation_(equation), parts_(std::move(parts)) {
   require_mass(equation);
   const int n = equation.dofs();
   mass_.factorize(equation.M);
   stiffness_ = mass_.solve(equation.K);
   damping_ = mass_.solve(equation.C);
-  Matrix stuck = equation.K;
-  for (const Element& element : equation.elements) {
-    over_mass_.push_back(mass_.solve(element.direction));
-    stuck_.push_back(0);
-    if (element.slip_limit > 0)
-      stuck += element.stiffness * element.direction * element.direction.transpose();
+  Matrix stiffest = equation.K, softest = equation.K;
+  for (const Part& part : parts_) {
+    over_mass_.push_back(mass_.solve(part.directions));
+    const Eigen::Index d = part.directions.cols();
+    in_modes_.push_back(Matrix::Zero(d, d));
+    stiffest += part.directions * bound(part, 1) * part.directions.transpose();
+    softest += part.directions * bound(part, -1) * part.directions.transpose();
   }
-  // Every contact state lies between K and K with all elements stuck.
-  double fastest = std::sqrt(std::max(largest_over(mass_, equation.K), largest_over(mass_, stuck))) +
+  // Whatever the modes, K' lies between these two.
+  double fastest = std::sqrt(std::max(largest_over(mass_, softest), largest_over(mass_, stiffest))) +
                    largest_over(mass_, equation.C);
   for (const HarmonicForce& force : equation.forces)
     fastest = std::max(fastest, force.harmonic * equation.omega);
@@ -68,14 +84,13 @@ LinearMotion::LinearMotion(const EquationOfMotion& equation) : equation_(equatio
   });
 }
 
-void LinearMotion::set_stuck(std::size_t e, bool stuck) {
-  if (static_cast<bool>(stuck_[e]) == stuck) return;
-  stuck_[e] = stuck;
+void LinearMotion::set_stiffness(std::size_t a, const Matrix& stiffness) {
+  if (in_modes_[a] == stiffness) return;
+  in_modes_[a] = stiffness;
   stiffness_ = mass_.solve(equation_.K);  // anew: a sum that grows and shrinks would gather rounding
-  for (std::size_t i = 0; i < stuck_.size(); ++i)
-    if (stuck_[i])
-      stiffness_ +=
-          equation_.elements[i].stiffness * over_mass_[i] * equation_.elements[i].direction.transpose();
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    if (!in_modes_[i].isZero(0))
+      stiffness_ += over_mass_[i] * in_modes_[i] * parts_[i].directions.transpose();
 }
 
 void LinearMotion::expand_force(double t, double h) {
@@ -104,9 +119,13 @@ void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, 
     next.noalias() = -stiffness_ * X_[k];
     next.noalias() -= damping_ * V_[k];
     next.col(0) += acceleration_.col(static_cast<Eigen::Index>(k));
-    if (k == 0)
-      for (std::size_t e = 0; e < over_mass_.size(); ++e)
-        next.noalias() += over_mass_[e] * g.row(static_cast<Eigen::Index>(e));
+    if (k == 0) {
+      Eigen::Index row = 0;
+      for (const Matrix& D : over_mass_) {
+        next.noalias() += D * g.middleRows(row, D.cols());
+        row += D.cols();
+      }
+    }
     next *= factor;
   }
 }

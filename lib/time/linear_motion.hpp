@@ -1,12 +1,13 @@
 #pragma once
 // The motion of a linear structure under harmonic forces as a power series in time, exact to rounding:
 //
-//   M x'' + C x' + (K + sum_stuck k_d d d^T) x = f(t) + sum_e d_e g_e,   x(t + s h) = sum_k X_k s^k, 0 <= s
-//   <= 1 X_(k+1) = h V_k/(k+1),   V_(k+1) = h M^-1 (f_k + [k = 0] sum d g - C V_k - K' X_k)/(k+1)
+//   M x'' + C x' + (K + sum_e D_e T_e D_e^T) x = f(t) + sum_e D_e g_e,   x(t + s h) = sum_k X_k s^k
+//   X_(k+1) = h V_k/(k+1),   V_(k+1) = h M^-1 (f_k + [k = 0] sum D g - C V_k - K' X_k)/(k+1),   0 <= s <= 1
 //
-// h rho <= 1 with rho = max(Omega + gamma, n omega): Omega^2 and gamma are the largest eigenvalues of K' and
-// C over M, n omega the fastest force. In the energy norm the terms fall at least like 1/k!, so that `order`
-// of them leave less than 1e-18 of the motion, whether it is damped, undamped, free of springs or in
+// T_e: the stiffness of the modes that the elements are in. h rho <= 1 with rho = max(Omega + gamma, n
+// omega): Omega^2 and gamma are the largest |eigenvalues| of K' and C over M in any modes, n omega the
+// fastest force. This takes symmetric T_e. In the energy norm the terms fall at least like 1/k!, so that
+// `order` of them leave less than 1e-18 of the motion, whether it is damped, undamped, free of springs or in
 // resonance: there is neither a particular solution nor a matrix exponential.
 //
 // Several columns run together: the first is the motion, the others, without the force, its variations.
@@ -24,16 +25,23 @@ class LinearMotion {
   static constexpr int order = 20;
   using Series = std::array<double, order + 1>;
 
+  /// One automaton: where it acts, and the stiffnesses that its modes have.
+  struct Part {
+    Matrix directions;  // dofs x directions
+    std::vector<Matrix> stiffnesses;
+  };
+
   /// Throws SingularMass, with the degree of freedom.
-  explicit LinearMotion(const EquationOfMotion& equation);
+  LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts);
 
   /// Longest h, s; infinite where nothing changes.
   double longest() const { return longest_; }
 
-  /// Whether element e is stuck, its spring k_d part of the structure.
-  void set_stuck(std::size_t e, bool stuck);
+  /// The stiffness of automaton a in its mode, part of the structure.
+  void set_stiffness(std::size_t a, const Matrix& stiffness);
 
-  /// The series from t over h <= longest(). X, V: dofs x columns; g: elements x columns, N.
+  /// The series from t over h <= longest(). X, V: dofs x columns; g: a row for each direction of each
+  /// automaton, N.
   void expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g);
 
   /// X and V at s.
@@ -57,9 +65,10 @@ class LinearMotion {
 
   const EquationOfMotion& equation_;
   continuation::Cholesky mass_;
+  std::vector<Part> parts_;
   Matrix stiffness_, damping_;     // M^-1 K', M^-1 C
-  std::vector<Vector> over_mass_;  // M^-1 d of each element
-  std::vector<char> stuck_;
+  std::vector<Matrix> over_mass_;  // M^-1 D of each part
+  std::vector<Matrix> in_modes_;   // their stiffness now
   double longest_ = 0, h_ = 0;
   std::vector<Matrix> X_, V_;    // order + 1
   Matrix force_, acceleration_;  // dofs x (order + 1): f_k, M^-1 f_k

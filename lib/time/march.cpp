@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace arcslip::time {
 namespace {
@@ -15,48 +16,91 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 constexpr long between_questions = 16;  // whether to go on, in pieces
 
+std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
+  std::vector<Contact> contacts;
+  Eigen::Index row = 0;
+  for (std::size_t e = 0; e < equation.elements.size(); ++e) {
+    const Element& element = equation.elements[e];
+    auto automata = element.law->automata(element.fields);
+    if (!automata)
+      throw NotPiecewiseLinear(
+          "an exact integration between events needs laws that are piecewise linear: the element \"" +
+          element.name + "\" is not");
+    for (auto& automaton : *automata) {
+      const int k = automaton.memory;
+      std::vector<Vector> along(element.directions.colwise().begin(), element.directions.colwise().end());
+      contacts.push_back({static_cast<int>(e), std::move(automaton), element.directions, std::move(along),
+                          row, k < 0 ? -1 : element.memory + k,
+                          k < 0 ? -1 : element.law->slider_direction(k)});
+      row += element.directions.cols();
+    }
+  }
+  return contacts;
+}
+
+std::vector<LinearMotion::Part> parts_of(const std::vector<Contact>& contacts) {
+  std::vector<LinearMotion::Part> parts;
+  for (const Contact& contact : contacts) {
+    parts.push_back({contact.directions, {}});
+    for (const auto& mode : contact.automaton.modes) parts.back().stiffnesses.push_back(mode.f_q);
+  }
+  return parts;
+}
+
 }  // namespace
 
 March::March(const EquationOfMotion& equation, const EventLimits& limits)
-    : equation_(equation), limits_(limits), linear_(equation) {
-  for (std::size_t e = 0; e < equation.elements.size(); ++e) {
-    const Element& element = equation.elements[e];
-    if (element.slider >= 0)
-      frictions_.push_back(
-          {static_cast<int>(e), element.slider, element.direction, element.stiffness, element.slip_limit});
-  }
+    : equation_(equation),
+      limits_(limits),
+      contacts_(contacts_of(equation)),
+      linear_(equation, parts_of(contacts_)) {
+  std::size_t most = 0;
+  for (const Contact& contact : contacts_) most = std::max(most, contact.along.size());
+  displacement_.resize(most);
+  velocity_.resize(most);
 }
 
 void March::begin(const State& start, double time, bool derivatives) {
-  const Eigen::Index n = equation_.dofs(), sliders = equation_.sliders;
-  const Eigen::Index columns = derivatives ? 1 + 2 * n + sliders : 1;
+  const Eigen::Index n = equation_.dofs(), memory = equation_.memory;
+  const Eigen::Index columns = derivatives ? 1 + 2 * n + memory : 1;
   X_.setZero(n, columns);
   V_.setZero(n, columns);
-  Z_.setZero(sliders, columns);
-  g_.setZero(static_cast<Eigen::Index>(equation_.elements.size()), columns);
+  Z_.setZero(memory, columns);
   X_.col(0) = start.x;
   V_.col(0) = start.v;
   Z_.col(0) = start.z;
   if (derivatives) {
     X_.middleCols(1, n).setIdentity();
     V_.middleCols(1 + n, n).setIdentity();
-    Z_.rightCols(sliders).setIdentity();
+    Z_.rightCols(memory).setIdentity();
   }
-  for (Friction& friction : frictions_) {
-    friction.slip = 0;
-    const auto e = static_cast<std::size_t>(friction.element);
-    linear_.set_stuck(e, friction.stuck());
-    if (!friction.stuck()) continue;
-    const double q = friction.direction.dot(start.x);
-    auto z = Z_.row(friction.slider);
-    const double reach = friction.limit / friction.stiffness;  // infinite without stiffness: never slips
-    if (std::abs(q - z[0]) > reach) z[0] = q - std::copysign(reach, q - z[0]);
-    g_.row(friction.element) = friction.stiffness * z;
+  for (const Element& element : equation_.elements) {
+    const int own = element.law->memory();
+    elements::StepEnd at(element.law->directions(), own);
+    Vector z = Z_.col(0).segment(element.memory, own);
+    element.law->begin(element.fields, element.directions.transpose() * start.x, z, at);
+    Z_.col(0).segment(element.memory, own) = z;
+  }
+  g_.setZero(contacts_.empty() ? 0 : contacts_.back().row + contacts_.back().directions.cols(), columns);
+  for (Contact& contact : contacts_) {
+    contact.now = 0;
+    enter(contact);
   }
   t_ = from_ = time;
   events_ = pieces_ = 0;
   moved_ = false;
   reason_ = EndReason::reached;
+}
+
+// What does not depend on the displacement while the mode lasts: the force of its memory, where that rests,
+// or of what that would be at q = 0.
+void March::enter(Contact& contact) {
+  const elements::Mode& mode = contact.mode();
+  auto g = g_.middleRows(contact.row, contact.directions.cols());
+  g.setZero();
+  g.col(0) = -mode.f_0;
+  if (contact.memory >= 0 && mode.rests) g.noalias() -= mode.f_z * Z_.row(contact.memory);
+  linear_.set_stiffness(static_cast<std::size_t>(&contact - contacts_.data()), mode.f_q);
 }
 
 bool March::find(double to) {
@@ -78,34 +122,35 @@ bool March::find(double to) {
 void March::locate() {
   s_ = 1;
   event_.reset();
-  const auto look = [&](std::size_t i, double size, int direction) {
-    const auto s = first_fall(guard_, rounding * size);
-    if (!s || (event_ && *s >= s_)) return;
-    s_ = *s;
-    switching_ = i;
-    const bool onset = frictions_[i].stuck();
-    event_ = {t_ + s_ * h_, frictions_[i].element, onset ? EventKind::slip_onset : EventKind::slip_end,
-              direction};
-  };
-  for (std::size_t i = 0; i < frictions_.size(); ++i) {
-    const Friction& friction = frictions_[i];
-    if (friction.free()) continue;
-    if (friction.slip != 0) {
-      const double size = linear_.velocity(friction.direction, guard_);
-      for (double& c : guard_) c *= friction.slip;
-      look(i, size, friction.slip);
-      continue;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    const auto& leaves = contact.mode().leaves;
+    for (std::size_t k = 0; k < contact.along.size(); ++k) displacement_[k].made = velocity_[k].made = false;
+    for (const elements::Guard& guard : leaves) {
+      const double offset = guard.c + (contact.memory < 0 ? 0 : guard.z * Z_(contact.memory, 0));
+      double size = std::abs(guard.c) + std::abs(offset - guard.c);
+      guard_.fill(0);
+      const auto add = [&](double factor, Sized& part, auto series_of, const Vector& d) {
+        if (factor == 0) return;
+        if (!part.made) part.size = (linear_.*series_of)(d, part.series);
+        part.made = true;
+        size += std::abs(factor) * part.size;
+        for (std::size_t j = 0; j < guard_.size(); ++j) guard_[j] += factor * part.series[j];
+      };
+      for (std::size_t k = 0; k < contact.along.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        add(guard.q[at], displacement_[k], &LinearMotion::displacement, contact.along[k]);
+        add(guard.v[at], velocity_[k], &LinearMotion::velocity, contact.along[k]);
+      }
+      guard_[0] += offset;
+      const auto s = first_fall(guard_, rounding * size);
+      if (!s || (event_ && *s >= s_)) continue;
+      s_ = *s;
+      switching_ = i;
+      next_mode_ = guard.to;
+      event_ = {t_ + s_ * h_, contact.element, contact.mode().name,
+                contact.automaton.modes[static_cast<std::size_t>(guard.to)].name};
     }
-    // mu F_n - sigma k_d (q - z), for both signs
-    const double offset = g_(friction.element, 0);
-    const double size = friction.stiffness * linear_.displacement(friction.direction, guard_) +
-                        std::abs(offset) + friction.limit;
-    for (double& c : guard_) c *= -friction.stiffness;
-    guard_[0] += offset + friction.limit;
-    look(i, size, 1);
-    for (double& c : guard_) c = -c;
-    guard_[0] += 2 * friction.limit;
-    look(i, size, -1);
   }
   recorded_ = event_ && (moved_ || s_ > 0);
 }
@@ -118,38 +163,32 @@ void March::finish() {
   t_ = piece_end();
   if (!event_) return;
   ++events_;
-  switch_contact(frictions_[switching_]);
-}
-
-void March::switch_contact(Friction& friction) {
-  const Eigen::Index e = friction.element;
-  if (friction.slip == 0) {
-    friction.slip = event_->direction;
-    g_.row(e).setZero();
-    g_(e, 0) = -friction.slip * friction.limit;
-  } else {
-    Z_.row(friction.slider) = friction.direction.transpose() * X_;
-    Z_(friction.slider, 0) -= friction.slip * friction.limit / friction.stiffness;
-    friction.slip = 0;
-    g_.row(e) = friction.stiffness * Z_.row(friction.slider);
+  Contact& contact = contacts_[switching_];
+  if (contact.follows()) {
+    const elements::Mode& mode = contact.mode();
+    Z_.row(contact.memory) = mode.z_q * (contact.directions.transpose() * X_);
+    Z_(contact.memory, 0) += mode.z_0;
   }
-  linear_.set_stuck(static_cast<std::size_t>(e), friction.stuck());
+  contact.now = next_mode_;
+  enter(contact);
 }
 
-double March::slider(const Friction& friction, double q) const {
-  if (friction.stuck()) return Z_(friction.slider, 0);
-  return friction.free() ? q : q - friction.slip * friction.limit / friction.stiffness;
+double March::memory(const Contact& contact, const Vector& q) const {
+  if (!contact.follows()) return Z_(contact.memory, 0);
+  return contact.mode().z_q.dot(q.transpose()) + contact.mode().z_0;
 }
 
-double March::force(const Friction& friction, double q) const {
-  if (friction.stuck()) return friction.stiffness * (q - Z_(friction.slider, 0));
-  return friction.slip * friction.limit;
+double March::force(const Contact& contact, const Vector& q) const {
+  const elements::Mode& mode = contact.mode();
+  const double by_memory = contact.memory >= 0 && mode.rests ? mode.f_z[0] * Z_(contact.memory, 0) : 0;
+  return mode.f_q.row(0).dot(q.transpose()) + by_memory + mode.f_0[0];
 }
 
 State March::state() const {
   State state{X_.col(0), V_.col(0), Z_.col(0)};
-  for (const Friction& friction : frictions_)
-    state.z[friction.slider] = slider(friction, friction.direction.dot(state.x));
+  for (const Contact& contact : contacts_)
+    if (contact.follows())
+      state.z[contact.memory] = memory(contact, contact.directions.transpose() * state.x);
   return state;
 }
 
@@ -158,14 +197,15 @@ double March::size() const {
 }
 
 Matrix March::monodromy() const {
-  const Eigen::Index n = X_.rows(), sliders = Z_.rows();
-  Matrix M(2 * n + sliders, 2 * n + sliders);
+  const Eigen::Index n = X_.rows(), memory = Z_.rows();
+  Matrix M(2 * n + memory, 2 * n + memory);
   M.topRows(n) = X_.rightCols(M.cols());
   M.middleRows(n, n) = V_.rightCols(M.cols());
-  M.bottomRows(sliders) = Z_.rightCols(M.cols());
-  for (const Friction& friction : frictions_)
-    if (!friction.stuck())
-      M.row(2 * n + friction.slider) = friction.direction.transpose() * X_.rightCols(M.cols());
+  M.bottomRows(memory) = Z_.rightCols(M.cols());
+  for (const Contact& contact : contacts_)
+    if (contact.follows())
+      M.row(2 * n + contact.memory) =
+          contact.mode().z_q * (contact.directions.transpose() * X_.rightCols(M.cols()));
   return M;
 }
 

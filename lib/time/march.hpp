@@ -5,18 +5,23 @@
 #include <arcslip/time/linear_motion.hpp>
 
 #include <optional>
+#include <vector>
 
 namespace arcslip::time {
 
-/// A Jenkins element and its contact.
-struct Friction {
-  int element, slider;
-  Vector direction;
-  double stiffness, limit;  // k_d, mu F_n
-  int slip = 0;             // sign of the slip velocity; 0: stuck, or free where the limit is 0
+/// An automaton of an element, and the mode that it is in.
+struct Contact {
+  int element;
+  elements::Automaton automaton;
+  Matrix directions;          // dofs x directions
+  std::vector<Vector> along;  // its columns
+  Eigen::Index row;           // of its first direction among those of all
+  int memory;                 // in State::z; -1: none
+  int slider;                 // the direction that this memory follows; -1: it is no slider
+  int now = 0;                // index of the mode
 
-  bool free() const { return limit <= 0; }
-  bool stuck() const { return slip == 0 && !free(); }
+  const elements::Mode& mode() const { return automaton.modes[static_cast<std::size_t>(now)]; }
+  bool follows() const { return memory >= 0 && !mode().rests; }
 };
 
 class March {
@@ -37,34 +42,42 @@ class March {
   double s() const { return s_; }
   double piece_end() const { return event_ ? event_->time : end_; }
   const LinearMotion& piece() const { return linear_; }
-  const std::vector<Friction>& frictions() const { return frictions_; }
-  /// The event at the end of the piece; none: nullptr. Contact found at the start is no event.
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  /// The event at the end of the piece; none: nullptr. Modes found at the start are no event.
   const ContactEvent* event() const { return event_ && recorded_ ? &*event_ : nullptr; }
 
   State state() const;
-  double size() const;                                      // |(x, x'/omega)|
-  Matrix monodromy() const;                                 // 2 dofs + sliders
-  double slider(const Friction& friction, double q) const;  // z where the element is at q
-  double force(const Friction& friction, double q) const;
+  double size() const;       // |(x, x'/omega)|
+  Matrix monodromy() const;  // 2 dofs + memory
+  /// z, and f along the first direction, where the element is at q.
+  double memory(const Contact& contact, const Vector& q) const;
+  double force(const Contact& contact, const Vector& q) const;
 
   EndReason reason() const { return reason_; }
   std::string message() const;
 
  private:
   void locate();
-  void switch_contact(Friction& friction);
+  void enter(Contact& contact);  // its mode
 
   const EquationOfMotion& equation_;
   EventLimits limits_;
+  std::vector<Contact> contacts_;
   LinearMotion linear_;
-  std::vector<Friction> frictions_;
-  Matrix X_, V_, Z_, g_;  // dofs, dofs, sliders, elements; times columns
+  Matrix X_, V_, Z_, g_;  // dofs, dofs, memory, directions; times columns
   double t_ = 0, from_ = 0, h_ = 0, s_ = 0, end_ = 0;
   std::optional<ContactEvent> event_;
   std::size_t switching_ = 0;
+  int next_mode_ = 0;
   bool recorded_ = false, moved_ = false;
   long events_ = 0, pieces_ = 0;
   EndReason reason_ = EndReason::reached;
+  struct Sized {
+    LinearMotion::Series series{};
+    double size = 0;
+    bool made = false;
+  };
+  std::vector<Sized> displacement_, velocity_;  // of one contact on the piece, along its directions
   LinearMotion::Series guard_{};
 };
 

@@ -52,7 +52,7 @@ void Newmark::resume(const State& state) {
   y_.setZero();
   equation_.force(0, force_);
   elements_.begin(state_.x, state_.z);
-  state_.z = elements_.slider();
+  state_.z = elements_.memory();
   set_rate();
   stored_at_begin_ = stored();
 }
@@ -69,18 +69,18 @@ Solved Newmark::begin(const State& state) {
 Solved Newmark::place_massless() {
   if (undamped_.cols() > 0) {
     std::vector<Element> seen = equation_.elements;
-    for (Element& element : seen) element.direction = undamped_.transpose() * element.direction;
+    for (Element& element : seen) element.directions = undamped_.transpose() * element.directions;
     ImplicitElements along(seen, static_cast<int>(undamped_.cols()));
     along.set_matrix(undamped_.transpose() * equation_.K * undamped_);
     const Vector q = elements_.directions().transpose() * state_.x;
     Vector y = Vector::Zero(undamped_.cols());
-    along.begin_at(q, elements_.slider());
+    along.begin_at(q, elements_.memory());
     const Solved solved =
         along.solve(undamped_.transpose() * (force_ - equation_.C * state_.v - equation_.K * state_.x), y);
     if (solved != Solved::yes) return solved;
     along.accept();
     state_.x += undamped_ * y;
-    state_.z = along.slider();
+    state_.z = along.memory();
     elements_.begin(state_.x, state_.z);
     state_.v -= undamped_ * (undamped_.transpose() * state_.v);
   }
@@ -124,13 +124,8 @@ Solved Newmark::step() {
   energy_.input += 0.5 * (force_ + new_force_).dot(y_);
   v_.noalias() = equation_.C * y_;
   energy_.viscous += y_.dot(v_) / h_;
-  const auto& all = elements_.elements();
-  for (std::size_t e = 0; e < all.size(); ++e) {
-    const auto i = static_cast<Eigen::Index>(e);
-    if (all[e].slider >= 0)
-      energy_.friction +=
-          0.5 * (elements_.force()[i] + elements_.new_force()[i]) * elements_.slip()[all[e].slider];
-  }
+  for (std::size_t e = 0; e < elements_.elements().size(); ++e)
+    energy_.friction += elements_.end(e).dissipated;
 
   state_.x += y_;
   v_ = 2 / h_ * y_ - state_.v;
@@ -140,7 +135,7 @@ Solved Newmark::step() {
   }
   state_.v = v_;
   elements_.accept();
-  state_.z = elements_.slider();
+  state_.z = elements_.memory();
   force_.swap(new_force_);
   set_rate();
   ++number_;

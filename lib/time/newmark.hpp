@@ -12,9 +12,10 @@
 // too long by the share (w h)^2/12. Stable for every h where nothing but the friction elements is nonlinear.
 //
 // Energy over a step, from x1 - x0 = h (v0 + v1)/2:
-//   input    (F0 + F1)/2 . y        viscous   y . C y/h       friction   sum_e (f_e0 + f_e1)/2 (z_e1 - z_e0)
-//   stored   change of v . M v/2 + x . K x/2 + sum_e f_e^2/(2 kd) + sum_e k3 q_e^4/4
-// balances to rounding with Jenkins elements alone, and to the order of the method with cubic springs.
+//   input    (F0 + F1)/2 . y        viscous   y . C y/h       friction   what the laws dissipate
+//   stored   change of v . M v/2 + x . K x/2 + what the laws store
+// balances to rounding where these are such that (f_e0 + f_e1)/2 . D_e^T y is dissipated and stored, as of
+// Jenkins elements, and to the order of the method with others.
 //
 // A massless motion (M w = 0) has r . w = 0 at all times; one without mass and damping has v = (x1 - x0)/h.
 // Source: Newmark 1959; docs/theory.md, section 10.

@@ -17,13 +17,12 @@ class Observation {
       : newmark_(newmark), with_history_(with_history) {
     const auto& equation = newmark.equation();
     for (const Element& element : equation.elements) {
-      if (element.slider >= 0) result_.friction.emplace_back();
+      if (element.law->has_contact()) result_.friction.emplace_back();
       if (with_history) result_.history.elements.push_back({element.name, {}, {}, {}});
     }
     if (with_history) reserve(static_cast<std::size_t>(steps) + 1);
     x_ = equation.response.dot(newmark.state().x);
     v_ = equation.response.dot(newmark.state().v);
-    force_ = newmark.elements().force();
     result_.amplitude = std::abs(x_);
     record();
   }
@@ -65,18 +64,11 @@ class Observation {
     const ImplicitElements& elements = newmark_.elements();
     std::size_t k = 0;
     for (std::size_t e = 0; e < elements.elements().size(); ++e) {
-      const Element& element = elements.elements()[e];
-      if (element.slider < 0) continue;
-      const auto i = static_cast<Eigen::Index>(e);
-      const double slip = elements.slip()[element.slider];
-      const double df = elements.force()[i] - force_[i];
+      if (!elements.elements()[e].law->has_contact()) continue;
       FrictionShare& share = result_.friction[k++];
-      share.energy += 0.5 * (elements.force()[i] + force_[i]) * slip;
-      const double stuck = std::abs(df / element.stiffness);
-      if (element.slip_limit > 0)
-        share.stick_share += elements.slides(e) && slip != 0 ? stuck / (stuck + std::abs(slip)) : 1;
+      share.energy += elements.end(e).dissipated;
+      share.stick_share += elements.end(e).stick_share;
     }
-    force_ = elements.force();
   }
 
   void record() {
@@ -89,16 +81,15 @@ class Observation {
     for (std::size_t e = 0; e < history.elements.size(); ++e) {
       const Element& element = elements.elements()[e];
       ElementHistory& of = history.elements[e];
-      of.displacement.push_back(element.direction.dot(newmark_.state().x));
-      of.force.push_back(elements.force()[static_cast<Eigen::Index>(e)]);
-      if (element.slider >= 0) of.slider.push_back(newmark_.state().z[element.slider]);
+      of.displacement.push_back(element.directions.col(0).dot(newmark_.state().x));
+      of.force.push_back(elements.force()[elements.first_direction(e)]);
+      if (element.law->has_contact()) of.slider.push_back(newmark_.state().z[element.memory]);
     }
   }
 
   const Newmark& newmark_;
   bool with_history_;
   double x_ = 0, v_ = 0;
-  Vector force_;
   PeriodMotion result_;
 };
 
@@ -150,8 +141,10 @@ PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, b
 
 PeriodMap newmark_map(Newmark& newmark, const State& start) {
   const EquationOfMotion& equation = newmark.equation();
-  const Eigen::Index n = equation.dofs(), size = 2 * n + equation.sliders;
+  const Eigen::Index n = equation.dofs(), size = 2 * n + equation.memory;
   struct Reach {
+    int slider;
+    Vector direction;
     double high, low;
     Eigen::RowVectorXd d_high, d_low;
     bool up, down;  // slips that way
@@ -163,14 +156,16 @@ PeriodMap newmark_map(Newmark& newmark, const State& start) {
   map.monodromy = Matrix::Identity(size, size);
   newmark.resume(start);
   std::vector<Reach> reaches;
-  std::vector<const Element*> friction;
-  for (const Element& element : equation.elements) {
-    if (element.slider < 0) continue;
-    const double q = element.direction.dot(start.x);
-    const Eigen::RowVectorXd dq = element.direction.transpose() * map.monodromy.topRows(n);
-    reaches.push_back({q, q, dq, dq, element.slip_limit == 0, element.slip_limit == 0});
-    friction.push_back(&element);
-  }
+  for (const Element& element : equation.elements)
+    for (int k = 0; k < element.law->memory(); ++k) {
+      const int along = element.law->slider_direction(k);
+      if (along < 0) continue;
+      const Vector d = element.directions.col(along);
+      const double q = d.dot(start.x);
+      const Eigen::RowVectorXd dq = d.transpose() * map.monodromy.topRows(n);
+      const bool free = element.law->traits(element.fields, along).limit == 0;
+      reaches.push_back({element.memory + k, d, q, q, dq, dq, free, free});
+    }
   for (long k = 0; k < newmark.steps_per_period(); ++k) {
     const Solved solved = newmark.step();
     if (solved != Solved::yes) {
@@ -182,23 +177,23 @@ PeriodMap newmark_map(Newmark& newmark, const State& start) {
     map.size = std::max(map.size, std::hypot(state.x.norm(), state.v.norm() / equation.omega));
     for (std::size_t i = 0; i < reaches.size(); ++i) {
       Reach& reach = reaches[i];
-      const double slip = newmark.elements().slip()[friction[i]->slider];
+      const double slip = newmark.elements().memory_change()[reach.slider];
       reach.up = reach.up || slip > 0;
       reach.down = reach.down || slip < 0;
       if (!reach.rests()) continue;
-      const double q = friction[i]->direction.dot(newmark.state().x);
+      const double q = reach.direction.dot(newmark.state().x);
       if (q > reach.high) {
         reach.high = q;
-        reach.d_high = friction[i]->direction.transpose() * map.monodromy.topRows(n);
+        reach.d_high = reach.direction.transpose() * map.monodromy.topRows(n);
       } else if (q < reach.low) {
         reach.low = q;
-        reach.d_low = friction[i]->direction.transpose() * map.monodromy.topRows(n);
+        reach.d_low = reach.direction.transpose() * map.monodromy.topRows(n);
       }
     }
   }
   for (std::size_t i = 0; i < reaches.size(); ++i)
     if (reaches[i].rests())
-      map.resting.push_back({friction[i]->slider, 0.5 * (reaches[i].high + reaches[i].low),
+      map.resting.push_back({reaches[i].slider, 0.5 * (reaches[i].high + reaches[i].low),
                              0.5 * (reaches[i].d_high + reaches[i].d_low)});
   map.end = newmark.state();
   map.done = true;

@@ -6,6 +6,8 @@
 #include <arcslip/continuation/corrector.hpp>
 #include <arcslip/continuation/hopf_curve.hpp>
 #include <arcslip/continuation/stationary.hpp>
+#include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/time/newmark.hpp>
@@ -93,9 +95,8 @@ TEST_CASE("a step of Newmark's method allocates nothing, up to 60 degrees of fre
     equation.response = Eigen::VectorXd::Unit(n, 0);
     equation.forces.push_back({Eigen::VectorXd::Ones(n), 1, 1.0, 0.5});
     for (int i = 0; i < n; ++i)
-      equation.elements.push_back(
-          {"d", model::Law::jenkins, Eigen::VectorXd::Unit(n, i), 0.5, 0.1, equation.sliders++});
-    equation.elements.push_back({"c", model::Law::cubic_spring, Eigen::VectorXd::Unit(n, 0), 0.1});
+      equation.add("d", elements::jenkins().law({}), {0.5, 1, 0.1}, Eigen::VectorXd::Unit(n, i));
+    equation.add("c", elements::cubic_spring().law({}), {0.1}, Eigen::VectorXd::Unit(n, 0));
     time::Newmark newmark(equation, 40);
     REQUIRE(newmark.begin(time::at_rest(equation)) == time::Solved::yes);
     REQUIRE(newmark.step() == time::Solved::yes);

@@ -7,6 +7,7 @@
 #include "optimize/optima.hpp"
 #include "optimize/paper_optimum.hpp"
 
+#include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/optimize/reasons.hpp>
 
@@ -317,7 +318,7 @@ TEST_CASE("the optimal load grows in proportion to the excitation, and not where
   CHECK(reference::error(linear[1], 2 * linear[0]) < 1e-7);
   CHECK(reference::error(linear[2], 4 * linear[0]) < 1e-7);
   scene::Scene hardening = s;
-  hardening.elements.push_back({"spring", &scene::cubic_spring_type, s.elements[0].direction, {5e7}, 1});
+  hardening.elements.push_back({"spring", &elements::cubic_spring(), s.elements[0].directions, {5e7}, 1});
   const auto bent = loads(hardening);
   REQUIRE(bent.size() == 3);
   const auto highest = [&](double load) {  // of a new response

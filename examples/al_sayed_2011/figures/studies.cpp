@@ -1,5 +1,6 @@
 #include "studies.hpp"
 
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/optimize/studies.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
@@ -36,7 +37,7 @@ SceneFile read_scene(const std::string& folder, const std::string& name) {
   scene::Catalogue catalogue = studies::catalogue();
   optimize::add_studies(catalogue);
   SceneFile file{name, scene::read_file(folder + "/" + name, catalogue)};
-  if (file.scene.elements.empty() || file.scene.elements.front().type != &scene::jenkins_type)
+  if (file.scene.elements.empty() || file.scene.elements.front().type != &elements::jenkins())
     throw std::runtime_error(name + ": the figures are of a friction element, which has to be the first");
   return file;
 }

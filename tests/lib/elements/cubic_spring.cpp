@@ -9,7 +9,7 @@ using namespace arcslip::elements;
 TEST_CASE("the cube of a cosine has the coefficients 3/4 and 1/4") {
   for (bool odd : {true, false}) {
     const Harmonics h{3, odd};
-    const auto element = make_cubic_spring(h);
+    const auto element = cubic_spring().element(h, {});
     Eigen::VectorXd u = Eigen::VectorXd::Zero(h.size());
     u[h.cosine_index(1)] = 2;
     element->move_to(u, std::array{5.0}, true);
@@ -28,7 +28,7 @@ TEST_CASE(
   for (bool odd : {true, false})
     for (int order : {1, 2, 7, 20}) {
       const Harmonics h{order, odd};
-      const auto element = make_cubic_spring(h);
+      const auto element = cubic_spring().element(h, {});
       const Eigen::VectorXd u = Eigen::VectorXd::Random(h.size());
       element->move_to(u, std::array{2.0}, true);
       const auto& J = element->jacobian();

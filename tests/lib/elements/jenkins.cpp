@@ -25,7 +25,7 @@ Eigen::VectorXd motion(const Harmonics& h, double amplitude, unsigned seed) {
   return amplitude * u / u.cwiseAbs().maxCoeff();
 }
 
-using Fields = std::array<double, 3>;  // stiffness, friction coefficient, normal load
+using FieldValues = std::array<double, 3>;  // stiffness, friction coefficient, normal load
 
 }  // namespace
 
@@ -37,7 +37,7 @@ TEST_CASE("with one harmonic the force has the describing function of the Jenkin
   for (double A : {1.0001, 1.5, 2.0, 5.0, 1e3, 1e6})
     for (double Fn : {1e-6, 3.0, 1e6}) {
       const double p = mu * Fn, x_s = p / kd, a = A * x_s;
-      element->move_to(Eigen::VectorXd{{a, 0.0}}, Fields{kd, mu, Fn}, false);
+      element->move_to(Eigen::VectorXd{{a, 0.0}}, FieldValues{kd, mu, Fn}, false);
       const double onset = 2 * std::asin(std::sqrt(1 / A));
       const double digits = 1e-11 + 1e-15 * A;  // k_d a is A times the force
       CAPTURE(A, Fn);
@@ -64,7 +64,7 @@ TEST_CASE(
             const Harmonics h{order, odd};
             const auto element = make_jenkins(h);
             const Eigen::VectorXd u = motion(h, amplitude, seed);
-            const Fields fields{2.0, 0.5, amplitude * load};
+            const FieldValues fields{2.0, 0.5, amplitude * load};
             element->move_to(u, fields, true);
             const Eigen::MatrixXd J = element->jacobian();
             const std::uint64_t piece = element->piece();
@@ -96,14 +96,14 @@ TEST_CASE("the derivative in every field is that of central differences") {
         const Harmonics h{7, odd};
         const auto element = sampled ? make_sampled_jenkins(h, 256) : make_jenkins(h);
         const Eigen::VectorXd u = motion(h, 1, 5);
-        const Fields fields{2.0, 0.5, load};
+        const FieldValues fields{2.0, 0.5, load};
         for (int k = 0; k < 3; ++k) {
           const auto at = static_cast<std::size_t>(k);
           Eigen::VectorXd dF(h.size());
           element->move_to(u, fields, true);
           element->field_derivative(k, dF);
           const double step = 1e-6 * fields[at];
-          Fields changed = fields;
+          FieldValues changed = fields;
           changed[at] += step;
           element->move_to(u, changed, false);
           const Eigen::VectorXd plus = element->force();
@@ -119,7 +119,7 @@ TEST_CASE("sampling converges to the exact force as samples^-2") {
   for (bool odd : {true, false}) {
     const Harmonics h{9, odd};
     const Eigen::VectorXd u = motion(h, 1, 11);
-    const Fields fields{2.0, 0.5, 0.8};
+    const FieldValues fields{2.0, 0.5, 0.8};
     const auto exact = make_jenkins(h);
     exact->move_to(u, fields, true);
     double last = 0;
@@ -148,7 +148,7 @@ TEST_CASE("sampled friction tells a slip phase up to each extreme, of any length
     const auto element = make_sampled_jenkins(h, 128);
     for (const double load : {1e-9, 1e-3, 0.1, 0.9}) {
       CAPTURE(odd, load);
-      element->move_to(u, Fields{1.0, 1.0, load}, false);
+      element->move_to(u, FieldValues{1.0, 1.0, load}, false);
       FrictionState state;
       REQUIRE(element->friction(state));
       REQUIRE(state.slip_onsets.size() == 2);
@@ -181,7 +181,7 @@ TEST_CASE("the sampled Jacobian is exact for the sampled force") {
       const Harmonics h{5, odd};
       const auto element = make_sampled_jenkins(h, 100);
       const Eigen::VectorXd u = motion(h, 1, 3);
-      const Fields fields{2.0, 0.5, load};
+      const FieldValues fields{2.0, 0.5, load};
       element->move_to(u, fields, true);
       const Eigen::MatrixXd J = element->jacobian();
       for (int i = 0; i < h.size(); ++i) {
@@ -204,7 +204,7 @@ TEST_CASE("the sampled force is one straight line within its piece") {
         const Harmonics h{5, odd};
         const auto element = make_sampled_jenkins(h, 64);
         const Eigen::VectorXd u = motion(h, 1, seed), v = u + motion(h, 0.03, seed + 100);
-        const Fields fields{2.0, 0.5, load};
+        const FieldValues fields{2.0, 0.5, load};
         element->move_to(u, fields, true);
         const std::uint64_t piece = element->piece();
         const Eigen::VectorXd expected = element->force() + element->jacobian() * (v - u);
@@ -227,13 +227,13 @@ TEST_CASE("force and energy are continuous where slip is born, between stick and
     FrictionState state;
     for (int k = 0; k < 200; ++k) {
       const double middle = 0.5 * (slips + sticks);
-      element->move_to(u, Fields{2.0, 0.5, middle}, false);
+      element->move_to(u, FieldValues{2.0, 0.5, middle}, false);
       element->friction(state);
       (state.stick_share == 1 ? sticks : slips) = middle;
     }
-    element->move_to(u, Fields{2.0, 0.5, slips}, false);
+    element->move_to(u, FieldValues{2.0, 0.5, slips}, false);
     const Eigen::VectorXd below = element->force();
-    element->move_to(u, Fields{2.0, 0.5, sticks}, false);
+    element->move_to(u, FieldValues{2.0, 0.5, sticks}, false);
     CHECK((element->force() - below).norm() < 1e-12);
   }
 }
@@ -247,8 +247,8 @@ TEST_CASE("a small loop within the large one keeps the anchor of the large one")
   const auto exact = make_jenkins(h);
   const auto sampled = make_sampled_jenkins(h, 400000);
   for (double load : {0.2, 0.6, 1.0, 1.4, 2.0}) {
-    exact->move_to(u, Fields{1.0, 1.0, load}, true);
-    sampled->move_to(u, Fields{1.0, 1.0, load}, true);
+    exact->move_to(u, FieldValues{1.0, 1.0, load}, true);
+    sampled->move_to(u, FieldValues{1.0, 1.0, load}, true);
     CAPTURE(load);
     CHECK((exact->force() - sampled->force()).norm() < 1e-9);
     CHECK((exact->jacobian() - sampled->jacobian()).norm() < 1e-4);
@@ -261,13 +261,13 @@ TEST_CASE("without load or without motion the force is what it must be") {
     for (const bool sampled : {false, true}) {
       const auto element = sampled ? make_sampled_jenkins(h, 128) : make_jenkins(h);
       const Eigen::VectorXd u = motion(h, 1, 2);
-      element->move_to(u, Fields{2.0, 0.5, 0.0}, true);
+      element->move_to(u, FieldValues{2.0, 0.5, 0.0}, true);
       CHECK(element->force().norm() < 1e-14);
       CHECK(element->jacobian().norm() < 1e-12);
-      element->move_to(0 * u, Fields{2.0, 0.5, 0.0}, true);
+      element->move_to(0 * u, FieldValues{2.0, 0.5, 0.0}, true);
       CHECK(element->force().norm() == 0);
       CHECK(element->jacobian().norm() == 0);
-      element->move_to(0 * u, Fields{2.0, 0.5, 1.0}, true);
+      element->move_to(0 * u, FieldValues{2.0, 0.5, 1.0}, true);
       CHECK(element->force().norm() == 0);
       CHECK(element->jacobian()
                 .bottomRightCorner(5 - 2 * odd, 5 - 2 * odd)
@@ -280,12 +280,12 @@ TEST_CASE("full stick is a centred linear spring, mean included") {
   const Harmonics h{4, false};
   const auto element = make_jenkins(h);
   Eigen::VectorXd u = motion(h, 1, 9);
-  element->move_to(u, Fields{2.0, 0.5, 1e3}, true);
+  element->move_to(u, FieldValues{2.0, 0.5, 1e3}, true);
   Eigen::VectorXd shifted = u;
   shifted[0] += 0.7;
   const Eigen::VectorXd F = element->force();
   CHECK((F.tail(8) - 2 * u.tail(8)).norm() < 1e-14);
-  element->move_to(shifted, Fields{2.0, 0.5, 1e3}, true);
+  element->move_to(shifted, FieldValues{2.0, 0.5, 1e3}, true);
   CHECK((element->force() - F).norm() < 1e-13);  // the slider has no memory of where it stands
 }
 
@@ -299,7 +299,7 @@ TEST_CASE(
     const auto element = trial % 2 == 0 ? make_jenkins(h) : make_sampled_jenkins(h, 128);
     Eigen::VectorXd u = motion(h, 1, static_cast<unsigned>(trial));
     for (int n = 1; n <= h.order; n += 2) u[h.cosine_index(n)] = u[h.sine_index(n)] = 0;
-    const Fields fields{1, 0.5, 100};
+    const FieldValues fields{1, 0.5, 100};
     element->move_to(u, fields, false);
     const auto piece = element->piece();
     for (int k = 0; k < 50; ++k) {
@@ -313,7 +313,7 @@ TEST_CASE(
 
 TEST_CASE("an element without load has one piece, whatever its motion") {
   const Harmonics h{5, false};
-  const Fields fields{2, 0.5, 0};
+  const FieldValues fields{2, 0.5, 0};
   for (const bool sampled : {false, true}) {
     const auto element = sampled ? make_sampled_jenkins(h, 64) : make_jenkins(h);
     element->move_to(motion(h, 1, 1), fields, false);

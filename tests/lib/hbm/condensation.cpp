@@ -2,6 +2,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 
 #include <Eigen/Dense>
@@ -21,7 +22,7 @@ TEST_CASE("unknowns are those of the nonlinear elements: 3 masses, 3 elements in
   CHECK(c.linear() == 1);
   // The unknowns are the displacements along the first two elements; the linear coordinate is seen by none.
   for (int e = 0; e < 3; ++e) {
-    const Vector seen = c.P.transpose() * model.elements[static_cast<std::size_t>(e)].direction;
+    const Vector seen = c.P.transpose() * model.elements[static_cast<std::size_t>(e)].directions[0];
     CHECK(std::abs(seen[2]) < 1e-14);
     if (e < 2) CHECK((seen.head(2) - Vector::Unit(2, e)).norm() < 1e-14);
   }
@@ -126,17 +127,17 @@ scene::Scene long_chain(int dofs, bool linked) {
   for (int i = 0; i < dofs; ++i) {
     const std::string n = std::to_string(i);
     s.dofs.push_back("x" + n);
-    s.masses.push_back({"m" + n, &scene::mass_type, {{i, 1.0}}, {1 + 0.3 * (i % 3)}});
+    s.masses.push_back({"m" + n, &scene::mass_type(), {{{i, 1.0}}}, {1 + 0.3 * (i % 3)}});
     const scene::Direction along =
         i > 0 ? scene::Direction{{i, 1.0}, {i - 1, -1.0}} : scene::Direction{{i, 1.0}};
-    s.springs.push_back({"k" + n, &scene::spring_type, along, {1e4}});
-    s.dampers.push_back({"c" + n, &scene::damper_type, along, {2.0}});
+    s.springs.push_back({"k" + n, &scene::spring_type(), {along}, {1e4}});
+    s.dampers.push_back({"c" + n, &scene::damper_type(), {along}, {2.0}});
     for (int j = 0; linked && j + 1 < i; ++j)
       s.springs.push_back(
-          {"z" + n + "_" + std::to_string(j), &scene::spring_type, {{i, 1.0}, {j, -1.0}}, {0.0}});
+          {"z" + n + "_" + std::to_string(j), &scene::spring_type(), {{{i, 1.0}, {j, -1.0}}}, {0.0}});
   }
-  s.elements.push_back({"d", &scene::jenkins_type, {{dofs - 1, 1.0}}, {1e3, 0.5, 2.0}});
-  s.excitation.push_back({"f", &scene::force_type, {{dofs / 2, 1.0}}, {1.0, 0.0}});
+  s.elements.push_back({"d", &elements::jenkins(), {{{dofs - 1, 1.0}}}, {1e3, 0.5, 2.0}});
+  s.excitation.push_back({"f", &scene::force_type(), {{{dofs / 2, 1.0}}}, {1.0, 0.0}});
   s.harmonics.order = 3;
   s.response = {{dofs / 3, 1.0}};
   return s;
@@ -242,7 +243,7 @@ TEST_CASE("a condensed equation has the solution of the full one, whatever its s
       const double s = n * full.p[model::frequency];
       const Eigen::MatrixXcd Z =
           matrix(full.model.springs) - s * s * matrix(full.model.masses) + i * s * matrix(full.model.dampers);
-      const Eigen::VectorXcd f = std::complex<double>(1, -0.4) * full.model.forces.front().direction;
+      const Eigen::VectorXcd f = std::complex<double>(1, -0.4) * Vector(full.model.forces.front().direction);
       const Eigen::VectorXcd expected = Z.partialPivLu().solve(0.7 * f);
       Eigen::VectorXcd y(row.dofs);
       y.head(row.unknowns) = condensed.Z.partialPivLu().solve(0.7 * condensed.f);

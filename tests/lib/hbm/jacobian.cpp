@@ -2,6 +2,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/hbm/problem.hpp>
 
 using namespace arcslip;
@@ -20,7 +21,7 @@ Worst worst_derivative(const scene::Scene& scene, double amplitude, double frequ
                        unsigned seed) {
   scene::Scene s = scene;
   for (const auto& element : s.elements)
-    if (element.type == &scene::jenkins_type) scene::set(s, element.name + ".normal_load", load);
+    if (element.type == &elements::jenkins()) scene::set(s, element.name + ".normal_load", load);
   for (auto& force : s.excitation)  // forces of the size of the motion, so that differences keep their digits
     for (double& value : force.values) value *= amplitude;
   const auto model = std::make_shared<const model::Model>(model::build(s));

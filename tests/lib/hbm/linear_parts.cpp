@@ -35,7 +35,7 @@ struct Chain {
   Eigen::VectorXcd force(int n, const Vector& at) const {
     Eigen::VectorXcd f = Eigen::VectorXcd::Zero(3);
     for (const auto& force : model.forces)
-      if (force.harmonic == n) f += Complex(at[force.cosine], -at[force.sine]) * force.direction;
+      if (force.harmonic == n) f += Complex(at[force.cosine], -at[force.sine]) * Vector(force.direction);
     return f;
   }
 };

@@ -49,7 +49,7 @@ scene::Scene rigid(bool even) {
   s.masses[0].values = {1.2};
   s.masses[1].values = {1.0};
   s.springs.resize(2);
-  s.elements[0].direction = {{1, 1.0}};
+  s.elements[0].directions = {{{1, 1.0}}};
   s.response = {{1, 1.0}};
   return s;
 }
@@ -80,7 +80,7 @@ TEST_CASE(
 
 TEST_CASE("springs of 1e-10 of the rest are as good as none") {
   scene::Scene s = linked(1e8, false);
-  s.springs.push_back({"soft", &scene::spring_type, {{1, 1.0}}, {1e-10}});
+  s.springs.push_back({"soft", &scene::spring_type(), {{{1, 1.0}}}, {1e-10}});
   const auto with = observables::frequency_response(s, scenes::window(s)).front();
   s.springs.pop_back();
   const auto without = observables::frequency_response(s, scenes::window(s)).front();

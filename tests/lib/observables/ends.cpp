@@ -5,6 +5,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
+#include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/reasons.hpp>
 
@@ -61,7 +62,7 @@ TEST_CASE("a mass whose mean only friction would hold is named, and what would h
 
 TEST_CASE("a soft spring through others holds a mean, and odd harmonics have none") {
   scene::Scene linear = held_by_friction();
-  linear.springs.push_back({"kb", &scene::spring_type, {{0, -1.0}, {1, 1.0}}, {10}});
+  linear.springs.push_back({"kb", &scene::spring_type(), {{{0, -1.0}, {1, 1.0}}}, {10}});
   scene::Scene odd = held_by_friction();
   odd.excitation.back().harmonic = 3;
   for (const auto& s : {linear, odd}) CHECK(branches_of(s)[0].status == observables::Status::complete);
@@ -69,7 +70,7 @@ TEST_CASE("a soft spring through others holds a mean, and odd harmonics have non
 
 TEST_CASE("a cubic spring holds a mean unless its stiffness is zero") {
   scene::Scene s = held_by_friction();
-  s.elements.push_back({"kc", &scene::cubic_spring_type, {{1, 1.0}}, {1e9}});
+  s.elements.push_back({"kc", &elements::cubic_spring(), {{{1, 1.0}}}, {1e9}});
   for (const bool stiff : {true, false}) {
     if (!stiff) scene::set(s, "kc.stiffness", 0);
     const auto model = std::make_shared<const model::Model>(model::build(s));
@@ -81,8 +82,8 @@ TEST_CASE("a cubic spring holds a mean unless its stiffness is zero") {
 TEST_CASE("two masses that only hold each other drift") {
   scene::Scene s = held_by_friction();
   s.dofs.push_back("c");
-  s.masses.push_back({"mc", &scene::mass_type, {{2, 1.0}}, {1e-3}});
-  s.springs.push_back({"kbc", &scene::spring_type, {{1, 1.0}, {2, -1.0}}, {1e4}});
+  s.masses.push_back({"mc", &scene::mass_type(), {{{2, 1.0}}}, {1e-3}});
+  s.springs.push_back({"kbc", &scene::spring_type(), {{{1, 1.0}, {2, -1.0}}}, {1e4}});
   const auto branches = branches_of(s);
   CHECK(branches[0].stop.reason == observables::reasons::start_failed);
   CHECK(says(branches[0], "holds the mean position of"));

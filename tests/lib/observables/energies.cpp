@@ -79,7 +79,7 @@ TEST_CASE("what the excitation puts in, friction and dampers take out, at every 
   scene::Scene forces = scenes::chain(5, false);  // two in one harmonic
   forces.excitation.push_back(forces.excitation.front());
   forces.excitation.back().name = "h";
-  forces.excitation.back().direction = {{0, 0.7}};
+  forces.excitation.back().directions = {{{0, 0.7}}};
   forces.excitation.back().values = {0.3, -0.5};
   all.emplace_back("two forces", forces);
   scene::Scene tied = scenes::chain(5, false);

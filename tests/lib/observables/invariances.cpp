@@ -2,6 +2,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/model/model.hpp>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ using scene::Scene;
 namespace {
 
 bool is_friction(const Part& element) {
-  return element.type == &scene::jenkins_type;
+  return element.type == &elements::jenkins();
 }
 
 void shuffle(std::vector<Part>& parts, std::mt19937_64& bits) {
@@ -112,11 +113,12 @@ Variant reordered(const Scene& s, std::uint64_t seed) {
     for (Part& part : *parts) {
       part.name = "part " + std::to_string(parts_so_far++);
       const bool turned = !has_sign && bits() % 2 == 0;
-      for (auto& term : part.direction) {
+      auto& direction = part.directions.front();
+      for (auto& term : direction) {
         term.dof = place[static_cast<std::size_t>(term.dof)];
         if (turned) term.weight = -term.weight;
       }
-      std::reverse(part.direction.begin(), part.direction.end());
+      std::reverse(direction.begin(), direction.end());
     }
     shuffle(*parts, bits);
   }

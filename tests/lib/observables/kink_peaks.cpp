@@ -7,7 +7,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/invariances.hpp"
 
-#include <arcslip/hbm/slip_corner.hpp>
+#include <arcslip/hbm/corner.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -89,9 +89,9 @@ void check_all_invariances(const scene::Scene& s) {
 // Of the elements that are nearest to their slip limit at an event, the distance, relative to the limit.
 double excess_at(const hbm::HbmProblem& problem, const continuation::Accepted& now) {
   double least = HUGE_VAL;
-  for (hbm::SlipCorner corner : hbm::slip_corners_near(problem, now.u, now.p, 1e-2))
-    if (const auto h = hbm::slip_excess(problem, corner, now.u, now.p))
-      least = std::min(least, std::abs(*h) / hbm::slip_limit(problem, corner.element, now.p));
+  for (hbm::Corner corner : hbm::corners_near(problem, now.u, now.p, 1e-2))
+    if (const auto h = hbm::corner_excess(problem, corner, now.u, now.p))
+      least = std::min(least, std::abs(*h) / hbm::corner_size(problem, corner, now.u, now.p));
   return least;
 }
 

@@ -6,6 +6,7 @@
 #include "lib/observables/curves.hpp"
 #include "lib/observables/reference.hpp"
 
+#include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/reasons.hpp>
 
@@ -145,7 +146,7 @@ TEST_CASE("a branch over a parameter ends with the callback, and no other is beg
 
 TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each") {
   scene::Scene s = scenes::paper(7);
-  s.elements.push_back({"h", &scene::cubic_spring_type, {{0, 1.0}}, {1e9}});
+  s.elements.push_back({"h", &elements::cubic_spring(), {{{0, 1.0}}}, {1e9}});
   const auto range = over("damper.normal_load", 20, 1, 100);
   long asked = 0, before_points = 0;
   observables::parameter_response(s, range, [&](const observables::Progress& now) {

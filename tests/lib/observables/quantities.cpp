@@ -4,6 +4,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/json_writer.hpp>
@@ -74,7 +75,7 @@ TEST_CASE("JSON has the quantities of the table, with their values, and no other
   for (const bool with_spring : {false, true}) {
     scene::Scene s = scenes::paper(5, 3);
     if (with_spring)
-      s.elements.push_back({"h", &scene::cubic_spring_type, s.elements[0].direction, {1e6}, 1});
+      s.elements.push_back({"h", &elements::cubic_spring(), s.elements[0].directions, {1e6}, 1});
     const auto branches = observables::frequency_response(s, scenes::window(s));
     std::stringstream text;
     results::write_json(text, studies::results_of(s, branches));

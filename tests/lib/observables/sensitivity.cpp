@@ -170,11 +170,11 @@ namespace {
 // at.
 int check_loads(const scene::Scene& s, const Peaks& peaks, const Peak& peak) {
   observables::Sensitivity sensitivity(peaks.problem);
-  std::optional<hbm::SlipCorner> corner;
+  std::optional<hbm::Corner> corner;
   int checked = 0;
   Vector gradient(1);
   const auto u = peak.x.head(peaks.problem->size());
-  for (const auto& each : hbm::slip_corners_near(*peaks.problem, u, parameters(peaks), 1e-8)) corner = each;
+  for (const auto& each : hbm::corners_near(*peaks.problem, u, parameters(peaks), 1e-8)) corner = each;
   if (peak.nonsmooth && !corner) return 0;
   for (const auto& element : s.elements) {
     const std::string name = element.name + ".normal_load";

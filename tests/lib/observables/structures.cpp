@@ -10,6 +10,8 @@
 #include "lib/observables/structures.hpp"
 #include "random.hpp"
 
+#include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/reasons.hpp>
@@ -35,8 +37,8 @@ void add_cubic_spring(scene::Scene& s, Random& random) {
   // Hardening by a part of the spring at ten static deflections: some bend over and have folds, most do not.
   const double deflection = 10 * force / stiffness;
   s.elements.push_back({"h",
-                        &scene::cubic_spring_type,
-                        {{at, 1.0}},
+                        &elements::cubic_spring(),
+                        {{{at, 1.0}}},
                         {stiffness / (deflection * deflection) * random.logarithmic(1e-4, 0.1)}});
 }
 
@@ -61,7 +63,7 @@ bool is_sampled(const scene::Scene& s) {
 
 bool has_cubic_spring(const scene::Scene& s) {
   return std::any_of(s.elements.begin(), s.elements.end(),
-                     [](const auto& element) { return element.type == &scene::cubic_spring_type; });
+                     [](const auto& element) { return element.type == &elements::cubic_spring(); });
 }
 
 std::vector<invariances::Variant> variants(const scene::Scene& s, std::uint64_t seed) {
@@ -74,7 +76,7 @@ std::vector<invariances::Variant> variants(const scene::Scene& s, std::uint64_t 
   all.push_back(invariances::reordered(s, seed));
   std::vector<std::size_t> friction;
   for (std::size_t e = 0; e < s.elements.size(); ++e)
-    if (s.elements[e].type == &scene::jenkins_type) friction.push_back(e);
+    if (s.elements[e].type == &elements::jenkins()) friction.push_back(e);
   all.push_back(invariances::split(s, random.of(friction)));
   return all;
 }

@@ -136,9 +136,10 @@ TEST_CASE(
 
 TEST_CASE("each type of element is known by its name and describes its fields") {
   std::vector<std::string> names;
-  for (const PartType* type : element_types()) {
-    names.emplace_back(type->name);
-    for (const Field& field : type->fields) {
+  for (const PartType* type : arcslip::elements::laws()) {
+    names.emplace_back(type->name());
+    CHECK_FALSE(type->help().empty());
+    for (const Field& field : type->fields({})) {
       CHECK_FALSE(field.unit.empty());
       CHECK_FALSE(field.help.empty());
     }

@@ -1,3 +1,4 @@
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -29,8 +30,8 @@ TEST_CASE("the scene of the paper is read with the paper's numbers") {
   CHECK(value(scene, "k.value") == 17890.0);
   CHECK(value(scene, "c.value") == 0.134);
   REQUIRE(scene.elements.size() == 1);
-  CHECK(scene.elements[0].type == &jenkins_type);
-  CHECK(scene.elements[0].direction == Direction{{0, 1.0}});
+  CHECK(scene.elements[0].type == &arcslip::elements::jenkins());
+  CHECK(scene.elements[0].directions == std::vector<Direction>{{{0, 1.0}}});
   CHECK(scene.elements[0].values == std::vector<double>{3500.0, 0.5, 3.0});
   CHECK(value(scene, "force.cosine") == 1.0);
   CHECK(scene.response == Direction{{0, 1.0}});
@@ -63,7 +64,9 @@ TEST_CASE("what a scene leaves out has the default of the format") {
 
 TEST_CASE("a place acts on what the format says") {
   const auto direction_of = [](const std::string& place) {
-    return read_text(good_scene_with("\"between\": [\"a\", \"ground\"]", place)).springs[0].direction;
+    return read_text(good_scene_with("\"between\": [\"a\", \"ground\"]", place))
+        .springs[0]
+        .directions.front();
   };
   CHECK(direction_of("\"at\": \"b\"") == Direction{{1, 1.0}});
   CHECK(direction_of("\"between\": [\"b\", \"a\"]") == Direction{{1, 1.0}, {0, -1.0}});

@@ -1,6 +1,8 @@
 #include "catch.hpp"
 #include "lib/output/support.hpp"
 
+#include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/results/version.hpp>
@@ -42,7 +44,7 @@ scene::Scene with_element(const std::string& name, const scene::PartType& type) 
   scene.elements.push_back(scene.elements.front());
   scene.elements.back().name = name;
   scene.elements.back().type = &type;
-  scene.elements.back().values.resize(type.fields.size());
+  scene.elements.back().values.resize(type.fields({}).size());
   return scene;
 }
 
@@ -172,7 +174,7 @@ TEST_CASE("with a nonlinear spring its part of the forces is written, and no ang
   branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
   branch.points[0].forces.nonlinear_spring = {7, 0};
   const Json json =
-      written(with_element("spring", scene::cubic_spring_type), {branch})["branches"][0]["points"][0];
+      written(with_element("spring", elements::cubic_spring()), {branch})["branches"][0]["points"][0];
   CHECK(json["force_per_displacement"]["in_phase"]["nonlinear_spring"] == 7.0);
   CHECK(json["elements"]["spring"]["equivalent_stiffness"].is_null());
   CHECK_FALSE(json["elements"]["spring"].contains("theta_0"));
@@ -207,13 +209,13 @@ TEST_CASE("stick_percent stands at the top of a point only with exactly one fric
   branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
   branch.points[2].elements.clear();
   const Json points =
-      written(with_element("spring", scene::cubic_spring_type), {branch})["branches"][0]["points"];
+      written(with_element("spring", elements::cubic_spring()), {branch})["branches"][0]["points"];
   CHECK(points[0].contains("stick_percent"));
   CHECK_FALSE(points[0]["elements"]["spring"].contains("stick_percent"));
   CHECK_FALSE(points[2].contains("stick_percent"));
   CHECK(points[2]["elements"] == Json::object());
   branch.points[1].elements.push_back({"second", true, 10, {}, {}, 0});
-  const Json two = written(with_element("second", scene::jenkins_type), {branch})["branches"][0]["points"][1];
+  const Json two = written(with_element("second", elements::jenkins()), {branch})["branches"][0]["points"][1];
   CHECK_FALSE(two.contains("stick_percent"));
   CHECK(two["elements"]["second"]["stick_percent"] == 10.0);
 }

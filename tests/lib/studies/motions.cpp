@@ -1,6 +1,7 @@
 #include "catch.hpp"
 #include "lib/output/support.hpp"
 
+#include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/gnuplot_script.hpp>
@@ -23,7 +24,7 @@ namespace {
 
 scene::Scene made_up_scene() {
   scene::Scene scene = support::scene();
-  scene.elements.push_back({"spring", &scene::cubic_spring_type, scene.elements[0].direction, {1}});
+  scene.elements.push_back({"spring", &elements::cubic_spring(), scene.elements[0].directions, {1}});
   return scene;
 }
 

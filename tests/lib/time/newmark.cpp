@@ -165,10 +165,12 @@ TEST_CASE("many coupled dampers in one huge step are solved whatever the guess")
   for (int i = 0; i < 300; ++i) {
     const int n = 1 + i % 6, count = 1 + i % 11;
     const Matrix R = matrix(n, n), D = matrix(n, count);
-    std::vector<Element> elements;
-    for (int e = 0; e < count; ++e)
-      elements.push_back(
-          {"d", Law::jenkins, D.col(e), std::exp(6 * normal(random)), std::exp(2 * normal(random)), e});
+    EquationOfMotion dampers;
+    for (int e = 0; e < count; ++e) {
+      const double stiffness = std::exp(6 * normal(random)), limit = std::exp(2 * normal(random));
+      add_damper(dampers, D.col(e), stiffness, limit);
+    }
+    const std::vector<Element>& elements = dampers.elements;
     ImplicitElements all(elements, n);
     const Matrix A = R * R.transpose() + 1e-3 * Matrix::Identity(n, n);
     all.set_matrix(A);
@@ -180,13 +182,13 @@ TEST_CASE("many coupled dampers in one huge step are solved whatever the guess")
     Vector balance = b - A * y;
     for (int e = 0; e < count; ++e) {
       const Element& element = elements[static_cast<std::size_t>(e)];
-      const double limit = element.slip_limit;
-      balance -= D.col(e) * std::clamp(element.stiffness * D.col(e).dot(y), -limit, limit);
+      const double limit = systems::limit_of(element);
+      balance -= D.col(e) * std::clamp(element.fields[0] * D.col(e).dot(y), -limit, limit);
     }
     const double size = (A.cwiseAbs() * y.cwiseAbs()).maxCoeff() + b.cwiseAbs().maxCoeff() + 1;
     const double stiffest = 1 + D.cwiseAbs().maxCoeff() * D.cwiseAbs().maxCoeff() * y.cwiseAbs().maxCoeff();
     double stiffness = 0;
-    for (const Element& element : elements) stiffness = std::max(stiffness, element.stiffness);
+    for (const Element& element : elements) stiffness = std::max(stiffness, element.fields[0]);
     CHECK(balance.cwiseAbs().maxCoeff() < 1e-11 * (size + stiffest * stiffness));
   }
 }
@@ -200,7 +202,7 @@ TEST_CASE("a damper behind a massless degree of freedom and a spring acts as one
   behind.C = Matrix{{0.134, 0}, {0, 0}};
   behind.K = Matrix{{17890 + ks, -ks}, {-ks, ks}};
   behind.elements.clear();
-  behind.sliders = 0;
+  behind.memory = 0;
   add_damper(behind, vector({0, 1}), kd, limit);
   behind.forces = {{vector({1, 0}), 1, 1, 0}};
   behind.response = vector({1, 0});
@@ -280,7 +282,7 @@ TEST_CASE(
   loose.M = Matrix{{1.24, 0}, {0, 0}};
   loose.C = Matrix::Zero(2, 2);
   loose.K = Matrix{{17890, 0}, {0, 0}};
-  loose.elements[0].direction = vector({0, 1});
+  loose.elements[0].directions = vector({0, 1});
   loose.forces = {{vector({1, 0.5}), 1, 1, 0}, {vector({0, 1}), 1, 0, 4}};
   loose.response = vector({1, 0});
   Newmark slips(loose, 100);

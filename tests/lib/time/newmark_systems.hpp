@@ -12,7 +12,6 @@
 namespace time_test {
 
 using namespace arcslip::time;
-using arcslip::model::Law;
 using systems::add_damper;
 using systems::oscillator;
 using systems::paper;
@@ -24,7 +23,7 @@ inline Vector vector(std::initializer_list<double> values) {
 }
 
 inline void add_cubic(EquationOfMotion& equation, Vector direction, double k3) {
-  equation.elements.push_back({"spring", Law::cubic_spring, std::move(direction), k3});
+  equation.add("spring", arcslip::elements::cubic_spring().law({}), {k3}, std::move(direction));
 }
 
 inline Solved run(Newmark& newmark, long steps) {

@@ -5,6 +5,7 @@
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/time/beside_exact.hpp"
+#include "lib/time/systems.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -29,7 +30,7 @@ double frequency(const scene::Scene& s, double part) {
 // Forces within their limits, and sliders that move only at the limit: no event was missed.
 void check_contact(const time::EquationOfMotion& equation, const time::History& history) {
   for (std::size_t e = 0; e < equation.elements.size(); ++e) {
-    const double limit = equation.elements[e].slip_limit, rounding = 1e-13 * limit;
+    const double limit = systems::limit_of(equation.elements[e]), rounding = 1e-13 * limit;
     const auto& [name, displacement, force, slider] = history.elements[e];
     double worst = 0, moved_in_stick = 0;
     for (std::size_t i = 0; i < force.size(); ++i) {
@@ -41,7 +42,7 @@ void check_contact(const time::EquationOfMotion& equation, const time::History& 
       if (nearest < 0.9 * limit) moved_in_stick = std::max(moved_in_stick, std::abs(moved));
       if (std::abs(force[i]) >= limit - rounding && std::abs(force[i - 1]) >= limit - rounding &&
           force[i] * force[i - 1] > 0)
-        CHECK(moved * force[i] >= -1e-13 * limit * limit / equation.elements[e].stiffness);
+        CHECK(moved * force[i] >= -1e-13 * limit * limit / equation.elements[e].fields[0]);
     }
     CHECK(worst <= limit + rounding);
     CHECK(moved_in_stick == 0);

@@ -1,6 +1,8 @@
 #pragma once
 // Structures for tests in the time domain.
 
+#include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
 
 #include <cmath>
@@ -35,9 +37,13 @@ inline EquationOfMotion oscillator(double m, double c, double k, double f0 = 0, 
 }
 
 inline void add_damper(EquationOfMotion& equation, const Vector& direction, double stiffness, double limit) {
-  equation.elements.push_back({"d" + std::to_string(equation.sliders), model::Law::jenkins, direction,
-                               stiffness, limit, equation.sliders});
-  ++equation.sliders;
+  equation.add("d" + std::to_string(equation.memory), elements::jenkins().law({}), {stiffness, 1, limit},
+               direction);
+}
+
+/// Of such an element.
+inline double limit_of(const time::Element& damper) {
+  return damper.fields[1] * damper.fields[2];
 }
 
 /// The oscillator of Al Sayed et al. (2011).

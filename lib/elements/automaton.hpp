@@ -1,0 +1,67 @@
+#pragma once
+// A piecewise linear law in time: modes, each linear, and the guards that lead from one to another.
+//
+//   f = f_q q + f_z z + f_0        z: one number of memory, or none
+//   z rests, or follows: z = z_q q + z_0, where f_z is 0. Of a slider, the force along its direction is what
+//   it takes to move it.
+//   a guard  g = q . q + v . q' + z z + c  is at least 0 in its mode, which is left where g falls below 0
+//
+// The first mode is that at the start; where a guard is below 0 there, it is left at once.
+
+#include <Eigen/Core>
+
+#include <string_view>
+#include <vector>
+
+namespace arcslip::elements {
+
+struct Guard {
+  Eigen::RowVectorXd q, v;
+  double z = 0, c = 0;
+  int to = 0;  // the mode beyond
+};
+
+struct Mode {
+  std::string_view name;
+  Eigen::MatrixXd f_q;  // N/m
+  Eigen::VectorXd f_z, f_0;
+  bool rests = true;  // the memory; false: it follows
+  Eigen::RowVectorXd z_q;
+  double z_0 = 0;
+  int way = 0;  // sign of the velocity at which it follows; 0: either
+  std::vector<Guard> leaves;
+
+  // Of laws with one direction.
+  Mode& follows(double by_q, double z_at_0, int sign) {
+    rests = false;
+    z_q = Eigen::RowVectorXd::Constant(1, by_q);
+    z_0 = z_at_0;
+    way = sign;
+    return *this;
+  }
+  Mode& leaves_where(double q, double v, double z, double c, int to) {
+    leaves.push_back({Eigen::RowVectorXd::Constant(1, q), Eigen::RowVectorXd::Constant(1, v), z, c, to});
+    return *this;
+  }
+};
+
+/// One of the automata of a law, which act in parallel.
+struct Automaton {
+  explicit Automaton(int memory_index) : memory(memory_index) {}
+
+  /// f = f_q q + f_z z + f_0 with one direction. The reference holds until the next.
+  Mode& add(std::string_view name, double f_q, double f_z, double f_0) {
+    modes.emplace_back();
+    Mode& mode = modes.back();
+    mode.name = name;
+    mode.f_q = Eigen::MatrixXd::Constant(1, 1, f_q);
+    mode.f_z = Eigen::VectorXd::Constant(1, f_z);
+    mode.f_0 = Eigen::VectorXd::Constant(1, f_0);
+    return mode;
+  }
+
+  int memory;  // which of the law's; -1: none
+  std::vector<Mode> modes;
+};
+
+}  // namespace arcslip::elements

@@ -1,0 +1,21 @@
+#include <arcslip/elements/law.hpp>
+
+#include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/elements/jenkins.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace arcslip::elements {
+
+std::shared_ptr<const Law> law_of(const scene::Part& part) {
+  const auto* type = dynamic_cast<const LawType*>(part.type);
+  if (type == nullptr) throw std::invalid_argument("the element \"" + part.name + "\" has no law of force");
+  return type->law(part.options);
+}
+
+std::vector<const scene::PartType*> laws() {
+  return {&jenkins(), &cubic_spring()};
+}
+
+}  // namespace arcslip::elements

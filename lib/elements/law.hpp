@@ -1,0 +1,169 @@
+#pragma once
+// A law of force: all that Arcslip asks of a nonlinear element. A law is one class in one pair of files.
+//
+//   class Hardening final : public elements::PlainLaw { ... };
+//   scene::Catalogue catalogue = studies::catalogue();
+//   catalogue.elements.push_back(&hardening);
+//   const auto scene = scene::read_file("scene.json", catalogue);
+//
+// A law acts on the displacements q_1 ... q_d along its directions, q_i = d_i . x, with the force f(q), N,
+// against the motion: M x'' + C x' + K x + sum_i d_i f_i = excitation. It may remember: z are the numbers of
+// its memory. Fields are the values of its parameters, in the order of its type's fields.
+//
+// Laws are immutable, and threads share them. What changes lives in the Element that a law makes for harmonic
+// balance, and in the arguments of step().
+
+#include <arcslip/elements/automaton.hpp>
+#include <arcslip/elements/corners.hpp>
+#include <arcslip/elements/element.hpp>
+#include <arcslip/scene/part_type.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace arcslip::elements {
+
+using Fields = std::span<const double>;
+using Angles = std::span<const double>;  // rad
+
+/// How an element is to be sampled in time, where its law may be.
+struct Sampling {
+  bool exact = true;  // by integrals in closed form, where the law has them
+  int samples = 512;  // in a period, else
+};
+
+/// What a law is like along one of its directions, at given fields; asked outside of residuals.
+struct Traits {
+  double stiffness = 0;            // N/m: the largest |df/dq| over all motions; infinity where there is none
+  int stiffness_field = -1;        // the field that is this stiffness; -1: none
+  bool holds_mean = false;         // a constant displacement meets a force that restores it
+  bool several_responses = false;  // periodic responses may coexist
+  double far_power = 0;            // the elastic force grows as amplitude^far_power where that is large
+  double far_work = 0;             // N: dissipated there in a period, over the amplitude
+  double limit = std::numeric_limits<double>::infinity();  // N: the largest force of friction
+};
+
+/// A step in time begins at q and z, with the force f.
+struct StepStart {
+  In q, z, f;
+};
+/// What is there at its end, or at a state. A law sets whatever may differ from what it finds here.
+struct StepEnd {
+  StepEnd(int directions, int memory)
+      : f(Eigen::VectorXd::Zero(directions)),
+        dz(Eigen::VectorXd::Zero(memory)),
+        f_q(Eigen::MatrixXd::Zero(directions, directions)),
+        f_z(Eigen::MatrixXd::Zero(directions, memory)),
+        z_q(Eigen::MatrixXd::Zero(memory, directions)),
+        z_z(Eigen::MatrixXd::Identity(memory, memory)) {}
+
+  Eigen::VectorXd f, dz;     // the force, N, and the change of the memory
+  Eigen::MatrixXd f_q, f_z;  // df by the displacement here and by the memory at the start
+  Eigen::MatrixXd z_q, z_z;  // d(z + dz) by them
+  double dissipated = 0;     // in the step, J
+  double stick_share = 1;    // of the step, where there is a contact
+};
+
+class Law;
+
+/// The type of a law in a scene file.
+class LawType : public scene::PartType {
+ public:
+  /// The law with these options.
+  virtual std::shared_ptr<const Law> law(const scene::Settings& options) const = 0;
+};
+
+class Law {
+ public:
+  virtual ~Law() = default;
+
+  virtual int directions() const { return 1; }
+
+  /// f(-q) = -f(q) for every motion: then a motion whose half periods mirror each other has a force of this
+  /// kind.
+  virtual bool antisymmetric() const = 0;
+  /// It sticks and slips, and tells where: Element::friction().
+  virtual bool has_contact() const { return false; }
+  virtual Traits traits(Fields fields, int direction) const = 0;
+  /// The largest |df/dq| while |q| stays within `reach`, N/m.
+  virtual double stiffness(Fields fields, int direction, double reach) const {
+    static_cast<void>(reach);
+    return traits(fields, direction).stiffness;
+  }
+  /// Whether Traits::limit changes with a field.
+  virtual bool limited_by(int field) const {
+    static_cast<void>(field);
+    return false;
+  }
+
+  // In the frequency domain.
+
+  /// Unknowns of the element's own, each with as many coefficients as a displacement, and as many equations:
+  /// the rows of its force after those of the directions.
+  virtual int auxiliary() const { return 0; }
+  /// Their typical size.
+  virtual double auxiliary_scale(Fields fields) const {
+    static_cast<void>(fields);
+    return 1;
+  }
+  virtual std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const = 0;
+  /// Where branches of responses have corners; null: nowhere that is known.
+  virtual std::unique_ptr<Corners> corners(const Harmonics& harmonics) const {
+    static_cast<void>(harmonics);
+    return nullptr;
+  }
+  /// The force at some angles of the motion u (as Element::move_to has it), by the law itself: angles x
+  /// directions, N.
+  virtual Eigen::MatrixXd force_at(const Harmonics& harmonics, In u, Fields fields, Angles angles) const = 0;
+
+  // In time.
+
+  /// How many numbers the law remembers.
+  virtual int memory() const { return 0; }
+  /// The memory k is where a slider stands that follows this direction, so that while it rests any place
+  /// would do; -1: none.
+  virtual int slider_direction(int k) const {
+    static_cast<void>(k);
+    return -1;
+  }
+  /// The memory with which the force at q is f, as near as it can be.
+  virtual void memory_at(Fields fields, In q, In f, Out z) const {
+    static_cast<void>(fields), static_cast<void>(q), static_cast<void>(f), static_cast<void>(z);
+  }
+  /// The force at a state (f, f_q and f_z), and z as it must be there: a slider beyond its limit is drawn
+  /// after.
+  virtual void begin(Fields fields, In q, Out z, StepEnd& at) const = 0;
+  /// A step to q + dq, along which each q moves one way.
+  virtual void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const = 0;
+  /// f_q is symmetric in every state.
+  virtual bool symmetric_step() const { return true; }
+  /// Elastic energy at q and z, J.
+  virtual double stored(Fields fields, In q, In z) const = 0;
+  /// The same in time, piece by piece, where the law is piecewise linear. Several act in parallel.
+  virtual std::optional<std::vector<Automaton>> automata(Fields fields) const {
+    static_cast<void>(fields);
+    return {};
+  }
+};
+
+/// A law without options is its own type.
+class PlainLaw : public LawType, public Law {
+ public:
+  int directions() const final { return static_cast<int>(direction_count()); }
+  std::shared_ptr<const Law> law(const scene::Settings&) const final {
+    return {std::shared_ptr<const void>(), this};
+  }
+};
+
+/// The law of an element of a scene. Throws std::invalid_argument where its type is no law.
+std::shared_ptr<const Law> law_of(const scene::Part& part);
+
+/// All laws of Arcslip, for the catalogue of a reader.
+std::vector<const scene::PartType*> laws();
+
+}  // namespace arcslip::elements

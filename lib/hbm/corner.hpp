@@ -1,0 +1,82 @@
+#pragma once
+// The corners of frequency branches, where one of the guards of an element is just touched, h = 0
+// (elements/corners.hpp): on one side, h > 0, its contact has a phase more than on the other.
+//
+// J jumps by rank one across h = 0, along grad h, so that a branch has two tangents there, and a peak or a
+// fold may sit at the corner while another parameter changes.
+
+#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/elements/corners.hpp>
+#include <arcslip/hbm/problem.hpp>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace arcslip::hbm {
+
+/// Which corner of which element of the model.
+struct Corner : elements::Corner {
+  int element = 0;
+};
+
+/// h at a solution near the corner; the angles become those of the solution. nullopt: it has no such corner.
+std::optional<double> corner_excess(const HbmProblem& problem, Corner& corner, In u, In p);
+
+/// What h is measured by.
+double corner_size(const HbmProblem& problem, const Corner& corner, In u, In p);
+
+/// dh/du, n.
+void corner_gradient(const HbmProblem& problem, const Corner& corner, In u, In p, Out dh);
+/// The same within the harmonics that the motion u has: a motion of a shorter period than the force's, or
+/// whose half periods mirror each other, comes to the images of a corner together with it, and stays such a
+/// motion on both sides of them.
+void corner_direction(const HbmProblem& problem, const Corner& corner, In u, In p, Out d);
+/// dh/dp_k.
+double corner_derivative(const HbmProblem& problem, const Corner& corner, In u, In p, int k);
+
+/// The corners that a solution is next to: |h| <= tolerance times its size.
+std::vector<Corner> corners_near(const HbmProblem& problem, In u, In p, double tolerance);
+
+/// x and the angles of a corner: the unknowns of corner_points().
+Vector with_angles(const Vector& x, const Corner& corner);
+/// The corner with the angles that stand at the end of these unknowns.
+Corner at_angles(Corner corner, const Vector& unknowns);
+
+/// F = 0, h = 0 and the equations of the angles as a problem in the unknowns (u, omega, angles) and the same
+/// parameters; p[frequency] is not looked at.
+std::shared_ptr<const continuation::Problem> corner_points(std::shared_ptr<const HbmProblem> problem,
+                                                           const Corner& corner);
+
+/// Slopes dq/ds of a quantity on both sides of such a corner, along the branch over the frequency in the
+/// orientation det [J F_omega; t^T] > 0, which is the same on both sides: below is h < 0, above h > 0.
+/// direction: +1 where that leads from below to above. NaN where a side has no tangent.
+struct CornerSlopes {
+  double below = 0, above = 0;
+  int direction = 0;
+  bool is_maximum() const { return direction * below > 0 && direction * above < 0; }
+  bool is_extreme() const { return below * above < 0; }
+};
+
+/// At corners of one kind along a curve. Owns its buffers.
+class CornerSides {
+ public:
+  CornerSides(std::shared_ptr<const HbmProblem> problem, const Corner& corner,
+              continuation::Quantity quantity);
+
+  /// x: (u, omega, angles); p[frequency] is not looked at.
+  CornerSlopes slopes(In x, In p);
+
+ private:
+  double slope(double side, int& direction);
+
+  std::shared_ptr<const HbmProblem> problem_;
+  Corner corner_;
+  continuation::Quantity quantity_;
+  std::unique_ptr<HbmEvaluator> evaluator_;
+  std::unique_ptr<continuation::LinearSolver> solver_;
+  continuation::Borders border_;
+  Vector u_, beside_, p_, dh_, dq_, t_, scales_;
+};
+
+}  // namespace arcslip::hbm

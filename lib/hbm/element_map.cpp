@@ -1,0 +1,77 @@
+#include <arcslip/hbm/element_map.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcslip::hbm {
+
+using elements::In, elements::Out;
+
+ElementMap::ElementMap(std::vector<Share> shares, int blocks, const elements::Harmonics& harmonics)
+    : harmonics_(harmonics),
+      c_(harmonics.size()),
+      blocks_(blocks),
+      shares_(std::move(shares)),
+      turns_(std::any_of(shares_.begin(), shares_.end(), [](const Share& s) { return s.phase != 0; })) {
+  if (turns_) {
+    turned_.resize(c_, c_);
+    block_.resize(c_, c_);
+  }
+}
+
+// x(theta + angle): a_n cos n angle + b_n sin n angle, b_n cos n angle - a_n sin n angle.
+void ElementMap::add_turned(double factor, double angle, In block, Out sum) const {
+  if (!harmonics_.odd) sum[0] += factor * block[0];
+  for (int j = 0; j < harmonics_.sines(); ++j) {
+    const int n = harmonics_.sine_order(j);
+    const int a = harmonics_.cosine_index(n), b = harmonics_.sine_index(n);
+    const double c = factor * std::cos(n * angle), s = factor * std::sin(n * angle);
+    sum[a] += c * block[a] + s * block[b];
+    sum[b] += c * block[b] - s * block[a];
+  }
+}
+
+void ElementMap::gather(In u, Out w) const {
+  w.setZero();
+  for (const Share& share : shares_) {
+    const auto from = u.segment(share.coordinate * c_, c_);
+    auto to = w.segment(share.block * c_, c_);
+    if (share.phase == 0)
+      to += share.weight * from;
+    else
+      add_turned(share.weight, share.phase, from, to);
+  }
+}
+
+void ElementMap::add(In F, Out R) const {
+  for (const Share& share : shares_) {
+    const auto from = F.segment(share.block * c_, c_);
+    auto to = R.segment(share.coordinate * c_, c_);
+    if (share.phase == 0)
+      to += share.weight * from;
+    else
+      add_turned(share.weight, -share.phase, from, to);
+  }
+}
+
+void ElementMap::add(const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J) const {
+  for (const Share& j : shares_)
+    for (const Share& i : shares_) {
+      auto to = J.block(i.coordinate * c_, j.coordinate * c_, c_, c_);
+      const auto from = J_element.block(i.block * c_, j.block * c_, c_, c_);
+      if (i.phase == 0 && j.phase == 0) {
+        to += (i.weight * j.weight) * from;
+        continue;
+      }
+      // T_i^T B T_j, columns first: the transpose of a turn is the turn back.
+      turned_.setZero();
+      for (int k = 0; k < c_; ++k) add_turned(i.weight, -i.phase, from.col(k), turned_.col(k));
+      block_ = turned_.transpose();
+      turned_.setZero();
+      for (int k = 0; k < c_; ++k) add_turned(j.weight, -j.phase, block_.col(k), turned_.col(k));
+      to += turned_.transpose();
+    }
+}
+
+}  // namespace arcslip::hbm

@@ -1,0 +1,47 @@
+#pragma once
+// From the unknowns of a problem to those of one element, and back.
+//
+//   w_b(theta) = sum over shares of block b:  weight u_coordinate(theta + phase)
+//
+// A phase is that of a motion which travels: a sector of a ring moves as its neighbour did 2 pi n/N ago.
+// Every share adds its part to the residual and the Jacobian by the transposed map.
+
+#include <arcslip/elements/series.hpp>
+
+#include <vector>
+
+namespace arcslip::hbm {
+
+class ElementMap {
+ public:
+  struct Share {
+    int block;       // of the element: a direction, or an auxiliary unknown
+    int coordinate;  // of the problem
+    double weight;
+    double phase = 0;  // rad, at the fundamental
+  };
+
+  ElementMap(std::vector<Share> shares, int blocks, const elements::Harmonics& harmonics);
+
+  const std::vector<Share>& shares() const { return shares_; }
+  int size() const { return blocks_ * c_; }
+
+  /// w = E u.
+  void gather(elements::In u, elements::Out w) const;
+  /// R += E^T F.
+  void add(elements::In F, elements::Out R) const;
+  /// J += E^T J_element E.
+  void add(const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J) const;
+
+ private:
+  // sum += factor block, turned by an angle: sign 1 for u, -1 for its transpose.
+  void add_turned(double factor, double angle, elements::In block, elements::Out sum) const;
+
+  elements::Harmonics harmonics_;
+  int c_, blocks_;
+  std::vector<Share> shares_;
+  bool turns_ = false;
+  mutable Eigen::MatrixXd turned_, block_;
+};
+
+}  // namespace arcslip::hbm

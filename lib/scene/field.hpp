@@ -1,0 +1,19 @@
+#pragma once
+// A scalar of a part of the scene.
+
+#include <optional>
+#include <string_view>
+
+namespace arcslip::scene {
+
+/// One scalar of a part. It is a parameter of the scene under the name "part.field".
+struct Field {
+  std::string_view name;
+  std::string_view unit;                  // SI, "-" for a pure number
+  double lower, upper;                    // closed bounds
+  bool lower_open = false;                // true: the lower bound itself is not allowed
+  std::optional<double> default_value{};  // none: the field is required
+  std::string_view help{};
+};
+
+}  // namespace arcslip::scene
