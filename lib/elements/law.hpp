@@ -48,6 +48,17 @@ struct Traits {
   double limit = std::numeric_limits<double>::infinity();  // N: the largest force of friction
 };
 
+/// The force of a law without memory at several q at once: a row for each.
+struct SampledForce {
+  SampledForce() = default;
+  SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields)
+      : f(rows, directions), f_q(rows, directions * directions), f_field(rows, directions * fields) {}
+
+  Eigen::MatrixXd f;        // a column for each direction, N
+  Eigen::MatrixXd f_q;      // df_i/dq_j in column j * directions + i
+  Eigen::MatrixXd f_field;  // df_i/d(fields[k]) in column k * directions + i
+};
+
 /// A step in time begins at q and z, with the force f.
 struct StepStart {
   In q, z, f;
@@ -59,14 +70,21 @@ struct StepEnd {
         dz(Eigen::VectorXd::Zero(memory)),
         f_q(Eigen::MatrixXd::Zero(directions, directions)),
         f_z(Eigen::MatrixXd::Zero(directions, memory)),
+        f_start(f_q),
         z_q(Eigen::MatrixXd::Zero(memory, directions)),
-        z_z(Eigen::MatrixXd::Identity(memory, memory)) {}
+        z_z(Eigen::MatrixXd::Identity(memory, memory)),
+        z_start(z_q) {}
 
-  Eigen::VectorXd f, dz;     // the force, N, and the change of the memory
-  Eigen::MatrixXd f_q, f_z;  // df by the displacement here and by the memory at the start
-  Eigen::MatrixXd z_q, z_z;  // d(z + dz) by them
-  double dissipated = 0;     // in the step, J
-  double stick_share = 1;    // of the step, where there is a contact
+  Eigen::VectorXd f, dz;  // the force, N, and the change of the memory
+  // Their derivatives, of f and of z + dz: by the displacement at the end, by the memory at the start, and by
+  // the displacement at the start, with the others fixed.
+  Eigen::MatrixXd f_q, f_z, f_start;
+  Eigen::MatrixXd z_q, z_z, z_start;
+  double dissipated = 0;   // in the step, J
+  double stick_share = 1;  // of the step, where there is a contact
+
+  SampledForce sample;  // for the law's own use: what it leaves here is there at the next step
+  Eigen::MatrixXd sample_q;
 };
 
 class Law;

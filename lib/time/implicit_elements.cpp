@@ -228,21 +228,22 @@ void ImplicitElements::differentiate(const Matrix& dx, Matrix& dz, Matrix& db) {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const elements::StepEnd& end = ends_[e];
     const auto d = end.f.size(), m = end.dz.size(), i = first_[e];
-    df_.middleRows(i, d).noalias() = end.f_q * dq_columns_.middleRows(i, d);
+    df_.middleRows(i, d).noalias() = (end.f_q + end.f_start) * dq_columns_.middleRows(i, d);
     df_.middleRows(i, d).noalias() += end.f_z * dz.middleRows(elements_[e].memory, m);
+    if (m > 0)
+      dz.middleRows(elements_[e].memory, m) = (end.z_z * dz.middleRows(elements_[e].memory, m) +
+                                               (end.z_q + end.z_start) * dq_columns_.middleRows(i, d))
+                                                  .eval();
   }
   db.noalias() -= D_ * df_;
   factorize();
   lu_.solve_columns(db, df_);
   db = df_;
-  dq_columns_.noalias() = D_.transpose() * (dx + db);
-  for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const elements::StepEnd& end = ends_[e];
-    const auto d = end.f.size(), m = end.dz.size();
-    if (m == 0) continue;
-    auto own = dz.middleRows(elements_[e].memory, m);
-    own = (end.z_z * own + end.z_q * dq_columns_.middleRows(first_[e], d)).eval();
-  }
+  dq_columns_.noalias() = D_.transpose() * db;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (const auto m = ends_[e].dz.size(); m > 0)
+      dz.middleRows(elements_[e].memory, m).noalias() +=
+          ends_[e].z_q * dq_columns_.middleRows(first_[e], ends_[e].f.size());
 }
 
 }  // namespace arcslip::time

@@ -1,0 +1,270 @@
+// Laws that stand in no file of the library work in scenes, studies, time and optimisation.
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/laws/bouc_wen.hpp"
+#include "lib/laws/coupled_spring.hpp"
+#include "lib/laws/polynomial.hpp"
+
+#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/responses_at.hpp>
+#include <arcslip/observables/time_study.hpp>
+#include <arcslip/optimize/optimum.hpp>
+#include <arcslip/scene/json_schema.hpp>
+#include <arcslip/time/newmark_periods.hpp>
+
+#include <cmath>
+
+using namespace arcslip;
+using continuation::Vector;
+
+namespace {
+
+const own_laws::CoupledSpring coupled;
+const own_laws::BoucWen bouc_wen;
+const own_laws::PolynomialType polynomial;
+
+scene::Catalogue catalogue() {
+  auto all = test_catalogue::whole();
+  all.elements.insert(all.elements.end(), {&coupled, &bouc_wen, &polynomial});
+  return all;
+}
+
+scene::Scene read(const std::string& text) {
+  std::istringstream in(text);
+  return scene::read(in, catalogue());
+}
+
+// Two masses alike, each on its spring, with a coupled spring over both.
+std::string plane(const std::string& forces, const std::string& response) {
+  return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x", "y"],
+      "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 1}],
+      "springs": [{"name": "kx", "at": "x", "value": 1}, {"name": "ky", "at": "y", "value": 1}],
+      "dampers": [{"name": "cx", "at": "x", "value": 0.1}, {"name": "cy", "at": "y", "value": 0.1}]},
+    "elements": [{"name": "spring", "type": "coupled_spring", "first": {"at": "x"}, "second": {"at": "y"},
+                  "stiffness": 0.7}],
+    "excitation": [)" +
+         forces + R"(],
+    "harmonics": {"order": 5}, "response": )" +
+         response + R"(,
+    "studies": [{"name": "frf", "kind": "frf", "from": 0.4, "to": 2.5}]})";
+}
+
+const std::string circular =
+    R"({"name": "fx", "at": "x", "cosine": 0.3}, {"name": "fy", "at": "y", "sine": 0.3})";
+
+void check_jacobian(const scene::Scene& s, double omega, double size, unsigned seed) {
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  std::srand(seed);
+  const Vector u = size * Vector::Random(problem.size());
+  const auto check = continuation::check_jacobian(problem, u, hbm::parameters_at(problem, omega));
+  CHECK(check.message == "");
+}
+
+}  // namespace
+
+TEST_CASE("a law of two directions follows its closed form: in a circle its stiffness is k a^2") {
+  const scene::Scene s = read(plane(circular, R"({"at": "x"})"));
+  check_jacobian(s, 0.9, 1, 1);
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(branches.size() == 1);
+  REQUIRE(branches[0].status == observables::Status::complete);
+  double most = 0;
+  for (const auto& point : branches[0].points) {
+    const double a = point.amplitude, w = point.omega;
+    const double force = a * std::hypot(1 + 0.7 * a * a - w * w, 0.1 * w);
+    CHECK(std::abs(force - 0.3) < 1e-11);
+    most = std::max(most, a);
+  }
+  CHECK(most > 1);
+  // and the peak, where d/dw of the squared force vanishes at constant a
+  for (const auto& event : branches[0].events)
+    if (event.kind == "peak") {
+      const double a = event.point.amplitude, w = event.point.omega;
+      CHECK(std::abs(-2 * (1 + 0.7 * a * a - w * w) + 0.01) < 1e-9);
+    }
+}
+
+TEST_CASE("along one line of the plane the coupled spring is a cubic spring") {
+  const double angle = 0.7, c = std::cos(angle), n = std::sin(angle);
+  const auto number = [](double value) { return nlohmann::json(value).dump(); };
+  const std::string force =
+      R"({"name": "f", "direction": {"x": )" + number(c) + R"(, "y": )" + number(n) + R"(}, "cosine": 0.3})";
+  const scene::Scene s =
+      read(plane(force, R"({"direction": {"x": )" + number(c) + R"(, "y": )" + number(n) + "}}"));
+  const scene::Scene duffing = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "h", "type": "cubic_spring", "at": "x", "stiffness": 0.7}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.3}], "harmonics": {"order": 5}})");
+  for (const double w : {0.7, 1.1, 1.3}) {
+    const auto plane_responses = observables::point_responses(s, {.frequency = w});
+    const auto responses = observables::point_responses(duffing, {.frequency = w});
+    REQUIRE(plane_responses.size() == responses.size());
+    for (std::size_t i = 0; i < responses.size(); ++i) {
+      REQUIRE(plane_responses[i].status == observables::Status::complete);
+      CHECK(std::abs(plane_responses[i].point.amplitude - responses[i].point.amplitude) < 1e-10);
+      CHECK(std::abs(plane_responses[i].point.energy_viscous - responses[i].point.energy_viscous) < 1e-10);
+    }
+  }
+}
+
+TEST_CASE("in time a law of two directions comes to the same circle at second order, and keeps its energy") {
+  const scene::Scene s = read(plane(circular, R"({"at": "x"})"));
+  const double w = 0.8;
+  const auto responses = observables::point_responses(s, {.frequency = w});
+  REQUIRE(responses.size() == 1);
+  double last = 0;
+  for (const int steps : {100, 200, 400}) {
+    const auto motion = observables::motion_in_time(
+        s, {.frequency = w, .method = observables::TimeMethod::newmark_shooting, .steps = steps});
+    REQUIRE(motion.status == observables::Status::complete);
+    const double error = std::abs(motion.amplitude / responses[0].point.amplitude - 1);
+    if (last > 0) CHECK(error < 0.3 * last);
+    last = error;
+    CHECK(std::abs(motion.energy.defect()) < 1e-12);
+  }
+  CHECK(last < 1e-4);
+  const auto exact =
+      observables::motion_in_time(s, {.frequency = w, .method = observables::TimeMethod::event_driven});
+  CHECK(exact.status == observables::Status::failed);
+  CHECK(exact.stop.message.find("\"spring\"") != std::string::npos);
+}
+
+TEST_CASE("a law with unknowns of its own follows its state equation in harmonics as it does in time") {
+  scene::Scene s = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
+    "elements": [{"name": "h", "type": "bouc_wen", "at": "x", "stiffness": 0.8, "elastic_share": 0.2, "growth": 2,
+                  "softening": 0.5}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.4}], "harmonics": {"order": 31},
+    "studies": [{"name": "frf", "kind": "frf", "from": 0.5, "to": 2}]})");
+  check_jacobian(s, 0.9, 0.2, 3);
+  const auto at_rest = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(at_rest.size() == 1);
+  REQUIRE(at_rest[0].status == observables::Status::complete);
+  for (const double w : {0.8, 1.1, 1.4}) {
+    const auto responses = observables::point_responses(s, {.frequency = w});
+    REQUIRE(responses.size() == 1);
+    REQUIRE(responses[0].status == observables::Status::complete);
+    const auto motion = observables::motion_in_time(
+        s, {.frequency = w, .method = observables::TimeMethod::newmark_shooting, .steps = 2000});
+    CAPTURE(w, motion.stop.message);
+    REQUIRE(motion.status == observables::Status::complete);
+    CHECK(std::abs(motion.amplitude / responses[0].point.amplitude - 1) < 2e-5);
+    const double dissipated = responses[0].point.energy_input - responses[0].point.energy_viscous;
+    CHECK(std::abs(motion.energy.friction / dissipated - 1) < 1e-3);
+  }
+}
+
+TEST_CASE(
+    "the derivatives of a period in steps are those of its differences, with a memory that is no slider") {
+  const scene::Scene s = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x", "y"],
+      "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 0.5}],
+      "springs": [{"name": "kx", "at": "x", "value": 1}, {"name": "ky", "between": ["x", "y"], "value": 0.7}],
+      "dampers": [{"name": "cx", "at": "x", "value": 0.05}]},
+    "elements": [{"name": "h", "type": "bouc_wen", "between": ["x", "y"], "stiffness": 0.8, "elastic_share": 0.2,
+                  "growth": 2, "softening": 0.5},
+                 {"name": "c", "type": "coupled_spring", "first": {"at": "x"}, "second": {"at": "y"}, "stiffness": 0.4},
+                 {"name": "d", "type": "jenkins", "at": "y", "stiffness": 0.5, "friction_coefficient": 0.5,
+                  "normal_load": 0.3}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.4}], "response": {"at": "x"}})");
+  const auto model = model::build(s);
+  Vector p = model::defaults(model);
+  p[model::frequency] = 0.9;
+  time::Newmark newmark(time::equation_of_motion(model, p), 60);
+  Vector start(6);
+  start << 0.3, -0.2, 0.1, 0.4, 0.05, -0.02;
+  const auto state = [](const Vector& y) { return time::State{y.head(2), y.segment(2, 2), y.tail(2)}; };
+  const time::PeriodMap map = time::newmark_map(newmark, state(start));
+  REQUIRE(map.done);
+  const double h = 1e-6;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    Vector ends[2];
+    for (const int side : {0, 1}) {
+      const auto end =
+          time::newmark_map(newmark, state(start + (side == 0 ? -h : h) * Vector::Unit(6, i))).end;
+      ends[side].resize(6);
+      ends[side] << end.x, end.v, end.z;
+    }
+    CAPTURE(i);
+    CHECK(((ends[1] - ends[0]) / (2 * h) - map.monodromy.col(i)).cwiseAbs().maxCoeff() < 1e-7);
+  }
+}
+
+TEST_CASE("options decide which fields a law has, and are read, written and told in the schema") {
+  const std::string text = R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "s", "type": "polynomial", "at": "x", "degree": DEGREE}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.3}], "harmonics": {"order": 5},
+    "studies": [{"name": "best", "kind": "optimum", "over": ["s.c3"], "bounds": [[0.01, 1]], "frequency": [0.4, 2.5]}]})";
+  const auto with = [&](const std::string& degree) {
+    std::string copy = text;
+    return copy.replace(copy.find("DEGREE"), 6, degree);
+  };
+  const scene::Scene s = read(with(R"(3, "c1": 0.1, "c2": 0, "c3": 0.7)"));
+  CHECK(scene::value(s, "s.c3") == 0.7);
+  CHECK(scene::parameter_names(s).size() == 3 + 3 + 2);
+  std::istringstream again(scene::write(s));
+  CHECK(scene::read(again, catalogue()) == s);
+  scene::check(s);
+  const auto cubic = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1.1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 0.7}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.3}], "harmonics": {"order": 5}})");
+  const auto ours = observables::point_responses(s, {.frequency = 0.9});
+  const auto theirs = observables::point_responses(cubic, {.frequency = 0.9});
+  REQUIRE(ours.size() == 1);
+  CHECK(std::abs(ours[0].point.amplitude - theirs[0].point.amplitude) < 1e-10);
+  // The law is not antisymmetric: the response has all harmonics, and a mean where a square is in it.
+  CHECK_FALSE(model::build(s).harmonics.odd);
+  const auto squared =
+      observables::point_responses(read(with(R"(3, "c1": 0.1, "c2": 0.4, "c3": 0.7)")), {.frequency = 0.9});
+  REQUIRE_FALSE(squared.empty());
+  CHECK(squared[0].point.coefficients[0] < -0.01);
+
+  for (const auto& [degree, fault] :
+       {std::pair{std::string("0"), "/elements/0/degree: found 0, must be an integer from 1 to 9"},
+        {R"("two")", "/elements/0/degree: found \"two\" (a string), must be an integer from 1 to 9"},
+        {R"(2, "c1": 1, "c2": 1, "c3": 1)", "/elements/0/c3: found the unknown key \"c3\""},
+        {R"(2, "c1": 1)", "/elements/0/c2: found no key \"c2\""}}) {
+    CAPTURE(degree);
+    CHECK_THROWS_WITH(read(with(degree)), Catch::Matchers::Contains(fault));
+  }
+  CHECK(scene::json_schema(catalogue()).find("\"degree\"") != std::string::npos);
+  CHECK(scene::json_schema(catalogue()).find("\"second\"") != std::string::npos);
+}
+
+TEST_CASE("directions that are lacking or not as they must be are told where they should stand") {
+  std::string text = plane(circular, R"({"at": "x"})");
+  const auto with = [&](const std::string& second) {
+    std::string copy = text;
+    const std::string there = R"("second": {"at": "y"})";
+    return copy.replace(copy.find(there), there.size(), second);
+  };
+  for (const auto& [second, fault] :
+       {std::pair{std::string(R"("at": "y")"), "/elements/0/second: found no key \"second\""},
+        {R"("second": {"at": "z"})", "/elements/0/second/at: found \"z\""},
+        {R"("second": "y")", "/elements/0/second: found \"y\" (a string), must be an object"}}) {
+    CAPTURE(second);
+    CHECK_THROWS_WITH(read(with(second)), Catch::Matchers::Contains(fault));
+  }
+  scene::Scene s = read(text);
+  s.elements[0].directions.pop_back();
+  CHECK_THROWS_WITH(scene::check(s),
+                    "/elements/0: found 1 directions, must be 2 for the type \"coupled_spring\"");
+  s = read(text);
+  s.elements[0].values.clear();
+  CHECK_THROWS_WITH(scene::check(s),
+                    "/elements/0: found 0 values, must be 1 for the type \"coupled_spring\"");
+  s.elements[0].type = nullptr;
+  CHECK_THROWS_WITH(scene::check(s), "/elements/0: found no type, must be a law of force");
+  scene::Part mass = s.masses[0];
+  CHECK_THROWS_AS(elements::law_of(mass), std::invalid_argument);
+}

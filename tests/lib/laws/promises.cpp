@@ -1,0 +1,48 @@
+// Every law keeps what Law promises, those of the library as those of tests.
+#include "lib/laws/every_law.hpp"
+
+#include "lib/laws/bouc_wen.hpp"
+#include "lib/laws/coupled_spring.hpp"
+#include "lib/laws/polynomial.hpp"
+#include "lib/laws/renamed_jenkins.hpp"
+
+#include <arcslip/elements/cubic_spring.hpp>
+
+using namespace every_law;
+
+namespace {
+
+const own_laws::RenamedJenkins renamed;
+const own_laws::CoupledSpring coupled;
+const own_laws::BoucWen bouc_wen;
+const own_laws::PolynomialLaw polynomial(4);
+
+struct Example {
+  const elements::Law& law;
+  std::vector<double> fields;
+  double rough;  // of differences of an element in the frequency domain, where it is sampled and has kinks
+};
+
+const Example all[] = {
+    {elements::jenkins(), {2, 0.5, 1}, 1e-7},  {renamed, {0.5, 1, 2}, 1e-7},
+    {elements::cubic_spring(), {0.7}, 1e-7},   {coupled, {0.7}, 1e-7},
+    {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7}, {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},
+};
+
+}  // namespace
+
+TEST_CASE("the derivatives of a step in time are those of its differences, for every law") {
+  for (const Example& each : all) check_step(each.law, each.fields, 1, 1e-6, 1e-8, 11);
+}
+
+TEST_CASE("what a law dissipates is the work of a closed path less what it stores") {
+  for (const Example& each : all) check_energy(each.law, each.fields, 1, 1e-5, 5);
+}
+
+TEST_CASE("the derivatives of an element in harmonics are those of its differences, for every law") {
+  for (const Example& each : all)
+    for (const bool odd : {false, true}) {
+      if (odd && !each.law.antisymmetric()) continue;
+      check_element(each.law, each.fields, 1, odd, 1e-6, each.rough, 1e-6, 7);
+    }
+}
