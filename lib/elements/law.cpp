@@ -1,6 +1,7 @@
 #include <arcslip/elements/law.hpp>
 
 #include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/jenkins.hpp>
 
 #include <stdexcept>
@@ -15,7 +16,7 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(), &cubic_spring()};
+  return {&jenkins(), &cubic_spring(), &gap_spring()};
 }
 
 }  // namespace arcslip::elements

@@ -7,6 +7,7 @@
 #include "lib/laws/renamed_jenkins.hpp"
 
 #include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/elements/gap_spring.hpp>
 
 using namespace every_law;
 
@@ -24,9 +25,10 @@ struct Example {
 };
 
 const Example all[] = {
-    {elements::jenkins(), {2, 0.5, 1}, 1e-7},  {renamed, {0.5, 1, 2}, 1e-7},
-    {elements::cubic_spring(), {0.7}, 1e-7},   {coupled, {0.7}, 1e-7},
-    {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7}, {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},
+    {elements::jenkins(), {2, 0.5, 1}, 1e-7}, {renamed, {0.5, 1, 2}, 1e-7},
+    {elements::cubic_spring(), {0.7}, 1e-7},  {coupled, {0.7}, 1e-7},
+    {elements::gap_spring(), {3, 0.2}, 1e-6}, {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
+    {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},
 };
 
 }  // namespace

@@ -1,0 +1,236 @@
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/laws/every_law.hpp"
+
+#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/elements/gap_spring.hpp>
+#include <arcslip/hbm/corner.hpp>
+#include <arcslip/observables/responses_at.hpp>
+#include <arcslip/observables/time_study.hpp>
+#include <arcslip/time/from_harmonics.hpp>
+#include <arcslip/time/shooting.hpp>
+
+#include <cmath>
+#include <numbers>
+
+using namespace arcslip;
+using continuation::Vector;
+using std::numbers::pi;
+
+namespace {
+
+// m = 1, k = 1, c, a stop at the gap, f cos wt.
+scene::Scene stop(int order, double gap, double stiffness, double force, double damping = 0.1) {
+  std::ostringstream text;
+  text.precision(17);
+  text << R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": )"
+       << damping << R"(}]}, "elements": [{"name": "stop", "type": "gap_spring", "at": "x", "stiffness": )"
+       << stiffness << R"(, "gap": )" << gap << R"(}], "excitation": [{"name": "f", "at": "x", "cosine": )"
+       << force << R"(}], "harmonics": {"order": )" << order
+       << R"(}, "studies": [{"name": "frf", "kind": "frf", "from": 0.4, "to": 2.5}]})";
+  return scenes::parse(text.str());
+}
+
+}  // namespace
+
+TEST_CASE("a stop at zero halves the force of a cosine: coefficients of the half wave") {
+  // max(cos, 0) = 1/pi + cos/2 + (2/pi) sum (-1)^(n+1) cos 2n theta/(4 n^2 - 1)
+  const elements::Harmonics h{6, false};
+  const auto element = elements::gap_spring().element(h, {});
+  Vector u = Vector::Zero(h.size());
+  u[h.cosine_index(1)] = 3;
+  element->move_to(u, std::vector<double>{2, 0}, true);
+  const Vector& F = element->force();
+  CHECK(std::abs(F[0] - 6 / pi) < 1e-14);
+  CHECK(std::abs(F[1] - 3) < 1e-14);
+  for (int n = 1; n <= 3; ++n)
+    CHECK(std::abs(F[2 * n] - 6 * 2 / pi * (n % 2 == 1 ? 1 : -1) / (4.0 * n * n - 1)) < 1e-14);
+  CHECK(F.tail(h.sines()).cwiseAbs().maxCoeff() < 1e-14);
+}
+
+TEST_CASE("a gap spring keeps what every law promises, with many contacts in a period") {
+  for (const double gap : {0.0, 0.2, 1.0})
+    for (unsigned seed = 1; seed < 20; ++seed) {
+      CAPTURE(gap, seed);
+      every_law::check_element(elements::gap_spring(), {3, gap}, 1, false, 1e-6, 1e-6, 1e-6, seed);
+      every_law::check_element(elements::gap_spring(), {3, gap}, 1, true, 1e-6, 1e-6, 1e-6, seed);
+    }
+  every_law::check_step(elements::gap_spring(), {3, 0.2}, 1, 1e-7, 1e-6, 3);
+  every_law::check_energy(elements::gap_spring(), {3, 0.2}, 1, 1e-5, 3);
+}
+
+TEST_CASE(
+    "out of reach a stop changes nothing, and always in contact it is a spring that is drawn by its gap") {
+  const auto free = observables::point_responses(stop(5, 100, 50, 1), {.frequency = 0.8});
+  REQUIRE(free.size() == 1);
+  CHECK(std::abs(free[0].point.amplitude - 1 / std::hypot(1 - 0.64, 0.08)) < 1e-13);
+  const elements::Harmonics h{4, false};
+  const auto element = elements::gap_spring().element(h, {});
+  Vector u = Vector::Zero(h.size());
+  u[0] = 5;
+  u[h.cosine_index(2)] = 0.7;
+  element->move_to(u, std::vector<double>{2, 1}, true);
+  Vector expected = 2 * u;
+  expected[0] -= 2;
+  CHECK((element->force() - expected).norm() < 1e-14);
+  CHECK((element->jacobian() - 2 * Eigen::MatrixXd::Identity(h.size(), h.size())).norm() < 1e-13);
+  u.tail(h.size() - 1).setZero();
+  element->move_to(u, std::vector<double>{2, 1}, true);
+  CHECK(std::abs(element->force()[0] - 8) < 1e-14);
+  u[0] = 0.5;
+  element->move_to(u, std::vector<double>{2, 1}, true);
+  CHECK(element->force().norm() == 0);
+}
+
+TEST_CASE("a response with contact comes to the exact motion as N^-3") {
+  double last = 0;
+  for (const int order : {15, 31, 63, 101}) {
+    const scene::Scene s = stop(order, 0.3, 20, 1);
+    const auto found = observables::point_responses(s, {.frequency = 1.7});
+    REQUIRE(found.size() == 1);
+    const auto model = model::build(s);
+    Vector p = model::defaults(model);
+    p[model::frequency] = 1.7;
+    time::EventDriven march(time::equation_of_motion(model, p));
+    const auto exact = time::periodic_motion(march, time::at_rest(march.equation()));
+    REQUIRE(exact.converged());
+    REQUIRE(exact.period.events.size() == 2);
+    CHECK(exact.period.events[0].to != exact.period.events[1].to);
+    const double error = std::abs(found[0].point.amplitude / exact.period.amplitude - 1);
+    CAPTURE(order, error, found[0].point.amplitude);
+    CHECK(error < 40 * std::pow(order, -3.0));
+    last = error;
+    CHECK(std::abs(exact.period.energy.defect()) < 1e-13);
+  }
+  CHECK(last < 1e-6);
+}
+
+TEST_CASE("in time a stop is met at exact instants, and Newmark's steps come to the same at second order") {
+  const scene::Scene s = stop(5, 0.3, 20, 1);
+  const auto exact = observables::motion_in_time(s, {.frequency = 1.7});
+  REQUIRE(exact.status == observables::Status::complete);
+  CHECK(exact.integrator == "event-driven");
+  double last = 0;
+  for (const int steps : {500, 1000, 2000}) {
+    const auto motion = observables::motion_in_time(
+        s, {.frequency = 1.7, .method = observables::TimeMethod::newmark_shooting, .steps = steps});
+    REQUIRE(motion.status == observables::Status::complete);
+    const double error = std::abs(motion.amplitude / exact.amplitude - 1);
+    if (last > 0) CHECK(error < 0.4 * last);
+    last = error;
+    // Multipliers at first order only: contact begins within a step, and its tangent counts for all of it.
+    CHECK(std::abs(std::abs(motion.multipliers[0]) - std::abs(exact.multipliers[0])) < 10.0 / steps);
+  }
+  CHECK(last < 1e-4);
+}
+
+TEST_CASE("the branch bends where the stop is met, and grazing is a corner of the response") {
+  // The linear response reaches the gap at |x| = 0.3: f/|Z| = gap.
+  const scene::Scene s = stop(9, 0.3, 5, 0.1, 0.05);
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(branches.size() == 1);
+  REQUIRE(branches[0].status == observables::Status::complete);
+  std::size_t touching = 0;
+  for (const auto& point : branches[0].points) {
+    const double linear = 0.1 / std::hypot(1 - point.omega * point.omega, 0.05 * point.omega);
+    if (point.amplitude < 0.3) CHECK(std::abs(point.amplitude - linear) < 1e-12);
+    touching += point.amplitude > 0.3 ? 1 : 0;
+  }
+  CHECK(touching > 10);
+  // 0.1/|Z(w)| = 0.3 below resonance
+  const double w2 = [] {
+    double low = 0.5, high = 1;
+    for (int i = 0; i < 100; ++i) {
+      const double w = 0.5 * (low + high);
+      (0.1 / std::hypot(1 - w * w, 0.05 * w) < 0.3 ? low : high) = w;
+    }
+    return low;
+  }();
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  const Vector p = hbm::parameters_at(problem, w2);
+  const Vector u = hbm::linear_response(problem, p);
+  auto corners = hbm::corners_near(problem, u, p, 1e-8);
+  REQUIRE(corners.size() == 1);
+  const auto h = hbm::corner_excess(problem, corners[0], u, p);
+  REQUIRE(h);
+  CHECK(std::abs(*h) < 1e-12);
+  Vector x(u.size() + 1);
+  x << u, w2;
+  const auto equations = hbm::corner_points(std::make_shared<const hbm::HbmProblem>(problem), corners[0]);
+  const auto check = continuation::check_jacobian(*equations, hbm::with_angles(x, corners[0]), p);
+  CHECK(check.message == "");
+}
+
+TEST_CASE("a mass that only a gap spring holds is refused, since nothing holds its mean") {
+  scene::Scene s = stop(5, 0.3, 20, 1);
+  scene::set(s, "k.value", 0);
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].status == observables::Status::failed);
+  CHECK(branches[0].stop.message.find("\"x\"") != std::string::npos);
+}
+
+TEST_CASE("the chain of NLvib's example 07 is traced from end to end, with its peaks") {
+  // 3 masses; friction at the first and between the first two, cubic springs at the second and between the
+  // last two, a one-sided spring at the third. NLvib's numbers are of 256 samples, and of contacts that stick
+  // from where they were without force, not about the centre of their motion: the mean of the motion differs.
+  const auto chain = [](const char* response) {
+    return scenes::parse(std::string(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"dofs": ["a", "b", "c"],
+        "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1},
+                   {"name": "mc", "at": "c", "value": 1}],
+        "springs": [{"name": "k0", "at": "a", "value": 1}, {"name": "k1", "between": ["a", "b"], "value": 1},
+                    {"name": "k2", "between": ["b", "c"], "value": 1}, {"name": "k3", "at": "c", "value": 1}],
+        "dampers": [{"name": "c0", "at": "a", "value": 0.02}, {"name": "c1", "between": ["a", "b"], "value": 0.02},
+                    {"name": "c2", "between": ["b", "c"], "value": 0.02}, {"name": "c3", "at": "c", "value": 0.02}]},
+      "elements": [
+        {"name": "d1", "type": "jenkins", "at": "a", "stiffness": 20, "friction_coefficient": 1, "normal_load": 1},
+        {"name": "d2", "type": "jenkins", "between": ["a", "b"], "stiffness": 20, "friction_coefficient": 1,
+         "normal_load": 1},
+        {"name": "s1", "type": "cubic_spring", "at": "b", "stiffness": 1},
+        {"name": "s2", "type": "cubic_spring", "between": ["b", "c"], "stiffness": 1},
+        {"name": "g", "type": "gap_spring", "at": "c", "stiffness": 1, "gap": 0.25}],
+      "excitation": [{"name": "f", "at": "b", "cosine": 1}], "harmonics": {"order": 7},
+      "response": {"at": ")") +
+                         response + R"("},
+      "studies": [{"name": "frf", "kind": "frf", "from": 0.5, "to": 2}]})");
+  };
+  const auto rms = [](const observables::ResponsePoint& point) {
+    double sum = point.coefficients[0] * point.coefficients[0];
+    for (std::size_t i = 2; i < point.coefficients.size(); ++i)
+      sum += 0.5 * point.coefficients[i] * point.coefficients[i];
+    return std::sqrt(sum);
+  };
+  struct Expected {
+    const char* response;
+    double rms, omega, from, to;
+  };
+  for (const Expected& each : {Expected{"a", 0.167265, 1.25720, 1.2, 1.4},
+                               {"b", 0.206267, 1.26717, 1.2, 1.4},
+                               {"c", 0.727831, 1.65924, 1.64, 2}}) {
+    const scene::Scene s = chain(each.response);
+    const auto branches = observables::frequency_response(s, scenes::window(s));
+    REQUIRE(branches.size() == 1);
+    const auto& branch = branches[0];
+    CAPTURE(each.response, branch.stop.message);
+    REQUIRE(branch.status == observables::Status::complete);
+    double most = 0, at = 0;
+    for (const auto& point : branch.points)
+      if (point.omega > each.from && point.omega < each.to && rms(point) > most)
+        most = rms(point), at = point.omega;
+    CHECK(std::abs(most / each.rms - 1) < (each.response[0] == 'c' ? 6e-2 : 1e-2));
+    CHECK(std::abs(at - each.omega) < 0.01);
+    // Its own witness is the motion in time.
+    const auto motion = observables::motion_in_time(s, {.frequency = 1.2641});
+    REQUIRE(motion.status == observables::Status::complete);
+    scene::Scene fine = s;
+    fine.harmonics.order = 41;
+    const auto response = observables::point_responses(fine, {.frequency = 1.2641});
+    REQUIRE(response.size() == 1);
+    CHECK(std::abs(response[0].point.amplitude / motion.amplitude - 1) < 1e-4);
+  }
+}
