@@ -4,7 +4,7 @@
 //   of a force (F^c, F^s) on the motion (a, b):  E = integral of f dx/dtheta = pi sum_n n (F^c_n b_n - F^s_n
 //   a_n)
 //
-// In a periodic motion the excitation puts in what friction and dampers take out; springs, linear or cubic,
+// In a periodic motion the excitation puts in what friction and dampers take out; springs, linear or not,
 // take nothing. Harmonic balance keeps that exactly at any order, since harmonics of a force above N do no
 // work on the motion kept.
 

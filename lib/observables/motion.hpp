@@ -14,7 +14,7 @@
 namespace arcslip::observables {
 
 /// How a motion in time is found: by shooting on the period, between exact events where the scene is
-/// piecewise linear (no cubic spring, no massless degree of freedom) and in Newmark's steps elsewhere, or
+/// piecewise linear (no smooth law, no massless degree of freedom) and in Newmark's steps elsewhere, or
 /// always in Newmark's steps; or period by period from rest, in Newmark's steps or between exact events.
 enum class TimeMethod { shooting, newmark_shooting, newmark, event_driven };
 

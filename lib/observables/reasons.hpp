@@ -66,7 +66,7 @@ inline constexpr Reason period_limit{
     "period_limit", "the state still changed by more than the tolerance after as many periods as allowed"};
 inline constexpr Reason no_periodic_motion{"no_periodic_motion", "shooting came to no periodic motion"};
 inline constexpr Reason not_piecewise_linear{
-    "not_piecewise_linear", "the integration between events takes friction elements alone, no cubic spring"};
+    "not_piecewise_linear", "the integration between events takes piecewise linear laws alone"};
 inline constexpr Reason massless{"massless",
                                  "the integration between events takes no degree of freedom without mass"};
 using time::reasons::event_limit;

@@ -55,7 +55,7 @@ struct ElementResponse {
 /// fundamental.
 struct ForceComponents {
   double inertia = no_value, spring = no_value, viscous = no_value;
-  PhaseParts contact{}, nonlinear_spring{};  // of the friction elements; of the cubic springs
+  PhaseParts contact{}, nonlinear_spring{};  // of the friction elements; of all others
   PhaseParts excitation{};
 
   /// F_p/x and F_o/x.

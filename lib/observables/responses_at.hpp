@@ -15,9 +15,9 @@
 
 namespace arcslip::observables {
 
-/// Responses at omega and the model's own parameters: where springs are linear one. Where one is cubic also
-/// those at which a frequency branch from omega/4 to 4 omega passes omega, each once; others, on branches
-/// that do not meet this one, are not looked for. None: why.
+/// Responses at omega and the model's own parameters: where springs are linear one. Where a law may give
+/// several also those at which a frequency branch from omega/4 to 4 omega passes omega, each once; others, on
+/// branches that do not meet this one, are not looked for. None: why.
 struct ResponsesAt {
   std::shared_ptr<const hbm::HbmProblem> problem;
   std::vector<continuation::Vector> u;

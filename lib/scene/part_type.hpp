@@ -23,7 +23,7 @@ struct Reading;
 class PartType {
  public:
   virtual ~PartType() = default;
-  virtual std::string_view name() const = 0;            // "jenkins", as a scene file writes it
+  virtual std::string_view name() const = 0;            // as a scene file writes it
   virtual std::string_view help() const { return {}; }  // one line
 
   /// Names of its directions, each an object with "at", "between" or "direction" in a scene file. Empty: it

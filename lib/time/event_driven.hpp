@@ -1,7 +1,8 @@
 #pragma once
 // Exact motion of structures with piecewise linear laws: between two events, at which an element goes from
 // one of its modes to another, the structure is linear, and its motion is a power series (linear_motion.hpp).
-// The modes and their guards are those of the laws' automata (elements/automaton.hpp). For a Jenkins element:
+// The modes and their guards are those of the laws' automata (elements/automaton.hpp). For a slider with a
+// spring:
 //
 //   stick:  f = k_d (q - z), z rests    until  |f| passes mu F_n
 //   slip:   f = sigma mu F_n, z = q - sigma mu F_n/k_d    until  sigma q' falls below zero

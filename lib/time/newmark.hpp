@@ -15,7 +15,7 @@
 //   input    (F0 + F1)/2 . y        viscous   y . C y/h       friction   what the laws dissipate
 //   stored   change of v . M v/2 + x . K x/2 + what the laws store
 // balances to rounding where these are such that (f_e0 + f_e1)/2 . D_e^T y is dissipated and stored, as of
-// Jenkins elements, and to the order of the method with others.
+// sliders, and to the order of the method with others.
 //
 // A massless motion (M w = 0) has r . w = 0 at all times; one without mass and damping has v = (x1 - x0)/h.
 // Source: Newmark 1959; docs/theory.md, section 10.

@@ -1,0 +1,33 @@
+# cmake -D FOLDER=(absolute) -P laws.cmake
+# Fails where a product file outside of lib/elements names a law of force: all that is asked of one is in
+# lib/elements/law.hpp. The names are those of the files that hold the laws.
+cmake_minimum_required(VERSION 3.25)
+
+file(READ ${FOLDER}/lib/elements/law.cpp catalogue)
+string(REGEX MATCHALL "arcslip/elements/[a-z_]+\\.hpp" headers "${catalogue}")
+set(names "")
+foreach(header IN LISTS headers)
+  get_filename_component(name ${header} NAME_WE)
+  if(NOT name STREQUAL "law")
+    list(APPEND names ${name})
+  endif()
+endforeach()
+list(LENGTH names count)
+if(count LESS 3)
+  message(FATAL_ERROR "found the laws ${names}, must be at least three")
+endif()
+list(JOIN names "|" names)
+
+set(wrong "")
+file(GLOB_RECURSE files ${FOLDER}/lib/*.?pp ${FOLDER}/optimize/*.?pp ${FOLDER}/app/*.?pp)
+list(FILTER files EXCLUDE REGEX "/lib/elements/")
+foreach(file IN LISTS files)
+  file(READ ${file} text)
+  string(TOLOWER "${text}" text)
+  if(text MATCHES "(${names})")
+    string(APPEND wrong "  ${file}: ${CMAKE_MATCH_1}\n")
+  endif()
+endforeach()
+if(wrong)
+  message(FATAL_ERROR "laws that are named outside of lib/elements:\n${wrong}")
+endif()
