@@ -19,6 +19,7 @@
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -57,6 +58,7 @@ struct SampledForce {
   Eigen::MatrixXd f;        // a column for each direction, N
   Eigen::MatrixXd f_q;      // df_i/dq_j in column j * directions + i
   Eigen::MatrixXd f_field;  // df_i/d(fields[k]) in column k * directions + i
+  std::uint64_t piece = 0;  // another number where many samples go over a kink of f together
 };
 
 /// A step in time begins at q and z, with the force f.
@@ -107,6 +109,8 @@ class Law {
   virtual bool antisymmetric() const = 0;
   /// It sticks and slips, and tells where: Element::friction().
   virtual bool has_contact() const { return false; }
+  /// It takes energy out of a periodic motion: what it takes is told, and counted.
+  virtual bool dissipative() const { return has_contact(); }
   virtual Traits traits(Fields fields, int direction) const = 0;
   /// The largest |df/dq| while |q| stays within `reach`, N/m.
   virtual double stiffness(Fields fields, int direction, double reach) const {

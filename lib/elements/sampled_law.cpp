@@ -38,6 +38,7 @@ class SampledElement final : public Element {
 
   const Eigen::VectorXd& force() const override { return F_; }
   const Eigen::MatrixXd& jacobian() const override { return J_; }
+  std::uint64_t piece() const override { return at_.piece; }
   void field_derivative(int field, Out dF) const override {
     const Eigen::Index c = h_.size();
     for (Eigen::Index i = 0; i < directions_; ++i)

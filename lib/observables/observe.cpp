@@ -92,15 +92,19 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
     ElementResponse response;
     response.name = problem_->model().elements[e].name;
     response.has_stick = at.element(e).friction(state);
-    const int displacements = problem_->model().elements[e].law->directions() * h.size();
+    const elements::Law& law = *problem_->model().elements[e].law;
+    const int displacements = law.directions() * h.size();
+    if (law.dissipative()) {
+      response.energy =
+          response.has_stick && state.slip_onsets.empty()
+              ? 0
+              : element_energy(h, at.element_motion(e), at.element(e).force().head(displacements));
+      point.energy_friction += response.energy;
+    }
     if (response.has_stick) {
       response.stick_percent = 100 * state.stick_share;
       response.slip_angles = state.slip_onsets;
       response.reversal_angles = state.slip_ends;
-      response.energy = state.slip_onsets.empty() ? 0
-                                                  : element_energy(h, at.element_motion(e),
-                                                                   at.element(e).force().head(displacements));
-      point.energy_friction += response.energy;
       set_contact_angles(h, at.element_motion(e), response);
     }
     set_fundamental(*problem_, at, e, response);

@@ -144,7 +144,7 @@ constexpr ResponseQuantity of_response[] = {
      bounded<&Point::truncation_estimate>},
     {"truncation_flagged", "", "the estimate may be too low",
      [](const Point& point) { return point.truncation_flagged; }},
-    {"energy_friction", "J", "dissipated in a period by friction elements", bounded<&Point::energy_friction>},
+    {"energy_friction", "J", "dissipated in a period by the elements", bounded<&Point::energy_friction>},
     {"energy_viscous", "J", "dissipated in a period by dampers", bounded<&Point::energy_viscous>},
     {"energy_total", "J", "their sum",
      [](const Point& point) { return point.unbounded ? no_value : point.energy_total(); }},
@@ -193,7 +193,7 @@ constexpr ElementQuantity of_element[] = {
      is_friction_part},
     {"reversal_angles", "rad", "friction elements: where slip ends", angles<&Element::reversal_angles>,
      is_friction, is_friction_part},
-    {"energy", "J", "friction elements: dissipated in a period", element<&Element::energy>},
+    {"energy", "J", "dissipated in a period", element<&Element::energy>},
     {"theta_0", "rad",
      "friction elements with one stick and one slip phase in each half period: largest displacement of the "
      "element",

@@ -45,6 +45,15 @@ void check_excitation(const Scene& scene, Faults& faults) {
                  "found " + std::to_string(harmonic) + ", must be at most harmonics.order, which is " +
                      std::to_string(scene.harmonics.order));
     }
+    if (const double sine = scene.excitation[i].values[1]; harmonic == 0 && sine != 0) {
+      faults.add(child(child("/excitation", i), "sine"),
+                 "found " + number_text(sine) + ", must be 0 where the harmonic is 0: the force is constant");
+    }
+  }
+  const bool oscillates = std::any_of(scene.excitation.begin(), scene.excitation.end(),
+                                      [](const Part& force) { return force.harmonic > 0; });
+  if (!oscillates && !scene.excitation.empty()) {
+    faults.add("/excitation", "found constant forces alone, must have a force of a harmonic above 0");
   }
 }
 

@@ -145,7 +145,7 @@ Part read_part(const Place& place, const PartType* section_type, std::span<const
   }
   part.directions = read_directions(*part.type, keys, dofs, faults);
   if (part.type == &force_type()) {
-    part.harmonic = read_integer(keys.find("harmonic"), 1, largest_order, faults).value_or(part.harmonic);
+    part.harmonic = read_integer(keys.find("harmonic"), 0, largest_order, faults).value_or(part.harmonic);
   }
   for (const Field& field : part.fields()) {
     const Place value =

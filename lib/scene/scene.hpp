@@ -37,7 +37,7 @@ struct Part {
   const PartType* type = nullptr;
   std::vector<Direction> directions;  // as the type's slots; one where it has none
   std::vector<double> values;
-  int harmonic = 1;    // excitation only: order of the harmonic of the force
+  int harmonic = 1;    // excitation only: order of the harmonic of the force; 0: constant
   Settings options{};  // of the type; empty: its defaults
 
   std::span<const Field> fields() const;

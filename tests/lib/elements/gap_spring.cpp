@@ -85,6 +85,30 @@ TEST_CASE(
   CHECK(element->force().norm() == 0);
 }
 
+TEST_CASE(
+    "pressed onto its stop by a constant force a mass moves about its place at rest as on two springs") {
+  scene::Scene s = stop(5, 0.5, 8, 0.2);
+  scene::Part load = s.excitation.front();
+  load.name = "load";
+  load.harmonic = 0;
+  load.values = {6, 0};
+  s.excitation.push_back(load);
+  scene::check(s);
+  const double place = (6 + 8 * 0.5) / 9;
+  for (const double w : {0.5, 2.0, 4.0}) {
+    const auto found = observables::point_responses(s, {.frequency = w});
+    const double amplitude = 0.2 / std::hypot(9 - w * w, 0.1 * w);
+    REQUIRE(place - amplitude > 0.5);
+    REQUIRE_FALSE(found.empty());
+    const auto& point = found.front().point;
+    CHECK(std::abs(point.coefficients[0] - place) < 1e-13);
+    CHECK(std::abs(point.amplitude - place - amplitude) < 1e-13);
+    const auto motion = observables::motion_in_time(s, {.frequency = w});
+    REQUIRE(motion.status == observables::Status::complete);
+    CHECK(std::abs(motion.amplitude - place - amplitude) < 1e-9);
+  }
+}
+
 TEST_CASE("a response with contact comes to the exact motion as N^-3") {
   double last = 0;
   for (const int order : {15, 31, 63, 101}) {

@@ -115,6 +115,7 @@ class BoucWen final : public elements::PlainLaw {
   std::span<const scene::Field> fields(const scene::Settings&) const override { return fields_; }
 
   bool antisymmetric() const override { return true; }
+  bool dissipative() const override { return true; }
   elements::Traits traits(Fields fields, int) const override {
     return {.stiffness = fields[0], .stiffness_field = 0, .holds_mean = fields[1] > 0, .far_power = 1};
   }

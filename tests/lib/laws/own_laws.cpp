@@ -157,6 +157,8 @@ TEST_CASE("a law with unknowns of its own follows its state equation in harmonic
     CHECK(std::abs(motion.amplitude / responses[0].point.amplitude - 1) < 2e-5);
     const double dissipated = responses[0].point.energy_input - responses[0].point.energy_viscous;
     CHECK(std::abs(motion.energy.friction / dissipated - 1) < 1e-3);
+    CHECK(std::abs(responses[0].point.energy_friction / dissipated - 1) < 1e-10);
+    CHECK(responses[0].point.elements[0].energy == responses[0].point.energy_friction);
   }
 }
 

@@ -231,12 +231,13 @@ void add_parts(std::vector<BadScene>& rows) {
   rows.push_back({"negative damper", good_scene_with("0.1}", "-0.1}"), "/structure/dampers/0/value",
                   "found -0.1, must be at least 0 N s/m"});
   rows.push_back({"element without a type", good_scene_with("\"type\": \"jenkins\",", ""), "/elements/0/type",
-                  "found no key \"type\", which is required: must be one of \"jenkins\", \"cubic_spring\""});
-  rows.push_back(
-      {"unknown type of element", good_scene_with("\"jenkins\"", "\"jenkin\""), "/elements/0/type",
-       "found \"jenkin\", must be one of \"jenkins\", \"cubic_spring\"; did you mean \"jenkins\"?"});
+                  "found no key \"type\", which is required: must be one of \"jenkins\", \"cubic_spring\", "
+                  "\"gap_spring\""});
+  rows.push_back({"unknown type of element", good_scene_with("\"jenkins\"", "\"jenkin\""), "/elements/0/type",
+                  "found \"jenkin\", must be one of \"jenkins\", \"cubic_spring\", \"gap_spring\"; did you "
+                  "mean \"jenkins\"?"});
   rows.push_back({"type that is no string", good_scene_with("\"jenkins\"", "{}"), "/elements/0/type",
-                  "found an object, must be one of \"jenkins\", \"cubic_spring\""});
+                  "found an object, must be one of \"jenkins\", \"cubic_spring\", \"gap_spring\""});
   rows.push_back({"contact stiffness of zero", good_scene_with("\"stiffness\": 10", "\"stiffness\": 0"),
                   "/elements/0/stiffness", "found 0, must be above 0 N/m"});
   rows.push_back({"negative friction coefficient",
@@ -271,8 +272,15 @@ void add_rest(std::vector<BadScene>& rows) {
                   "found no key \"excitation\", which is required: must be a list of at least one force"});
   rows.push_back({"empty excitation", good_scene_with(force, ""), "/excitation",
                   "found an empty list, must be a list of at least one force"});
-  rows.push_back({"harmonic of zero", good_scene_with("\"cosine\": 1", "\"harmonic\": 0"),
-                  "/excitation/0/harmonic", "found 0, must be an integer from 1 to 2000"});
+  rows.push_back({"harmonic below zero", good_scene_with("\"cosine\": 1", "\"harmonic\": -1"),
+                  "/excitation/0/harmonic", "found -1, must be an integer from 0 to 2000"});
+  rows.push_back({"constant force alone", good_scene_with("\"cosine\": 1", "\"harmonic\": 0, \"cosine\": 1"),
+                  "/excitation", "found constant forces alone, must have a force of a harmonic above 0"});
+  rows.push_back({"sine of a constant force",
+                  good_scene_with("\"cosine\": 1}",
+                                  "\"cosine\": 1}, {\"name\": \"load\", \"at\": \"a\", "
+                                  "\"harmonic\": 0, \"sine\": 2}"),
+                  "/excitation/1/sine", "found 2, must be 0 where the harmonic is 0: the force is constant"});
   rows.push_back({"harmonic above the order", good_scene_with("\"cosine\": 1", "\"harmonic\": 9"),
                   "/excitation/0/harmonic", "found 9, must be at most harmonics.order, which is 7"});
   rows.push_back(
