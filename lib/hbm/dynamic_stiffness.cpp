@@ -108,6 +108,20 @@ void DynamicStiffness::response(In u, double force_factor, Out x) const {
   }
 }
 
+Eigen::MatrixXd DynamicStiffness::motion(const Eigen::MatrixXd& P, In u, double force_factor) const {
+  Eigen::MatrixXd x(size_, P.rows());
+  for (const Harmonic& at : harmonics_) {
+    expand(u, at, force_factor);
+    const ComplexVector of_dofs = P * y_;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      auto column = x.col(i);
+      column[at.cosine] = of_dofs[i].real();
+      if (at.order > 0) column[at.sine] = -of_dofs[i].imag();
+    }
+  }
+  return x;
+}
+
 void DynamicStiffness::response_transposed(In a, Out g) const {
   for (const Harmonic& at : harmonics_) {
     v_ = response_.cast<Complex>();

@@ -30,6 +30,9 @@ class DynamicStiffness {
   void parameter_derivative(int k, In u, double force_factor, Out dR) const;  // zero for element parameters
   void solve(Out x) const;  // Z_n^-1 of each harmonic, in place
 
+  /// The motion of all degrees of freedom x = P y, a column of coefficients for each.
+  Eigen::MatrixXd motion(const Eigen::MatrixXd& P, In u, double force_factor) const;
+
   /// The observed coordinate: its coefficients x = L u + x_0, the product L^T a, and dx/dp_k at fixed u.
   void response(In u, double force_factor, Out x) const;
   void response_transposed(In a, Out g) const;

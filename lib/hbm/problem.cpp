@@ -20,7 +20,7 @@ HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
       jacobian_(Eigen::MatrixXd(u_.size(), u_.size())) {
   for (std::size_t e = 0; e < model_->elements.size(); ++e) {
     const auto& element = model_->elements[e];
-    Part part{model::make_element(*model_, element, problem.harmonics()),
+    Part part{element.law->element(problem.harmonics(), problem.sampling()),
               problem.map_of(e),
               element.parameters,
               {},
@@ -79,8 +79,14 @@ std::uint64_t HbmEvaluator::piece() const {
 
 HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics,
                        double displacement, double frequency)
+    : HbmProblem(model, harmonics, displacement, frequency,
+                 {model->settings.friction == scene::Friction::exact, model->settings.samples}) {}
+
+HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics,
+                       double displacement, double frequency, const elements::Sampling& sampling)
     : model_(std::move(model)),
       harmonics_(harmonics),
+      sampling_(sampling),
       coordinates_(hbm::coordinates(*model_)),
       blocks_(coordinates_.unknowns),
       parameters_(model_->parameters),

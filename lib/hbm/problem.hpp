@@ -61,6 +61,9 @@ class HbmProblem final : public continuation::Problem {
   /// (rad/s).
   HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
              double frequency);
+  /// With elements sampled in another way than the model's settings say.
+  HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
+             double frequency, const elements::Sampling& sampling);
 
   int size() const override { return blocks() * harmonics_.size(); }
   std::span<const continuation::Parameter> parameters() const override { return parameters_; }
@@ -71,6 +74,7 @@ class HbmProblem final : public continuation::Problem {
   const model::Model& model() const { return *model_; }
   std::shared_ptr<const model::Model> shared_model() const { return model_; }
   const Harmonics& harmonics() const { return harmonics_; }
+  const elements::Sampling& sampling() const { return sampling_; }
   const Coordinates& coordinates() const { return coordinates_; }
   /// Coordinates and auxiliary unknowns, harmonics().size() coefficients each.
   int blocks() const { return blocks_; }
@@ -82,6 +86,7 @@ class HbmProblem final : public continuation::Problem {
  private:
   std::shared_ptr<const model::Model> model_;
   Harmonics harmonics_;
+  elements::Sampling sampling_;
   Coordinates coordinates_;
   int blocks_;
   std::vector<continuation::Parameter> parameters_;

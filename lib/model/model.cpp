@@ -94,12 +94,6 @@ int parameter_index(const Model& model, const std::string& name) {
   throw scene::ParameterError("no parameter \"" + name + "\"" + (close.empty() ? "" : "; nearest: " + close));
 }
 
-std::unique_ptr<elements::Element> make_element(const Model& model, const NonlinearPart& part,
-                                                const elements::Harmonics& harmonics) {
-  return part.law->element(harmonics,
-                           {model.settings.friction == scene::Friction::exact, model.settings.samples});
-}
-
 continuation::Vector defaults(const Model& model) {
   continuation::Vector p(static_cast<Eigen::Index>(model.parameters.size()));
   for (std::size_t k = 0; k < model.parameters.size(); ++k)

@@ -66,10 +66,6 @@ Model build(const scene::Scene& scene);
 /// Index of a parameter; a tied field leads to its tie. Throws scene::ParameterError.
 int parameter_index(const Model& model, const std::string& name);
 
-/// One element for a set of harmonics.
-std::unique_ptr<elements::Element> make_element(const Model& model, const NonlinearPart& part,
-                                                const elements::Harmonics& harmonics);
-
 /// Default values of the parameters.
 continuation::Vector defaults(const Model& model);
 

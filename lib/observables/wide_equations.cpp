@@ -4,24 +4,16 @@
 #include <utility>
 
 namespace arcslip::observables {
-namespace {
 
 using continuation::In;
 using continuation::Out;
 using continuation::Vector;
 
-std::shared_ptr<const model::Model> with_exact_friction(model::Model model) {
-  model.settings.friction = scene::Friction::exact;
-  return std::make_shared<const model::Model>(std::move(model));
-}
-
-}  // namespace
-
 WideEquations::WideEquations(const hbm::HbmProblem& problem, const elements::Harmonics& wide)
     : narrow_(problem),
       kept_(problem.harmonics()),
       wide_(wide),
-      problem_(with_exact_friction(problem.model()), wide_, 1, 1),
+      problem_(problem.shared_model(), wide_, 1, 1, {.exact = true}),
       evaluator_(problem_.hbm_evaluator()),
       u_(problem_.size()),
       F_q_(u_.size()),

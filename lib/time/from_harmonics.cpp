@@ -3,18 +3,9 @@
 namespace arcslip::time {
 
 Matrix dof_coefficients(const hbm::HbmProblem& problem, elements::In u, const continuation::Vector& p) {
-  model::Model model = problem.model();
-  const double factor = p[problem.excitation_factor()];
-  Matrix coefficients(problem.harmonics().size(), model.dofs);
-  for (Eigen::Index i = 0; i < model.dofs; ++i) {
-    model.response = Vector::Unit(model.dofs, i);
-    hbm::DynamicStiffness stiffness(model, problem.coordinates(), problem.harmonics());
-    stiffness.move_to(p.head(p.size() - 1));
-    Vector x(coefficients.rows());
-    stiffness.response(u, factor, x);
-    coefficients.col(i) = x;
-  }
-  return coefficients;
+  hbm::DynamicStiffness stiffness(problem.model(), problem.coordinates(), problem.harmonics());
+  stiffness.move_to(p.head(p.size() - 1));
+  return stiffness.motion(problem.coordinates().P, u, p[problem.excitation_factor()]);
 }
 
 State state_of(const hbm::HbmProblem& problem, elements::In u, const continuation::Vector& p) {
