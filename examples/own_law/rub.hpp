@@ -24,6 +24,10 @@ class Rub final : public arcslip::elements::SampledLaw {
     return {.stiffness = fields[0], .stiffness_field = 0, .several_responses = true, .far_power = 1};
   }
 
+  double stiffness(arcslip::elements::Fields fields, int, double reach) const override {
+    return reach > fields[1] ? fields[0] * (1 + fields[2]) : 0;
+  }
+
   // All samples of a period at once.
   void sample(arcslip::elements::Fields fields, const Eigen::MatrixXd& q,
               arcslip::elements::SampledForce& at) const override {

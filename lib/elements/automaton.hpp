@@ -6,6 +6,10 @@
 //   it takes to move it.
 //   a guard  g = q . q + v . q' + z z + c  is at least 0 in its mode, which is left where g falls below 0
 //
+// A row that is left empty is 0. f_q is symmetric. Where a memory that follows comes to rest, what it follows
+// is at rest, z_q q' = 0, as where the guard is on that velocity: the derivatives of a motion take this for
+// granted. Only sliders dissipate.
+//
 // The first mode is that at the start; where a guard is below 0 there, it is left at once.
 
 #include <Eigen/Core>

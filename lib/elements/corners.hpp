@@ -1,7 +1,7 @@
 #pragma once
 // The corners of one element: where one more phase of its contact is about to be born, or two become one. A
-// function h of its motion vanishes there, h < 0 without the phase and h > 0 with it, and J jumps by rank one
-// along grad h.
+// function h of its motion vanishes there, h < 0 without the phase and h > 0 with it. J jumps by rank one
+// along grad h, or changes there with the root of h.
 //
 // h depends on angles theta_i, each told by an equation a_i = 0, as w'(theta) = 0 of a reversal. Where these
 // hold, h does not change with the angles, so that grad h is the partial derivative.

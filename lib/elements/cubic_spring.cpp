@@ -2,6 +2,8 @@
 
 #include <arcslip/elements/sampled_law.hpp>
 
+#include <cmath>
+
 namespace arcslip::elements {
 namespace {
 
@@ -28,7 +30,7 @@ class CubicSpring final : public SampledLaw {
             .far_power = 3};
   }
   double stiffness(Fields fields, int, double reach) const override {
-    return fields[0] == 0 ? 0 : 3 * fields[0] * reach * reach;
+    return 3 * std::abs(fields[0]) * reach * reach;
   }
 
   void sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) const override {

@@ -52,6 +52,7 @@ class GapElement final : public Element {
     if (jacobian) J_.setZero();
     moments_.clear();
     contacts_ = 0;
+    always_ = false;
     find_contacts(u, gap);
     moments_.close();
     moments_.times(u, kappa, A_);
@@ -74,7 +75,7 @@ class GapElement final : public Element {
     else
       dF = -stiffness_ * l_;
   }
-  std::uint64_t piece() const override { return contacts_; }
+  std::uint64_t piece() const override { return always_ ? 1 : 2 * contacts_; }
 
  private:
   // The contacts of a period, between the reversals that enclose their ends. A motion of odd harmonics alone
@@ -113,6 +114,7 @@ class GapElement final : public Element {
 
   void add(double begin, double end) {
     ++contacts_;
+    always_ = end - begin >= turn;
     powers(0.5 * (begin + end), static_cast<int>(middle_.size()), middle_.data());
     powers(0.5 * (end - begin), static_cast<int>(half_.size()), half_.data());
     moments_.add_interval(end - begin, middle_.data(), half_.data());
@@ -135,6 +137,7 @@ class GapElement final : public Element {
   std::vector<std::complex<double>> middle_, half_;
   double stiffness_ = 0;
   std::uint64_t contacts_ = 0;
+  bool always_ = false;
 };
 
 // A maximum touches the stop (guard 1), or a minimum leaves it (guard 0). One angle, that of the reversal;
@@ -169,14 +172,21 @@ class GapCorners final : public Corners {
         const double x = side * at.x, theta = side > 0 ? at.theta : at.theta + std::numbers::pi;
         if (side < 0 && !h_.odd) break;
         const Corner corner{series_values(h_, w, theta).d2 < 0 ? 1 : 0, {theta}};
-        if (fields[stiffness_field] * std::abs(x - fields[gap_field]) <= tolerance * size(corner, w, fields))
-          found.push_back(corner);
+        const bool is_near =
+            fields[stiffness_field] * std::abs(x - fields[gap_field]) <= tolerance * size(corner, w, fields);
+        if (is_near && !is_listed(found, corner, w)) found.push_back(corner);
       }
     return found;
   }
 
  private:
   static double sign(const Corner& corner) { return corner.guard == 1 ? 1 : -1; }
+  // An image of one that is there, in a motion of a shorter period.
+  bool is_listed(const std::vector<Corner>& all, const Corner& corner, In w) const {
+    return std::any_of(all.begin(), all.end(), [&](const Corner& other) {
+      return other.guard == corner.guard && is_image(h_, w, corner.angles[0] - other.angles[0], 1);
+    });
+  }
 
   Harmonics h_;
   Reversals reversals_;

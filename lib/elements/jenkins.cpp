@@ -49,6 +49,7 @@ class Jenkins final : public PlainLaw {
             .far_work = 4 * limit(fields),
             .limit = limit(fields)};
   }
+  double stiffness(Fields fields, int, double) const override { return fields[stiffness_field]; }
   bool limited_by(int field) const override { return field != stiffness_field; }
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override {

@@ -49,11 +49,14 @@ struct Traits {
   double limit = std::numeric_limits<double>::infinity();  // N: the largest force of friction
 };
 
-/// The force of a law without memory at several q at once: a row for each.
+/// The force of a law without memory at several q at once: a row for each. A law sets all that may differ
+/// from what it finds here, as it left it.
 struct SampledForce {
   SampledForce() = default;
   SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields)
-      : f(rows, directions), f_q(rows, directions * directions), f_field(rows, directions * fields) {}
+      : f(Eigen::MatrixXd::Zero(rows, directions)),
+        f_q(Eigen::MatrixXd::Zero(rows, directions * directions)),
+        f_field(Eigen::MatrixXd::Zero(rows, directions * fields)) {}
 
   Eigen::MatrixXd f;        // a column for each direction, N
   Eigen::MatrixXd f_q;      // df_i/dq_j in column j * directions + i
@@ -109,14 +112,11 @@ class Law {
   virtual bool antisymmetric() const = 0;
   /// It sticks and slips, and tells where: Element::friction().
   virtual bool has_contact() const { return false; }
-  /// It takes energy out of a periodic motion: what it takes is told, and counted.
+  /// It takes energy out of a periodic motion, which counts in the balance.
   virtual bool dissipative() const { return has_contact(); }
   virtual Traits traits(Fields fields, int direction) const = 0;
-  /// The largest |df/dq| while |q| stays within `reach`, N/m.
-  virtual double stiffness(Fields fields, int direction, double reach) const {
-    static_cast<void>(reach);
-    return traits(fields, direction).stiffness;
-  }
+  /// The largest |df/dq| while |q| stays within `reach`, N/m; finite.
+  virtual double stiffness(Fields fields, int direction, double reach) const = 0;
   /// Whether Traits::limit changes with a field.
   virtual bool limited_by(int field) const {
     static_cast<void>(field);
@@ -128,7 +128,8 @@ class Law {
   /// Unknowns of the element's own, each with as many coefficients as a displacement, and as many equations:
   /// the rows of its force after those of the directions.
   virtual int auxiliary() const { return 0; }
-  /// Their typical size.
+  /// Their typical size. Norms of solutions take all unknowns alike: they are best in a unit in which they
+  /// are about as large as displacements.
   virtual double auxiliary_scale(Fields fields) const {
     static_cast<void>(fields);
     return 1;
@@ -173,7 +174,7 @@ class Law {
   }
 };
 
-/// A law without options is its own type.
+/// A law without options is its own type. It outlives all scenes and models that it stands in.
 class PlainLaw : public LawType, public Law {
  public:
   int directions() const final { return static_cast<int>(direction_count()); }

@@ -2,8 +2,8 @@
 // The corners of frequency branches, where one of the guards of an element is just touched, h = 0
 // (elements/corners.hpp): on one side, h > 0, its contact has a phase more than on the other.
 //
-// J jumps by rank one across h = 0, along grad h, so that a branch has two tangents there, and a peak or a
-// fold may sit at the corner while another parameter changes.
+// Where J jumps across h = 0, by rank one along grad h, a branch has two tangents, and a peak or a fold may
+// sit at the corner while another parameter changes.
 
 #include <arcslip/continuation/stationary.hpp>
 #include <arcslip/elements/corners.hpp>

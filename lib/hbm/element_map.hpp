@@ -3,8 +3,8 @@
 //
 //   w_b(theta) = sum over shares of block b:  weight u_coordinate(theta + phase)
 //
-// A phase is that of a motion which travels: a sector of a ring moves as its neighbour did 2 pi n/N ago.
-// Every share adds its part to the residual and the Jacobian by the transposed map.
+// A phase is that of a motion which travels: a sector of a ring moves as its neighbour a share of the period
+// before or after. Every share adds its part to the residual and the Jacobian by the transposed map.
 
 #include <arcslip/elements/series.hpp>
 

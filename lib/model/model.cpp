@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace arcslip::model {
 namespace {
@@ -33,6 +35,10 @@ class Builder {
       for (std::size_t k = 0; k < part.values.size(); ++k) element.parameters.push_back(parameter(part, k));
       for (const auto& direction : part.directions)
         element.directions.push_back(sparse(direction, model_.dofs));
+      if (element.directions.size() != static_cast<std::size_t>(element.law->directions()))
+        throw std::invalid_argument("the element \"" + part.name + "\" has " +
+                                    std::to_string(element.directions.size()) + " directions, its law " +
+                                    std::to_string(element.law->directions()));
       model_.antisymmetric = model_.antisymmetric && element.law->antisymmetric();
       model_.elements.push_back(std::move(element));
     }

@@ -96,11 +96,11 @@ void Maxima::add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements:
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     ElementResponse& element = point.elements[e];
     if (!element.has_stick) continue;
-    v_ = at.element(e).force();
+    v_ = at.element(e).force().head(h.size());  // of the first direction
     element.maxima.force = largest_.of(v_);
     v_.tail(ns).setZero();
     element.maxima.cosine = largest_.of(v_);
-    v_ = at.element(e).force();
+    v_ = at.element(e).force().head(h.size());
     v_.head(nc).setZero();
     element.maxima.sine = largest_.of(v_);
   }

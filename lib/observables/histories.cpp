@@ -29,8 +29,7 @@ ElementHistory element_history(const hbm::HbmProblem& problem, const hbm::HbmEva
   const auto& h = problem.harmonics();
   const model::NonlinearPart& part = problem.model().elements[e];
   const Vector& u = at.element_motion(e);
-  const Vector& F = at.element(e).force();
-  Vector cosines = F, sines = F;
+  Vector cosines = at.element(e).force().head(h.size()), sines = cosines;  // of the first direction
   cosines.tail(h.sines()).setZero();
   sines.head(h.cosines()).setZero();
   ElementHistory result;

@@ -96,7 +96,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
     const int displacements = law.directions() * h.size();
     if (law.dissipative()) {
       response.energy =
-          response.has_stick && state.slip_onsets.empty()
+          response.has_stick && state.stick_share == 1
               ? 0
               : element_energy(h, at.element_motion(e), at.element(e).force().head(displacements));
       point.energy_friction += response.energy;

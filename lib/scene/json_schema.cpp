@@ -176,7 +176,7 @@ Node part_of(const PartType& type, bool with_type) {
   }
   for (const Field& field : type.fields({})) {
     properties.push_back({std::string(field.name), number_of(field)});
-    if (!field.default_value) {
+    if (!field.default_value && type.options().empty()) {  // options may bring others in its place
       required.emplace_back(field.name);
     }
   }

@@ -61,10 +61,12 @@ class Recorder {
   Recorder(const EquationOfMotion& equation, const March& march, std::span<const double> instants)
       : equation_(equation), march_(march), instants_(instants) {
     for (const Element& element : equation.elements) {
-      records_.push_back(element.law->has_contact() ? static_cast<int>(motion_.friction.size()) : -1);
+      records_.push_back({element.law->has_contact() ? static_cast<int>(motion_.friction.size()) : -1, 0});
       if (element.law->has_contact()) motion_.friction.push_back({element.name});
       motion_.history.elements.push_back({element.name, {}, {}, {}});
     }
+    for (const Contact& contact : march.contacts())
+      records_[static_cast<std::size_t>(contact.element)].sliders += contact.slider >= 0 ? 1 : 0;
     motion_.amplitude = -1;
     start_energy_ = elastic_and_kinetic(equation, march.state());
   }
@@ -82,13 +84,14 @@ class Recorder {
     motion_.energy.input += work.input;
     motion_.energy.viscous += work.viscous;
     for (const Contact& contact : march_.contacts()) {
-      const int record = records_[static_cast<std::size_t>(contact.element)];
-      if (record < 0) continue;
-      FrictionRecord& friction = motion_.friction[static_cast<std::size_t>(record)];
-      if (!contact.follows())
-        friction.stick_time += s * h;
-      else
-        friction.energy += dissipated(contact, s);
+      if (contact.slider < 0) continue;
+      const double energy = contact.follows() ? dissipated(contact, s) : 0;
+      motion_.energy.friction += energy;
+      const Record& record = records_[static_cast<std::size_t>(contact.element)];
+      if (record.friction < 0) continue;
+      FrictionRecord& friction = motion_.friction[static_cast<std::size_t>(record.friction)];
+      friction.energy += energy;
+      if (!contact.follows()) friction.stick_time += s * h / record.sliders;
     }
     const double A = motion_.amplitude;
     extremes_.visit(piece, equation_.response, s, -A, A, [&](double at, double x) {
@@ -103,7 +106,6 @@ class Recorder {
     motion_.message = march_.message();
     motion_.time = march_.time();
     motion_.end = march_.state();
-    for (const FrictionRecord& record : motion_.friction) motion_.energy.friction += record.energy;
     motion_.energy.stored = elastic_and_kinetic(equation_, motion_.end) - start_energy_;
     if (motion_.amplitude < 0) motion_.amplitude = std::abs(equation_.response.dot(motion_.end.x));
     return std::move(motion_);
@@ -129,8 +131,9 @@ class Recorder {
         }
         element.displacement.push_back(q_[0]);
         element.force.push_back(0);
-        if (contact.slider == 0) element.slider.push_back(march_.memory(contact, q_));
       }
+      if (contact.slider == 0 && element.slider.size() < element.force.size())
+        element.slider.push_back(march_.memory(contact, q_));
       element.force.back() += march_.force(contact, q_);
     }
   }
@@ -169,7 +172,11 @@ class Recorder {
   Extremes extremes_;
   LinearMotion::Series series_{};
   Vector q_;
-  std::vector<int> records_;  // of each element in motion_.friction; -1: none
+  struct Record {
+    int friction;  // index in motion_.friction; -1: none
+    int sliders;   // which share the time
+  };
+  std::vector<Record> records_;  // of each element
   EventDrivenMotion motion_;
 };
 

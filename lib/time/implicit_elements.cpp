@@ -25,6 +25,7 @@ ImplicitElements::ImplicitElements(std::vector<Element> elements, int dofs) : el
     const int own = element.law->directions();
     first_.push_back(directions);
     ends_.emplace_back(own, element.law->memory());
+    starts_.emplace_back(own, element.law->memory());
     convex_ = convex_ && element.law->symmetric_step();
     directions += own;
     tangents += own * own;
@@ -39,6 +40,7 @@ ImplicitElements::ImplicitElements(std::vector<Element> elements, int dofs) : el
   for (Vector* v : {&factored_, &tangent_}) v->setZero(tangents);
   for (Vector* v : {&q_, &force_, &last_q_, &new_force_, &dq_}) v->setZero(directions);
   for (Vector* v : {&z_, &dz_, &last_z_}) v->setZero(memory);
+  moved_.setZero(std::max<Eigen::Index>(directions, memory));
   for (Vector* v : {&b_, &residual_, &size_, &step_, &trial_, &halved_}) v->setZero(dofs);
 }
 
@@ -94,7 +96,8 @@ double ImplicitElements::residual(const Vector& y) {
       dq_[first_[e]] *= std::abs(tangent_[t]);
     } else {
       auto own = dq_.segment(first_[e], d);
-      own = (ends_[e].f_q.cwiseAbs() * own).eval();
+      moved_.head(d).noalias() = ends_[e].f_q.cwiseAbs().lazyProduct(own);
+      own = moved_.head(d);
     }
     t += d * d;
   }
@@ -160,7 +163,7 @@ double ImplicitElements::halve(const Vector& y, double size) {
     halved_ = y + share * step_;
     if (residual(halved_) < size) return share;
   }
-  return 1;
+  return share;
 }
 
 Solved ImplicitElements::solve(const Vector& b, Vector& y) {
@@ -214,8 +217,9 @@ void ImplicitElements::force_change(const Matrix& dx, const Matrix& dz, Matrix& 
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const Element& element = elements_[e];
     const auto d = element.directions.cols(), m = ends_[e].dz.size(), i = first_[e];
-    elements::StepEnd at(static_cast<int>(d), static_cast<int>(m));
-    Vector z = last_z_.segment(element.memory, m);
+    elements::StepEnd& at = starts_[e];
+    auto z = moved_.head(m);
+    z = last_z_.segment(element.memory, m);
     element.law->begin(element.fields, last_q_.segment(i, d), z, at);
     df.middleRows(i, d).noalias() = at.f_q * dq_columns_.middleRows(i, d);
     df.middleRows(i, d).noalias() += at.f_z * dz.middleRows(element.memory, m);

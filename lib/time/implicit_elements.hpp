@@ -73,7 +73,7 @@ class ImplicitElements {
 
   std::vector<Element> elements_;
   std::vector<Eigen::Index> first_;
-  std::vector<elements::StepEnd> ends_;
+  std::vector<elements::StepEnd> ends_, starts_;  // of the step; of the state before the last accept()
   bool convex_ = true;
   Matrix D_, size_of_D_, A_, size_of_A_, J_;
   continuation::LU<double> lu_;
@@ -81,7 +81,7 @@ class ImplicitElements {
   bool has_factors_ = false;
   Vector q_, z_, force_, last_q_, last_z_;  // at the beginning; before the last accept()
   Vector new_force_, dq_, dz_;              // at the end
-  Vector b_, residual_, size_, step_, trial_, halved_;
+  Vector b_, residual_, size_, step_, trial_, halved_, moved_;
   Matrix df_, dq_columns_;
 };
 

@@ -22,9 +22,11 @@ std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
   for (std::size_t e = 0; e < equation.elements.size(); ++e) {
     const Element& element = equation.elements[e];
     auto automata = element.law->automata(element.fields);
-    if (!automata)
+    if (!automata || !element.law->symmetric_step())
       throw NotPiecewiseLinear(
-          "an exact integration between events needs laws that are piecewise linear: the element \"" +
+          "an exact integration between events needs laws that are piecewise linear with symmetric "
+          "stiffness: "
+          "the element \"" +
           element.name + "\" is not");
     for (auto& automaton : *automata) {
       const int k = automaton.memory;
@@ -127,7 +129,10 @@ void March::locate() {
     const auto& leaves = contact.mode().leaves;
     for (std::size_t k = 0; k < contact.along.size(); ++k) displacement_[k].made = velocity_[k].made = false;
     for (const elements::Guard& guard : leaves) {
-      const double offset = guard.c + (contact.memory < 0 ? 0 : guard.z * Z_(contact.memory, 0));
+      const bool follows = contact.follows();
+      const double by_memory = contact.memory < 0 ? 0 : guard.z;
+      const double z = by_memory == 0 ? 0 : follows ? contact.mode().z_0 : Z_(contact.memory, 0);
+      const double offset = guard.c + by_memory * z;
       double size = std::abs(guard.c) + std::abs(offset - guard.c);
       guard_.fill(0);
       const auto add = [&](double factor, Sized& part, auto series_of, const Vector& d) {
@@ -139,8 +144,10 @@ void March::locate() {
       };
       for (std::size_t k = 0; k < contact.along.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(k);
-        add(guard.q[at], displacement_[k], &LinearMotion::displacement, contact.along[k]);
-        add(guard.v[at], velocity_[k], &LinearMotion::velocity, contact.along[k]);
+        const double by_q = (guard.q.size() > 0 ? guard.q[at] : 0) +
+                            (follows && by_memory != 0 ? by_memory * contact.mode().z_q[at] : 0);
+        add(by_q, displacement_[k], &LinearMotion::displacement, contact.along[k]);
+        if (guard.v.size() > 0) add(guard.v[at], velocity_[k], &LinearMotion::velocity, contact.along[k]);
       }
       guard_[0] += offset;
       const auto s = first_fall(guard_, rounding * size);

@@ -12,7 +12,8 @@ struct ElementHistory {
   std::string name;
   std::vector<double> displacement;  // d . x, m
   std::vector<double> force;         // N, against the motion
-  std::vector<double> slider;        // z, m; empty where there is none
+  std::vector<double>
+      slider;  // z of the first slider along the first direction, m; empty where there is none
 };
 
 struct History {

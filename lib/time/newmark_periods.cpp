@@ -83,7 +83,11 @@ class Observation {
       ElementHistory& of = history.elements[e];
       of.displacement.push_back(element.directions.col(0).dot(newmark_.state().x));
       of.force.push_back(elements.force()[elements.first_direction(e)]);
-      if (element.law->has_contact()) of.slider.push_back(newmark_.state().z[element.memory]);
+      for (int k = 0; k < element.law->memory(); ++k)
+        if (element.law->slider_direction(k) == 0) {
+          of.slider.push_back(newmark_.state().z[element.memory + k]);
+          break;
+        }
     }
   }
 

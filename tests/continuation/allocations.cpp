@@ -2,6 +2,7 @@
 #include "catch.hpp"
 
 #include "continuation/hopf_problems.hpp"
+#include "lib/laws/coupled_spring.hpp"
 
 #include <arcslip/continuation/corrector.hpp>
 #include <arcslip/continuation/hopf_curve.hpp>
@@ -97,6 +98,8 @@ TEST_CASE("a step of Newmark's method allocates nothing, up to 60 degrees of fre
     for (int i = 0; i < n; ++i)
       equation.add("d", elements::jenkins().law({}), {0.5, 1, 0.1}, Eigen::VectorXd::Unit(n, i));
     equation.add("c", elements::cubic_spring().law({}), {0.1}, Eigen::VectorXd::Unit(n, 0));
+    const own_laws::CoupledSpring coupled;
+    if (n > 1) equation.add("p", coupled.law({}), {0.2}, Eigen::MatrixXd::Identity(n, 2));
     time::Newmark newmark(equation, 40);
     REQUIRE(newmark.begin(time::at_rest(equation)) == time::Solved::yes);
     REQUIRE(newmark.step() == time::Solved::yes);

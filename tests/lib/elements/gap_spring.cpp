@@ -73,10 +73,14 @@ TEST_CASE(
   u[0] = 5;
   u[h.cosine_index(2)] = 0.7;
   element->move_to(u, std::vector<double>{2, 1}, true);
+  const auto always = element->piece();
   Vector expected = 2 * u;
   expected[0] -= 2;
   CHECK((element->force() - expected).norm() < 1e-14);
   CHECK((element->jacobian() - 2 * Eigen::MatrixXd::Identity(h.size(), h.size())).norm() < 1e-13);
+  u[h.cosine_index(1)] = 5;  // leaves the stop once in a period
+  element->move_to(u, std::vector<double>{2, 1}, true);
+  CHECK(element->piece() != always);
   u.tail(h.size() - 1).setZero();
   element->move_to(u, std::vector<double>{2, 1}, true);
   CHECK(std::abs(element->force()[0] - 8) < 1e-14);
@@ -187,6 +191,16 @@ TEST_CASE("the branch bends where the stop is met, and grazing is a corner of th
   const auto equations = hbm::corner_points(std::make_shared<const hbm::HbmProblem>(problem), corners[0]);
   const auto check = continuation::check_jacobian(*equations, hbm::with_angles(x, corners[0]), p);
   CHECK(check.message == "");
+}
+
+TEST_CASE("of two contacts that touch together by a symmetry of the motion one is listed") {
+  const elements::Harmonics h{4, false};
+  const auto corners = elements::gap_spring().corners(h);
+  Vector w = Vector::Zero(h.size());
+  w[h.cosine_index(2)] = 1;
+  CHECK(corners->near(w, std::vector<double>{3, 1 + 1e-9}, 1e-6).size() == 1);
+  w[h.cosine_index(1)] = 1e-7;  // no image any more
+  CHECK(corners->near(w, std::vector<double>{3, 1 + 1e-9}, 1e-6).size() == 2);
 }
 
 TEST_CASE("a mass that only a gap spring holds is refused, since nothing holds its mean") {

@@ -27,7 +27,7 @@ MatrixXd matrix_of(const hbm::ElementMap& map, Eigen::Index unknowns) {
 
 }  // namespace
 
-TEST_CASE("a share with a phase is the motion of its coordinate that much later in the period") {
+TEST_CASE("a share with a phase is the motion of its coordinate that much ahead") {
   for (const elements::Harmonics h : {elements::Harmonics{4, false}, elements::Harmonics{5, true}}) {
     const hbm::ElementMap map(shares, 2, h);
     std::srand(1);

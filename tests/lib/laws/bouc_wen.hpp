@@ -119,6 +119,7 @@ class BoucWen final : public elements::PlainLaw {
   elements::Traits traits(Fields fields, int) const override {
     return {.stiffness = fields[0], .stiffness_field = 0, .holds_mean = fields[1] > 0, .far_power = 1};
   }
+  double stiffness(Fields fields, int, double) const override { return fields[0]; }
   std::unique_ptr<elements::Element> element(const elements::Harmonics& harmonics,
                                              const elements::Sampling&) const override {
     return std::make_unique<BoucWenElement>(harmonics);

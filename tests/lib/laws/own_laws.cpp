@@ -5,6 +5,7 @@
 #include "lib/laws/bouc_wen.hpp"
 #include "lib/laws/coupled_spring.hpp"
 #include "lib/laws/polynomial.hpp"
+#include "lib/laws/two_sliders.hpp"
 
 #include <arcslip/continuation/jacobian_check.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -24,10 +25,11 @@ namespace {
 const own_laws::CoupledSpring coupled;
 const own_laws::BoucWen bouc_wen;
 const own_laws::PolynomialType polynomial;
+const own_laws::TwoSliders two_sliders;
 
 scene::Catalogue catalogue() {
   auto all = test_catalogue::whole();
-  all.elements.insert(all.elements.end(), {&coupled, &bouc_wen, &polynomial});
+  all.elements.insert(all.elements.end(), {&coupled, &bouc_wen, &polynomial, &two_sliders});
   return all;
 }
 
@@ -159,6 +161,10 @@ TEST_CASE("a law with unknowns of its own follows its state equation in harmonic
     CHECK(std::abs(motion.energy.friction / dissipated - 1) < 1e-3);
     CHECK(std::abs(responses[0].point.energy_friction / dissipated - 1) < 1e-10);
     CHECK(responses[0].point.elements[0].energy == responses[0].point.energy_friction);
+    // The series of the force's harmonics beside the law's own force, at each angle of the history.
+    const auto& loop = responses[0].history.elements[0];
+    for (std::size_t i = 0; i < loop.force.size(); ++i)
+      CHECK(std::abs(loop.series[i] - loop.force[i]) < 1e-3);
   }
 }
 
@@ -195,6 +201,43 @@ TEST_CASE(
     }
     CAPTURE(i);
     CHECK(((ends[1] - ends[0]) / (2 * h) - map.monodromy.col(i)).cwiseAbs().maxCoeff() < 1e-7);
+  }
+}
+
+TEST_CASE("two sliders in one element are two elements with one slider each, in harmonics and in time") {
+  const auto with = [](const std::string& elements) {
+    return read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+        "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
+      "elements": [)" +
+                elements + R"(], "excitation": [{"name": "f", "at": "x", "cosine": 0.4}],
+      "harmonics": {"order": 21}, "response": {"at": "x"}})");
+  };
+  const scene::Scene one =
+      with(R"({"name": "d", "type": "two_sliders", "at": "x", "k1": 0.5, "mu1": 1, "load1": 0.2,
+    "k2": 0.3, "mu2": 0.5, "load2": 1.1})");
+  const scene::Scene two = with(R"({"name": "d1", "type": "jenkins", "at": "x", "stiffness": 0.5,
+      "friction_coefficient": 1, "normal_load": 0.2},
+    {"name": "d2", "type": "jenkins", "at": "x", "stiffness": 0.3, "friction_coefficient": 0.5, "normal_load": 1.1})");
+  const double w = 1.2;
+  const auto ours = observables::point_responses(one, {.frequency = w});
+  const auto theirs = observables::point_responses(two, {.frequency = w});
+  REQUIRE(ours.size() == 1);
+  CHECK(std::abs(ours[0].point.amplitude - theirs[0].point.amplitude) < 1e-12);
+  CHECK(std::abs(ours[0].point.energy_friction - theirs[0].point.energy_friction) < 1e-12);
+  for (const auto method : {observables::TimeMethod::shooting, observables::TimeMethod::newmark_shooting}) {
+    const auto a = observables::motion_in_time(one, {.frequency = w, .method = method});
+    const auto b = observables::motion_in_time(two, {.frequency = w, .method = method});
+    REQUIRE(a.status == observables::Status::complete);
+    CHECK(a.integrator == b.integrator);
+    CHECK(std::abs(a.amplitude - b.amplitude) < 1e-9);
+    CHECK(std::abs(a.energy.friction - b.energy.friction) < 1e-9);
+    CHECK(std::abs(a.energy.defect()) < 1e-9);
+    REQUIRE(a.multipliers.size() == b.multipliers.size());
+    CHECK(std::abs(a.multipliers[0] - b.multipliers[0]) < 1e-6);
+    REQUIRE(a.elements.size() == 1);
+    CHECK(std::abs(a.elements[0].stick_percent -
+                   0.5 * (b.elements[0].stick_percent + b.elements[1].stick_percent)) < 1e-6);
   }
 }
 

@@ -72,6 +72,9 @@ class RenamedJenkins final : public elements::PlainLaw {
     traits.stiffness_field = 2;
     return traits;
   }
+  double stiffness(Fields fields, int direction, double reach) const override {
+    return law().stiffness(in_order(fields), direction, reach);
+  }
   bool limited_by(int field) const override {
     return law().limited_by(place[static_cast<std::size_t>(field)]);
   }
