@@ -225,7 +225,8 @@ TEST_CASE("each script draws its figure from its data without a word") {
     const fs::path script = fs::path(figure.at("script").get<std::string>()).filename();
     for (const std::string format : {"svg", "png"}) {
       const auto drawn = arcslip::output::run_program(
-          "env", {"LC_ALL=C.UTF-8", "gnuplot", "-e", "format='" + format + "'", script}, made.folder.string());
+          "env", {"LC_ALL=C.UTF-8", "gnuplot", "-e", "format='" + format + "'", script},
+          made.folder.string());
       CAPTURE(script.string(), format);
       CHECK(drawn.exit_code == 0);
       CHECK(drawn.text == "");

@@ -75,8 +75,6 @@ TEST_CASE("what ended early, and what is complete but doubtful, is told by its n
   results.results[1].end.doubt = "and doubtful";  // but the failure is told already
   Remarks remarks;
   replay(results, remarks);
-  CHECK(remarks.early_ends ==
-        std::vector<std::string>{"other 2 (load = 3 N, share = 0.5) failed: it broke"});
-  CHECK(remarks.doubts ==
-        std::vector<std::string>{"thing 1 (load = 2.5 N) complete, but hardly so"});
+  CHECK(remarks.early_ends == std::vector<std::string>{"other 2 (load = 3 N, share = 0.5) failed: it broke"});
+  CHECK(remarks.doubts == std::vector<std::string>{"thing 1 (load = 2.5 N) complete, but hardly so"});
 }
