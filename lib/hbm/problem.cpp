@@ -153,6 +153,86 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   return branch.points.back().parameter * branch.points.back().u;
 }
 
+// The elements come in by a factor, the last parameter, from the response without them at 0 to the scene
+// at 1.
+class Gradual final : public continuation::Problem {
+ public:
+  explicit Gradual(std::shared_ptr<const HbmProblem> problem)
+      : problem_(std::move(problem)),
+        parameters_(problem_->parameters().begin(), problem_->parameters().end()) {
+    parameters_.push_back({"element_factor", "-", 1, 1, 0, 1});
+  }
+  int size() const override { return problem_->size(); }
+  std::span<const continuation::Parameter> parameters() const override { return parameters_; }
+  Vector scales() const override { return problem_->scales(); }
+  std::unique_ptr<continuation::Evaluator> evaluator() const override {
+    return std::make_unique<Evaluator>(*problem_);
+  }
+
+ private:
+  // Without elements: Z u - f. Auxiliary unknowns keep their own equations.
+  class Evaluator final : public continuation::Evaluator {
+   public:
+    explicit Evaluator(const HbmProblem& problem)
+        : inner_(problem.hbm_evaluator()),
+          displacements_(problem.coordinates().unknowns * problem.harmonics().size()),
+          R_(problem.size()),
+          elements_(problem.size()),
+          Z_(problem.size(), problem.size()),
+          jacobian_(Eigen::MatrixXd(problem.size(), problem.size())) {}
+
+    Evaluated move_to(continuation::In u, continuation::In p, Needs needs) override {
+      const Evaluated result = inner_->move_to(u, p.head(p.size() - 1), needs);
+      if (result != Evaluated::ok) return result;
+      const double factor = p[p.size() - 1];
+      R_ = inner_->residual();
+      inner_->stiffness().residual(u, inner_->force_factor(), R_);  // of the displacements
+      elements_ = inner_->residual() - R_;
+      R_ += factor * elements_;
+      if (needs == Needs::residual) return result;
+      Z_.setZero();
+      inner_->stiffness().add_to(Z_);
+      auto& J = std::get<Eigen::MatrixXd>(jacobian_);
+      J = std::get<Eigen::MatrixXd>(inner_->jacobian());
+      J.topRows(displacements_) = (factor * J + (1 - factor) * Z_).topRows(displacements_).eval();
+      return result;
+    }
+    const Vector& residual() const override { return R_; }
+    const continuation::Jacobian& jacobian() const override { return jacobian_; }
+    void parameter_derivative(int, continuation::Out dR) const override { dR = elements_; }  // by the factor
+    std::uint64_t piece() const override { return inner_->piece(); }
+
+   private:
+    std::unique_ptr<HbmEvaluator> inner_;
+    Eigen::Index displacements_;
+    Vector R_, elements_;
+    Eigen::MatrixXd Z_;
+    continuation::Jacobian jacobian_;
+  };
+
+  std::shared_ptr<const HbmProblem> problem_;
+  std::vector<continuation::Parameter> parameters_;
+};
+
+std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+                              const std::function<bool()>& go_on) {
+  const Vector u = linear_response(*problem, p);
+  if (!u.allFinite()) return {};
+  continuation::Options options;
+  options.lower = 0;
+  options.upper = 1;
+  options.check_jacobian = false;
+  options.points = longest_ramp;
+  options.go_on = go_on;
+  const auto equations = std::make_shared<const Gradual>(problem);
+  Vector at(p.size() + 1);
+  at << p, 0;
+  const auto branch = continuation::trace(equations, {u, at, static_cast<int>(p.size()), 1}, options);
+  if (branch.stop.reason != continuation::StopReason::boundary || branch.points.back().parameter != 1)
+    return {};
+  return branch.points.back().u;
+}
+
 }  // namespace
 
 Vector linear_response(const HbmProblem& problem, const Vector& p) {
@@ -181,7 +261,9 @@ std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& prob
                                    const std::function<bool()>& go_on) {
   for (const Vector& guess : {Vector(Vector::Zero(problem->size())), linear_response(*problem, p)})
     if (const auto found = response_near(*problem, p, guess)) return found;
-  return ramp(problem, p, go_on);
+  if (const auto found = ramp(problem, p, go_on)) return found;
+  if (go_on && !go_on()) return {};
+  return gradual(problem, p, go_on);
 }
 
 }  // namespace arcslip::hbm

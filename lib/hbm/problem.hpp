@@ -107,7 +107,8 @@ std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, 
 
 /// Newton's method from rest (all sliders stuck), from the response without elements, and, where neither
 /// converges, a branch in the excitation factor from rest at 0 to 1 or -1, where the response is that of 1
-/// reversed. Empty where that fails too, or go_on, asked along that branch, says false.
+/// reversed, or at last one on which the elements come in by a factor, as where a stop without a gap has a
+/// kink at rest. Empty where that fails too, or go_on, asked along these branches, says false.
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
                                    const std::function<bool()>& go_on = {});
 

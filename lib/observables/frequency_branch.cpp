@@ -59,7 +59,7 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
     return {problem,
             {},
             "Newton's method failed from rest, from the response without elements, and along a growing "
-            "excitation" +
+            "excitation and growing forces of the elements" +
                 (apart.empty() ? "" : "; " + apart)};
   }
   return {problem_with(u->norm()), u, {}};

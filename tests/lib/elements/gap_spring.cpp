@@ -136,6 +136,31 @@ TEST_CASE("a response with contact comes to the exact motion as N^-3") {
   CHECK(last < 1e-6);
 }
 
+TEST_CASE("without a gap the oscillator is bilinear at any force, and resonates at 2 w1 w2/(w1 + w2)") {
+  // Rest is a kink there, and no branch leads from it: the response is found by elements that come in
+  // gradually.
+  const double w2 = std::sqrt(3.0), resonance = 2 * w2 / (1 + w2);
+  for (const double force : {1.0, 1e-6, 1e6}) {
+    scene::Scene s = stop(15, 0, 2, force, 0.02);
+    scenes::window(s) = {1.2, 1.35};
+    const auto branches = observables::frequency_response(s, scenes::window(s));
+    REQUIRE(branches.size() == 1);
+    REQUIRE(branches[0].status == observables::Status::complete);
+    REQUIRE(branches[0].events.size() == 1);
+    CHECK(std::abs(branches[0].events[0].point.omega / resonance - 1) < 1e-4);
+  }
+  for (const double stiffness : {2.0, 20.0, 200.0}) {
+    const auto found = observables::point_responses(stop(31, 0, stiffness, 1), {.frequency = 1.7});
+    const auto motion = observables::motion_in_time(stop(5, 0, stiffness, 1), {.frequency = 1.7});
+    REQUIRE(motion.status == observables::Status::complete);
+    REQUIRE_FALSE(found.empty());
+    double nearest = 1;
+    for (const auto& response : found)
+      nearest = std::min(nearest, std::abs(response.point.amplitude / motion.amplitude - 1));
+    CHECK(nearest < 2e-4);
+  }
+}
+
 TEST_CASE("in time a stop is met at exact instants, and Newmark's steps come to the same at second order") {
   const scene::Scene s = stop(5, 0.3, 20, 1);
   const auto exact = observables::motion_in_time(s, {.frequency = 1.7});
