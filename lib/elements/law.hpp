@@ -45,7 +45,7 @@ struct Traits {
   bool holds_mean = false;         // a constant displacement meets a force that restores it
   bool several_responses = false;  // periodic responses may coexist
   double far_power = 0;            // the elastic force grows as amplitude^far_power where that is large
-  double far_work = 0;             // N: dissipated there in a period, over the amplitude
+  double far_work = 0;             // N: dissipated there in an oscillation, over its amplitude
   double limit = std::numeric_limits<double>::infinity();  // N: the largest force of friction
 };
 

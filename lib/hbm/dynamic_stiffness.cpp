@@ -11,7 +11,7 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       layout_(harmonics),
       size_(harmonics.size()),
       response_(coordinates.P.transpose() * model.response),
-      parts_(model, coordinates.P),
+      parts_(model, coordinates.P, harmonics),
       condensation_(parts_.parts(), r_, response_),
       last_p_(Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""))),
       y_(r_ + l_),
@@ -28,7 +28,8 @@ bool DynamicStiffness::move_to(In p) {
   parts_.move_to(p);
   for (Harmonic& at : harmonics_) {
     parts_.force(at.order, v_);
-    if (!condensation_.condense(parts_.matrices(), at.order * omega(), v_, at.condensed)) return false;
+    if (!condensation_.condense(parts_.matrices(), at.order * base_frequency(), v_, at.condensed))
+      return false;
   }
   last_p_ = p.head(last_p_.size());
   return true;
@@ -146,7 +147,7 @@ double DynamicStiffness::viscous_energy(In u, double force_factor) const {
   for (const Harmonic& at : harmonics_) {
     expand(u, at, force_factor);
     const double n = at.order;
-    energy += std::numbers::pi * omega() * n * n * parts_.quadratic_form(PartInY::Kind::damper, y_);
+    energy += std::numbers::pi * base_frequency() * n * n * parts_.quadratic_form(PartInY::Kind::damper, y_);
   }
   return energy;
 }

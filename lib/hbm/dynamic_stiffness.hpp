@@ -1,7 +1,7 @@
 #pragma once
 // The linear part of harmonic balance, condensed onto the unknowns (condensation.hpp):
 //
-//   R_n = Z_n(omega) X_n - f_n,   Z_n = K - (n omega)^2 M + i n omega C,   X_n = a_n - i b_n
+//   R_n = Z_n X_n - f_n,   Z_n = K - (n omega_b)^2 M + i n omega_b C,   X_n = a_n - i b_n
 
 #include <arcslip/hbm/condensation.hpp>
 #include <arcslip/hbm/coordinates.hpp>
@@ -22,7 +22,7 @@ class DynamicStiffness {
 
   /// False where the linear coordinates resonate by themselves, undamped: the condensed stiffness has a pole.
   bool move_to(In p);
-  double omega() const { return parts_.omega(); }  // rad/s, at the last place
+  double base_frequency() const { return parts_.base_frequency(); }  // rad/s, at the last place
 
   void residual(In u, double force_factor, Out R) const;                      // R = Z u - force_factor f
   void add_to(Eigen::MatrixXd& J) const;                                      // J += Z
@@ -38,7 +38,7 @@ class DynamicStiffness {
   void response_transposed(In a, Out g) const;
   void response_derivative(int k, In u, double force_factor, Out dx) const;
 
-  /// Energy dissipated by the dampers in a period: pi omega sum n^2 (a^T C a + b^T C b), J.
+  /// Energy dissipated by the dampers in a period: pi omega_b sum n^2 (a^T C a + b^T C b), J.
   double viscous_energy(In u, double force_factor) const;
   /// Of order n, one of the harmonics, at the last place.
   QuadraticForms quadratic_forms(int n, In u, double force_factor) const;

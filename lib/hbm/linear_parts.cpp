@@ -35,7 +35,9 @@ DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_
     if (d[i] != 0 && std::abs(d[i]) >= least) entries_.emplace_back(i, d[i]);
 }
 
-LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P) {
+LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
+                         const elements::Harmonics& harmonics)
+    : period_(harmonics.period) {
   const auto add = [&](Kind kind, const std::vector<model::LinearPart>& parts) {
     for (const model::LinearPart& part : parts)
       parts_.push_back({kind, part.parameter, {P, part.direction}, std::nan("")});
@@ -44,12 +46,12 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P) {
   add(Kind::damper, model.dampers);
   add(Kind::spring, model.springs);
   for (const model::Force& force : model.forces)
-    forces_.push_back({force.harmonic, force.cosine, force.sine, {P, force.direction}, 0});
+    forces_.push_back({harmonics.excited(force.harmonic), force.cosine, force.sine, {P, force.direction}, 0});
   for (Eigen::MatrixXd* sum : {&matrices_.M, &matrices_.C, &matrices_.K}) sum->setZero(P.cols(), P.cols());
 }
 
 void LinearParts::move_to(In p) {
-  omega_ = p[model::frequency];
+  base_frequency_ = p[model::frequency] / period_;
   for (ForceInY& force : forces_) force.amplitude = amplitude(force.harmonic, p[force.cosine], p[force.sine]);
   bool same = true;
   for (PartInY& part : parts_) {
@@ -85,11 +87,12 @@ bool LinearParts::depend_on(int k) const {
 
 void LinearParts::differentiate(int k, int n, const ComplexVector& y, double force_factor,
                                 ComplexVector& v) const {
-  const double order = n, s = order * omega_;
+  const double s = n * base_frequency_;
   v.setZero();
   for (const PartInY& part : parts_) {
     Complex rate = 0;  // of value * g
-    if (k == model::frequency) rate = order * factor_rate(part.kind, s) * part.value;
+    if (k == model::frequency)
+      rate = static_cast<double>(n) * factor_rate(part.kind, s) / static_cast<double>(period_) * part.value;
     if (k == part.parameter) rate += factor(part.kind, s);
     if (rate != 0.0) part.direction.add(rate * part.direction.along(y), v);
   }

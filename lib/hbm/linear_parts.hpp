@@ -1,6 +1,6 @@
 #pragma once
 // Masses, dampers, springs and forces in the coordinates y, x = P y (coordinates.hpp), none of them condensed
-// away. In harmonic n of the motion, s = n omega:
+// away. In harmonic n of the motion, s = n times the base frequency:
 //
 //   Z y = f,   Z = K - s^2 M + i s C
 //
@@ -70,10 +70,10 @@ struct QuadraticForms {
 /// Mutable, one for each evaluator. Values, frequency and forces are those of the last place.
 class LinearParts {
  public:
-  LinearParts(const model::Model& model, const Eigen::MatrixXd& P);
+  LinearParts(const model::Model& model, const Eigen::MatrixXd& P, const elements::Harmonics& harmonics);
 
   void move_to(In p);
-  double omega() const { return omega_; }  // rad/s
+  double base_frequency() const { return base_frequency_; }  // rad/s
   const std::vector<PartInY>& parts() const { return parts_; }
   const StructuralMatrices& matrices() const { return matrices_; }
   /// f of harmonic n.
@@ -91,16 +91,17 @@ class LinearParts {
 
  private:
   struct ForceInY {
-    int harmonic;
+    int harmonic;      // of the base frequency
     int cosine, sine;  // parameters
     DirectionInY direction;
     Complex amplitude;
   };
 
+  int period_;
   std::vector<PartInY> parts_;
   std::vector<ForceInY> forces_;
   StructuralMatrices matrices_;
-  double omega_ = -1;
+  double base_frequency_ = -1;
 };
 
 }  // namespace arcslip::hbm

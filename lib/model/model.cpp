@@ -47,11 +47,11 @@ class Builder {
     for (const auto& part : scene_.excitation) {
       model_.forces.push_back({part.harmonic, parameter(part, 0), parameter(part, 1),
                                sparse(part.directions.front(), model_.dofs)});
-      even = even || part.harmonic % 2 == 0;
+      even = even || part.harmonic * scene_.harmonics.period % 2 == 0;
       if (part.harmonic > 0) model_.force_harmonic = std::min(model_.force_harmonic, part.harmonic);
     }
     model_.response = sparse(scene_.response, model_.dofs);
-    model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric};
+    model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
     model_.settings = scene_.harmonics;
     return std::move(model_);
   }

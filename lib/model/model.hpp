@@ -38,10 +38,13 @@ struct NonlinearPart {
 
 /// (cosine cos n theta + sine sin n theta) d.
 struct Force {
-  int harmonic;
+  int harmonic;      // n, of the excitation: theta = excitation frequency * t
   int cosine, sine;  // parameters
   Direction direction;
 };
+
+/// Index of the excitation frequency in the parameters.
+inline constexpr int frequency = 0;
 
 struct Model {
   int dofs = 0;
@@ -54,11 +57,8 @@ struct Model {
   elements::Harmonics harmonics;  // odd only, where no even one is excited and all laws are antisymmetric
   bool antisymmetric = true;      // all laws are
   scene::Harmonics settings;
-  int force_harmonic = 1;  // lowest order excited: the fundamental
+  int force_harmonic = 1;  // lowest of the excitation: the fundamental
 };
-
-/// Index of the excitation frequency in the parameters.
-inline constexpr int frequency = 0;
 
 /// From a checked scene.
 Model build(const scene::Scene& scene);

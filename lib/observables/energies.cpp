@@ -20,9 +20,10 @@ double input_energy(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at,
   const auto& forces = problem.model().forces;
   double sum = 0;
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    const int n = forces[k].harmonic;
+    const int n = h.excited(forces[k].harmonic);
     bool counted = n == 0 || !h.has(n);
-    for (std::size_t earlier = 0; earlier < k; ++earlier) counted = counted || forces[earlier].harmonic == n;
+    for (std::size_t earlier = 0; earlier < k; ++earlier)
+      counted = counted || forces[earlier].harmonic == forces[k].harmonic;
     if (!counted) sum += n * at.stiffness().quadratic_forms(n, u, at.force_factor()).force.imag();
   }
   return std::numbers::pi * sum;

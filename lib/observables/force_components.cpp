@@ -24,11 +24,11 @@ PhaseParts& operator+=(PhaseParts& sum, Complex force) {
 ForceComponents force_components(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at,
                                  elements::In x) {
   const auto& h = problem.harmonics();
-  const int n = problem.model().force_harmonic;
+  const int n = h.excited(problem.model().force_harmonic);
   ForceComponents result;
   const double square = h.has(n) ? std::norm(amplitude_of(h, x, n)) : 0;
   if (!(square > 0)) return result;
-  const double omega = n * at.stiffness().omega();
+  const double omega = n * at.stiffness().base_frequency();
   const hbm::QuadraticForms forms = at.stiffness().quadratic_forms(n, at.unknowns(), at.force_factor());
   result.inertia = -omega * omega * forms.mass / square;
   result.spring = forms.stiffness / square;
@@ -49,14 +49,14 @@ ForceComponents force_components(const hbm::HbmProblem& problem, const hbm::HbmE
 void set_fundamental(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at, std::size_t e,
                      ElementResponse& element) {
   const auto& h = problem.harmonics();
-  const int n = problem.model().force_harmonic;
+  const int n = h.excited(problem.model().force_harmonic);
   const Complex Q = h.has(n) ? amplitude_of(h, at.element_motion(e), n) : 0;
   const double X = std::abs(Q);
   if (!(X > 0)) return;
   const Complex along = amplitude_of(h, at.element(e).force(), n) * std::conj(Q) / X;
   element.fundamental = {along.real(), along.imag()};
   element.equivalent_stiffness = along.real() / X;
-  element.equivalent_damping = along.imag() / (n * at.stiffness().omega() * X);
+  element.equivalent_damping = along.imag() / (n * at.stiffness().base_frequency() * X);
 }
 
 void set_contact_angles(const elements::Harmonics& h, elements::In motion, ElementResponse& element) {
@@ -79,20 +79,21 @@ void Maxima::add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements:
   const auto& h = problem_.harmonics();
   const auto& model = problem_.model();
   const int nc = h.cosines(), ns = h.sines();
+  const double base_frequency = at.stiffness().base_frequency();
   v_.setZero();
   for (int j = 0; j < ns; ++j) {  // x' = sum n (b cos - a sin)
     const int n = h.sine_order(j);
     v_[h.cosine_index(n)] = n * x[h.sine_index(n)];
     v_[h.sine_index(n)] = -n * x[h.cosine_index(n)];
   }
-  point.maxima.velocity = point.omega * largest_.of(v_);
+  point.maxima.velocity = base_frequency * largest_.of(v_);
   for (int j = 0; j < ns; ++j) {
     const int n = h.sine_order(j);
     v_[h.cosine_index(n)] = n * n * x[h.cosine_index(n)];
     v_[h.sine_index(n)] = n * n * x[h.sine_index(n)];
   }
   if (!h.odd) v_[0] = 0;
-  point.maxima.acceleration = point.omega * point.omega * largest_.of(v_);
+  point.maxima.acceleration = base_frequency * base_frequency * largest_.of(v_);
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     ElementResponse& element = point.elements[e];
     if (!element.has_stick) continue;

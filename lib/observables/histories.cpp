@@ -37,7 +37,7 @@ ElementHistory element_history(const hbm::HbmProblem& problem, const hbm::HbmEva
   for (double theta : angles) {
     const elements::Values x = elements::series_values(h, u, theta);
     result.displacement.push_back(x.x);
-    result.velocity.push_back(at.stiffness().omega() * x.d1);
+    result.velocity.push_back(at.stiffness().base_frequency() * x.d1);
     result.cosine.push_back(elements::series_values(h, cosines, theta).x);
     result.sine.push_back(elements::series_values(h, sines, theta).x);
     result.series.push_back(result.cosine.back() + result.sine.back());
@@ -63,14 +63,14 @@ History history(const scene::Scene& scene, const ResponseBranch& branch, const R
   if (at->move_to(u, p, continuation::Needs::residual) != continuation::Evaluated::ok)
     throw std::invalid_argument("the response cannot be evaluated at this point");
   History result;
-  result.omega = point.omega;
+  result.base_frequency = at->stiffness().base_frequency();
   result.angle.assign(angles.begin(), angles.end());
   Vector x(problem.harmonics().size());
   at->stiffness().response(u, at->force_factor(), x);
   for (double theta : angles) {
     const elements::Values values = elements::series_values(problem.harmonics(), x, theta);
     result.displacement.push_back(values.x);
-    result.velocity.push_back(point.omega * values.d1);
+    result.velocity.push_back(result.base_frequency * values.d1);
   }
   for (std::size_t e = 0; e < at->element_count(); ++e)
     result.elements.push_back(element_history(problem, *at, p, e, angles));

@@ -22,7 +22,7 @@ struct ElementHistory {
 };
 
 struct History {
-  double omega = 0;                  // rad/s; time = angle/omega
+  double base_frequency = 0;         // rad/s; time = angle/base_frequency
   std::vector<double> angle;         // theta, rad
   std::vector<double> displacement;  // of the response, m
   std::vector<double> velocity;      // m/s

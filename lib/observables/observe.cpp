@@ -60,11 +60,11 @@ double Observer::amplitude_slope(const continuation::Accepted& now) {
 double Observer::phase(const continuation::Accepted& now) const {
   const auto& h = problem_->harmonics();
   const auto& model = problem_->model();
-  const int n = model.force_harmonic;
+  const int n = h.excited(model.force_harmonic);
   if (!h.has(n) || n == 0) return 0;
   const std::complex<double> X(x_[h.cosine_index(n)], -x_[h.sine_index(n)]);
   for (const auto& force : model.forces) {
-    if (force.harmonic != n) continue;
+    if (force.harmonic != model.force_harmonic) continue;
     const std::complex<double> F(now.p[force.cosine], -now.p[force.sine]);
     return X == 0.0 || F == 0.0 ? 0 : std::arg(F * std::conj(X));
   }

@@ -194,7 +194,7 @@ class InTime {
     };
     time::ShootingOptions options;
     options.tolerance = settings_.tolerance;
-    time::ShootingResult found = time::shoot(flow, integrator.start, motion_.omega, options);
+    time::ShootingResult found = time::shoot(flow, integrator.start, equation_.omega, options);
     const bool may_differ = settings_.method == TimeMethod::shooting && integrator.between_events;
     if (found.reason == time::ShootingEnd::flow_failed && may_differ && !stopped_) {
       motion_.integrator = "newmark";
@@ -203,7 +203,7 @@ class InTime {
     if (!found.converged() && !stopped_) {
       if (const auto start = from_harmonic_balance()) {
         options.transients = 0;
-        time::ShootingResult again = time::shoot(flow, *start, motion_.omega, options);
+        time::ShootingResult again = time::shoot(flow, *start, equation_.omega, options);
         if (again.converged()) found = std::move(again);
       }
     }
@@ -233,7 +233,7 @@ class InTime {
   void march(const Integrator& integrator) {
     const time::TransientOptions options{settings_.periods, settings_.recorded, settings_.tolerance};
     time::Transient found =
-        time::transient(integrator.periods, integrator.start, motion_.omega, options,
+        time::transient(integrator.periods, integrator.start, equation_.omega, options,
                         [&](long periods, double change) { return go_on(periods, change); });
     motion_.periods = found.periods + settings_.recorded;
     motion_.change = found.change;

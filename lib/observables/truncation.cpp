@@ -25,7 +25,7 @@ constexpr double cancelled = 0.02;    // |dA| over the change of the response
 constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 2e-8 of it
 
 elements::Harmonics widened(const elements::Harmonics& h) {
-  return {2 * h.order + least_tail, h.odd};
+  return {2 * h.order + least_tail, h.odd, h.period};
 }
 
 // Whether some element is stiffer in large motions than at rest.
@@ -116,7 +116,8 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
 }
 
 bool Truncation::resonance_left_out(const continuation::Accepted& now) {
-  const double reach = problem_.harmonics().order * now.p[model::frequency];
+  const elements::Harmonics& kept = problem_.harmonics();
+  const double reach = kept.order * kept.base_frequency(now.p[model::frequency]);
   if (reach < highest_) return true;
   if (!stiffens_) return false;
   std::vector<double> motions;

@@ -23,6 +23,18 @@ constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an
 
 namespace {
 
+// The order of the largest harmonic of an element's motion q along one direction.
+int largest_order(const elements::Harmonics& h, elements::In q) {
+  int largest = 1;
+  double most = 0;
+  for (int j = 0; j < h.sines(); ++j) {
+    const int n = h.sine_order(j);
+    const double size = std::hypot(q[h.cosine_index(n)], q[h.sine_index(n)]);
+    if (size > most) most = size, largest = n;
+  }
+  return largest;
+}
+
 // power: of the amplitude, from which on an elastic force bounds the response.
 Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector& p,
                       const continuation::Vector& u, double power) {
@@ -45,12 +57,13 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const auto& element = model.elements[e];
     for (std::size_t i = 0; i < element.directions.size(); ++i) {
-      const double size =
-          evaluator->element_motion(e).segment(static_cast<Eigen::Index>(i) * h.size(), h.size()).norm();
+      const auto q = evaluator->element_motion(e).segment(static_cast<Eigen::Index>(i) * h.size(), h.size());
+      const double size = q.norm();
       const elements::Traits traits = element.law->traits(element.fields(p), static_cast<int>(i));
       amplitude = std::max(amplitude, size);
       restoring = restoring || (traits.far_power >= power && size > negligible * u.norm());
-      sliders += traits.far_work / std::numbers::pi * size;
+      // In the resonant harmonic the motion is almost wholly: it oscillates n times in a period.
+      sliders += largest_order(h, q) * traits.far_work / std::numbers::pi * size;
     }
   }
   if (model.elements.empty()) amplitude = u.norm();

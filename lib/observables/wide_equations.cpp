@@ -123,14 +123,8 @@ void WideEquations::apply(const Change& change, int q, Vector& y) const {
 }
 
 void WideEquations::embed(In u, Vector& wide) const {
-  wide.setZero(problem_.size());
-  const int unknowns = narrow_.blocks();
-  for (int i = 0; i < unknowns; ++i) {
-    const auto from = u.segment(i * kept_.size(), kept_.size());
-    auto to = wide.segment(i * wide_.size(), wide_.size());
-    to.head(kept_.cosines()) = from.head(kept_.cosines());
-    to.segment(wide_.cosines(), kept_.sines()) = from.tail(kept_.sines());
-  }
+  wide.resize(problem_.size());
+  elements::transfer(kept_, u, wide_, wide);
 }
 
 void WideEquations::take_kept(Vector& wide, Out kept) const {

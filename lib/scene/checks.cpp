@@ -40,10 +40,13 @@ void check_samples(const Scene& scene, Faults& faults) {
 void check_excitation(const Scene& scene, Faults& faults) {
   for (std::size_t i = 0; i < scene.excitation.size(); ++i) {
     const int harmonic = scene.excitation[i].harmonic;
-    if (harmonic > scene.harmonics.order) {
+    const int order = scene.harmonics.order, period = scene.harmonics.period;
+    if (harmonic > order / period) {
       faults.add(child(child("/excitation", i), "harmonic"),
-                 "found " + std::to_string(harmonic) + ", must be at most harmonics.order, which is " +
-                     std::to_string(scene.harmonics.order));
+                 "found " + std::to_string(harmonic) + ", must be at most harmonics.order" +
+                     (period == 1 ? ", which is " + std::to_string(order)
+                                  : "/harmonics.period, which is " + std::to_string(order) + "/" +
+                                        std::to_string(period)));
     }
     if (const double sine = scene.excitation[i].values[1]; harmonic == 0 && sine != 0) {
       faults.add(child(child("/excitation", i), "sine"),

@@ -232,6 +232,8 @@ Node schema_of(const Catalogue& catalogue) {
   add_bounds(1, false, largest_samples, samples);
   Object order{{"type", node("integer")}, {"default", node(Harmonics{}.order)}};
   add_bounds(1, false, largest_order, order);
+  Object period{{"type", node("integer")}, {"default", node(Harmonics{}.period)}};
+  add_bounds(1, false, largest_period, period);
   Object root = object_of(
       {{"$schema", of_type("string")},
        {"format", of({{"const", node(format_name)}})},
@@ -242,6 +244,7 @@ Node schema_of(const Catalogue& catalogue) {
        {"excitation", list_of(part_of(force_type(), false), 1)},
        {"ties", map_of(list_of(of_type("string"), 1))},
        {"harmonics", of(object_of({{"order", of(std::move(order))},
+                                   {"period", of(std::move(period))},
                                    {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
                                    {"samples", of(std::move(samples))}},
                                   {}))},

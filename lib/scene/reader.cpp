@@ -28,8 +28,10 @@ void read_format(const Keys& keys, Faults& faults) {
 Harmonics read_harmonics(const Place& place, Faults& faults) {
   Harmonics harmonics;
   if (place.node != nullptr) {
-    const Keys keys(place, {"order", "friction", "samples"}, faults);
+    const Keys keys(place, {"order", "period", "friction", "samples"}, faults);
     harmonics.order = read_integer(keys.find("order"), 1, largest_order, faults).value_or(harmonics.order);
+    harmonics.period =
+        read_integer(keys.find("period"), 1, largest_period, faults).value_or(harmonics.period);
     harmonics.friction = read_choice(keys.find("friction"), friction_methods, harmonics.friction, faults);
     harmonics.samples = read_integer(keys.find("samples"), 1, largest_samples, faults,
                                      ", and at least 4*order + 4 where it is used")

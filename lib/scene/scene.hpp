@@ -52,7 +52,9 @@ struct Tie {
 };
 
 struct Harmonics {
-  int order = 7;  // highest harmonic N, 1 to 2000
+  int order = 7;  // highest harmonic N of the base frequency, 1 to 2000
+  int period =
+      1;  // of the motion, in periods of the excitation: base frequency = excitation frequency/period
   Friction friction = Friction::exact;
   int samples = 512;  // samples per period where friction is sampled
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
@@ -118,6 +120,7 @@ class ParameterError : public std::runtime_error {
 inline constexpr int largest_depth = 64;                // of nested JSON
 inline constexpr std::size_t largest_size = 64u << 20;  // bytes
 inline constexpr int largest_order = 2000;              // of the harmonics
+inline constexpr int largest_period = 100;              // of a motion, in periods of the excitation
 inline constexpr int largest_samples = 1'000'000;       // per period
 inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded

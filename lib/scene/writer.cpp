@@ -103,6 +103,7 @@ Node ties_node(const std::vector<Tie>& ties) {
 
 Node harmonics_node(const Harmonics& harmonics) {
   return {Node::Object{{"order", node(harmonics.order)},
+                       {"period", node(harmonics.period)},
                        {"friction", node(word_of(friction_methods, harmonics.friction))},
                        {"samples", node(harmonics.samples)}}};
 }

@@ -35,8 +35,9 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
   using observables::ElementHistory;
   results::TableOf<Instant> table;
   table.add({"time"}, "s", "of the period",
-            [](const Instant& at) { return at.history->angle[at.i] / at.history->omega; });
-  table.add({"angle"}, "rad", "omega times it", [](const Instant& at) { return at.history->angle[at.i]; });
+            [](const Instant& at) { return at.history->angle[at.i] / at.history->base_frequency; });
+  table.add({"angle"}, "rad", "base frequency times it",
+            [](const Instant& at) { return at.history->angle[at.i]; });
   table.add({"displacement"}, "m", "of the response",
             [](const Instant& at) { return at.history->displacement[at.i]; });
   table.add({"velocity"}, "m/s", "of the response",
@@ -108,7 +109,7 @@ observables::Motion motion_of(const PointResponse& response) {
   motion.history.displacement = response.history.displacement;
   motion.history.velocity = response.history.velocity;
   for (const double angle : response.history.angle)
-    motion.history.time.push_back(angle / response.history.omega);
+    motion.history.time.push_back(angle / response.history.base_frequency);
   for (const observables::ElementHistory& element : response.history.elements)
     motion.history.elements.push_back({element.name, element.displacement, element.force, {}});
   return motion;

@@ -26,7 +26,7 @@ void EquationOfMotion::add(std::string name, std::shared_ptr<const elements::Law
 
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p) {
   EquationOfMotion equation;
-  equation.omega = p[model::frequency];
+  equation.omega = model.harmonics.base_frequency(p[model::frequency]);
   equation.M = model::assemble(model.masses, p, model.dofs);
   equation.C = model::assemble(model.dampers, p, model.dofs);
   equation.K = model::assemble(model.springs, p, model.dofs);
@@ -37,7 +37,8 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
     equation.add(part.name, part.law, part.fields(p), std::move(directions));
   }
   for (const model::Force& part : model.forces)
-    equation.forces.push_back({part.direction, part.harmonic, p[part.cosine], p[part.sine]});
+    equation.forces.push_back(
+        {part.direction, model.harmonics.excited(part.harmonic), p[part.cosine], p[part.sine]});
   equation.response = model.response;
   equation.dof_names = model.dof_names;
   return equation;

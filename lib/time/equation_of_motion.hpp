@@ -36,7 +36,7 @@ struct HarmonicForce {
 };
 
 struct EquationOfMotion {
-  double omega = 0;  // rad/s
+  double omega = 0;  // base frequency, rad/s: n is an order of it
   Matrix M, C, K;    // dofs x dofs; kg, N s/m, N/m
   std::vector<Element> elements;
   std::vector<HarmonicForce> forces;
@@ -45,7 +45,7 @@ struct EquationOfMotion {
   std::vector<std::string> dof_names;  // for messages; may be empty
 
   int dofs() const { return static_cast<int>(M.rows()); }
-  /// Of the excitation, 2 pi/omega, s.
+  /// 2 pi/omega, s: that of the motion sought, one or several of the excitation.
   double period() const;
   /// The excitation at time t (s), N.
   void force(double t, Vector& f) const;

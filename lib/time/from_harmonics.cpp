@@ -15,7 +15,7 @@ State state_of(const hbm::HbmProblem& problem, elements::In u, const continuatio
   for (Eigen::Index i = 0; i < coefficients.cols(); ++i) {
     const auto values = elements::series_values(problem.harmonics(), coefficients.col(i), 0);
     state.x[i] = values.x;
-    state.v[i] = equation.omega * values.d1;
+    state.v[i] = problem.harmonics().base_frequency(p[model::frequency]) * values.d1;
   }
   const auto evaluator = problem.hbm_evaluator();
   evaluator->move_to(u, p, continuation::Needs::residual);

@@ -208,7 +208,8 @@ struct FullEquation {
   Vector p;
 
   explicit FullEquation(const scene::Scene& s)
-      : model(model::build(s)), parts(model, Eigen::MatrixXd::Identity(model.dofs, model.dofs)) {
+      : model(model::build(s)),
+        parts(model, Eigen::MatrixXd::Identity(model.dofs, model.dofs), model.harmonics) {
     p.resize(static_cast<Eigen::Index>(model.parameters.size()));
     for (std::size_t k = 0; k < model.parameters.size(); ++k)
       p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;

@@ -44,7 +44,7 @@ struct Chain {
 
 TEST_CASE("the full equation changes with every parameter as its differences do, that of several parts too") {
   const Chain chain;
-  hbm::LinearParts parts(chain.model, chain.P);
+  hbm::LinearParts parts(chain.model, chain.P, chain.model.harmonics);
   parts.move_to(chain.p);
   const Eigen::VectorXcd y = Eigen::VectorXcd::Random(3);
   const Eigen::VectorXcd x = chain.P * y;
@@ -72,7 +72,7 @@ TEST_CASE("the full equation changes with every parameter as its differences do,
 
 TEST_CASE("quadratic forms of a motion are those of the assembled matrices and forces") {
   const Chain chain;
-  hbm::LinearParts parts(chain.model, chain.P);
+  hbm::LinearParts parts(chain.model, chain.P, chain.model.harmonics);
   parts.move_to(chain.p);
   const Eigen::VectorXcd y = Eigen::VectorXcd::Random(3);
   const Eigen::VectorXcd x = chain.P * y;

@@ -119,6 +119,20 @@ TEST_CASE("a window that begins on an undamped resonance that friction bounds be
   CHECK(branches[0].events.size() == 1);
 }
 
+TEST_CASE(
+    "friction bounds a resonance of the third harmonic at the load at which it bounds that of the first") {
+  for (double load : {1.5, 1.6}) {
+    scene::Scene s = scenes::paper(9, load);
+    scene::set(s, "c.value", 0);
+    s.excitation.front().harmonic = 3;
+    scenes::window(s).from = std::sqrt(17890 / 1.24) / scenes::hertz / 3;
+    const auto branches = branches_of(s);
+    CAPTURE(load);
+    REQUIRE(branches[0].events.size() == 1);
+    CHECK(branches[0].events[0].point.unbounded == (load == 1.5));
+  }
+}
+
 TEST_CASE("a window of twelve decades is traced from end to end") {
   for (double from : {1e-12, 1e-9, 1e-3}) {
     scene::Scene s = softening();

@@ -100,7 +100,7 @@ TEST_CASE("motion and series fulfil the equation of motion at every instant") {
         acceleration -= 2.0 / M * n * n * history.displacement[static_cast<std::size_t>(j)] *
                         std::cos(2 * pi * n * (k - j) / M);
     const auto i = static_cast<std::size_t>(k);
-    const double residual = 1.24 * history.omega * history.omega * acceleration +
+    const double residual = 1.24 * history.base_frequency * history.base_frequency * acceleration +
                             0.134 * history.velocity[i] + 17890 * history.displacement[i] +
                             history.elements[0].series[i] - std::cos(history.angle[i]);
     CHECK(std::abs(residual) < 1e-10);

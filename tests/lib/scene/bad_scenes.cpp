@@ -283,9 +283,9 @@ void add_rest(std::vector<BadScene>& rows) {
                   "/excitation/1/sine", "found 2, must be 0 where the harmonic is 0: the force is constant"});
   rows.push_back({"harmonic above the order", good_scene_with("\"cosine\": 1", "\"harmonic\": 9"),
                   "/excitation/0/harmonic", "found 9, must be at most harmonics.order, which is 7"});
-  rows.push_back(
-      {"harmonics that are no object", with_harmonics("7"), "/harmonics",
-       "found 7 (a number), must be an object with the keys \"order\", \"friction\", \"samples\""});
+  rows.push_back({"harmonics that are no object", with_harmonics("7"), "/harmonics",
+                  "found 7 (a number), must be an object with the keys \"order\", \"period\", \"friction\", "
+                  "\"samples\""});
   rows.push_back({"order of zero", with_harmonics("{\"order\": 0}"), "/harmonics/order",
                   "found 0, must be an integer from 1 to 2000"});
   rows.push_back({"order of 2001", with_harmonics("{\"order\": 2001}"), "/harmonics/order",
@@ -294,6 +294,13 @@ void add_rest(std::vector<BadScene>& rows) {
                   "found 2.5, must be an integer from 1 to 2000"});
   rows.push_back({"order of 1e300", with_harmonics("{\"order\": 1e300}"), "/harmonics/order",
                   "found 1e+300, must be an integer from 1 to 2000"});
+  rows.push_back({"period of zero", with_harmonics("{\"period\": 0}"), "/harmonics/period",
+                  "found 0, must be an integer from 1 to 100"});
+  rows.push_back({"period of 101", with_harmonics("{\"period\": 101}"), "/harmonics/period",
+                  "found 101, must be an integer from 1 to 100"});
+  rows.push_back({"harmonic above the order over the period", with_harmonics("{\"order\": 7, \"period\": 8}"),
+                  "/excitation/0/harmonic",
+                  "found 1, must be at most harmonics.order/harmonics.period, which is 7/8"});
   rows.push_back({"order that is no number", with_harmonics("{\"order\": \"7\"}"), "/harmonics/order",
                   "found \"7\" (a string), must be an integer from 1 to 2000"});
   rows.push_back({"unknown treatment of friction", with_harmonics("{\"friction\": \"sampeld\"}"),
