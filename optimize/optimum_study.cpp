@@ -176,7 +176,8 @@ double OptimumResult::difference_of_amplitude() const {
 scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of) {
   for (const auto* values : {&of.set, &of.scatter})
     for (const auto& [name, value] : *values) scene::set(scene, name, value);
-  if (of.of < problem.cases.size()) scene.response = problem.cases[of.of].response.value_or(scene.response);
+  if (of.of < problem.cases.size())
+    if (const auto& response = problem.cases[of.of].response) scene.responses = {{"", *response}};
   return scene;
 }
 

@@ -20,7 +20,7 @@ bool contains(const std::vector<DesignVariable>& variables, const std::string& n
 
 scene::Scene with_case(scene::Scene scene, const DesignCase& each) {
   for (const auto& [name, value] : each.set) scene::set(scene, name, value);
-  if (each.response) scene.response = *each.response;
+  if (each.response) scene.responses = {{"", *each.response}};
   return scene;
 }
 

@@ -50,7 +50,9 @@ class Builder {
       even = even || part.harmonic * scene_.harmonics.period % 2 == 0;
       if (part.harmonic > 0) model_.force_harmonic = std::min(model_.force_harmonic, part.harmonic);
     }
-    model_.response = sparse(scene_.response, model_.dofs);
+    model_.response = sparse(scene_.response(), model_.dofs);
+    for (const scene::Response& response : scene_.responses)
+      if (!response.name.empty()) model_.named_responses.push_back(sparse(response.direction, model_.dofs));
     model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
     model_.settings = scene_.harmonics;
     return std::move(model_);

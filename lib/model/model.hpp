@@ -53,7 +53,8 @@ struct Model {
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<NonlinearPart> elements;
   std::vector<Force> forces;
-  Eigen::VectorXd response;       // direction whose motion is observed
+  Eigen::VectorXd response;                // the direction whose amplitude is followed
+  std::vector<Direction> named_responses;  // those that the scene names
   elements::Harmonics harmonics;  // odd only, where no even one is excited and all laws are antisymmetric
   bool antisymmetric = true;      // all laws are
   scene::Harmonics settings;

@@ -25,7 +25,13 @@ Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem, int free)
       amplitude_(problem_->harmonics()),
       x_(problem_->harmonics().size()),
       dx_(x_.size()),
-      by_parameter_(x_.size()) {}
+      by_parameter_(x_.size()) {
+  const auto& directions = problem_->model().named_responses;
+  const Eigen::MatrixXd& P = problem_->coordinates().P;
+  named_.resize(static_cast<Eigen::Index>(directions.size()), P.cols());
+  for (Eigen::Index i = 0; i < named_.rows(); ++i)
+    named_.row(i) = directions[static_cast<std::size_t>(i)].transpose() * P;
+}
 
 Extreme Observer::extreme(const hbm::HbmEvaluator& at, continuation::In u) {
   at.stiffness().response(u, at.force_factor(), x_);
@@ -56,19 +62,28 @@ double Observer::amplitude_slope(const continuation::Accepted& now) {
   return 0;
 }
 
-// Lag of the response's fundamental behind the first force of that harmonic, in (-pi, pi].
-double Observer::phase(const continuation::Accepted& now) const {
+// Lag of the fundamental of x behind the first force of that harmonic, in (-pi, pi].
+double Observer::phase(const continuation::Accepted& now, continuation::In x) const {
   const auto& h = problem_->harmonics();
   const auto& model = problem_->model();
   const int n = h.excited(model.force_harmonic);
   if (!h.has(n) || n == 0) return 0;
-  const std::complex<double> X(x_[h.cosine_index(n)], -x_[h.sine_index(n)]);
+  const std::complex<double> X(x[h.cosine_index(n)], -x[h.sine_index(n)]);
   for (const auto& force : model.forces) {
     if (force.harmonic != model.force_harmonic) continue;
     const std::complex<double> F(now.p[force.cosine], -now.p[force.sine]);
     return X == 0.0 || F == 0.0 ? 0 : std::arg(F * std::conj(X));
   }
   return 0;
+}
+
+void Observer::add_named_responses(const continuation::Accepted& now, ResponsePoint& point) const {
+  if (named_.rows() == 0) return;
+  const auto& at = evaluator_of(now);
+  const Eigen::MatrixXd motions = at.stiffness().motion(named_, now.u, at.force_factor());
+  Amplitude amplitude(problem_->harmonics());
+  for (const auto& x : motions.colwise())
+    point.responses.push_back({amplitude.of(x).amplitude, phase(now, x)});
 }
 
 ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {
@@ -78,7 +93,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   const Extreme at_most = extreme(at, now.u);
   point.omega = now.p[model::frequency];
   point.amplitude = at_most.amplitude;
-  point.phase = phase(now);
+  point.phase = phase(now, x_);
+  add_named_responses(now, point);
   if (!truncation_) truncation_ = std::make_unique<Truncation>(*problem_, free_, now.p);
   const TruncationEstimate truncation = truncation_->estimate(now, at_most, held);
   point.truncation_estimate = truncation.amplitude;

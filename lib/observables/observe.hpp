@@ -46,11 +46,13 @@ class Observer {
   double amplitude_slope(const continuation::Accepted& now);
 
  private:
-  double phase(const continuation::Accepted& now) const;
+  double phase(const continuation::Accepted& now, continuation::In x) const;
+  void add_named_responses(const continuation::Accepted& now, ResponsePoint& point) const;
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
   int free_;
   Amplitude amplitude_;
+  Eigen::MatrixXd named_;                   // d^T P, a row for each response that the scene names
   std::unique_ptr<Truncation> truncation_;  // made at the first observe()
   std::unique_ptr<Maxima> maxima_;          // when first asked for
   continuation::Vector x_, dx_, by_parameter_;

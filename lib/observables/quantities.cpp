@@ -216,6 +216,13 @@ constexpr ElementQuantity of_element[] = {
      is_friction_part},
 };
 
+constexpr Quantity<NamedResponse> of_named_response[] = {
+    {"amplitude", "m", "largest absolute displacement over the period",
+     [](const NamedResponse& response) { return response.amplitude; }},
+    {"phase", "rad", "lag of the fundamental behind the force",
+     [](const NamedResponse& response) { return response.phase; }},
+};
+
 template <class List>
 const auto& at(const List& list, std::string_view path) {
   const auto found =
@@ -232,6 +239,10 @@ std::span<const ResponseQuantity> response_quantities() {
 
 std::span<const ElementQuantity> element_quantities() {
   return of_element;
+}
+
+std::span<const Quantity<NamedResponse>> named_response_quantities() {
+  return of_named_response;
 }
 
 const ResponseQuantity& response_quantity(std::string_view path) {

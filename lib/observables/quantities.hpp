@@ -17,13 +17,30 @@ namespace arcslip::observables {
 /// The unit of a quantity that is given in the scene's unit of frequency; its getter gives rad/s.
 inline constexpr std::string_view frequency_unit = "scene";
 
-/// A quantity of a response (Of = ResponsePoint) or of one of its elements (Of = ElementResponse).
+/// What in a scene tells whether there is a quantity.
+template <class Of>
+struct OriginOf;
+template <>
+struct OriginOf<ResponsePoint> {
+  using Type = scene::Scene;
+};
+template <>
+struct OriginOf<ElementResponse> {
+  using Type = scene::Part;
+};
+template <>
+struct OriginOf<NamedResponse> {
+  using Type = scene::Response;
+};
+
+/// A quantity of a response (Of = ResponsePoint), of one of its elements (Of = ElementResponse) or at one of
+/// the places that the scene names (Of = NamedResponse).
 template <class Of>
 struct Quantity {
   using Number = double (*)(const Of&);  // no_value where it is not defined
   using Flag = bool (*)(const Of&);
   using List = const std::vector<double>& (*)(const Of&);
-  using Origin = std::conditional_t<std::is_same_v<Of, ResponsePoint>, scene::Scene, scene::Part>;
+  using Origin = typename OriginOf<Of>::Type;
 
   std::string_view path;     // keys, joined by points: "force_per_displacement.in_phase.total"
   std::string_view unit;     // "m", "J"; "" of a flag
@@ -41,6 +58,7 @@ bool is_friction_part(const scene::Part& part);
 
 std::span<const ResponseQuantity> response_quantities();
 std::span<const ElementQuantity> element_quantities();
+std::span<const Quantity<NamedResponse>> named_response_quantities();
 
 /// The quantity at `path`, which is there.
 const ResponseQuantity& response_quantity(std::string_view path);

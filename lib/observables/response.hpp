@@ -73,6 +73,12 @@ struct MotionMaxima {
   PhaseParts force_per_displacement{no_value, no_value};
 };
 
+/// One of the responses that a scene names.
+struct NamedResponse {
+  double amplitude = 0;  // max over the period of |x|, m
+  double phase = 0;      // rad, lag of its fundamental behind the force's
+};
+
 /// One periodic response.
 struct ResponsePoint {
   double omega = 0;                 // excitation frequency, rad/s
@@ -85,6 +91,7 @@ struct ResponsePoint {
   double energy_viscous = 0;        // J per period
   bool unbounded = false;           // the amplitude grows without bound here; `amplitude` has no meaning
   std::vector<ElementResponse> elements;
+  std::vector<NamedResponse> responses;  // those that the scene names, in its order
   std::vector<double>
       coefficients;              // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
   std::vector<double> unknowns;  // all of the motion, as hbm/problem.hpp has it: see histories.hpp

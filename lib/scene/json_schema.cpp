@@ -134,6 +134,15 @@ Node place_object() {
   return of(std::move(object));
 }
 
+/// One place, or a list of places with names.
+Node responses() {
+  Object place{{"name", of_type("string")}};
+  add_place(place);
+  Object named = object_of(std::move(place), {"name"});
+  named.push_back({"oneOf", one_place()});
+  return of({{"oneOf", {Node::List{place_object(), list_of(of(std::move(named)), 1)}}}});
+}
+
 /// A key with its meaning and default.
 Node described_key(const Key& key) {
   Object value = schema_of_key(key);
@@ -248,7 +257,7 @@ Node schema_of(const Catalogue& catalogue) {
                                    {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
                                    {"samples", of(std::move(samples))}},
                                   {}))},
-       {"response", place_object()},
+       {"response", responses()},
        {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
       {"format", "structure", "excitation"});
   Object schema{{"$schema", node("https://json-schema.org/draft/2020-12/schema")},

@@ -12,27 +12,6 @@
 namespace arcslip::scene::file {
 namespace {
 
-// Why a name may not be used, or "".
-std::string objection(const std::string& name) {
-  if (name.empty()) {
-    return "must be a name of at least one character";
-  }
-  if (name == ground) {
-    return "which is reserved for the fixed frame; must be another name";
-  }
-  if (name == "frequency") {
-    return "which is reserved for the excitation frequency; must be another name";
-  }
-  const auto forbidden = [](char c) {
-    const auto code = static_cast<unsigned char>(c);
-    return c == '.' || c == '=' || code <= 0x20 || code == 0x7f;
-  };
-  if (std::any_of(name.begin(), name.end(), forbidden)) {
-    return "must be a name without '.', '=' and white space";
-  }
-  return {};
-}
-
 const PartType* read_type(const Keys& keys, std::span<const PartType* const> types, Faults& faults) {
   std::vector<std::string> known;
   for (const PartType* type : types) {
@@ -156,6 +135,26 @@ Part read_part(const Place& place, const PartType* section_type, std::span<const
 }
 
 }  // namespace
+
+std::string objection(const std::string& name) {
+  if (name.empty()) {
+    return "must be a name of at least one character";
+  }
+  if (name == ground) {
+    return "which is reserved for the fixed frame; must be another name";
+  }
+  if (name == "frequency") {
+    return "which is reserved for the excitation frequency; must be another name";
+  }
+  const auto forbidden = [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return c == '.' || c == '=' || code <= 0x20 || code == 0x7f;
+  };
+  if (std::any_of(name.begin(), name.end(), forbidden)) {
+    return "must be a name without '.', '=' and white space";
+  }
+  return {};
+}
 
 bool Names::add(const std::string& name, const std::string& pointer, Faults& faults) {
   if (const std::string reason = objection(name); !reason.empty()) {

@@ -22,6 +22,9 @@ struct Dofs {
   bool complete = true;
 };
 
+/// Why a name is not allowed, as the end of a message; empty where it is.
+std::string objection(const std::string& name);
+
 /// The names of parts and ties, which share one namespace, and what is known of the parts' fields. What
 /// follows from a fault that is already told (a part without a type, a part without a name) is not told
 /// again.

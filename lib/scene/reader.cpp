@@ -40,18 +40,60 @@ Harmonics read_harmonics(const Place& place, Faults& faults) {
   return harmonics;
 }
 
-Direction read_response(const Place& place, const Dofs& dofs, Faults& faults) {
-  if (place.node != nullptr) {
+constexpr std::string_view wanted_response =
+    "an object with one of \"at\", \"between\", \"direction\", or a list of such objects with names";
+
+Response read_named_response(const Place& place, const Dofs& dofs, const std::vector<Response>& before,
+                             Faults& faults) {
+  constexpr const char* wanted = "a string, the name of the response";
+  const Keys keys(place, {"name", "at", "between", "direction"}, faults);
+  Response response;
+  if (!keys.is_object()) {
+    return response;
+  }
+  const Place name = keys.require("name", wanted, faults);
+  if (const auto text = read_string(name, wanted, faults)) {
+    response.name = *text;
+    if (const std::string reason = objection(*text); !reason.empty()) {
+      faults.add(name.pointer, "found " + shown(*text) + ", " + reason);
+    } else if (std::any_of(before.begin(), before.end(),
+                           [&](const Response& other) { return other.name == *text; })) {
+      faults.add(name.pointer,
+                 "found the name " + shown(*text) + " again; responses must have different names");
+    }
+  }
+  response.direction = read_direction(keys, dofs, faults).value_or(Direction{});
+  return response;
+}
+
+std::vector<Response> read_responses(const Place& place, const Dofs& dofs, Faults& faults) {
+  if (place.node == nullptr) {
+    if (dofs.complete && dofs.names.size() != 1) {
+      faults.add(place.pointer,
+                 "found no key \"response\", which is required where there are several degrees of freedom: "
+                 "must be " +
+                     std::string(wanted_response));
+    }
+    return {{"", {{0, 1.0}}}};
+  }
+  if (place.node->get<Node::List>() == nullptr && place.node->get<Node::Object>() == nullptr) {
+    add_wrong_type(place, wanted_response, faults);
+    return std::vector<Response>(1);
+  }
+  if (place.node->get<Node::List>() == nullptr) {
     const Keys keys(place, {"at", "between", "direction"}, faults);
-    return read_direction(keys, dofs, faults).value_or(Direction{});
+    return {{"", read_direction(keys, dofs, faults).value_or(Direction{})}};
   }
-  if (dofs.complete && dofs.names.size() != 1) {
-    faults.add(
-        place.pointer,
-        "found no key \"response\", which is required where there are several degrees of freedom: must be an "
-        "object with one of \"at\", \"between\", \"direction\"");
+  std::vector<Response> responses;
+  const Node::List& list = *place.node->get<Node::List>();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    responses.push_back(read_named_response({&list[i], child(place.pointer, i)}, dofs, responses, faults));
   }
-  return {{0, 1.0}};
+  if (responses.empty()) {
+    faults.add(place.pointer, "found an empty list, must be " + std::string(wanted_response));
+    responses.emplace_back();
+  }
+  return responses;
 }
 
 std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, Names& names, Faults& faults) {
@@ -118,7 +160,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, Faults& faults) {
     }
   }
 
-  scene.response = read_response(root.find("response"), dofs, faults);
+  scene.responses = read_responses(root.find("response"), dofs, faults);
   scene.studies = read_studies(root.find("studies"), scene.frequency_unit,
                                Parameters(scene.ties, ties_sound, names), dofs, catalogue, faults);
   return scene;

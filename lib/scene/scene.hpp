@@ -73,6 +73,13 @@ struct Study {
   friend bool operator==(const Study&, const Study&) = default;
 };
 
+/// A motion that is observed.
+struct Response {
+  std::string name{};  // empty where the scene has one alone, which it does not name
+  Direction direction{};
+  friend bool operator==(const Response&, const Response&) = default;
+};
+
 struct Scene {
   std::string title;
   FrequencyUnit frequency_unit = FrequencyUnit::hertz;
@@ -80,8 +87,11 @@ struct Scene {
   std::vector<Part> masses, springs, dampers, elements, excitation;
   std::vector<Tie> ties;
   Harmonics harmonics;
-  Direction response;
+  std::vector<Response> responses{1};  // at least one: the first is that whose amplitude is followed
   std::vector<Study> studies;
+
+  const Direction& response() const { return responses.front().direction; }
+  Direction& response() { return responses.front().direction; }
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 

@@ -26,7 +26,7 @@ inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 
 /// What results call their own quantities, beside which the parameter of a study stands by its name.
-inline constexpr std::array<std::string_view, 24> result_names = {"kind",
+inline constexpr std::array<std::string_view, 25> result_names = {"kind",
                                                                   "nonsmooth",
                                                                   "located",
                                                                   "omega",
@@ -44,6 +44,7 @@ inline constexpr std::array<std::string_view, 24> result_names = {"kind",
                                                                   "maxima",
                                                                   "stick_percent",
                                                                   "elements",
+                                                                  "responses",
                                                                   "coefficients",
                                                                   "after",
                                                                   "feasible",

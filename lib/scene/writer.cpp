@@ -119,6 +119,20 @@ Node study_node(const Study& study, const Scene& scene) {
   return {std::move(object)};
 }
 
+Node responses_node(const Scene& scene) {
+  Node::List list;
+  for (const Response& response : scene.responses) {
+    Node::Object object;
+    if (!response.name.empty()) {
+      object.push_back({"name", node(response.name)});
+    }
+    object.push_back(place_member(response.direction, scene.dofs));
+    list.push_back({std::move(object)});
+  }
+  const bool one = list.size() == 1 && scene.responses.front().name.empty();
+  return one ? std::move(list.front()) : Node{std::move(list)};
+}
+
 Node studies_node(const Scene& scene) {
   Node::List list;
   for (const Study& study : scene.studies) {
@@ -142,7 +156,7 @@ Node tree(const Scene& scene) {
                        {"excitation", parts_node(scene.excitation, scene)},
                        {"ties", ties_node(scene.ties)},
                        {"harmonics", harmonics_node(scene.harmonics)},
-                       {"response", {Node::Object{place_member(scene.response, scene.dofs)}}},
+                       {"response", responses_node(scene)},
                        {"studies", studies_node(scene)}}};
 }
 

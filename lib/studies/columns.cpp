@@ -77,6 +77,14 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
           return e < response.elements.size() ? &response.elements[e] : nullptr;
         },
         table);
+  for (std::size_t r = 0; r < scene.responses.size(); ++r)
+    if (const scene::Response& named = scene.responses[r]; !named.name.empty())
+      add(
+          observables::named_response_quantities(), named, scene, {}, {"responses", named.name},
+          [r](const ResponsePoint& response) {
+            return r < response.responses.size() ? &response.responses[r] : nullptr;
+          },
+          table);
   if (asked.coefficients)
     table.add({"coefficients"}, "m", "a_n, b_n of the response for each of its harmonics",
               [](const ResponsePoint& response) { return response.coefficients; });

@@ -155,7 +155,7 @@ TEST_CASE(
       double most = 0;
       for (int blade = 0; blade < 3; ++blade) {
         scene::Scene at = s;
-        at.response = {{blade, 1.0}};
+        at.response() = {{blade, 1.0}};
         most = std::max(most, highest(at, problem, loads));
       }
       return most;

@@ -123,7 +123,7 @@ TEST_CASE("a corner that is not looked at first is found: four parameters that s
 
 TEST_CASE("a corner to which no local search leads, with another resonance the highest, is found") {
   scene::Scene s = row(3, 2, 3);
-  s.response = {{0, 1}};
+  s.response() = {{0, 1}};
   OptimumProblem problem = over_loads(2, 5, 45);
   problem.scatter = {{"m1.value", 0.94, 1.06},
                      {"d1.stiffness", 3600, 4400},

@@ -17,7 +17,7 @@ using optimize::Optimum;
 namespace {
 
 scene::Scene read_at(scene::Scene s, int mass) {
-  s.response = {{mass, 1}};
+  s.response() = {{mass, 1}};
   return s;
 }
 

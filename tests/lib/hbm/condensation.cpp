@@ -139,7 +139,7 @@ scene::Scene long_chain(int dofs, bool linked) {
   s.elements.push_back({"d", &elements::jenkins(), {{{dofs - 1, 1.0}}}, {1e3, 0.5, 2.0}});
   s.excitation.push_back({"f", &scene::force_type(), {{{dofs / 2, 1.0}}}, {1.0, 0.0}});
   s.harmonics.order = 3;
-  s.response = {{dofs / 3, 1.0}};
+  s.response() = {{dofs / 3, 1.0}};
   return s;
 }
 

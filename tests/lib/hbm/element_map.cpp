@@ -75,7 +75,7 @@ TEST_CASE("a model keeps of a direction what is not zero: 10 000 springs on 10 0
     if (i % 10 == 0) s.elements.push_back({"d" + number, &elements::jenkins(), {along}, {1, 0.5, 1}});
   }
   s.excitation.push_back({"f", &scene::force_type(), {{{0, 1.0}}}, {1, 0}});
-  s.response = {{0, 1.0}};
+  s.response() = {{0, 1.0}};
   const model::Model model = model::build(s);
   Eigen::Index entries = 0;
   for (const auto& spring : model.springs) entries += spring.direction.nonZeros();

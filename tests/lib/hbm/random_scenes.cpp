@@ -61,7 +61,7 @@ scene::Scene make(std::uint64_t seed, Excitation excitation) {
         {"f" + std::to_string(harmonic), &scene::force_type(), {{{other, 1.0}}}, {cosine, sine}, harmonic});
   }
   s.harmonics.order = std::array{3, 5, 7, 9, 15}[static_cast<std::size_t>(random.count(0, 4))];
-  s.response = {{random.count(0, masses - 1), 1.0}};
+  s.response() = {{random.count(0, masses - 1), 1.0}};
   const double from = random.between(4, 20);
   s.studies.push_back(frf(from, from + random.between(5, 20)));
   scene::check(s);
@@ -114,7 +114,7 @@ scene::Scene hard(std::uint64_t seed) {
                             harmonic});
   }
   s.harmonics.order = std::array{3, 5, 7}[static_cast<std::size_t>(random.count(0, 2))];
-  s.response = {{random.count(0, masses - 1), 1.0}};
+  s.response() = {{random.count(0, masses - 1), 1.0}};
   const double frequency = std::sqrt(stiffness / mass);
   const double from = frequency * random.between(0.1, 0.8) / highest;
   s.studies.push_back(frf(from, from + frequency * random.between(0.5, 2)));
@@ -156,7 +156,7 @@ scene::Scene make_hardening(std::uint64_t seed) {
     s.excitation.push_back({"f2", &scene::force_type(), {{{other, 1.0}}}, {cosine, sine}, harmonic});
   }
   s.harmonics.order = std::array{3, 5, 7, 9}[static_cast<std::size_t>(random.count(0, 3))];
-  s.response = {{random.count(0, masses - 1), 1.0}};
+  s.response() = {{random.count(0, masses - 1), 1.0}};
   s.frequency_unit = scene::FrequencyUnit::radian_per_second;
   const double from = random.between(0.15, 0.6);
   s.studies.push_back(frf(from, from + random.between(1, 2.5)));

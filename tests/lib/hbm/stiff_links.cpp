@@ -50,7 +50,7 @@ scene::Scene rigid(bool even) {
   s.masses[1].values = {1.0};
   s.springs.resize(2);
   s.elements[0].directions = {{{1, 1.0}}};
-  s.response = {{1, 1.0}};
+  s.response() = {{1, 1.0}};
   return s;
 }
 

@@ -122,7 +122,7 @@ Variant reordered(const Scene& s, std::uint64_t seed) {
     }
     shuffle(*parts, bits);
   }
-  for (auto& term : v.response) term.dof = place[static_cast<std::size_t>(term.dof)];
+  for (auto& term : v.response()) term.dof = place[static_cast<std::size_t>(term.dof)];
   return variant;
 }
 

@@ -143,7 +143,7 @@ TEST_CASE("a response that symmetry holds at 0 has no peaks, and costs as many p
   const auto at_rest = observables::frequency_response(s, scenes::window(s)).front();
   CHECK(at_rest.status == observables::Status::complete);
   CHECK(at_rest.events.empty());
-  s.response = {{0, 1.0}};
+  s.response() = {{0, 1.0}};
   const auto moving = observables::frequency_response(s, scenes::window(s)).front();
   CHECK(moving.status == observables::Status::complete);
   // Steps end elsewhere where the peaks of the other response are resolved: a few points more or less.

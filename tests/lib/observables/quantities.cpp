@@ -59,7 +59,8 @@ TEST_CASE("the documentation of results has the rows of the table of quantities"
   std::stringstream text;
   text << file.rdbuf();
   for (const auto& wanted :
-       {rows(observables::response_quantities()), rows(observables::element_quantities())}) {
+       {rows(observables::response_quantities()), rows(observables::element_quantities()),
+        rows(observables::named_response_quantities())}) {
     INFO("the table is to be:\n" << wanted);
     CHECK(text.str().find(wanted) != std::string::npos);
   }
@@ -103,6 +104,34 @@ TEST_CASE("JSON has the quantities of the table, with their values, and no other
   wanted.erase("unbounded");
   CHECK(found == wanted);
   CHECK(found_of_elements == of_element);
+}
+
+TEST_CASE("responses that a scene names have columns of their own, each as if it were followed") {
+  scene::Scene s = scenes::chain(5, true);
+  const scene::Direction c = s.response(), a = {{0, 1.0}}, between = {{0, 1.0}, {1, -1.0}};
+  s.responses = {{"tip", c}, {"root", a}, {"stretch", between}};
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  std::stringstream text;
+  results::write_json(text, studies::results_of(s, branches));
+  const auto json = nlohmann::json::parse(text.str())["branches"][0];
+  REQUIRE(json["points"].size() > 20);
+  REQUIRE_FALSE(json["events"].empty());
+  for (const auto& list : {json["points"], json["events"]})
+    for (const auto& point : list) {
+      CHECK(point["responses"].size() == 3);
+      CHECK(point["responses"]["tip"]["amplitude"] == point["amplitude"]);
+      CHECK(point["responses"]["tip"]["phase"] == point["phase"]);
+    }
+  const double omega = json["points"][0]["frequency"];
+  for (const auto& [name, direction] : {std::pair("root", a), std::pair("stretch", between)}) {
+    scene::Scene followed = s;
+    followed.responses = {{"", direction}};
+    const auto alone = scenes::response_at(followed, omega);
+    CHECK(alone.responses.empty());
+    CHECK(json["points"][0]["responses"][name]["amplitude"].get<double>() ==
+          Approx(alone.amplitude).epsilon(1e-10));
+    CHECK(json["points"][0]["responses"][name]["phase"].get<double>() == Approx(alone.phase).epsilon(1e-10));
+  }
 }
 
 TEST_CASE("the parameter of a study has no name by which points have a quantity") {

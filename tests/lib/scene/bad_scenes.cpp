@@ -325,7 +325,24 @@ void add_rest(std::vector<BadScene>& rows) {
                   "/response/at", "found a direction that is zero"});
   rows.push_back({"response that is no object",
                   good_scene_with("\"response\": {\"at\": \"a\"}", "\"response\": \"a\""), "/response",
-                  "found \"a\" (a string), must be an object with the keys \"at\""});
+                  "found \"a\" (a string), must be an object with one of \"at\", \"between\", \"direction\", "
+                  "or a list"});
+  const auto with_responses = [](const std::string& list) {
+    return good_scene_with("\"response\": {\"at\": \"a\"}", "\"response\": " + list);
+  };
+  rows.push_back({"no response in a list", with_responses("[]"), "/response",
+                  "found an empty list, must be an object with one of \"at\""});
+  rows.push_back({"response in a list without a name", with_responses("[{\"at\": \"a\"}]"),
+                  "/response/0/name",
+                  "found no key \"name\", which is required: must be a string, the name of the response"});
+  rows.push_back({"two responses of a name",
+                  with_responses("[{\"name\": \"x\", \"at\": \"a\"}, {\"name\": \"x\", \"at\": \"b\"}]"),
+                  "/response/1/name", "found the name \"x\" again; responses must have different names"});
+  rows.push_back({"response with a name that is not allowed",
+                  with_responses("[{\"name\": \"x.y\", \"at\": \"a\"}]"), "/response/0/name",
+                  "found \"x.y\", must be a name without '.', '=' and white space"});
+  rows.push_back({"response in a list that is no object", with_responses("[7]"), "/response/0",
+                  "found 7 (a number), must be an object with the keys \"name\""});
 }
 
 void add_ties(std::vector<BadScene>& rows) {

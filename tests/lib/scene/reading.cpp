@@ -34,7 +34,7 @@ TEST_CASE("the scene of the paper is read with the paper's numbers") {
   CHECK(scene.elements[0].directions == std::vector<Direction>{{{0, 1.0}}});
   CHECK(scene.elements[0].values == std::vector<double>{3500.0, 0.5, 3.0});
   CHECK(value(scene, "force.cosine") == 1.0);
-  CHECK(scene.response == Direction{{0, 1.0}});
+  CHECK(scene.response() == Direction{{0, 1.0}});
   REQUIRE(scene.studies.size() == 3);
   CHECK(scene.studies[0].settings.as<FrequencyRange>() == FrequencyRange{18.0, 22.0});
   REQUIRE(scene.studies[0].for_each.size() == 1);
@@ -58,7 +58,7 @@ TEST_CASE("what a scene leaves out has the default of the format") {
   CHECK(scene.harmonics.samples == 512);
   CHECK(scene.excitation[0].harmonic == 1);
   CHECK(scene.excitation[0].values == std::vector<double>{0.0, 0.0});
-  CHECK(scene.response == Direction{{0, 1.0}});
+  CHECK(scene.response() == Direction{{0, 1.0}});
   CHECK(scene.studies.empty());
 }
 

@@ -38,7 +38,7 @@ const char* const full_scene = R"({
   "excitation": [{"name": "f", "at": "blade 1", "harmonic": 3, "sine": 0.7}],
   "ties": {"load": ["d1.normal_load", "d2.normal_load"]},
   "harmonics": {"order": 6, "period": 2, "friction": "sampled", "samples": 28},
-  "response": {"direction": {"blade 1": 1, "x\"y": 1}},
+  "response": [{"name": "µ", "direction": {"blade 1": 1, "x\"y": 1}}, {"name": "b", "at": "b.l/a~de"}],
   "studies": [
     {"kind": "frf", "from": 0.1, "to": 1e9},
     {"name": "loads", "kind": "frf", "from": 1, "to": 2, "for_each": {"load": [0, 1e-12, 1e9], "n.stiffness": [-1]}},
