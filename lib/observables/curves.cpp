@@ -59,8 +59,13 @@ class Curves {
       if (!is_looked_at(to_look_at_[i])) look_at(to_look_at_[i]);
     see_which_meet();
     std::vector<ResponseBranch> branches;
-    for (const Found& found : found_)
-      for (auto& part : reported(found)) branches.push_back(std::move(part));
+    for (const Found& found : found_) {
+      int part_before = 0;
+      for (auto& part : reported(found)) {
+        part.parent = std::exchange(part_before, 1);
+        branches.push_back(std::move(part));
+      }
+    }
     if (stopped_) {
       if (branches.empty() || branches.back().stop.reason != reasons::user)
         branches.push_back(parts_.stopped(way_.value(looked_at_.back())));

@@ -35,6 +35,7 @@ class Sweep {
     double from = lower_;
     for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
       branches.push_back(trace_from(from));
+      if (piece > 0) branches.back().parent = 1;
       if (branches.back().stop.reason != reasons::unbounded || !(far_side_ < upper_)) break;
       from = far_side_;
     }

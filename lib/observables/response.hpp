@@ -137,6 +137,8 @@ struct SolverSummary {
 /// of resonance peaks or folds over a parameter.
 struct ResponseBranch {
   std::string study, kind;  // name and kind of the study that asked for it; empty where nobody said so
+  int parent = 0;  // the branch that it goes on from, so many before it in the list of all: across an
+                   // unbounded peak, or from the part of its curve before it; 0: none
   Status status = Status::complete;
   Stop stop;
   std::string over;  // name of the free parameter beside, or in place of, the frequency; empty for frf

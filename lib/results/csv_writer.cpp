@@ -181,7 +181,9 @@ void CsvSummary::curve(const Head& head, std::size_t schema) {
   put("kind", text_field(head.kind));
   put("", head.set);
   const std::string& noun = schemas_[schema].noun;
-  put(noun, std::to_string(++count_[noun]));
+  const long number = ++count_[noun];
+  put(noun, std::to_string(number));
+  if (head.parent > 0) put("parent", std::to_string(number - head.parent));
   put("", head.facts);
 }
 

@@ -244,6 +244,9 @@ void JsonWriter::curve(const Head& head, std::size_t schema) {
   out_ << (in_list_++ > 0 ? ",\n{" : "\n{");
   if (!head.study.empty() || !head.kind.empty())
     out_ << "\"study\": " << json_quoted(head.study) << ", \"kind\": " << json_quoted(head.kind) << ",\n";
+  out_ << "\"id\": " << in_list_;
+  if (head.parent > 0) out_ << ", \"parent\": " << in_list_ - head.parent;
+  out_ << ",\n";
   for (const Member& fact : head.facts) out_ << json_quoted(fact.key) << ": " << json(fact.value) << ",\n";
   out_ << "\"set\": " << json(head.set);
   tables_.clear();

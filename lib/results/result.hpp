@@ -84,6 +84,7 @@ struct Head {
   std::string study{}, kind{};  // empty where nobody said so
   Object set{};                 // parameters and their values, which tell it from others of its study
   Object facts{};
+  int parent = 0;  // the result that it goes on from, so many before it in its list; 0: none
 };
 
 /// How it ended, and what is known of it then.

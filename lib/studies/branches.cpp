@@ -62,6 +62,7 @@ results::Schema schema(const scene::Scene& scene, const std::string& over, const
 results::Result result(const scene::Scene& scene, const ResponseBranch& branch, const Tables& tables,
                        const RunOptions& options) {
   results::Result result{0, {branch.study, branch.kind, named(scene, branch.set)}, {}, {}};
+  result.head.parent = branch.parent;
   if (!branch.over.empty()) result.head.facts.push_back({"over", branch.over});
   result.head.facts.push_back({"parameters", named(scene, branch.parameters)});
   if (options.coefficients)

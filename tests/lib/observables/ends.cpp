@@ -106,6 +106,8 @@ TEST_CASE("a window that begins on an unbounded resonance begins with its peak")
       CHECK(reference::error(branches[0].events[0].point.omega / scenes::hertz, resonance) < 1e-7);
       CHECK(branches[1].stop.reason == observables::reasons::boundary);
       CHECK(branches[1].events.empty());
+      CHECK(branches[0].parent == 0);
+      CHECK(branches[1].parent == 1);
     }
 }
 

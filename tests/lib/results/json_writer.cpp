@@ -45,6 +45,7 @@ TEST_CASE("a result in JSON has its head, a list of rows for each table, and its
                        {"last", -0.0}};
   CHECK(json == Json{{"study", "first"},
                      {"kind", "kind"},
+                     {"id", 1},
                      {"over", "x"},
                      {"set", {{"load", 2.5}}},
                      {"rows",

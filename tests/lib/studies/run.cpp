@@ -3,6 +3,7 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
@@ -90,6 +91,26 @@ TEST_CASE("results of one list of a document come one after the other") {
   CHECK(document["motions"].size() == 1);
   const Json collected = without_seconds(Json::parse(json(studies::run(s))));
   CHECK(Json::diff(without_seconds(document), collected).dump() == "[]");
+}
+
+TEST_CASE("branches have numbers, and those that they go on from") {
+  scene::Scene s = scenes::paper(7, 0);
+  scene::set(s, "c.value", 0);
+  scene::Study study = frf("a", {{"damper.normal_load", {0, 3, 1}}});  // unbounded, bounded, unbounded
+  s.studies = {study, frf("b", {})};
+  const auto all = studies::run(s);
+  const Json found = Json::parse(json(all));
+  const std::vector<int> parents{0, 1, 0, 0, 4, 0, 6};
+  REQUIRE(found["branches"].size() == parents.size());
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    CAPTURE(i);
+    CHECK(found["branches"][i]["id"] == i + 1);
+    CHECK(found["branches"][i].value("parent", 0) == parents[i]);
+  }
+  std::ostringstream summary;
+  results::write_csv_summary(summary, all);
+  CHECK(summary.str().find(",branch,") != std::string::npos);
+  CHECK(summary.str().find(",parent") != std::string::npos);
 }
 
 TEST_CASE("without points a study has events and facts, and no rows of points") {
