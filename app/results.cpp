@@ -235,7 +235,11 @@ std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene
   const std::string path = files.path(".scene.json");
   const bool is_written = writing.attempt(results::visible(path), [&] {
     output::write_file(
-        path, [&](std::ostream& out) { out << scene::write(scene); }, interrupted);
+        path,
+        [&](std::ostream& out) {
+          out << scene::write(scene::from_folder(scene, std::filesystem::path(path).parent_path().string()));
+        },
+        interrupted);
   });
   return is_written ? std::vector{path} : std::vector<std::string>();
 }

@@ -4,6 +4,7 @@
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/json_tree.hpp>
 #include <arcslip/scene/key.hpp>
+#include <arcslip/scene/named_file.hpp>
 #include <arcslip/scene/settings.hpp>
 
 #include <cstddef>
@@ -31,10 +32,12 @@ class PartType {
   virtual std::span<const std::string_view> slots() const { return {}; }
   std::size_t direction_count() const { return slots().empty() ? 1 : slots().size(); }
 
-  /// What is settled with the part and is no parameter: choices, tables. It may decide which fields there
-  /// are.
+  /// What is settled with the part and is no parameter: choices, tables in files. It may decide which fields
+  /// there are. A file::KeysOf (study_keys.hpp) has all four of these.
   virtual std::vector<Key> options() const { return {}; }
   virtual Settings read_options(const file::Reading&) const { return {}; }
+  /// Files that these options name.
+  virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
   virtual void write_options(const Settings&, const Scene&, file::Node::Object&) const {}
 
   /// The scalar fields with these options, in the order of Part::values. They live as long as the options.

@@ -60,13 +60,15 @@ std::vector<std::string> keys_of(const Part& part, bool is_element) {
   return keys;
 }
 
-Settings read_options(const PartType& type, const Place& place, const Dofs& dofs, Faults& faults) {
+Settings read_options(const PartType& type, const Place& place, const Dofs& dofs, const FileSource& source,
+                      Faults& faults) {
   if (type.options().empty()) {
     return {};
   }
   Faults others;  // told with the keys of the part, which these options decide
   const Names none;
-  return type.read_options({Keys(place, {}, others), any_number, Parameters({}, true, none), dofs, faults});
+  return type.read_options(
+      {Keys(place, {}, others), any_number, Parameters({}, true, none), dofs, faults, source});
 }
 
 std::vector<Direction> read_directions(const PartType& type, const Keys& keys, const Dofs& dofs,
@@ -91,7 +93,7 @@ std::vector<Direction> read_directions(const PartType& type, const Keys& keys, c
 }
 
 Part read_part(const Place& place, const PartType* section_type, std::span<const PartType* const> types,
-               const Dofs& dofs, Names& names, Faults& faults) {
+               const Dofs& dofs, const FileSource& source, Names& names, Faults& faults) {
   Part part;
   part.type = section_type;
   if (section_type == nullptr && place.node->get<Node::Object>() != nullptr) {
@@ -99,7 +101,7 @@ Part read_part(const Place& place, const PartType* section_type, std::span<const
     part.type = read_type(Keys(place, {}, duplicates), types, faults);
   }
   if (part.type != nullptr) {
-    part.options = read_options(*part.type, place, dofs, faults);
+    part.options = read_options(*part.type, place, dofs, source, faults);
   }
   const Keys keys(place, keys_of(part, section_type == nullptr), faults);
   if (!keys.is_object()) {
@@ -205,14 +207,15 @@ void Names::set_unknown(const std::string& part) {
 }
 
 std::vector<Part> read_parts(const Place& place, const PartType* type, std::span<const PartType* const> types,
-                             const Dofs& dofs, Names& names, Faults& faults) {
+                             const Dofs& dofs, const FileSource& source, Names& names, Faults& faults) {
   std::vector<Part> parts;
   const Node::List* list = read_list(place, "a list of objects", faults);
   if (place.node != nullptr && list == nullptr) {
     names.set_incomplete();
   }
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    parts.push_back(read_part({&(*list)[i], child(place.pointer, i)}, type, types, dofs, names, faults));
+    parts.push_back(
+        read_part({&(*list)[i], child(place.pointer, i)}, type, types, dofs, source, names, faults));
   }
   return parts;
 }

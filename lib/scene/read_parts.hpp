@@ -56,6 +56,6 @@ Dofs read_dofs(const Place& place, Faults& faults);
 std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults);
 /// A section with parts of one type or, where `type` is null, of any of `types`.
 std::vector<Part> read_parts(const Place& place, const PartType* type, std::span<const PartType* const> types,
-                             const Dofs& dofs, Names& names, Faults& faults);
+                             const Dofs& dofs, const FileSource& source, Names& names, Faults& faults);
 
 }  // namespace arcslip::scene::file

@@ -86,7 +86,8 @@ std::string unused_name(const std::string& wish, std::unordered_map<std::string,
 }  // namespace
 
 std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Parameters& all,
-                                const Dofs& dofs, const Catalogue& catalogue, Faults& faults) {
+                                const Dofs& dofs, const FileSource& source, const Catalogue& catalogue,
+                                Faults& faults) {
   const Field frequency = frequency_field(unit);
   const Elsewhere elsewhere = [&](std::string_view key) { return kinds_with(key, catalogue); };
   std::vector<Study> studies;
@@ -121,7 +122,7 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Pa
       }
       study.name = *text;
     }
-    study.settings = study.type->read({keys, frequency, all, dofs, faults});
+    study.settings = study.type->read({keys, frequency, all, dofs, faults, source});
     study.for_each = read_value_lists(keys.find("for_each"), all, study.type->taken(study.settings), faults);
     studies.push_back(std::move(study));
   }

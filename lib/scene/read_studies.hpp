@@ -13,6 +13,7 @@ namespace arcslip::scene::file {
 std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults);
 /// Reads "studies", of the kinds of the catalogue. all: the ties that were read, and the names of parts.
 std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Parameters& all,
-                                const Dofs& dofs, const Catalogue& catalogue, Faults& faults);
+                                const Dofs& dofs, const FileSource& source, const Catalogue& catalogue,
+                                Faults& faults);
 
 }  // namespace arcslip::scene::file

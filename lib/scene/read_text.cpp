@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t chunk = 1 << 16;
 constexpr int poll_milliseconds = 50;
 
-std::string largest_text() {
-  return "a scene must be at most " + std::to_string(largest_size >> 20) + " MB";
+std::string largest_text(const std::string& noun = "scene") {
+  return "a " + noun + " must be at most " + std::to_string(largest_size >> 20) + " MB";
 }
 
 void check_size(const std::string& text) {
@@ -78,17 +78,18 @@ std::string read_text(std::istream& in) {
   return text;
 }
 
-std::string read_text(const std::string& path, const StopRequest& stop) {
+std::string read_text(const std::string& path, const StopRequest& stop, const std::string& noun) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) {
-    throw FileError(results::visible(path) + " is a directory, must be a scene file");
+    throw FileError(results::visible(path) + " is a directory, must be a " +
+                    (noun == "scene" ? "scene file" : noun));
   }
   if (fs::is_regular_file(status)) {
     const std::uintmax_t size = fs::file_size(path, error);
     if (!error && size > largest_size) {
-      throw SceneError({{"", "found a file of " + std::to_string(size) + " bytes, " + largest_text()}});
+      throw SceneError({{"", "found a file of " + std::to_string(size) + " bytes, " + largest_text(noun)}});
     }
   }
   const OpenFile file(path);
@@ -100,7 +101,7 @@ std::string read_text(const std::string& path, const StopRequest& stop) {
     }
   }
   if (errno != 0) {
-    throw FileError(results::visible(path) + ": reading the scene failed after " +
+    throw FileError(results::visible(path) + ": reading the " + noun + " failed after " +
                     std::to_string(text.size()) + " bytes: " + std::generic_category().message(errno));
   }
   return text;

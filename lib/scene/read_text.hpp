@@ -14,7 +14,7 @@ namespace arcslip::scene::file {
 std::string read_text(std::istream& in);
 
 /// All bytes of a file, or of a pipe, which is opened once; while nobody writes into it, `stop` is asked.
-/// Throws the same, FileError where it cannot be opened, and Interrupted.
-std::string read_text(const std::string& path, const StopRequest& stop);
+/// Throws the same, FileError where it cannot be opened, and Interrupted. noun: what it is, for messages.
+std::string read_text(const std::string& path, const StopRequest& stop, const std::string& noun = "scene");
 
 }  // namespace arcslip::scene::file

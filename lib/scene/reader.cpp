@@ -11,6 +11,7 @@
 #include <arcslip/scene/write_values.hpp>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace arcslip::scene {
 namespace file {
@@ -96,17 +97,18 @@ std::vector<Response> read_responses(const Place& place, const Dofs& dofs, Fault
   return responses;
 }
 
-std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, Names& names, Faults& faults) {
+std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, const FileSource& source, Names& names,
+                                  Faults& faults) {
   constexpr const char* wanted = "a list of at least one force";
   const Place place = root.require("excitation", wanted, faults);
-  std::vector<Part> forces = read_parts(place, &force_type(), {}, dofs, names, faults);
+  std::vector<Part> forces = read_parts(place, &force_type(), {}, dofs, source, names, faults);
   if (place.node != nullptr && place.node->get<Node::List>() != nullptr && forces.empty()) {
     faults.add(place.pointer, std::string("found an empty list, must be ") + wanted);
   }
   return forces;
 }
 
-Scene read_scene(const Node& node, const Catalogue& catalogue, Faults& faults) {
+Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource& source, Faults& faults) {
   Scene scene;
   const Keys root({&node, ""},
                   {"format", "title", "frequency_unit", "structure", "elements", "excitation", "ties",
@@ -132,16 +134,17 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, Faults& faults) {
   }
   const Dofs dofs = read_dofs(structure.require("dofs", "a list of at least one name", faults), faults);
   scene.dofs = dofs.names;
-  scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, names, faults);
-  scene.springs = read_parts(structure.find("springs"), &spring_type(), {}, dofs, names, faults);
-  scene.dampers = read_parts(structure.find("dampers"), &damper_type(), {}, dofs, names, faults);
-  scene.elements = read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, names, faults);
+  scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
+  scene.springs = read_parts(structure.find("springs"), &spring_type(), {}, dofs, source, names, faults);
+  scene.dampers = read_parts(structure.find("dampers"), &damper_type(), {}, dofs, source, names, faults);
+  scene.elements =
+      read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, source, names, faults);
   if (is_sound(before_parts)) {
     check_structure(scene, faults);
   }
 
   const std::size_t before_excitation = faults.count();
-  scene.excitation = read_excitation(root, dofs, names, faults);
+  scene.excitation = read_excitation(root, dofs, source, names, faults);
   const bool excitation_sound = is_sound(before_excitation);
 
   const std::size_t before_ties = faults.count();
@@ -162,13 +165,14 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, Faults& faults) {
 
   scene.responses = read_responses(root.find("response"), dofs, faults);
   scene.studies = read_studies(root.find("studies"), scene.frequency_unit,
-                               Parameters(scene.ties, ties_sound, names), dofs, catalogue, faults);
+                               Parameters(scene.ties, ties_sound, names), dofs, source, catalogue, faults);
   return scene;
 }
 
-Scene read_scene(const Node& root, const Catalogue& catalogue) {
+Scene read_scene(const Node& root, const Catalogue& catalogue, const FileSource& source) {
   Faults faults;
-  Scene scene = read_scene(root, catalogue, faults);
+  Scene scene = read_scene(root, catalogue, source, faults);
+  scene.folder = source.folder;
   faults.raise();
   return scene;
 }
@@ -192,8 +196,8 @@ Catalogue catalogue_of(const Scene& scene) {
 }  // namespace
 }  // namespace file
 
-Scene read(std::istream& in, const Catalogue& catalogue) {
-  return file::read_scene(file::read_tree(file::read_text(in)), catalogue);
+Scene read(std::istream& in, const Catalogue& catalogue, const std::string& folder) {
+  return file::read_scene(file::read_tree(file::read_text(in)), catalogue, {{folder}, {}});
 }
 
 Scene read_file(const std::string& path, const Catalogue& catalogue) {
@@ -201,7 +205,8 @@ Scene read_file(const std::string& path, const Catalogue& catalogue) {
 }
 
 Scene read_file(const std::string& path, const Catalogue& catalogue, const StopRequest& stop) {
-  return file::read_scene(file::read_tree(file::read_text(path, stop), stop), catalogue);
+  return file::read_scene(file::read_tree(file::read_text(path, stop), stop), catalogue,
+                          {{std::filesystem::path(path).parent_path().string()}, stop});
 }
 
 void check(const Scene& scene) {
@@ -227,7 +232,7 @@ void check(const Scene& scene) {
     }
   }
   faults.raise();
-  file::read_scene(file::read_tree(write(scene)), file::catalogue_of(scene));
+  file::read_scene(file::read_tree(write(scene)), file::catalogue_of(scene), {scene.folder, {}});
 }
 
 Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::Member>& keys) {
@@ -250,7 +255,8 @@ Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::M
       }
     }
   }
-  return file::read_scene(file::read_tree(file::print_tree(root)), file::catalogue_of(scene));
+  return file::read_scene(file::read_tree(file::print_tree(root)), file::catalogue_of(scene),
+                          {scene.folder, {}});
 }
 
 }  // namespace arcslip::scene

@@ -2,6 +2,7 @@
 // A scene: what a user wrote, checked and resolved, as plain data in the user's own units.
 
 #include <arcslip/scene/field.hpp>
+#include <arcslip/scene/named_file.hpp>
 #include <arcslip/scene/settings.hpp>
 
 #include <cstddef>
@@ -89,6 +90,7 @@ struct Scene {
   Harmonics harmonics;
   std::vector<Response> responses{1};  // at least one: the first is that whose amplitude is followed
   std::vector<Study> studies;
+  Folder folder{};  // of the file that it is from
 
   const Direction& response() const { return responses.front().direction; }
   Direction& response() { return responses.front().direction; }
@@ -136,9 +138,9 @@ inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 
 /// Reads format "arcslip-scene-1". catalogue: the laws of force and the kinds of studies that it may hold, as
-/// studies::catalogue(). Throws SceneError with every fault found.
-Scene read(std::istream& in, const Catalogue& catalogue);
-/// The same from a file. Throws FileError where the file cannot be read.
+/// studies::catalogue(). folder: where its relative paths begin. Throws SceneError with every fault found.
+Scene read(std::istream& in, const Catalogue& catalogue, const std::string& folder = {});
+/// The same from a file, and its folder. Throws FileError where the file cannot be read.
 Scene read_file(const std::string& path, const Catalogue& catalogue);
 
 /// The resolved scene with every default, in the same format: read(write(s)) gives s again.
@@ -146,7 +148,13 @@ std::string write(const Scene& scene);
 /// Checks a scene that was built or changed in code. Throws SceneError with the faults that reading
 /// write(scene) finds.
 void check(const Scene& scene);
-/// Hash of the resolved scene (FNV-1a, 64 bits, 16 hexadecimal digits), kept in results.
+/// All files that it names.
+std::vector<NamedFile*> files(Scene& scene);
+/// The same scene from another folder: relative paths lead to the same files.
+Scene from_folder(Scene scene, const std::string& folder);
+
+/// Hash of the resolved scene and of what the files hold that it names (FNV-1a, 64 bits, 16 hexadecimal
+/// digits), kept in results.
 std::string hash(const Scene& scene);
 
 /// Names of all parameters: ties, then every "part.field" (a tied field still answers to its own name).

@@ -1,5 +1,7 @@
+#include <arcslip/scene/read_text.hpp>
 #include <arcslip/scene/study_keys.hpp>
 
+#include <filesystem>
 #include <limits>
 
 namespace arcslip::scene {
@@ -25,6 +27,23 @@ void check_frequency(double value, const std::string& pointer, const Reading& re
 }
 
 }  // namespace
+
+std::optional<NamedFile> read_file_of(const Place& place, const std::string& what, const Reading& reading) {
+  const auto path = read_string(place, what, reading.faults);
+  if (!path) return {};
+  const auto fault = [&](const std::string& why) {
+    reading.faults.add(place.pointer, "found " + shown(*path) + ", which cannot be read: " + why);
+  };
+  try {
+    const auto at = (std::filesystem::path(reading.source.folder.path) / *path).string();
+    return NamedFile{*path, std::make_shared<const std::string>(read_text(at, reading.source.stop, "file"))};
+  } catch (const FileError& error) {
+    fault(error.what());
+  } catch (const SceneError& error) {
+    fault(error.faults().front().message);
+  }
+  return {};
+}
 
 std::pair<double, double> read_range(const Reading& reading, const Field& field) {
   const std::string wanted = allowed_text(field);

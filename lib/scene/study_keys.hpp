@@ -29,6 +29,7 @@ struct Reading {
   const Parameters& parameters;
   const Dofs& dofs;
   Faults& faults;
+  const FileSource& source;
 };
 
 /// Some keys of a study that are read and written together.
@@ -39,6 +40,7 @@ struct KeyGroup {
   std::function<void(const Settings&, const Scene&, Node::Object&)> write;
   std::function<void(const Settings&, std::vector<Taken>&)> taken{};  // parameters that get values here
   std::function<void(std::string_view, Settings&)> drop{};            // a parameter from lists of values
+  std::function<void(Settings&, std::vector<NamedFile*>&)> files{};   // that are named here
 };
 
 // The groups that need no more than to know where their values go. Each leaves a value that is not there, or
@@ -153,6 +155,27 @@ KeyGroup<S> text(const std::string& name, std::string S::*value, const std::stri
           }};
 }
 
+/// The text of a file, which is at most largest_size long.
+std::optional<NamedFile> read_file_of(const Place& place, const std::string& what, const Reading& reading);
+
+/// The path of a file, which is read with the scene. what: "a string, the path of a table of q and f".
+template <class S>
+KeyGroup<S> named_file(const std::string& name, NamedFile S::*value, const std::string& what,
+                       std::string help) {
+  return {
+      {{name, KeyType::text, "", what, "", true, std::move(help)}},
+      [=](const Reading& reading, S& s) {
+        s.*value =
+            read_file_of(reading.keys.require(name, what, reading.faults), what, reading).value_or(s.*value);
+      },
+      [=](const S& s, const Scene&, Node::Object& to_file) {
+        to_file.push_back({name, node((s.*value).path)});
+      },
+      {},
+      {},
+      [=](S& s, std::vector<NamedFile*>& files) { files.push_back(&(s.*value)); }};
+}
+
 /// One of a few words with a default.
 template <class S, class Choice, class Words>
 KeyGroup<S> word(const std::string& name, Choice S::*value, const Words& words, std::string help) {
@@ -174,6 +197,7 @@ KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {
       [=](const S& s, const Scene& scene, Node::Object& to_file) { group.write(s.*part, scene, to_file); }};
   if (group.taken) all.taken = [=](const S& s, std::vector<Taken>& taken) { group.taken(s.*part, taken); };
   if (group.drop) all.drop = [=](std::string_view parameter, S& s) { group.drop(parameter, s.*part); };
+  if (group.files) all.files = [=](S& s, std::vector<NamedFile*>& files) { group.files(s.*part, files); };
   return all;
 }
 
@@ -209,6 +233,13 @@ class KeysOf {
       if (group.drop) group.drop(parameter, settings);
   }
 
+  std::vector<NamedFile*> files(S& settings) const {
+    std::vector<NamedFile*> all;
+    for (const auto& group : groups_)
+      if (group.files) group.files(settings, all);
+    return all;
+  }
+
  private:
   std::vector<KeyGroup<S>> groups_;
   std::function<void(const Reading&, S&)> check_;
@@ -224,6 +255,9 @@ class KeyedStudy : public StudyType {
   Settings read(const Reading& from) const override { return Settings::of(keys_.read(from)); }
   void write(const Settings& settings, const Scene& scene, Node::Object& to) const override {
     keys_.write(settings.empty() ? S{} : settings.as<S>(), scene, to);
+  }
+  std::vector<NamedFile*> files(Settings& settings) const override {
+    return settings.empty() ? std::vector<NamedFile*>() : keys_.files(settings.as<S>());
   }
   std::vector<Taken> taken(const Settings& settings) const override {
     return keys_.taken(settings.empty() ? S{} : settings.as<S>());

@@ -40,6 +40,8 @@ class StudyType {
   virtual std::vector<Key> keys() const = 0;
   virtual Settings defaults() const = 0;
   virtual Settings read(const file::Reading& from) const = 0;
+  /// Files that the settings name.
+  virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
   virtual void write(const Settings& settings, const Scene& scene, file::Node::Object& to) const = 0;
 
   virtual std::vector<Taken> taken(const Settings& settings) const = 0;

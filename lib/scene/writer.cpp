@@ -168,8 +168,15 @@ std::string write(const Scene& scene) {
 
 std::string hash(const Scene& scene) {
   std::uint64_t state = 0xcbf29ce484222325u;  // FNV-1a, 64 bits (Fowler, Noll, Vo)
-  for (const char c : write(scene)) {
-    state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  const auto add = [&](const std::string& text) {
+    for (const char c : text) {
+      state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    }
+  };
+  add(write(scene));
+  Scene copy = scene;
+  for (const NamedFile* file : files(copy)) {
+    add(file->text ? *file->text : "");
   }
   std::array<char, 16> digits{};
   for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, state >>= 4) {

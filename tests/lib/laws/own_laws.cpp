@@ -5,6 +5,7 @@
 #include "lib/laws/bouc_wen.hpp"
 #include "lib/laws/coupled_spring.hpp"
 #include "lib/laws/polynomial.hpp"
+#include "lib/laws/table_spring.hpp"
 #include "lib/laws/two_sliders.hpp"
 
 #include <arcslip/continuation/jacobian_check.hpp>
@@ -16,6 +17,10 @@
 #include <arcslip/time/newmark_periods.hpp>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
 
 using namespace arcslip;
 using continuation::Vector;
@@ -25,11 +30,12 @@ namespace {
 const own_laws::CoupledSpring coupled;
 const own_laws::BoucWen bouc_wen;
 const own_laws::PolynomialType polynomial;
+const own_laws::TableType table_spring;
 const own_laws::TwoSliders two_sliders;
 
 scene::Catalogue catalogue() {
   auto all = test_catalogue::whole();
-  all.elements.insert(all.elements.end(), {&coupled, &bouc_wen, &polynomial, &two_sliders});
+  all.elements.insert(all.elements.end(), {&coupled, &bouc_wen, &polynomial, &table_spring, &two_sliders});
   return all;
 }
 
@@ -312,4 +318,73 @@ TEST_CASE("directions that are lacking or not as they must be are told where the
   CHECK_THROWS_WITH(scene::check(s), "/elements/0: found no type, must be a law of force");
   scene::Part mass = s.masses[0];
   CHECK_THROWS_AS(elements::law_of(mass), std::invalid_argument);
+}
+
+TEST_CASE("a table in a file that the scene names is read from the scene's folder, and its hash covers it") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("arcslip-table-" + std::to_string(::getpid()));
+  fs::create_directories(folder / "tables");
+  fs::create_directories(folder / "out");
+  const auto write = [](const fs::path& path, const std::string& text) { std::ofstream(path) << text; };
+  const std::string table = "-1,-0.5\n0,0\n1,0.5\n";
+  write(folder / "tables" / "k.csv", table);
+  const std::string text = R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "s", "type": "table_spring", "at": "x", "table": "tables/k.csv"}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.3}], "harmonics": {"order": 3},
+    "studies": [{"name": "best", "kind": "optimum", "over": ["s.factor"], "bounds": [[0.5, 2]], "frequency": [0.4, 2.5]}]})";
+  const auto from = [&](const std::string& scene_text, const std::string& at) {
+    std::istringstream in(scene_text);
+    return scene::read(in, catalogue(), at);
+  };
+  const scene::Scene s = from(text, folder.string());
+  const auto found = observables::point_responses(s, {.frequency = 0.9});
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].point.amplitude ==
+        Approx(0.3 / std::hypot(1.5 - 0.81, 0.1 * 0.9)).epsilon(1e-12));  // the table is a spring of 0.5 N/m
+
+  // The same in a file, written again, checked, and from another folder.
+  write(folder / "scene.json", text);
+  CHECK(scene::read_file((folder / "scene.json").string(), catalogue()) == s);
+  CHECK(from(scene::write(s), folder.string()) == s);
+  scene::check(s);
+  const scene::Scene moved = scene::from_folder(s, (folder / "out").string());
+  CHECK(scene::write(moved).find("\"../tables/k.csv\"") != std::string::npos);
+  const scene::Scene again = from(scene::write(moved), (folder / "out").string());
+  CHECK(observables::point_responses(again, {.frequency = 0.9})[0].point.amplitude ==
+        found[0].point.amplitude);
+
+  // What the file holds counts, wherever it is.
+  const std::string before = scene::hash(s);
+  CHECK(scene::hash(from(text, folder.string())) == before);
+  write(folder / "tables" / "k.csv", "-1,-0.5\n0,0\n1,0.6\n");
+  const scene::Scene other = from(text, folder.string());
+  CHECK(scene::hash(other) != before);
+  CHECK(scene::hash(s) == before);
+  CHECK_FALSE(other == s);
+
+  const auto fault = [&](const std::string& path) {
+    std::string copy = text;
+    copy.replace(copy.find("tables/k.csv"), 12, path);
+    try {
+      from(copy, folder.string());
+    } catch (const scene::SceneError& error) {
+      REQUIRE(error.faults().size() == 1);
+      CHECK(error.faults()[0].pointer == "/elements/0/table");
+      return error.faults()[0].message;
+    }
+    return std::string();
+  };
+  const std::string at = folder.string() + "/";
+  CHECK(fault("nowhere.csv") == "found \"nowhere.csv\", which cannot be read: cannot open " + at +
+                                    "nowhere.csv: No such file or directory");
+  CHECK(fault("tables") ==
+        "found \"tables\", which cannot be read: " + at + "tables is a directory, must be a file");
+  CHECK(fault("scene.json") == "found a table of fewer than 2 rows, must be lines \"q,f\"");
+  write(folder / "big", "");
+  fs::resize_file(folder / "big", scene::largest_size + 1);
+  CHECK(fault("big") ==
+        "found \"big\", which cannot be read: found a file of 67108865 bytes, a file must be at most 64 MB");
+  fs::remove_all(folder);
 }

@@ -1,0 +1,108 @@
+#pragma once
+// f(q) from a table in a file: "q,f" on each line, q rising through 0, linear between and beyond.
+
+#include <arcslip/elements/sampled_law.hpp>
+#include <arcslip/scene/study_keys.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace own_laws {
+
+using namespace arcslip;
+using elements::Fields, elements::In;
+
+struct TableOptions {
+  scene::NamedFile table;
+  friend bool operator==(const TableOptions&, const TableOptions&) = default;
+};
+
+inline std::vector<std::pair<double, double>> rows_of(const std::string& text) {
+  std::vector<std::pair<double, double>> rows;
+  std::istringstream in(text);
+  char comma = 0;
+  for (double q = 0, f = 0; in >> q >> comma >> f;) rows.emplace_back(q, f);
+  return rows;
+}
+
+/// One field: the factor of all forces.
+class TableLaw final : public elements::SampledLaw {
+ public:
+  explicit TableLaw(const std::string& text) : rows_(rows_of(text)) {}
+  std::string_view name() const override { return "table_spring"; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return factor; }
+  bool antisymmetric() const override { return false; }
+  elements::Traits traits(Fields fields, int direction) const override {
+    return {.stiffness = stiffness(fields, direction, 0), .holds_mean = true};
+  }
+  double stiffness(Fields fields, int, double) const override {
+    double largest = 0;
+    for (std::size_t i = 1; i < rows_.size(); ++i) largest = std::max(largest, slope(i));
+    return fields[0] * largest;
+  }
+  int samples(int order) const override { return 8 * order + 8; }
+  void sample(Fields fields, const Eigen::MatrixXd& q, elements::SampledForce& at) const override {
+    at.piece = 0;
+    for (Eigen::Index k = 0; k < q.rows(); ++k) {
+      std::size_t i = 1;
+      while (i + 1 < rows_.size() && q(k, 0) > rows_[i].first) ++i;
+      const double f = rows_[i].second + slope(i) * (q(k, 0) - rows_[i].first);
+      at.f(k, 0) = fields[0] * f;
+      at.f_q(k, 0) = fields[0] * slope(i);
+      at.f_field(k, 0) = f;
+    }
+  }
+  double stored(Fields, In, In) const override { return 0; }
+
+  static constexpr scene::Field factor[1] = {{.name = "factor",
+                                              .unit = "-",
+                                              .lower = 0,
+                                              .upper = 1e300,
+                                              .default_value = 1,
+                                              .help = "of all forces"}};
+
+ private:
+  double slope(std::size_t i) const {
+    return (rows_[i].second - rows_[i - 1].second) / (rows_[i].first - rows_[i - 1].first);
+  }
+
+  std::vector<std::pair<double, double>> rows_;
+};
+
+class TableType final : public elements::LawType {
+ public:
+  TableType() {
+    keys_.add(scene::file::named_file("table", &TableOptions::table,
+                                      "a string, the path of a table of q and f", "forces"));
+    keys_.check([](const scene::file::Reading& reading, TableOptions& options) {
+      if (options.table.text && rows_of(*options.table.text).size() < 2)
+        reading.faults.add(reading.keys.find("table").pointer,
+                           "found a table of fewer than 2 rows, must be lines \"q,f\"");
+    });
+  }
+  std::string_view name() const override { return "table_spring"; }
+  std::string_view help() const override { return "a spring whose force is a table"; }
+  std::vector<scene::Key> options() const override { return keys_.keys(); }
+  scene::Settings read_options(const scene::file::Reading& from) const override {
+    return scene::Settings::of(keys_.read(from));
+  }
+  void write_options(const scene::Settings& options, const scene::Scene& scene,
+                     scene::file::Node::Object& to) const override {
+    if (!options.empty()) keys_.write(options.as<TableOptions>(), scene, to);
+  }
+  std::vector<scene::NamedFile*> files(scene::Settings& options) const override {
+    return options.empty() ? std::vector<scene::NamedFile*>() : keys_.files(options.as<TableOptions>());
+  }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return TableLaw::factor; }
+  std::shared_ptr<const elements::Law> law(const scene::Settings& options) const override {
+    return std::make_shared<const TableLaw>(*options.as<TableOptions>().table.text);
+  }
+
+ private:
+  scene::file::KeysOf<TableOptions> keys_;
+};
+
+}  // namespace own_laws
