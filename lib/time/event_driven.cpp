@@ -225,7 +225,7 @@ PeriodMap EventDriven::map(const State& start, double to) {
     march_->finish();
   }
   map.done = march_->reason() == EndReason::reached;
-  map.message = march_->message();
+  if (!map.done) map.message = march_->message();
   map.end = march_->state();
   map.monodromy = march_->monodromy();
   for (std::size_t i = 0; i < contacts.size(); ++i)

@@ -173,8 +173,11 @@ void March::finish() {
   Contact& contact = contacts_[switching_];
   if (contact.follows()) {
     const elements::Mode& mode = contact.mode();
-    Z_.row(contact.memory) = mode.z_q * (contact.directions.transpose() * X_);
-    Z_(contact.memory, 0) += mode.z_0;
+    auto z = Z_.row(contact.memory);
+    z.setZero();
+    for (std::size_t k = 0; k < contact.along.size(); ++k)
+      z.noalias() += mode.z_q[static_cast<Eigen::Index>(k)] * contact.along[k].transpose() * X_;
+    z[0] += mode.z_0;
   }
   contact.now = next_mode_;
   enter(contact);
