@@ -170,7 +170,7 @@ class Gradual final : public continuation::Problem {
   }
 
  private:
-  // Without elements: Z u - f. Auxiliary unknowns keep their own equations.
+  // At factor 0: Z u - f. Auxiliary unknowns keep their own equations.
   class Evaluator final : public continuation::Evaluator {
    public:
     explicit Evaluator(const HbmProblem& problem)

@@ -52,14 +52,14 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
             {},
             "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
                 "\", and friction leaves it free to drift; add a spring between it and the ground or what is "
-                "held, or excite odd harmonics only"};
+                "held, or excite odd harmonics only, with an odd \"period\" of the harmonics"};
   const auto u = hbm::steady_state(problem, p, go_on);
   if (!u) {
     const std::string apart = model::stiffness_apart(*model, p);
     return {problem,
             {},
-            "Newton's method failed from rest, from the response without elements, and along a growing "
-            "excitation and growing forces of the elements" +
+            "Newton's method failed from rest and from the response without elements, and so did branches of "
+            "growing excitation and of growing forces of the elements" +
                 (apart.empty() ? "" : "; " + apart)};
   }
   return {problem_with(u->norm()), u, {}};

@@ -77,13 +77,12 @@ double Observer::phase(const continuation::Accepted& now, continuation::In x) co
   return 0;
 }
 
-void Observer::add_named_responses(const continuation::Accepted& now, ResponsePoint& point) const {
+void Observer::add_named_responses(const continuation::Accepted& now, ResponsePoint& point) {
   if (named_.rows() == 0) return;
   const auto& at = evaluator_of(now);
   const Eigen::MatrixXd motions = at.stiffness().motion(named_, now.u, at.force_factor());
-  Amplitude amplitude(problem_->harmonics());
   for (const auto& x : motions.colwise())
-    point.responses.push_back({amplitude.of(x).amplitude, phase(now, x)});
+    point.responses.push_back({amplitude_.of(x).amplitude, phase(now, x)});
 }
 
 ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {

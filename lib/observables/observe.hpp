@@ -47,7 +47,7 @@ class Observer {
 
  private:
   double phase(const continuation::Accepted& now, continuation::In x) const;
-  void add_named_responses(const continuation::Accepted& now, ResponsePoint& point) const;
+  void add_named_responses(const continuation::Accepted& now, ResponsePoint& point);
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
   int free_;

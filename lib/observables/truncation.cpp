@@ -14,7 +14,7 @@ namespace {
 
 using continuation::Vector;
 
-constexpr int least_tail = 9;            // orders above N looked at: N + 9 at least, 2 N + 9 in all
+constexpr int least_tail = 9;  // orders of the excitation above N looked at: N + 9 at least, 2 N + 9 in all
 constexpr double linear_motion = 1e-13;  // forces left out, relative: below, nothing is neglected
 constexpr double near_a_fold =
     1e-4;                           // a step along the branch, relative to |u|: beyond, its bend is asked for
@@ -25,7 +25,7 @@ constexpr double cancelled = 0.02;    // |dA| over the change of the response
 constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 2e-8 of it
 
 elements::Harmonics widened(const elements::Harmonics& h) {
-  return {2 * h.order + least_tail, h.odd, h.period};
+  return {2 * h.order + least_tail * h.period, h.odd, h.period};
 }
 
 // Whether some element is stiffer in large motions than at rest.

@@ -2,10 +2,10 @@
 // What the harmonics above N would add to the amplitude, to first order.
 //
 // At a solution (u, q) of order N, on a branch over q (the frequency, or another parameter), the equations of
-// 2 N + 9 harmonics have the residual r, in the harmonics neglected and, where the scene samples its
-// friction, in those kept. Their linearization (wide_equations.hpp) with the branch's border row gives the
-// change d to the branch of more harmonics, which is regular at folds; a step c along the tangent t is still
-// free. What holds the point tells c:
+// 2 N + 9 harmonics (of a motion over several periods of the excitation, 9 of each) have the residual r, in
+// the harmonics neglected and, where the scene samples its friction, in those kept. Their linearization
+// (wide_equations.hpp) with the branch's border row gives the change d to the branch of more harmonics, which
+// is regular at folds; a step c along the tangent t is still free. What holds the point tells c:
 //
 //   a value of q       d_q + c t_q + c^2 q''/2 = 0, the root that is next to 0
 //   an extremum        none: dA/ds = 0

@@ -62,7 +62,7 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
       const elements::Traits traits = element.law->traits(element.fields(p), static_cast<int>(i));
       amplitude = std::max(amplitude, size);
       restoring = restoring || (traits.far_power >= power && size > negligible * u.norm());
-      // In the resonant harmonic the motion is almost wholly: it oscillates n times in a period.
+      // The motion is almost wholly in the resonant harmonic n: it goes to and fro n times in a period.
       sliders += largest_order(h, q) * traits.far_work / std::numbers::pi * size;
     }
   }

@@ -1,11 +1,12 @@
 #pragma once
 // Whether a resonance is unbounded: a balance of energies in the limit of large amplitudes.
 //
-// Along the motion shape phi of the growing response, per period and unit amplitude, the excitation puts in
-// at most pi |f . phi|, sliders take out 4 sum mu F_n |d . phi| (they slip through almost the whole period),
-// and dampers take out pi omega phi^T C phi times the amplitude. Without damping of that shape and without
-// hardening or softening springs in it, the response is bounded only where the sliders take out more than the
-// excitation puts in. For one mass and one slider: unbounded for F_n <= pi f_0/(4 mu).
+// Along the motion shape phi of the growing response, almost wholly in one harmonic n, per period and unit
+// amplitude, the excitation puts in at most pi n |f . phi|, sliders take out 4 n sum mu F_n |d . phi| (they
+// slip through almost the whole period), and dampers take out pi n^2 omega phi^T C phi times the amplitude.
+// Without damping of that shape and without hardening or softening springs in it, the response is bounded
+// only where the sliders take out more than the excitation puts in. For one mass and one slider: unbounded
+// for F_n <= pi f_0/(4 mu).
 
 #include <arcslip/hbm/problem.hpp>
 

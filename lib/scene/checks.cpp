@@ -34,6 +34,10 @@ void check_samples(const Scene& scene, Faults& faults) {
                                          ", must be an integer from " + std::to_string(least) +
                                          " (4*order + 4) to " + std::to_string(largest_samples) +
                                          " where friction is sampled");
+  } else if (harmonics.friction == Friction::sampled && harmonics.samples % harmonics.period != 0) {
+    faults.add("/harmonics/samples", "found " + std::to_string(harmonics.samples) +
+                                         ", must be a multiple of harmonics.period, which is " +
+                                         std::to_string(harmonics.period) + ", where friction is sampled");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <arcslip/scene/study_type.hpp>
 
 #include <filesystem>
+#include <system_error>
 
 namespace arcslip::scene {
 
@@ -26,11 +27,17 @@ std::vector<NamedFile*> files(Scene& scene) {
 }
 
 Scene from_folder(Scene scene, const std::string& folder) {
+  namespace fs = std::filesystem;
+  const auto absolute = [](const fs::path& path) {
+    std::error_code error;  // where there is no current directory
+    const fs::path found = fs::absolute(path.empty() ? "." : path, error);
+    return (error ? path : found).lexically_normal();
+  };
+  const fs::path before = absolute(scene.folder.path), after = absolute(folder);
   for (NamedFile* file : files(scene)) {
-    const std::filesystem::path path = file->path;
+    const fs::path path = file->path;
     if (path.is_relative()) {
-      file->path = std::filesystem::proximate(std::filesystem::path(scene.folder.path) / path, folder)
-                       .generic_string();
+      file->path = (before / path).lexically_normal().lexically_proximate(after).generic_string();
     }
   }
   scene.folder.path = folder;

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace arcslip::scene {
 
@@ -30,6 +31,7 @@ namespace file {
 struct FileSource {
   Folder folder{};
   StopRequest stop{};
+  std::vector<NamedFile> read{};  // already
 };
 
 }  // namespace file

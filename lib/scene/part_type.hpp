@@ -33,7 +33,7 @@ class PartType {
   std::size_t direction_count() const { return slots().empty() ? 1 : slots().size(); }
 
   /// What is settled with the part and is no parameter: choices, tables in files. It may decide which fields
-  /// there are. A file::KeysOf (study_keys.hpp) has all four of these.
+  /// there are. file::KeyedPart (study_keys.hpp) has all four of these.
   virtual std::vector<Key> options() const { return {}; }
   virtual Settings read_options(const file::Reading&) const { return {}; }
   /// Files that these options name.

@@ -18,13 +18,14 @@ namespace {
 constexpr std::size_t chunk = 1 << 16;
 constexpr int poll_milliseconds = 50;
 
-std::string largest_text(const std::string& noun = "scene") {
+std::string largest_text(const std::string& noun) {
   return "a " + noun + " must be at most " + std::to_string(largest_size >> 20) + " MB";
 }
 
-void check_size(const std::string& text) {
+void check_size(const std::string& text, const std::string& noun) {
   if (text.size() > largest_size) {
-    throw SceneError({{"", "found more than " + std::to_string(largest_size) + " bytes, " + largest_text()}});
+    throw SceneError(
+        {{"", "found more than " + std::to_string(largest_size) + " bytes, " + largest_text(noun)}});
   }
 }
 
@@ -70,7 +71,7 @@ std::string read_text(std::istream& in) {
     text.resize(before + chunk);
     in.read(text.data() + before, static_cast<std::streamsize>(chunk));
     text.resize(before + static_cast<std::size_t>(in.gcount()));
-    check_size(text);
+    check_size(text, "scene");
   }
   if (in.bad() || !in.eof()) {
     throw FileError("reading the scene failed after " + std::to_string(text.size()) + " bytes");
@@ -95,7 +96,7 @@ std::string read_text(const std::string& path, const StopRequest& stop, const st
   const OpenFile file(path);
   std::string text;
   while (file.read_some(text)) {
-    check_size(text);
+    check_size(text, noun);
     if (is_asked(stop)) {
       throw Interrupted("interrupted while " + results::visible(path) + " was read");
     }

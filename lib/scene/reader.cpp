@@ -177,6 +177,15 @@ Scene read_scene(const Node& root, const Catalogue& catalogue, const FileSource&
   return scene;
 }
 
+// What has been read of a scene before.
+FileSource source_of(Scene scene) {
+  FileSource source{scene.folder};
+  for (const NamedFile* file : files(scene)) {
+    source.read.push_back(*file);
+  }
+  return source;
+}
+
 // What the scene itself has.
 Catalogue catalogue_of(const Scene& scene) {
   Catalogue catalogue;
@@ -232,7 +241,7 @@ void check(const Scene& scene) {
     }
   }
   faults.raise();
-  file::read_scene(file::read_tree(write(scene)), file::catalogue_of(scene), {scene.folder, {}});
+  file::read_scene(file::read_tree(write(scene)), file::catalogue_of(scene), file::source_of(scene));
 }
 
 Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::Member>& keys) {
@@ -256,7 +265,7 @@ Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::M
     }
   }
   return file::read_scene(file::read_tree(file::print_tree(root)), file::catalogue_of(scene),
-                          {scene.folder, {}});
+                          file::source_of(scene));
 }
 
 }  // namespace arcslip::scene

@@ -31,6 +31,8 @@ void check_frequency(double value, const std::string& pointer, const Reading& re
 std::optional<NamedFile> read_file_of(const Place& place, const std::string& what, const Reading& reading) {
   const auto path = read_string(place, what, reading.faults);
   if (!path) return {};
+  for (const NamedFile& file : reading.source.read)
+    if (file.path == *path) return file;
   const auto fault = [&](const std::string& why) {
     reading.faults.add(place.pointer, "found " + shown(*path) + ", which cannot be read: " + why);
   };

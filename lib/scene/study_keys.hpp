@@ -245,6 +245,24 @@ class KeysOf {
   std::function<void(const Reading&, S&)> check_;
 };
 
+/// The part of a PartType that its options decide. Base: PartType, or what derives from it.
+template <class S, class Base>
+class KeyedPart : public Base {
+ public:
+  explicit KeyedPart(KeysOf<S> options) : options_(std::move(options)) {}
+  std::vector<Key> options() const override { return options_.keys(); }
+  Settings read_options(const Reading& from) const override { return Settings::of(options_.read(from)); }
+  void write_options(const Settings& options, const Scene& scene, Node::Object& to) const override {
+    options_.write(options.empty() ? S{} : options.as<S>(), scene, to);
+  }
+  std::vector<NamedFile*> files(Settings& options) const override {
+    return options.empty() ? std::vector<NamedFile*>() : options_.files(options.as<S>());
+  }
+
+ private:
+  KeysOf<S> options_;
+};
+
 /// The part of a StudyType that its keys decide.
 template <class S>
 class KeyedStudy : public StudyType {

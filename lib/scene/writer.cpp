@@ -173,10 +173,16 @@ std::string hash(const Scene& scene) {
       state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     }
   };
-  add(write(scene));
   Scene copy = scene;
-  for (const NamedFile* file : files(copy)) {
-    add(file->text ? *file->text : "");
+  std::vector<std::string> texts;
+  for (NamedFile* file : files(copy)) {  // what they hold, wherever they are
+    const std::string text = file->text ? *file->text : "";
+    texts.push_back(std::to_string(text.size()) + ':' + text);
+    file->path.clear();
+  }
+  add(write(copy));
+  for (const std::string& text : texts) {
+    add(text);
   }
   std::array<char, 16> digits{};
   for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, state >>= 4) {

@@ -65,6 +65,7 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
   result.head.parent = branch.parent;
   if (!branch.over.empty()) result.head.facts.push_back({"over", branch.over});
   result.head.facts.push_back({"parameters", named(scene, branch.parameters)});
+  result.head.facts.push_back({"period", scene.harmonics.period});
   if (options.coefficients)
     result.head.facts.push_back(
         {"harmonics", results::Value::List(branch.harmonics.begin(), branch.harmonics.end())});

@@ -55,6 +55,7 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
                       {"frequency", motion.omega / scene::to_rad_per_s(scene.frequency_unit),
                        std::string(scene::unit_name(scene.frequency_unit))},
                       {"omega", motion.omega, "rad/s"},
+                      {"period", scene.harmonics.period},
                       {"steps", motion.steps},
                       {"periods", motion.periods},
                       {"period_change", motion.change},

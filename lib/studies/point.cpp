@@ -69,6 +69,7 @@ results::Object facts(const scene::Scene& scene, const PointResponse& response) 
     const auto table = responses(scene, {.maxima = true, .coefficients = true});
     all = results::object(table.columns(), table.rows(std::vector{response.point}), 0);
   }
+  all.push_back({"period", scene.harmonics.period});
   all.push_back({"harmonics", results::Value::List(response.harmonics.begin(), response.harmonics.end())});
   all.push_back({"solver", solver(response.solver)});
   return all;

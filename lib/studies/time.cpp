@@ -43,7 +43,7 @@ scene::file::KeysOf<TimeSettings> keys() {
       word("method", &TimeSettings::method, method_words(),
            "shooting (the periodic motion, exact where the scene is piecewise linear), newmark-shooting, "
            "or period by period from rest: newmark, event-driven"));
-  keys.add(whole("steps", &TimeSettings::steps, 1, most_steps, "steps per period"));
+  keys.add(whole("steps", &TimeSettings::steps, 1, most_steps, "steps per period of the motion"));
   keys.add(whole("periods", &TimeSettings::periods, 1, most_periods, "periods of a transient at most"));
   keys.add(whole("recorded", &TimeSettings::recorded, 1, most_periods, "periods with history, at the end"));
   keys.add(number(&TimeSettings::tolerance, {.name = "tolerance", .unit = "-", .lower = 0, .upper = 1},

@@ -8,6 +8,8 @@
 
 #include <arcslip/continuation/tracer.hpp>
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/responses_at.hpp>
+#include <arcslip/observables/time_study.hpp>
 #include <arcslip/time/from_harmonics.hpp>
 #include <arcslip/time/newmark_periods.hpp>
 #include <arcslip/time/shooting.hpp>
@@ -108,6 +110,7 @@ TEST_CASE("a response is the same by harmonics of a fraction of the frequency") 
       CAPTURE(even, period);
       CHECK(reference::error(found.amplitude, once.amplitude) < 1e-10);
       CHECK(std::abs(found.phase - once.phase) < 1e-10);
+      CHECK(reference::error(found.truncation_estimate, once.truncation_estimate) < 1e-6);
       CHECK(reference::error(found.energy_input, period * once.energy_input) < 1e-10);
       CHECK(reference::error(found.energy_viscous, period * once.energy_viscous) < 1e-10);
       CHECK(reference::error(found.forces.total().in_phase, once.forces.total().in_phase) < 1e-9);
@@ -178,4 +181,41 @@ TEST_CASE("a motion in time repeats after the period of the harmonics") {
   }
   CHECK(error[0] < 1e-3 * A);
   CHECK(error[0] / error[1] == Approx(4).epsilon(0.02));  // of second order: no other error is left
+}
+
+TEST_CASE("studies at one frequency, by harmonics and in time, know the period") {
+  std::vector<observables::MotionMaxima> maxima;
+  for (const int period : {1, 3}) {
+    scene::Scene s = scenes::paper(7 * period, 3);
+    s.harmonics.period = period;
+    const auto in_harmonics = observables::point_responses(s, {.frequency = 20});
+    const auto in_time =
+        observables::motion_in_time(s, {.frequency = 20, .method = observables::TimeMethod::shooting});
+    CAPTURE(period);
+    REQUIRE(in_harmonics.size() == 1);
+    CHECK(in_time.status == observables::Status::complete);
+    REQUIRE(in_time.multipliers.size() >= 2);
+    CHECK(std::abs(in_time.multipliers[0]) == Approx(std::pow(0.8476668, period)).epsilon(2e-7));
+    CHECK(std::abs(in_time.multipliers[1]) == Approx(std::pow(0.8115364, period)).epsilon(2e-7));
+    CHECK(in_time.history.time.back() == Approx(period / 20.0).epsilon(1e-9));
+    const observables::ResponsePoint& point = in_harmonics[0].point;
+    CHECK(point.amplitude == Approx(in_time.amplitude).epsilon(1e-3));  // N = 7
+    CHECK(point.energy_friction == Approx(in_time.energy.friction).epsilon(1e-3));
+    CHECK(in_harmonics[0].history.base_frequency == Approx(20 * scenes::hertz / period).epsilon(1e-14));
+    maxima.push_back(point.maxima);
+  }
+  CHECK(maxima[1].velocity == Approx(maxima[0].velocity).epsilon(1e-9));
+  CHECK(maxima[1].acceleration == Approx(maxima[0].acceleration).epsilon(1e-9));
+}
+
+TEST_CASE("a response with sampled friction is the same by harmonics of a fraction of the frequency") {
+  scene::Scene s = scenes::chain(7, true);
+  s.harmonics.friction = scene::Friction::sampled;
+  s.harmonics.samples = 128;
+  const auto once = scenes::response_at(s, 0.9);
+  s.harmonics.order = 21;
+  s.harmonics.period = 3;
+  s.harmonics.samples = 3 * 128;
+  const auto found = scenes::response_at(s, 0.9);
+  CHECK(reference::error(found.amplitude, once.amplitude) < 1e-9);
 }

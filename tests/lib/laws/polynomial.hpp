@@ -73,23 +73,19 @@ class PolynomialLaw final : public elements::SampledLaw {
   scene::Field fields_[largest_degree];
 };
 
-class PolynomialType final : public elements::LawType {
+inline scene::file::KeysOf<PolynomialOptions> polynomial_options() {
+  scene::file::KeysOf<PolynomialOptions> keys;
+  keys.add(scene::file::whole("degree", &PolynomialOptions::degree, 1, largest_degree, "of the polynomial"));
+  return keys;
+}
+
+class PolynomialType final : public scene::file::KeyedPart<PolynomialOptions, elements::LawType> {
  public:
-  PolynomialType() {
-    keys_.add(
-        scene::file::whole("degree", &PolynomialOptions::degree, 1, largest_degree, "of the polynomial"));
+  PolynomialType() : KeyedPart(polynomial_options()) {
     for (int k = 1; k <= largest_degree; ++k) laws_.push_back(std::make_shared<const PolynomialLaw>(k));
   }
   std::string_view name() const override { return "polynomial"; }
   std::string_view help() const override { return "a spring whose force is a polynomial"; }
-  std::vector<scene::Key> options() const override { return keys_.keys(); }
-  scene::Settings read_options(const scene::file::Reading& from) const override {
-    return scene::Settings::of(keys_.read(from));
-  }
-  void write_options(const scene::Settings& options, const scene::Scene& scene,
-                     scene::file::Node::Object& to) const override {
-    keys_.write(of(options), scene, to);
-  }
   std::span<const scene::Field> fields(const scene::Settings& options) const override {
     return at(options)->fields({});
   }
@@ -105,7 +101,6 @@ class PolynomialType final : public elements::LawType {
     return laws_[static_cast<std::size_t>(of(options).degree - 1)];
   }
 
-  scene::file::KeysOf<PolynomialOptions> keys_;
   std::vector<std::shared_ptr<const PolynomialLaw>> laws_;
 };
 

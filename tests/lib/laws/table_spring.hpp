@@ -72,37 +72,27 @@ class TableLaw final : public elements::SampledLaw {
   std::vector<std::pair<double, double>> rows_;
 };
 
-class TableType final : public elements::LawType {
+inline scene::file::KeysOf<TableOptions> table_options() {
+  scene::file::KeysOf<TableOptions> keys;
+  keys.add(scene::file::named_file("table", &TableOptions::table, "a string, the path of a table of q and f",
+                                   "forces"));
+  keys.check([](const scene::file::Reading& reading, TableOptions& options) {
+    if (options.table.text && rows_of(*options.table.text).size() < 2)
+      reading.faults.add(reading.keys.find("table").pointer,
+                         "found a table of fewer than 2 rows, must be lines \"q,f\"");
+  });
+  return keys;
+}
+
+class TableType final : public scene::file::KeyedPart<TableOptions, elements::LawType> {
  public:
-  TableType() {
-    keys_.add(scene::file::named_file("table", &TableOptions::table,
-                                      "a string, the path of a table of q and f", "forces"));
-    keys_.check([](const scene::file::Reading& reading, TableOptions& options) {
-      if (options.table.text && rows_of(*options.table.text).size() < 2)
-        reading.faults.add(reading.keys.find("table").pointer,
-                           "found a table of fewer than 2 rows, must be lines \"q,f\"");
-    });
-  }
+  TableType() : KeyedPart(table_options()) {}
   std::string_view name() const override { return "table_spring"; }
   std::string_view help() const override { return "a spring whose force is a table"; }
-  std::vector<scene::Key> options() const override { return keys_.keys(); }
-  scene::Settings read_options(const scene::file::Reading& from) const override {
-    return scene::Settings::of(keys_.read(from));
-  }
-  void write_options(const scene::Settings& options, const scene::Scene& scene,
-                     scene::file::Node::Object& to) const override {
-    if (!options.empty()) keys_.write(options.as<TableOptions>(), scene, to);
-  }
-  std::vector<scene::NamedFile*> files(scene::Settings& options) const override {
-    return options.empty() ? std::vector<scene::NamedFile*>() : keys_.files(options.as<TableOptions>());
-  }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return TableLaw::factor; }
   std::shared_ptr<const elements::Law> law(const scene::Settings& options) const override {
     return std::make_shared<const TableLaw>(*options.as<TableOptions>().table.text);
   }
-
- private:
-  scene::file::KeysOf<TableOptions> keys_;
 };
 
 }  // namespace own_laws

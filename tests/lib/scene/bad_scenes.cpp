@@ -312,6 +312,11 @@ void add_rest(std::vector<BadScene>& rows) {
   rows.push_back({"too few samples by default", with_harmonics("{\"order\": 128, \"friction\": \"sampled\"}"),
                   "/harmonics/samples",
                   "found 512 (the default), must be an integer from 516 (4*order + 4)"});
+  rows.push_back(
+      {"samples that no period of the excitation has in whole",
+       with_harmonics("{\"order\": 9, \"period\": 3, \"friction\": \"sampled\", \"samples\": 512}"),
+       "/harmonics/samples",
+       "found 512, must be a multiple of harmonics.period, which is 3, where friction is sampled"});
   rows.push_back({"too many samples", with_harmonics("{\"friction\": \"sampled\", \"samples\": 1000001}"),
                   "/harmonics/samples",
                   "found 1000001, must be an integer from 1 to 1000000, and at least 4*order + 4"});
