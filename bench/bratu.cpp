@@ -3,8 +3,9 @@
 //
 //   arcslip_bench_bratu [largest n = 1000000]
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <sys/resource.h>
 

@@ -11,7 +11,7 @@
 #include "examples.hpp"
 
 #include <arcslip/observables/frequency_branch.hpp>
-#include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -31,7 +31,8 @@ endfunction()
 
 # arcslip_library(NAME [HEADERS_FROM other] ROOMS room... [LIGHT room or file...] FILES file...)
 # makes arcslip_NAME (arcslip::NAME). ROOMS are pairs "link=folder": the folder is seen as <arcslip/link/...>.
-# FILES begin with the link. The headers among them are public and get installed; a header that is not listed is private.
+# FILES begin with the link. The headers among them are public and get installed, as is NAME.hpp beside the CMakeLists.txt,
+# the library's umbrella <arcslip/NAME.hpp>; a header that is not listed is private.
 # LIGHT is what computes nothing in loops, which is compiled with -O1 in a third of the time; HEADERS_FROM the library whose
 # precompiled headers serve this one, too.
 # Each library has a root of links of its own, so that an include of a library that is not linked does not compile.
@@ -46,7 +47,8 @@ function(arcslip_library name)
     list(GET pair 1 folder_of_${link})
     file(CREATE_LINK ${folder_of_${link}} ${root}/arcslip/${link} SYMBOLIC)
   endforeach()
-  set(headers "")
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${name}.hpp ${root}/arcslip/${name}.hpp SYMBOLIC)
+  set(headers ${root}/arcslip/${name}.hpp)
   set(sources "")
   set(light "")
   foreach(file IN LISTS arg_FILES)

@@ -1,9 +1,9 @@
 #include <arcslip/optimize/studies.hpp>
 
-#include <arcslip/optimize/optimum_figures.hpp>
-#include <arcslip/optimize/optimum_results.hpp>
-#include <arcslip/optimize/optimum_study.hpp>
-#include <arcslip/optimize/read_settings.hpp>
+#include <arcslip/optimize/study/optimum_figures.hpp>
+#include <arcslip/optimize/study/optimum_results.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
+#include <arcslip/optimize/study/read_settings.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // The branches that are timed against AUTO-07p, in the same windows and with analytic derivatives in both.
 
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <string>
 

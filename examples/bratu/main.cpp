@@ -3,8 +3,7 @@
 //
 //   bratu [n = 100000]
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <cmath>
 #include <cstdio>

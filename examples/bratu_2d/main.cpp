@@ -3,8 +3,7 @@
 //
 //   bratu_2d [k = 256]
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <cmath>
 #include <cstdio>

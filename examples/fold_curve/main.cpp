@@ -6,9 +6,7 @@
 // Branches in p1 have two folds, ignition and extinction. They are followed in p1 and the cooling p3 to where
 // they meet, at a cusp: p1 = e^-2, p3 = 5/2. On all of the curve p3 = 14 x (1 - x) - 1.
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/stationary.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,7 @@
 //
 //   iterative_solver [k = 48]
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -1,9 +1,6 @@
 // The folds of mu + x - x^3 = 0 in mu; then what a scene file asks for.
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
-#include <arcslip/optimize/studies.hpp>
-#include <arcslip/results/table_writer.hpp>
-#include <arcslip/studies/catalogue.hpp>
+#include <arcslip/continuation.hpp>
+#include <arcslip/optimize.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -6,8 +6,7 @@
 // rises by e again, and from e = 3, a stop, by 3 e. Both ends of the falling part are folds in p without a
 // curvature; the stop is a kink and no fold.
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <array>
 #include <cstdio>

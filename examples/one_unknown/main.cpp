@@ -3,8 +3,7 @@
 // With eps = 0 the branches u = 0 and lambda = u^2 cross at lambda = 0. Any other eps breaks them apart: for
 // eps > 0 the lower branch has a fold at lambda = 3 (eps/2)^(2/3), u = -(eps/2)^(1/3).
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <cstdio>
 #include <utility>

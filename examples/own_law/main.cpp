@@ -1,11 +1,7 @@
 // A law of force of one's own in a scene: a rotor that rubs. main SCENE
 #include "rub.hpp"
 
-#include <arcslip/observables/responses_at.hpp>
-#include <arcslip/observables/time_study.hpp>
-#include <arcslip/optimize/studies.hpp>
-#include <arcslip/results/table_writer.hpp>
-#include <arcslip/studies/catalogue.hpp>
+#include <arcslip/optimize.hpp>
 
 #include <cstdio>
 #include <iostream>

@@ -9,8 +9,7 @@
 //
 //   pde_100000 [k = 50000]
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <cmath>
 #include <cstdio>

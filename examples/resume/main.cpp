@@ -3,8 +3,7 @@
 //
 //   resume [file = trace.json]
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <cmath>
 #include <cstdio>

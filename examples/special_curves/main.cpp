@@ -9,11 +9,7 @@
 // Branch points: a rod under the load p with a spring of the stiffness c, p u - c u - u^3 = 0, leaves u = 0
 // at p = c.
 
-#include <arcslip/continuation/branch_point.hpp>
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/hopf.hpp>
-#include <arcslip/continuation/hopf_curve.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 // A change of the full equation at the full motion, v = dZ y - df, changes the condensed one by
 // v_q - Z_ql Z_ll^-1 v_l, and x at fixed q by -c_l . Z_ll^-1 v_l.
 
-#include <arcslip/continuation/dense_algebra.hpp>
-#include <arcslip/continuation/sparse_algebra.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/linear/sparse_algebra.hpp>
 #include <arcslip/hbm/linear_parts.hpp>
 
 #include <optional>

@@ -1,5 +1,7 @@
 #include <arcslip/hbm/corner.hpp>
 
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+
 #include <cmath>
 #include <limits>
 #include <utility>

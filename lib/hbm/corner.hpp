@@ -5,7 +5,7 @@
 // Where J jumps across h = 0, by rank one along grad h, a branch has two tangents, and a peak or a fold may
 // sit at the corner while another parameter changes.
 
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 #include <arcslip/elements/corners.hpp>
 #include <arcslip/hbm/problem.hpp>
 

@@ -1,6 +1,6 @@
 #include <arcslip/hbm/problem.hpp>
 
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // Immutable. The parameter vector p holds the values, so that other values need no other model; the model
 // keeps the defaults.
 
-#include <arcslip/continuation/problem.hpp>
+#include <arcslip/continuation/problem/problem.hpp>
 #include <arcslip/elements/law.hpp>
 #include <arcslip/scene/scene.hpp>
 

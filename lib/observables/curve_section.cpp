@@ -1,5 +1,7 @@
 #include <arcslip/observables/curve_section.hpp>
 
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+
 #include <cmath>
 #include <utility>
 

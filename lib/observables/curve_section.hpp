@@ -2,8 +2,8 @@
 // A point of a curve of special points, seen as a point of the branch over the excitation frequency that
 // passes through it: what observables need, and how the amplitude changes along the curve.
 
-#include <arcslip/continuation/linear_solver.hpp>
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/problem/linear_solver.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 #include <arcslip/observables/observe.hpp>
 
 #include <memory>

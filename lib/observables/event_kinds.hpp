@@ -1,8 +1,8 @@
 #pragma once
 // The kinds of events of branches and curves, which are the names of the monitors that find them.
 
-#include <arcslip/continuation/monitor.hpp>
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/events/monitor.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 
 namespace arcslip::observables::event_kinds {
 

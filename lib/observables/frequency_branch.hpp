@@ -2,7 +2,7 @@
 // The branch of periodic responses over the excitation frequency, with peaks and folds, for one setting of a
 // model.
 
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/observe.hpp>
 

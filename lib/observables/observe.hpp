@@ -1,7 +1,7 @@
 #pragma once
 // From an accepted solution of harmonic balance to what an engineer reads off it.
 
-#include <arcslip/continuation/monitor.hpp>
+#include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/amplitude.hpp>
 #include <arcslip/observables/force_components.hpp>

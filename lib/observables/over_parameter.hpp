@@ -1,7 +1,7 @@
 #pragma once
 // A model whose parameter `over` goes from one value to another, and the steps that suit its range.
 
-#include <arcslip/continuation/options.hpp>
+#include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/scene/scene.hpp>
 

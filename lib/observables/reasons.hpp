@@ -1,7 +1,7 @@
 #pragma once
 // Why a branch or a motion ended: the reasons of Stop, each once. docs/results.md has their lists.
 
-#include <arcslip/continuation/branch.hpp>
+#include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/results/reason.hpp>
 #include <arcslip/time/reasons.hpp>
 

@@ -1,6 +1,7 @@
 #include <arcslip/observables/sensitivity.hpp>
 
-#include <arcslip/continuation/neighbours.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/observables/curve_section.hpp>
 
 #include <algorithm>
@@ -135,7 +136,7 @@ bool Sensitivity::second_derivatives(const continuation::Matrix& tangents,
     const double p_scale =
         std::max(std::abs(p0_[of]), problem_->parameters()[static_cast<std::size_t>(of)].scale);
     const double length = std::hypot(tangents.col(j).cwiseQuotient(scales_).norm(), 1 / p_scale);
-    const double h = continuation::difference * std::max(1.0, size) / length;
+    const double h = continuation::difference_step * std::max(1.0, size) / length;
     const auto quotient = continuation::difference_within_piece(h, [&](std::size_t i, double distance) {
       const auto moved = [&](double by, Needs needs) {
         u_ = u0_ + by * tangents.col(j).head(u_.size());

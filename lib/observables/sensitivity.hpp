@@ -27,8 +27,8 @@
 // Units: those of A, m, over those of p_k. A parameter that ties several fields has the sum of their
 // derivatives.
 
-#include <arcslip/continuation/linear_solver.hpp>
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/problem/linear_solver.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 #include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/amplitude.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Curves of special points of the branches over the excitation frequency, over one more parameter: resonance
 // peaks and folds. Found on a branch at one value of the parameter (special_points.hpp), followed from there
-// by continuation of the equations that define them (continuation/stationary.hpp).
+// by continuation of the equations that define them (continuation/special_points/stationary.hpp).
 //
 // A special point may come to a corner of the branches, where a friction element begins to slip at a reversal
 // of its motion, and sit there while the parameter goes on: the slope has opposite signs on the two sides.

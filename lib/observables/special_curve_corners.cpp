@@ -2,7 +2,7 @@
 
 #include <arcslip/observables/special_curve.hpp>
 
-#include <arcslip/continuation/corrector.hpp>
+#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/elements/reversals.hpp>
 
 #include <algorithm>

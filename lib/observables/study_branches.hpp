@@ -1,7 +1,7 @@
 #pragma once
 // What all branches of responses have in common: their description, and how they end.
 
-#include <arcslip/continuation/branch.hpp>
+#include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>

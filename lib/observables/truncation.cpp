@@ -1,7 +1,8 @@
 #include <arcslip/observables/truncation.hpp>
 
-#include <arcslip/continuation/dense_algebra.hpp>
-#include <arcslip/continuation/neighbours.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 
@@ -163,8 +164,8 @@ std::optional<Truncation::Slopes> Truncation::slopes(const continuation::Accepte
   };
   std::array<Vector, 2> middle;
   look(middle);
-  const auto quotient =
-      continuation::difference_within_piece(continuation::difference * size, [&](std::size_t i, double h) {
+  const auto quotient = continuation::difference_within_piece(
+      continuation::difference_step * size, [&](std::size_t i, double h) {
         place = base_ + h * tangent_.u;
         p = now.p;
         p[free_] += h * tangent_.parameter;

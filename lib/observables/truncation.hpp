@@ -18,8 +18,8 @@
 // dA changes its sign, so that what the first order leaves out is larger; the branch of more harmonics has no
 // point at this q; or what holds the point cannot be differentiated.
 
-#include <arcslip/continuation/branch.hpp>
-#include <arcslip/continuation/monitor.hpp>
+#include <arcslip/continuation/events/monitor.hpp>
+#include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/observables/amplitude.hpp>
 #include <arcslip/observables/wide_equations.hpp>
 

@@ -11,8 +11,8 @@
 // dq) with factors of the bordered matrix of order N, which the branch has. Two sweeps; how much less the
 // second one changes tells whether they converge.
 
-#include <arcslip/continuation/dense_algebra.hpp>
-#include <arcslip/continuation/linear_solver.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/problem/linear_solver.hpp>
 #include <arcslip/hbm/problem.hpp>
 
 #include <vector>

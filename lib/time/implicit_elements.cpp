@@ -1,6 +1,6 @@
 #include <arcslip/time/implicit_elements.hpp>
 
-#include <arcslip/continuation/dense_algebra.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 
 #include <algorithm>
 #include <cmath>

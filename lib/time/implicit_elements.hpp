@@ -12,7 +12,7 @@
 // residual falls. The factors of the tangent are kept as long as the T_e stay the same, and so, of piecewise
 // linear laws alone, while the contact state does.
 
-#include <arcslip/continuation/dense_algebra.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
 
 #include <vector>

@@ -12,7 +12,7 @@
 //
 // Several columns run together: the first is the motion, the others, without the force, its variations.
 
-#include <arcslip/continuation/dense_algebra.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
 
 #include <array>

@@ -4,9 +4,9 @@
 #include "continuation/hopf_problems.hpp"
 #include "lib/laws/coupled_spring.hpp"
 
-#include <arcslip/continuation/corrector.hpp>
-#include <arcslip/continuation/hopf_curve.hpp>
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/special_points/hopf_curve.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
+#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/jenkins.hpp>
 #include <arcslip/hbm/problem.hpp>

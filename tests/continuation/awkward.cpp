@@ -1,5 +1,7 @@
 #include "catch.hpp"
 
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+
 #include "continuation/problems.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // Bordered matrices for the tests of their solvers.
 
-#include <arcslip/continuation/linear_solver.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
 
 #include <Eigen/Dense>
 

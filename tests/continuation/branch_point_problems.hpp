@@ -3,7 +3,8 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/branch_point.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/special_points/branch_point.hpp>
 
 #include <Eigen/Dense>
 

@@ -1,6 +1,7 @@
 // Further solutions by deflation, as many as are known to exist, and branches that lie apart.
 
-#include <arcslip/continuation/deflation.hpp>
+#include <arcslip/continuation/diagrams/deflation.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
 
 #include "catch.hpp"
 

@@ -1,7 +1,7 @@
 // Each decomposition against what defines it, on matrices that are regular, singular, large and empty.
 #include "catch.hpp"
 
-#include <arcslip/continuation/dense_algebra.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 
 #include <cmath>
 #include <complex>

@@ -2,7 +2,7 @@
 
 #include "continuation/bordered.hpp"
 
-#include <arcslip/continuation/linear_solver.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
 
 #include <Eigen/Dense>
 

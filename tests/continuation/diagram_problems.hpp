@@ -1,7 +1,7 @@
 #pragma once
 // Diagrams of one unknown, and what holds of every diagram.
 
-#include <arcslip/continuation/diagram.hpp>
+#include <arcslip/continuation/diagrams/diagram.hpp>
 
 #include "catch.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/functions.hpp>
+#include <arcslip/continuation/problem/functions.hpp>
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include <arcslip/continuation/hopf.hpp>
+#include <arcslip/continuation/events/hopf.hpp>
 
 #include <algorithm>
 #include <numbers>

@@ -2,9 +2,9 @@
 
 #include "continuation/hopf_problems.hpp"
 
-#include <arcslip/continuation/hopf.hpp>
-#include <arcslip/continuation/hopf_curve.hpp>
-#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/continuation/events/hopf.hpp>
+#include <arcslip/continuation/problem/jacobian_check.hpp>
+#include <arcslip/continuation/special_points/hopf_curve.hpp>
 
 using namespace problems;
 

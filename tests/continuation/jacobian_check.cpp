@@ -2,7 +2,7 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/continuation/problem/jacobian_check.hpp>
 
 using namespace problems;
 

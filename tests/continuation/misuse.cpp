@@ -4,10 +4,11 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/branch_point.hpp>
-#include <arcslip/continuation/hopf_curve.hpp>
-#include <arcslip/continuation/jacobian_check.hpp>
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/problem/jacobian_check.hpp>
+#include <arcslip/continuation/special_points/branch_point.hpp>
+#include <arcslip/continuation/special_points/hopf_curve.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 
 using namespace problems;
 

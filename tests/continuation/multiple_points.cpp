@@ -2,7 +2,7 @@
 
 #include "continuation/diagram_problems.hpp"
 
-#include <arcslip/continuation/multiple_point.hpp>
+#include <arcslip/continuation/special_points/multiple_point.hpp>
 
 #include <Eigen/Dense>
 

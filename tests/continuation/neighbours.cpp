@@ -1,6 +1,6 @@
 // Difference quotients that stay within a piece.
 
-#include <arcslip/continuation/neighbours.hpp>
+#include <arcslip/continuation/special_points/neighbours.hpp>
 
 #include "catch.hpp"
 

@@ -1,7 +1,7 @@
 #include "catch.hpp"
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <functional>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 // Test problems with known folds; numbers from tests/reference/continuation.json.
 
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <cmath>
 

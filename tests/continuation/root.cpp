@@ -1,6 +1,6 @@
 #include "catch.hpp"
 
-#include <arcslip/continuation/root.hpp>
+#include <arcslip/continuation/events/root.hpp>
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // Sparse LU against dense LU and against closed forms.
 #include "catch.hpp"
 
-#include <arcslip/continuation/dense_algebra.hpp>
-#include <arcslip/continuation/sparse_algebra.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/linear/sparse_algebra.hpp>
 
 #include <cmath>
 #include <vector>

@@ -4,7 +4,7 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 
 using namespace problems;
 

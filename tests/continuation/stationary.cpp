@@ -2,7 +2,7 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 
 #include <numbers>
 

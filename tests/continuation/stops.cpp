@@ -2,6 +2,8 @@
 
 #include "catch.hpp"
 
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+
 #include "continuation/problems.hpp"
 
 #include <cstring>

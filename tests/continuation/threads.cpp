@@ -5,10 +5,10 @@
 
 #include "continuation/hopf_problems.hpp"
 
-#include <arcslip/continuation/branch_point.hpp>
-#include <arcslip/continuation/diagram.hpp>
-#include <arcslip/continuation/hopf.hpp>
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/diagrams/diagram.hpp>
+#include <arcslip/continuation/events/hopf.hpp>
+#include <arcslip/continuation/special_points/branch_point.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 
 #include <functional>
 #include <thread>

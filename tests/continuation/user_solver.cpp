@@ -4,7 +4,8 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 
 #include <Eigen/LU>
 

@@ -1,6 +1,6 @@
 // Where a step leaves its window, and the way back to the bound.
 
-#include <arcslip/continuation/ends.hpp>
+#include <arcslip/continuation/tracing/ends.hpp>
 
 #include "catch.hpp"
 

@@ -5,9 +5,9 @@
 
 #include "continuation/hopf_problems.hpp"
 
-#include <arcslip/continuation/hopf.hpp>
-#include <arcslip/continuation/jacobian_check.hpp>
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/events/hopf.hpp>
+#include <arcslip/continuation/problem/jacobian_check.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 
 using namespace problems;
 

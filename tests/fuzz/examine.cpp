@@ -7,7 +7,7 @@
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/time_study.hpp>
-#include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/scene.hpp>

@@ -8,8 +8,8 @@
 #include "optimize/paper_optimum.hpp"
 
 #include <arcslip/elements/cubic_spring.hpp>
-#include <arcslip/optimize/optimum_study.hpp>
-#include <arcslip/optimize/reasons.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <cmath>
 #include <numbers>

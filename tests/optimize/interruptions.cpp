@@ -6,8 +6,8 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/observables/curves.hpp>
-#include <arcslip/optimize/optimum_study.hpp>
-#include <arcslip/optimize/reasons.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // Optima for each combination of lists of values.
 
-#include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <vector>

@@ -5,8 +5,8 @@
 
 #include "optimize/optimum_curves.hpp"
 
-#include <arcslip/optimize/optimum_figures.hpp>
-#include <arcslip/optimize/optimum_results.hpp>
+#include <arcslip/optimize/study/optimum_figures.hpp>
+#include <arcslip/optimize/study/optimum_results.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>

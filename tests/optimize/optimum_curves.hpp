@@ -5,8 +5,8 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/optimize/optimum_curve.hpp>
-#include <arcslip/optimize/reasons.hpp>
+#include <arcslip/optimize/curve/optimum_curve.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
 
 namespace paper_optimum {
 

@@ -7,7 +7,7 @@
 #include "lib/observables/reference.hpp"
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/peak_amplitude.hpp>
+#include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
 #include <cmath>
 

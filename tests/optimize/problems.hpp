@@ -1,7 +1,7 @@
 #pragma once
 // Problems whose minima are known.
 
-#include <arcslip/optimize/minimize.hpp>
+#include <arcslip/optimize/nlopt/minimize.hpp>
 
 #include <cmath>
 #include <limits>

@@ -5,8 +5,8 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/optimize/optimum.hpp>
-#include <arcslip/optimize/trials.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
+#include <arcslip/optimize/search/trials.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/response.hpp>
-#include <arcslip/optimize/reasons.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
 #include <fstream>

@@ -7,8 +7,8 @@
 #include "optimize/paper_optimum.hpp"
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/optimum.hpp>
-#include <arcslip/optimize/reasons.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/cases.hpp>
-#include <arcslip/optimize/multipliers.hpp>
+#include <arcslip/optimize/search/cases.hpp>
+#include <arcslip/optimize/search/multipliers.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -4,7 +4,7 @@
 
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "lib/observables/reference.hpp"
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
 
 #include <algorithm>
 #include <cmath>

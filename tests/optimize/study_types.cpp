@@ -4,8 +4,8 @@
 
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/optimize/optimum_study.hpp>
 #include <arcslip/optimize/studies.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/scene/json_schema.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/studies/catalogue.hpp>

@@ -3,7 +3,7 @@
 
 #include "continuation/suite/problems.hpp"
 
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <optional>
 #include <string>

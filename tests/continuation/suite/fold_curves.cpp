@@ -5,8 +5,9 @@
 #include "continuation/suite/cases.hpp"
 #include "continuation/suite/problems.hpp"
 
-#include <arcslip/continuation/jacobian_check.hpp>
-#include <arcslip/continuation/stationary.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/problem/jacobian_check.hpp>
+#include <arcslip/continuation/special_points/stationary.hpp>
 
 using namespace suite;
 using namespace arcslip::continuation;

@@ -1,7 +1,7 @@
 // Uses each of the three libraries once. Exit code 0 where all of them answer as they should.
-#include <arcslip/continuation/functions.hpp>
-#include <arcslip/continuation/tracer.hpp>
-#include <arcslip/optimize/minimize.hpp>
+#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/catalogue.hpp>
 

@@ -1,4 +1,4 @@
-#include <arcslip/continuation/functions.hpp>
+#include <arcslip/continuation/problem/functions.hpp>
 
 using namespace arcslip::continuation;
 

@@ -1,4 +1,4 @@
-#include <arcslip/optimize/minimize.hpp>
+#include <arcslip/optimize/nlopt/minimize.hpp>
 
 int main() {
   return arcslip::optimize::algorithms().empty() ? 1 : 0;

@@ -3,7 +3,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/every_law.hpp"
 
-#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/responses_at.hpp>

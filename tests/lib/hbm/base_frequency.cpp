@@ -6,7 +6,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
-#include <arcslip/continuation/tracer.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>

@@ -2,7 +2,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/hbm/corner.hpp>
 
 using namespace arcslip;

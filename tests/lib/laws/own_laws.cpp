@@ -8,11 +8,11 @@
 #include "lib/laws/table_spring.hpp"
 #include "lib/laws/two_sliders.hpp"
 
-#include <arcslip/continuation/jacobian_check.hpp>
+#include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>
-#include <arcslip/optimize/optimum.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/scene/json_schema.hpp>
 #include <arcslip/time/newmark_periods.hpp>
 

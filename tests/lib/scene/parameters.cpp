@@ -1,4 +1,4 @@
-#include <arcslip/optimize/optimum_study.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/scene.hpp>
 

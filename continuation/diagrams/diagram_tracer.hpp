@@ -1,0 +1,77 @@
+#pragma once
+// How a diagram grows: branches that are followed, and branch points whose half-branches are known or not.
+
+#include <arcslip/continuation/diagrams/diagram.hpp>
+#include <arcslip/continuation/tracing/start.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace arcslip::continuation {
+
+/// Where a half-branch begins to be followed.
+struct Entry {
+  Start start;
+  double step = 0;
+  std::optional<std::size_t> origin = {};  // index of the branch point that is left
+};
+
+/// How a branch comes to a branch point: on a half-branch that is new, that was traced before, or that is the
+/// opposite of the one on which it left.
+enum class Arrival { first, repeated, home };
+
+/// See trace_diagram().
+class DiagramTracer {
+ public:
+  DiagramTracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
+                const DiagramOptions& limits, std::vector<Monitor> monitors, Observer observer)
+      : problem_(scaled_to_window(std::move(problem), start.free, options.lower, options.upper)),
+        start_(start),
+        options_(options),
+        limits_(limits),
+        monitors_(std::move(monitors)),
+        observer_(std::move(observer)) {
+    const bool has_monitor = std::any_of(monitors_.begin(), monitors_.end(), [](const Monitor& monitor) {
+      return monitor.kind == MonitorKind::branch_point;
+    });
+    if (!has_monitor) monitors_.push_back(branch_point_monitor());
+  }
+
+  Diagram run();
+
+ private:
+  static constexpr double same_direction = 0.95;  // cosine
+
+  void first_branch();
+  void leave(std::size_t junction, std::size_t half);
+  Branch follow(const Entry& entry, int branch, int depth);
+  Arrival pass(const Event& event, const Entry& entry, int branch, int depth);
+  std::size_t meet(const Event& event, int depth);
+  void look_for_others(Junction& junction, const Vector& x, const BranchPoint& known);
+  std::optional<Entry> enter(std::size_t k, HalfBranch& half);
+  int known_branch(const Vector& v, const Vector& tangent, double step, double angle);
+  std::optional<std::size_t> nearest(const Junction& junction, const Vector& direction) const;
+  std::size_t half_towards(Junction& junction, const Vector& direction);
+  double angle_to_others(const Junction& junction, const HalfBranch& half) const;
+  double reach(const Vector& x) const { return limits_.same_place * (1 + with_->norm_u(x)); }
+  std::size_t index_of(const Event& event) const;
+  void name_events(int branch);
+  void incomplete(const std::string& why);
+
+  std::shared_ptr<const Problem> problem_;
+  Start start_;
+  Options options_;
+  DiagramOptions limits_;
+  std::vector<Monitor> monitors_;
+  Observer observer_;
+  Diagram diagram_;
+  Counts counts_;  // of entries
+  std::unique_ptr<Corrector> with_;
+  bool stopped_ = false;
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,122 @@
+#include <arcslip/continuation/events/hopf.hpp>
+
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+
+#include <algorithm>
+#include <complex>
+#include <stdexcept>
+#include <string>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr const char* not_computed = "the eigenvalues of the Jacobian could not be computed";
+
+constexpr double same_crossing = 1e-8;  // real parts, of the largest eigenvalue: pairs that cross together
+
+// The eigenvalues of J by falling real parts, for all monitors of one place: computed where J is another one.
+class Spectrum {
+ public:
+  std::complex<double> eigenvalue(const Jacobian& jacobian, std::size_t k) {
+    compute(jacobian);
+    return eigenvalues_[k];
+  }
+
+  // Of the k-th eigenvalue, on the imaginary axis to rounding. Which of several pairs that cross together the
+  // k-th is, rounding decides: they are told apart by their frequencies, the first of them having the lowest.
+  EventData hopf(const Jacobian& jacobian, std::size_t k, const Vector& scales) {
+    compute(jacobian);
+    double largest = 0;
+    for (const auto& each : eigenvalues_) largest = std::max(largest, std::abs(each));
+    std::size_t rank = 0;
+    std::vector<double> frequencies;
+    for (std::size_t i = 0; i < eigenvalues_.size(); ++i) {
+      const auto each = eigenvalues_[i];
+      if (!(each.imag() > 0) || std::abs(each.real() - eigenvalues_[k].real()) > same_crossing * largest)
+        continue;
+      if (i < k) ++rank;
+      frequencies.push_back(each.imag());
+    }
+    if (rank >= frequencies.size()) return {};
+    std::sort(frequencies.begin(), frequencies.end());
+    return with_vector(frequencies, rank, scales);
+  }
+
+ private:
+  void compute(const Jacobian& jacobian) {
+    to_dense(jacobian, J_);
+    if (!eigenvalues_.empty() && J_ == at_) return;
+    at_ = J_;
+    if (!solver_.compute(at_)) throw std::runtime_error(not_computed);
+    const auto& all = solver_.values();
+    eigenvalues_.assign(all.begin(), all.end());
+    std::stable_sort(eigenvalues_.begin(), eigenvalues_.end(),
+                     [](const auto& x, const auto& y) { return x.real() > y.real(); });
+  }
+
+  EventData with_vector(const std::vector<double>& frequencies, std::size_t rank, const Vector& scales) {
+    const Modes modes = continuation::modes(J_);
+    const auto& all = modes.values;
+    // The pairs nearest to the axis, as many as cross together, in the order of their frequencies.
+    std::vector<Eigen::Index> pairs;
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+      if (all[i].imag() > 0) pairs.push_back(i);
+    if (pairs.size() < frequencies.size()) return {};
+    std::stable_sort(pairs.begin(), pairs.end(), [&](Eigen::Index i, Eigen::Index j) {
+      return std::abs(all[i].real()) < std::abs(all[j].real());
+    });
+    pairs.resize(frequencies.size());
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [&](Eigen::Index i, Eigen::Index j) { return all[i].imag() < all[j].imag(); });
+    const Eigen::Index chosen = pairs[rank];
+    Eigen::VectorXcd z = modes.V.col(chosen).cwiseQuotient(scales.cast<std::complex<double>>());
+    z /= z.norm();
+    // By the phase that makes sum z_i^2 = |a|^2 - |b|^2 + 2i a . b real and not negative.
+    z *= std::polar(1.0, -0.5 * std::arg(z.cwiseProduct(z).sum()));
+    Eigen::Index largest;
+    z.real().cwiseAbs().maxCoeff(&largest);
+    if (z[largest].real() < 0) z = -z;
+    return Hopf{all[chosen].imag(), z.real().cwiseProduct(scales), z.imag().cwiseProduct(scales)};
+  }
+
+  Matrix J_, at_;
+  Eigenvalues solver_;
+  std::vector<std::complex<double>> eigenvalues_;
+};
+
+}  // namespace
+
+void to_dense(const Jacobian& J, Matrix& dense) {
+  if (const auto* full = std::get_if<Matrix>(&J))
+    dense = *full;
+  else if (const auto* sparse = std::get_if<SparseMatrix>(&J))
+    dense = *sparse;
+  else
+    throw std::invalid_argument(
+        "the Jacobian is an operator, whose eigenvalues cannot be computed: Hopf points need a dense or a "
+        "sparse one");
+}
+
+std::vector<Monitor> hopf_monitors(const Problem& problem) {
+  const int n = problem.size();
+  if (n > largest_spectrum)
+    throw std::invalid_argument("Hopf points are looked for with at most " +
+                                std::to_string(largest_spectrum) + " unknowns, not " + std::to_string(n) +
+                                ": all eigenvalues are computed at each point");
+  const Vector scales = problem.scales();
+  std::vector<Monitor> monitors(static_cast<std::size_t>(n));
+  for (std::size_t k = 0; k < monitors.size(); ++k) {
+    const auto eigenvalue = [k](const Accepted& now) {
+      return now.scratch.get<Spectrum>().eigenvalue(now.at.jacobian(), k);
+    };
+    monitors[k].name = "hopf";
+    monitors[k].value = [=](const Accepted& now) { return eigenvalue(now).real(); };
+    monitors[k].is_event = [=](const Accepted& now) { return eigenvalue(now).imag() > 0; };  // once a pair
+    monitors[k].describe = [=](const Accepted& now) {
+      return now.scratch.get<Spectrum>().hopf(now.at.jacobian(), k, scales);
+    };
+  }
+  return monitors;
+}
+
+}  // namespace arcslip::continuation

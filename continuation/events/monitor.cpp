@@ -1,0 +1,128 @@
+#include <arcslip/continuation/events/monitor.hpp>
+
+#include <arcslip/continuation/events/monitor_calls.hpp>
+#include <arcslip/continuation/problem/difference.hpp>
+#include <arcslip/continuation/problem/text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+Monitor monitor_of(MonitorKind kind, const char* name) {
+  Monitor monitor;
+  monitor.name = name;
+  monitor.value = [](const Accepted&) { return 1.0; };
+  monitor.kind = kind;
+  return monitor;
+}
+
+}  // namespace
+
+MonitorFailure::MonitorFailure(const std::string& monitor, double at, const std::string& what)
+    : std::runtime_error("the monitor \"" + monitor + "\" threw at " + text(at) + because(what)),
+      parameter(at) {}
+
+Monitor bound_monitor(std::string name, int index, double value) {
+  Monitor monitor;
+  monitor.name = std::move(name);
+  monitor.value = [=](const Accepted& now) {
+    if (index < 0 || index >= now.u.size())
+      throw std::out_of_range("there is no unknown " + std::to_string(index) + " among " +
+                              std::to_string(now.u.size()));
+    return now.u[index] - value;
+  };
+  monitor.terminal = true;
+  return monitor;
+}
+
+Monitor branch_point_monitor() {
+  return monitor_of(MonitorKind::branch_point, "branch_point");
+}
+
+Monitor kink_monitor() {
+  return monitor_of(MonitorKind::kink, "kink");
+}
+
+namespace {
+
+// Relative to u in each unknown, whatever its unit: |v| = 1 in scales, so that |v_i| is a change of u_i that
+// is not too large.
+double step_along(In u, const Vector& v) {
+  double h = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (v[i] != 0) h = std::min(h, std::abs(u[i] / v[i]));
+  return difference_step * (std::isfinite(h) ? std::max(1.0, h) : 1.0);
+}
+
+// F_uu v v, by differences of J v. Nothing where there is no room for them in the piece of u.
+std::optional<Vector> second_along(const Accepted& now, const Vector& v) try {
+  if (now.at.move_to(now.u, now.p, Needs::jacobian) != Evaluated::ok) return {};
+  const std::uint64_t piece = now.at.piece();
+  const Eigen::Index n = v.size();
+  Vector here(n), u(n);
+  std::array<Vector, 2> beside{Vector(n), Vector(n)};
+  apply(now.at.jacobian(), v, here);
+  const auto quotient = difference_within_piece(step_along(now.u, v), [&](std::size_t i, double distance) {
+    try {
+      u = now.u + distance * v;
+      if (now.at.move_to(u, now.p, Needs::jacobian) != Evaluated::ok || now.at.piece() != piece) return false;
+      apply(now.at.jacobian(), v, beside[i]);
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  });
+  if (!quotient) return {};
+  return quotient->here * here + quotient->weight[0] * beside[0] + quotient->weight[1] * beside[1];
+} catch (const std::exception&) {  // outside the domain, as it says
+  return {};
+}
+
+// With B = [J F_p; r^T], whose tangent at the fold is t = (v, 0): B^T (w, 0) = e_{n+1}, and by
+// differentiating F(u(s), p(s)) = 0 twice, J u'' + F_p p'' = -F_uu v v, so that p'' is the last entry of
+// -B^-1 (F_uu v v, 0), which is -w . F_uu v v.
+EventData describe(const Accepted& now) {
+  const Eigen::Index n = now.u.size();
+  Fold fold;
+  fold.right_null = now.tangent.head(n);
+  Vector x = Vector::Unit(n + 1, n);
+  if (now.bordered.solve_transposed(x)) {
+    fold.left_null = x.head(n).normalized();
+    Vector du(n), dp(now.p.size());
+    if (now.at.second_derivative(x.head(n), fold.right_null, Vector::Zero(now.p.size()), du, dp) &&
+        du.allFinite()) {
+      fold.curvature = -du.dot(fold.right_null);
+      return fold;
+    }
+  }
+  const auto second = second_along(now, fold.right_null);
+  if (!second) return {};
+  x << -*second, 0;
+  now.bordered.solve(x);
+  fold.curvature = x[n];
+  return fold;
+}
+
+}  // namespace
+
+Monitor fold_monitor() {
+  Monitor monitor;
+  monitor.name = fold_event;
+  monitor.value = [](const Accepted& now) { return now.tangent[now.tangent.size() - 1]; };
+  monitor.quantity = [](const Accepted& now) { return now.parameter; };
+  monitor.quantity_is_parameter = true;
+  monitor.describe = describe;
+  monitor.at_branch_points = false;
+  return monitor;
+}
+
+}  // namespace arcslip::continuation

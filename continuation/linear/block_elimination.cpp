@@ -1,0 +1,204 @@
+// Block elimination around a solver of J (Govaerts, Pryce: Block elimination with one refinement solves
+// bordered linear systems accurately, BIT 30, 1990). With V = J^-1 C and S = D - R V,
+//
+//   [J C; R D] (x, y) = (f, g):        w = J^-1 f,  y = S^-1 (g - R w),  x = w - V y
+//   its transpose (x, y) = (f, g):     y = S^-T (g - V^T f),  x = J^-T (f - R^T y)
+//   det [J C; R D] = det J det S
+//
+// Why one refinement suffices where J is singular to rounding. Let s be the smallest singular value of the
+// matrix that the solver of J really solves with, J + E, |E| of the order e of rounding, and phi its null
+// vector to s; all else of size 1. w and V are large only along phi, by 1/s, and so is S. y is a quotient of
+// two such numbers: its relative error is e. In x = w - V y the large parts cancel and leave the error
+// d = e/s along phi, where J + E hardly sees it: the residual is e d in f and d in g. Now these are
+// eliminated in turn: w is e d/s, where s >= e no larger than d, so that nothing large cancels any more, and
+// y = O(s d) removes d from g with a relative error e. In general each sweep shrinks the error by e (1 +
+// e/s), down to what rounding of size e in f leaves: e (1 + e/s), times the condition of the whole where s <
+// e. The residual is that of J itself, so that E leaves no trace. Iterative solvers, with e their tolerance,
+// take some sweeps more.
+
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/linear/refinement.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+namespace arcslip::continuation {
+namespace {
+
+class BlockElimination final : public LinearSolver {
+ public:
+  explicit BlockElimination(std::unique_ptr<PlainSolver> plain)
+      : plain_(std::move(plain)), name_("block elimination around ") {
+    if (!plain_) throw std::invalid_argument("block elimination needs a solver of J");
+    name_ += plain_->name();
+  }
+
+  const char* name() const override { return name_.c_str(); }
+
+  bool factorize(const Jacobian& J, const Borders& borders) override {
+    ready_ = false;
+    J_ = J;  // of its own: refinement goes on while the evaluator moves
+    borders_ = borders;
+    const Eigen::Index n = borders.columns.rows(), m = borders.width();
+    resize(n, m);
+    if (!borders.columns.allFinite() || !borders.rows.allFinite() || !borders.corner.allFinite())
+      return false;
+    if (!measure_rows() || !plain_->prepare(J_)) return false;
+    for (Eigen::Index i = 0; i < m; ++i)
+      if (!plain_->solve(borders_.columns.col(i), V_.col(i)) || !V_.col(i).allFinite()) return false;
+    S_.noalias() = borders_.corner - borders_.rows.transpose() * V_;
+    if (m > 0) lu_.factorize(S_);
+    return ready_ = S_.allFinite() && take_sign();
+  }
+
+  void solve(Out x) const override {
+    if (!ready_ || !refine(x, false)) x.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  bool solve_transposed(Out x) const override {
+    if (!ready_) return false;
+    return refine(x, true);
+  }
+
+  std::optional<int> determinant_sign() const override {
+    const auto of_J = plain_->determinant_sign();
+    return of_J ? std::optional(*of_J * sign_of_S_) : std::nullopt;
+  }
+
+ private:
+  void resize(Eigen::Index n, Eigen::Index m) {
+    if (V_.rows() == n && V_.cols() == m) return;
+    V_.resize(n, m);
+    S_.resize(m, m);
+    lu_ = LU<double>(m);
+    refinement_.resize(n + m);
+    row_sums_.resize(n + m);
+    column_sums_.resize(n + m);
+    w_.resize(n);
+    y_.resize(m);
+  }
+
+  bool take_sign() {
+    sign_of_S_ = 1;
+    if (borders_.width() == 0) return true;
+    bool odd = lu_.permutation_sign() < 0;
+    for (Eigen::Index i = 0; i < S_.rows(); ++i) {
+      const double pivot = lu_.pivot(i);
+      if (pivot == 0 || !std::isfinite(pivot)) return false;
+      odd ^= pivot < 0;
+    }
+    sign_of_S_ = odd ? -1 : 1;
+    return true;
+  }
+
+  // One solve without refinement: z = M^-1 b, as far as it is right. b and z: different vectors.
+  bool eliminate(const Vector& b, Vector& z) const {
+    const Eigen::Index n = w_.size(), m = y_.size();
+    if (!plain_->solve(b.head(n), w_)) return false;
+    if (m > 0) {
+      y_.noalias() = b.tail(m) - borders_.rows.transpose() * w_;
+      lu_.solve(y_, z.tail(m));
+    }
+    z.head(n).noalias() = w_ - V_ * z.tail(m);
+    return true;
+  }
+
+  bool eliminate_transposed(const Vector& b, Vector& z) const {
+    const Eigen::Index n = w_.size(), m = y_.size();
+    if (m > 0) {
+      y_.noalias() = b.tail(m) - V_.transpose() * b.head(n);
+      lu_.solve_transposed(y_, z.tail(m));
+    }
+    w_.noalias() = b.head(n) - borders_.rows * z.tail(m);
+    return plain_->solve_transposed(w_, z.head(n));
+  }
+
+  // y, whose head is J z or J^T z, becomes M z or M^T z.
+  void add_borders(const Vector& z, bool transposed, Vector& y) const {
+    const Eigen::Index n = w_.size(), m = y_.size();
+    if (m == 0) return;
+    const Eigen::MatrixXd& right = transposed ? borders_.rows : borders_.columns;
+    const Eigen::MatrixXd& below = transposed ? borders_.columns : borders_.rows;
+    y.head(n).noalias() += right * z.tail(m);
+    y.tail(m).noalias() = below.transpose() * z.head(n);
+    if (transposed)
+      y.tail(m).noalias() += borders_.corner.transpose() * z.tail(m);
+    else
+      y.tail(m).noalias() += borders_.corner * z.tail(m);
+  }
+
+  // False: x is as it was.
+  bool refine(Out x, bool transposed) const {
+    const Vector& sums = transposed ? column_sums_ : row_sums_;
+    const auto eliminate = [&](const Vector& b, Vector& z) {
+      return transposed ? this->eliminate_transposed(b, z) : this->eliminate(b, z);
+    };
+    const auto product = [&](const Vector& z, Vector& y) {
+      const Eigen::Index n = w_.size();
+      if (!transposed)
+        apply(J_, z.head(n), y.head(n));
+      else if (!apply_transposed(J_, z.head(n), y.head(n)))
+        return false;
+      add_borders(z, transposed, y);
+      return true;
+    };
+    return refinement_.solve(x, sums, eliminate, product);
+  }
+
+  // Sums of the magnitudes in the rows and columns of M, False: not finite.
+  bool measure_rows() {
+    const Eigen::Index n = V_.rows(), m = V_.cols();
+    row_sums_.setZero();
+    column_sums_.setZero();
+    if (const auto* dense = std::get_if<Matrix>(&J_)) {
+      row_sums_.head(n) = dense->cwiseAbs().rowwise().sum();
+      column_sums_.head(n) = dense->cwiseAbs().colwise().sum().transpose();
+    } else if (const auto* sparse = std::get_if<SparseMatrix>(&J_)) {
+      for (Eigen::Index j = 0; j < n; ++j)
+        for (SparseMatrix::InnerIterator entry(*sparse, j); entry; ++entry) {
+          row_sums_[entry.row()] += std::abs(entry.value());
+          column_sums_[j] += std::abs(entry.value());
+        }
+    } else {
+      // Of an operator, what it makes of a vector without a pattern.
+      for (Eigen::Index i = 0; i < n; ++i)
+        w_[i] = (static_cast<std::uint32_t>(i) * 2654435769u) >> 31 ? 1 : -1;
+      std::get<const Operator*>(J_)->apply(w_, row_sums_.head(n));
+      row_sums_.head(n).setConstant(row_sums_.head(n).lpNorm<Eigen::Infinity>());
+      column_sums_.head(n) = row_sums_.head(n);
+    }
+    for (Eigen::Index i = 0; i < m; ++i) {
+      row_sums_.head(n) += borders_.columns.col(i).cwiseAbs();
+      column_sums_.head(n) += borders_.rows.col(i).cwiseAbs();
+      row_sums_[n + i] = borders_.rows.col(i).cwiseAbs().sum() + borders_.corner.row(i).cwiseAbs().sum();
+      column_sums_[n + i] =
+          borders_.columns.col(i).cwiseAbs().sum() + borders_.corner.col(i).cwiseAbs().sum();
+    }
+    row_sums_.tail(m) *= Refinement::of_full_row(n);
+    column_sums_.tail(m) *= Refinement::of_full_row(n);
+    return row_sums_.allFinite() && column_sums_.allFinite();
+  }
+
+  std::unique_ptr<PlainSolver> plain_;
+  std::string name_;
+  Jacobian J_;
+  Borders borders_{0, 0};
+  Matrix V_, S_;
+  LU<double> lu_;
+  mutable Refinement refinement_;
+  mutable Vector w_, y_;
+  Vector row_sums_, column_sums_;
+  bool ready_ = false;
+  int sign_of_S_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> block_elimination(std::unique_ptr<PlainSolver> plain) {
+  return std::make_unique<BlockElimination>(std::move(plain));
+}
+
+}  // namespace arcslip::continuation

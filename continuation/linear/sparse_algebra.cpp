@@ -1,0 +1,90 @@
+#include <arcslip/continuation/linear/sparse_algebra.hpp>
+
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+
+#include <klu.h>
+
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+namespace arcslip::continuation {
+namespace {
+
+using Complex = std::complex<double>;
+
+// As KLU wants them: pairs, real part first. std::complex has this layout.
+double* pairs(Complex* of) {
+  return reinterpret_cast<double*>(of);
+}
+
+}  // namespace
+
+struct ComplexSparseLU::Decomposition {
+  Decomposition() {
+    klu_defaults(&common);
+    common.scale = 0;  // pivots are compared with the entries of A
+    common.tol = 1;    // the largest entry is the pivot
+    common.btf = 0;    // one block, so that U has all pivots
+  }
+  Decomposition(const Decomposition&) = delete;
+  Decomposition& operator=(const Decomposition&) = delete;
+  ~Decomposition() {
+    klu_free_numeric(&numeric, &common);
+    klu_free_symbolic(&symbolic, &common);
+  }
+  // That the machine is too small is no property of the matrix.
+  void check_memory() const {
+    if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (common.status == KLU_TOO_LARGE)
+      throw std::length_error("the factors by KLU have more entries than an int counts");
+  }
+
+  mutable klu_common common;
+  klu_symbolic* symbolic = nullptr;
+  klu_numeric* numeric = nullptr;
+  Matrix A;  // KLU writes to none of it, but takes no const
+};
+
+ComplexSparseLU::ComplexSparseLU(const Matrix& pattern) : lu_(std::make_unique<Decomposition>()) {
+  Decomposition& d = *lu_;
+  d.A = pattern;
+  d.A.makeCompressed();
+  d.symbolic = klu_analyze(static_cast<int>(d.A.rows()), d.A.outerIndexPtr(), d.A.innerIndexPtr(), &d.common);
+  d.check_memory();
+}
+
+ComplexSparseLU::~ComplexSparseLU() = default;
+ComplexSparseLU::ComplexSparseLU(ComplexSparseLU&&) noexcept = default;
+ComplexSparseLU& ComplexSparseLU::operator=(ComplexSparseLU&&) noexcept = default;
+
+double ComplexSparseLU::multiplications() const {
+  return lu_->symbolic ? lu_->symbolic->est_flops / 2 : std::numeric_limits<double>::infinity();
+}
+
+bool ComplexSparseLU::factorize(const Matrix& A, double least) {
+  Decomposition& d = *lu_;
+  klu_free_numeric(&d.numeric, &d.common);
+  if (!d.symbolic) return false;
+  d.A = A;
+  Matrix& M = d.A;
+  d.numeric = klu_z_factor(M.outerIndexPtr(), M.innerIndexPtr(), pairs(M.valuePtr()), d.symbolic, &d.common);
+  d.check_memory();
+  if (!d.numeric || d.common.status != KLU_OK) return false;
+  const auto* pivots = static_cast<const Complex*>(d.numeric->Udiag);
+  for (int k = 0; k < d.symbolic->n; ++k) {
+    double largest = 0;
+    for (Matrix::InnerIterator entry(M, d.symbolic->Q[k]); entry; ++entry)
+      largest = std::max(largest, std::abs(entry.value()));
+    if (!(std::abs(pivots[k]) > least * largest)) return false;
+  }
+  return true;
+}
+
+void ComplexSparseLU::solve_in_place(Eigen::MatrixXcd& B) const {
+  klu_z_solve(lu_->symbolic, lu_->numeric, static_cast<int>(B.rows()), static_cast<int>(B.cols()),
+              pairs(B.data()), &lu_->common);
+}
+
+}  // namespace arcslip::continuation

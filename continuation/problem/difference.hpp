@@ -1,0 +1,37 @@
+#pragma once
+// Derivatives by differences within one smooth piece of F.
+//
+// Central, with h so short that both sides lie in the piece of x and F can be evaluated there,
+//
+//   f'(0) = (f(h) - f(-h)) / 2h + O(h^2),
+//
+// for beside the end of a piece derivatives may grow without bound, as where a contact begins. At the end
+// itself, one-sided of the same order on the side that does: f'(0) = +-(4 f(+-h) - f(+-2h) - 3 f(0)) / 2h.
+
+#include <array>
+#include <optional>
+
+namespace arcslip::continuation {
+
+constexpr double difference_step = 6e-6;  // h of central differences, relative: the cube root of the rounding
+
+/// f'(0) = here * f(0) + sum of weight[i] * f(distance[i]).
+struct DifferenceQuotient {
+  std::array<double, 2> distance, weight;
+  double here = 0;
+};
+
+/// go(i, distance): evaluates place i there, and says whether it could and is in the piece of 0. The places
+/// are then those of the quotient. Nothing where there is no room.
+template <class Go>
+std::optional<DifferenceQuotient> difference_within_piece(double h, Go&& go) {
+  for (const double share : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const double d = share * h;
+    if (go(0, d) && go(1, -d)) return DifferenceQuotient{{d, -d}, {0.5 / d, -0.5 / d}, 0};
+  }
+  for (const double d : {1e-4 * h, -1e-4 * h})
+    if (go(0, d) && go(1, 2 * d)) return DifferenceQuotient{{d, 2 * d}, {2 / d, -0.5 / d}, -1.5 / d};
+  return {};
+}
+
+}  // namespace arcslip::continuation

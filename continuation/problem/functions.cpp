@@ -1,0 +1,188 @@
+#include <arcslip/continuation/problem/functions.hpp>
+
+#include <arcslip/continuation/problem/linear_solver.hpp>
+
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr int shorter_differences = 4;
+
+double difference_step(double x, double scale) {
+  return std::cbrt(2.2e-16) * std::max(std::abs(x), scale);
+}
+
+bool finite(const SparseMatrix& J) {
+  return J.nonZeros() == 0 || Eigen::Map<const Vector>(J.valuePtr(), J.nonZeros()).allFinite();
+}
+
+class FunctionEvaluator final : public Evaluator, private Operator {
+ public:
+  explicit FunctionEvaluator(std::shared_ptr<const Functions> f)
+      : f_(std::move(f)),
+        u_(f_->size),
+        p_(f_->parameters.size()),
+        F_(f_->size),
+        plus_(f_->size),
+        minus_(f_->size) {
+    if (f_->sparse_jacobian)
+      J_ = SparseMatrix(f_->size, f_->size);
+    else if (f_->apply_jacobian)
+      J_ = static_cast<const Operator*>(this);
+    else
+      J_ = Matrix(f_->size, f_->size);
+  }
+
+  Evaluated move_to(In u, In p, Needs needs) override {
+    u_ = u;
+    p_ = p;
+    f_->residual(u_, p_, F_);
+    if (F_.size() != f_->size) return Evaluated::failed;
+    if (!F_.allFinite()) return Evaluated::outside_domain;
+    if (needs == Needs::residual) return Evaluated::ok;
+    if (auto* sparse = std::get_if<SparseMatrix>(&J_)) {
+      f_->sparse_jacobian(u_, p_, *sparse);
+      if (sparse->rows() != f_->size || sparse->cols() != f_->size)
+        throw std::runtime_error("the sparse Jacobian is " + std::to_string(sparse->rows()) + " x " +
+                                 std::to_string(sparse->cols()) + " for " + std::to_string(f_->size) +
+                                 " unknowns");
+      if (!sparse->isCompressed()) sparse->makeCompressed();
+      return finite(*sparse) ? Evaluated::ok : Evaluated::outside_domain;
+    }
+    auto* J = std::get_if<Matrix>(&J_);
+    if (!J) {
+      u_of_J_ = u_;
+      p_of_J_ = p_;
+      return Evaluated::ok;
+    }
+    if (f_->jacobian) {
+      f_->jacobian(u_, p_, *J);
+    } else {
+      for (Eigen::Index i = 0; i < u_.size(); ++i) difference(u_[i], f_->scales[i], J->col(i));
+    }
+    return J->allFinite() ? Evaluated::ok : Evaluated::outside_domain;
+  }
+
+  const Vector& residual() const override { return F_; }
+  const Jacobian& jacobian() const override { return J_; }
+
+  void parameter_derivative(int k, Out dF) const override {
+    if (f_->derivative)
+      f_->derivative(u_, p_, k, dF);
+    else
+      difference(p_[k], f_->parameters[static_cast<std::size_t>(k)].change(), dF);
+  }
+
+  bool second_derivative(In w, In v, In q, Out du, Out dp) const override {
+    if (f_->second) f_->second(u_, p_, w, v, q, du, dp);
+    return static_cast<bool>(f_->second);
+  }
+
+  std::uint64_t piece() const override { return f_->piece ? f_->piece(u_, p_) : 0; }
+
+ private:
+  void apply(In x, Out y) const override { f_->apply_jacobian(u_of_J_, p_of_J_, x, y); }
+  bool apply_transposed(In x, Out y) const override {
+    if (f_->apply_transposed_jacobian) f_->apply_transposed_jacobian(u_of_J_, p_of_J_, x, y);
+    return static_cast<bool>(f_->apply_transposed_jacobian);
+  }
+
+  // d F / d x by central differences, where x is one of the entries of u_ or p_; at an edge of the domain by
+  // differences to one side, -3 F + 4 F(h) - F(2h) over 2h, and next to two edges by shorter ones.
+  void difference(double& x, double scale, Out dF) const {
+    const double at = x;
+    std::exception_ptr thrown;
+    const auto residual = [&](double distance, Vector& F) {
+      x = at + distance;
+      try {
+        f_->residual(u_, p_, F);
+      } catch (...) {
+        thrown = std::current_exception();
+        x = at;
+        return false;
+      }
+      x = at;
+      return F.allFinite();
+    };
+    double h = difference_step(at, scale);
+    for (int k = 0; k < shorter_differences; ++k, h /= 16) {
+      const bool above = residual(h, plus_), below = residual(-h, minus_);
+      if (above && below) {
+        dF = (plus_ - minus_) / (2 * h);
+        return;
+      }
+      if (above && residual(2 * h, minus_)) {
+        dF = (4 * plus_ - minus_ - 3 * F_) / (2 * h);
+        return;
+      }
+      if (below && residual(-2 * h, plus_)) {
+        dF = (3 * F_ + plus_ - 4 * minus_) / (2 * h);
+        return;
+      }
+    }
+    if (thrown) std::rethrow_exception(thrown);
+    dF.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  std::shared_ptr<const Functions> f_;
+  mutable Vector u_, p_;
+  Vector u_of_J_, p_of_J_;  // where an operator is applied: it stays while residuals are looked at elsewhere
+  Vector F_;
+  mutable Vector plus_, minus_;
+  Jacobian J_;
+};
+
+class FunctionProblem final : public Problem {
+ public:
+  explicit FunctionProblem(Functions f) : f_(std::make_shared<const Functions>(std::move(f))) {}
+  int size() const override { return f_->size; }
+  std::span<const Parameter> parameters() const override { return f_->parameters; }
+  Vector scales() const override { return f_->scales; }
+  std::unique_ptr<Evaluator> evaluator() const override { return std::make_unique<FunctionEvaluator>(f_); }
+  std::unique_ptr<LinearSolver> linear_solver() const override {
+    return f_->linear_solver ? f_->linear_solver() : nullptr;
+  }
+
+ private:
+  std::shared_ptr<const Functions> f_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Problem> from_functions(Functions f) {
+  if (f.size < 1)
+    throw std::invalid_argument("a problem has at least 1 unknown, not " + std::to_string(f.size));
+  if (!f.residual) throw std::invalid_argument("a problem needs a residual function");
+  if (!!f.jacobian + !!f.sparse_jacobian + !!f.apply_jacobian > 1)
+    throw std::invalid_argument("a problem has one Jacobian: dense, sparse or applied");
+  if (f.apply_transposed_jacobian && !f.apply_jacobian)
+    throw std::invalid_argument("apply_transposed_jacobian needs apply_jacobian beside it");
+  if (f.scales.size() == 0) f.scales = Vector::Ones(f.size);
+  if (f.scales.size() != f.size)
+    throw std::invalid_argument(std::to_string(f.scales.size()) + " scales for " + std::to_string(f.size) +
+                                " unknowns");
+  if (!(f.scales.minCoeff() > 0) || !f.scales.allFinite())
+    throw std::invalid_argument("scales must be positive and finite");
+  check_parameters(f.parameters);
+  return std::make_shared<FunctionProblem>(std::move(f));
+}
+
+std::shared_ptr<const Problem> from_functions(int size, std::vector<Parameter> parameters,
+                                              ResidualFunction residual, JacobianFunction jacobian,
+                                              ParameterFunction derivative, Vector scales) {
+  Functions f;
+  f.size = size;
+  f.parameters = std::move(parameters);
+  f.residual = std::move(residual);
+  f.jacobian = std::move(jacobian);
+  f.derivative = std::move(derivative);
+  f.scales = std::move(scales);
+  return from_functions(std::move(f));
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,288 @@
+#include <arcslip/continuation/problem/jacobian_check.hpp>
+
+#include <arcslip/continuation/problem/difference.hpp>
+#include <arcslip/continuation/problem/text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double wider = 4;         // another step, in steps
+constexpr double agreement = 1e-4;  // relative differences below are not worth a message
+
+}  // namespace
+
+JacobianError check_jacobian(const Problem& problem, In u, In p) {
+  const Eigen::Index n = problem.size();
+  const auto parameters = problem.parameters();
+  if (u.size() != n || p.size() != static_cast<Eigen::Index>(parameters.size()))
+    throw std::invalid_argument("a place of " + std::to_string(u.size()) + " unknowns and " +
+                                std::to_string(p.size()) + " parameters, the problem has " +
+                                std::to_string(n) + " and " + std::to_string(parameters.size()));
+  const Vector scales = problem.scales();
+  const auto here = problem.evaluator(), beside = problem.evaluator();
+  JacobianError worst;
+  if (here->move_to(u, p, Needs::jacobian) != Evaluated::ok) return worst;
+  Vector at_u = u, at_p = p, column(n), plus(n), unit = Vector::Zero(n);
+  const auto rounding = std::numeric_limits<double>::epsilon() * here->residual().cwiseAbs().maxCoeff();
+
+  const auto compare = [&](int index, double& x, double scale) {
+    const double at = x, h = difference_step * std::max(std::abs(at), scale);
+    x = at + h;
+    bool usable =
+        beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok && beside->piece() == here->piece();
+    plus = beside->residual();
+    x = at - h;
+    usable = usable && beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok &&
+             beside->piece() == here->piece();
+    x = at;
+    if (!usable) return;
+    const Vector difference = (plus - beside->residual()) / (2 * h);
+    // What differences of another step say tells how good they are.
+    x = at + wider * h;
+    if (beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus = beside->residual();
+    x = at - wider * h;
+    if (beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus -= beside->residual();
+    x = at;
+    const double doubt = (plus / (2 * wider * h) - difference).cwiseAbs().maxCoeff();
+    const double size = std::max(difference.cwiseAbs().maxCoeff(), column.cwiseAbs().maxCoeff()) +
+                        rounding / h + (beside->piece() == here->piece() ? doubt : 0.0) / agreement;
+    if (size == 0) return;
+    Eigen::Index row = 0;
+    const double relative = (difference - column).cwiseAbs().maxCoeff(&row) / size;
+    if (!(relative > worst.relative)) return;
+    worst = {static_cast<int>(row), index, column[row], difference[row], relative, {}};
+  };
+  for (Eigen::Index j = 0; j < n; ++j) {
+    unit[j] = 1;
+    apply(here->jacobian(), unit, column);
+    unit[j] = 0;
+    compare(static_cast<int>(j), at_u[j], scales[j]);
+  }
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto index = static_cast<Eigen::Index>(k);
+    here->parameter_derivative(static_cast<int>(k), column);
+    compare(static_cast<int>(n + index), at_p[index], parameters[k].change());
+  }
+  if (worst.relative > agreement) worst.message = describe(worst, problem);
+  return worst;
+}
+
+// Whether J and dF/dp are the derivatives of F, by differences along few directions: what a trace can afford,
+// whatever the number of unknowns.
+//
+// Along a direction d without pattern, e(h) = J d - [F(x + h d) - F(x - h d)] / 2h is at rounding where J is
+// right. Where it is not small, that may be the differences' own error: noise and rounding grow as 1/h, what
+// the higher derivatives leave as h^2, and beside a kink the differences to both sides are not those of J. An
+// error of J stays: J is accused where e(h) is the same for steps in the ratio 1 : 8 : 64 and both sides
+// agree. The row is then that of the largest e, and bisection finds the column, by log2(n) further
+// differences.
+
+namespace {
+
+constexpr double first_step = 6e-6;    // the cube root of the rounding
+constexpr double ratio = 8;            // of neighbouring steps
+constexpr int finer = 3, coarser = 3;  // steps than the first one
+constexpr double same = 0.2;           // of e, from step to step
+constexpr double one_sided = 0.25;     // of e: the most by which the differences to the two sides may differ
+
+// +-(1/2 .. 1), without a pattern.
+double without_pattern(Eigen::Index j) {
+  const auto bits = (static_cast<std::uint32_t>(j) + 1) * 2654435769u;
+  const double size = 0.5 + 0.5 * static_cast<double>(bits & 0xffffu) / 0xffff;
+  return bits >> 31 ? size : -size;
+}
+
+class Doubt {
+ public:
+  Doubt(const Problem& problem, In u, In p, int free)
+      : problem_(problem),
+        n_(problem.size()),
+        free_(free),
+        here_(problem.evaluator()),
+        beside_(problem.evaluator()),
+        u_(u),
+        p_(p),
+        at_u_(u),
+        at_p_(p),
+        F_p_(n_),
+        plus_(n_),
+        F_d_(n_),
+        bend_(n_),
+        given_(n_) {}
+
+  JacobianError find() {
+    if (here_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return {};
+    here_->parameter_derivative(free_, F_p_);
+    piece_ = here_->piece();
+    const Vector scales = problem_.scales();
+    for (const bool typical : {true, false}) {  // sizes of unknowns: at least their scales, or what they are
+      Vector d = Vector::Zero(n_ + 1);
+      for (Eigen::Index j = 0; j < n_; ++j)
+        d[j] = without_pattern(j) * (typical ? std::max(std::abs(u_[j]), scales[j]) : std::abs(u_[j]));
+      const Verdict by_unknowns = judge(d);
+      if (by_unknowns.wrong) return name(by_unknowns, d);
+      if (by_unknowns.right) break;
+    }
+    const double scale = parameter().change();
+    for (const bool typical : {true, false}) {
+      Vector d = Vector::Zero(n_ + 1);
+      d[n_] = typical ? std::max(std::abs(p_[free_]), scale) : std::abs(p_[free_]);
+      const Verdict by_parameter = judge(d);
+      if (by_parameter.wrong) return name(by_parameter, d);
+      if (by_parameter.right) break;
+    }
+    return {};
+  }
+
+ private:
+  struct Verdict {
+    bool right = false, wrong = false;
+    Eigen::Index row = 0;
+    double step = 0;
+  };
+
+  const Parameter& parameter() const { return problem_.parameters()[static_cast<std::size_t>(free_)]; }
+
+  // given_ = J d.
+  void multiply(const Vector& d) {
+    apply(here_->jacobian(), d.head(n_), given_);
+    given_ += d[n_] * F_p_;
+  }
+
+  bool look(const Vector& d, double h) {
+    at_u_ = u_ + h * d.head(n_);
+    at_p_[free_] = p_[free_] + h * d[n_];
+    if (at_p_[free_] < parameter().lower || at_p_[free_] > parameter().upper) return false;
+    return beside_->move_to(at_u_, at_p_, Needs::residual) == Evaluated::ok &&
+           beside_->residual().size() == n_ && beside_->residual().allFinite() && beside_->piece() == piece_;
+  }
+
+  // F_d_, and bend_: how much the differences to the two sides differ. False: not within the piece.
+  bool difference(const Vector& d, double h) {
+    if (!look(d, h)) return false;
+    plus_ = beside_->residual();
+    if (!look(d, -h)) return false;
+    const Vector& minus = beside_->residual();
+    F_d_ = (plus_ - minus) / (2 * h);
+    bend_ = (plus_ + minus - 2 * here_->residual()).cwiseAbs() / h;
+    return F_d_.allFinite();
+  }
+
+  double relative(Eigen::Index i) const {
+    const double size = std::max(std::abs(given_[i]), std::abs(F_d_[i]));
+    return size > 0 ? std::abs(given_[i] - F_d_[i]) / size : 0;
+  }
+
+  bool agrees() const {
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (relative(i) > largest_jacobian_error) return false;
+    return true;
+  }
+
+  Verdict judge(const Vector& d) {
+    multiply(d);
+    if (d.isZero(0) || !given_.allFinite()) return {};
+    if (difference(d, first_step) && agrees()) return {.right = true};
+    struct Look {
+      bool usable = false;
+      Vector error, bend, size;
+    };
+    std::vector<Look> looks;
+    for (int k = -finer; k <= coarser; ++k) {
+      Look& now = looks.emplace_back();
+      now.usable = difference(d, first_step * std::pow(ratio, k));
+      if (!now.usable) continue;
+      now.error = given_ - F_d_;
+      now.bend = bend_;
+      now.size = given_.cwiseAbs().cwiseMax(F_d_.cwiseAbs());
+    }
+    Verdict worst;
+    double largest = largest_jacobian_error;
+    // Finer steps alone would accuse J where it is itself by differences of the first one, at an edge of the
+    // domain.
+    for (std::size_t k = finer - 1; k + 1 < looks.size(); ++k) {
+      const Look &below = looks[k - 1], &now = looks[k], &above = looks[k + 1];
+      if (!below.usable || !now.usable || !above.usable) continue;
+      for (Eigen::Index i = 0; i < n_; ++i) {
+        const double e = std::abs(now.error[i]);
+        if (!(e > largest * now.size[i]) || now.bend[i] > one_sided * e ||
+            std::abs(below.error[i] - now.error[i]) > same * e ||
+            std::abs(above.error[i] - now.error[i]) > same * e)
+          continue;
+        largest = e / now.size[i];
+        worst = {.wrong = true, .row = i, .step = first_step * std::pow(ratio, static_cast<int>(k) - finer)};
+      }
+    }
+    return worst;
+  }
+
+  // By bisection of the columns in d.
+  JacobianError name(const Verdict& verdict, const Vector& d) {
+    std::vector<Eigen::Index> columns;
+    for (Eigen::Index j = 0; j <= n_; ++j)
+      if (d[j] != 0) columns.push_back(j);
+    Vector part(n_ + 1);
+    const auto error = [&](std::size_t begin, std::size_t end) {
+      part.setZero();
+      for (std::size_t k = begin; k < end; ++k) part[columns[k]] = d[columns[k]];
+      multiply(part);
+      if (!difference(part, verdict.step)) return std::numeric_limits<double>::quiet_NaN();
+      return std::abs(given_[verdict.row] - F_d_[verdict.row]);
+    };
+    std::size_t begin = 0, end = columns.size();
+    while (end - begin > 1) {
+      const std::size_t middle = (begin + end) / 2;
+      const double left = error(begin, middle), right = error(middle, end);
+      (std::isnan(right) || left >= right ? end : begin) = middle;
+    }
+    if (std::isnan(error(begin, end)) || relative(verdict.row) <= largest_jacobian_error) return {};
+    const Eigen::Index j = columns[begin];
+    JacobianError found{static_cast<int>(verdict.row), static_cast<int>(j),   given_[verdict.row] / d[j],
+                        F_d_[verdict.row] / d[j],      relative(verdict.row), {}};
+    if (j == n_) found.column += free_;
+    found.message = describe(found, problem_);
+    return found;
+  }
+
+  const Problem& problem_;
+  Eigen::Index n_;
+  int free_;
+  std::unique_ptr<Evaluator> here_, beside_;
+  Vector u_, p_, at_u_, at_p_, F_p_, plus_, F_d_, bend_, given_;
+  std::uint64_t piece_ = 0;
+};
+
+}  // namespace
+
+std::string describe(const JacobianError& worst, const Problem& problem) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "the Jacobian is wrong: dF[" << worst.row << "]/d";
+  if (worst.column < problem.size())
+    text << "u[" << worst.column << "]";
+  else
+    text << "(" << problem.parameters()[static_cast<std::size_t>(worst.column - problem.size())].name << ")";
+  text << " is given as " << worst.given << ", differences of F say " << worst.difference;
+  return text.str();
+}
+
+JacobianError doubt_jacobian(const Problem& problem, In u, In p, int free) {
+  try {
+    return Doubt(problem, u, p, free).find();
+  } catch (const std::exception&) {  // what the problem throws elsewhere is no fault of J
+    return {};
+  }
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,315 @@
+#include <arcslip/continuation/special_points/stationary.hpp>
+
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/special_points/inner_problem.hpp>
+#include <arcslip/continuation/special_points/neighbours.hpp>
+
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+struct Definition {
+  InnerProblem inner;
+  Quantity quantity;
+
+  // dq/dx, n + 1
+  void gradient(const Site& at, Out q_x) const {
+    const Eigen::Index n = q_x.size() - 1;
+    quantity.gradient(at.at(), at.u(), at.p(), q_x.head(n));
+    q_x[n] = derivative(at, inner.along);
+  }
+  double derivative(const Site& at, int k) const {
+    return quantity.parameter_derivative(at.at(), at.u(), at.p(), k);
+  }
+};
+
+class StationaryEvaluator final : public Evaluator, public Operator {
+ public:
+  explicit StationaryEvaluator(std::shared_ptr<const Definition> definition)
+      : definition_(std::move(definition)),
+        n_(definition_->inner.size()),
+        here_(definition_->inner),
+        beside_(definition_->inner),
+        factors_(definition_->inner),
+        scale_(definition_->inner.scales()),
+        border_(static_cast<int>(n_), 1),
+        c_(n_ + 1),
+        q_x_(n_ + 1),
+        R_(n_ + 1),
+        t_(n_ + 1),
+        z_(n_ + 1),
+        G_x_(n_ + 1),
+        G_p_(definition_->inner.problem->parameters().size()),
+        r_(Vector::Zero(G_p_.size())),
+        dp_(G_p_.size()),
+        work_(n_ + 1),
+        change_(n_ + 1),
+        jacobian_(static_cast<const Operator*>(this)) {
+    // Until there is a tangent, a border row that no symmetry makes orthogonal to it.
+    for (Eigen::Index i = 0; i <= n_; ++i)
+      c_[i] = (1 + 0.3 * std::sin(7.0 * static_cast<double>(i))) / scale_[i];
+  }
+
+  Evaluated move_to(In x, In p, Needs needs) override {
+    const Evaluated result = here_.move_to(x, p);
+    if (result != Evaluated::ok) return result;
+    definition_->gradient(here_, q_x_);
+    if (!q_x_.allFinite() || !tangent()) return Evaluated::failed;
+    if (first_) {
+      first_ = false;
+      take_border();
+      if (!tangent()) return Evaluated::failed;
+    }
+    R_.head(n_) = here_.at().residual();
+    R_[n_] = q_x_.dot(t_);
+    if (needs == Needs::residual) return std::isfinite(R_[n_]) ? Evaluated::ok : Evaluated::failed;
+    z_ = q_x_;
+    transposed_ = factors_.now()->solve_transposed(z_);
+    take_border();
+    if (transposed_) transposed_ = gradient();
+    return Evaluated::ok;  // without a gradient, at the end of a piece, its linear solver refuses
+  }
+
+  const Vector& residual() const override { return R_; }
+  const Jacobian& jacobian() const override { return jacobian_; }
+
+  void parameter_derivative(int k, Out dR) const override {
+    if (k == definition_->inner.along) {
+      dR.setZero();
+      return;
+    }
+    here_.at().parameter_derivative(k, dR.head(n_));
+    if (!transposed_)
+      dR[n_] = beside_.over(here_, k) ? change_of_G(*factors_.now()) : std::nan("");
+    else
+      dR[n_] = by_symmetry(k);
+  }
+
+  std::uint64_t piece() const override { return here_.at().piece(); }
+
+  // B at the last place.
+  const std::shared_ptr<LinearSolver>& factors() const { return factors_.now(); }
+  const Vector& tangent_of_branch() const { return t_; }
+  bool has_gradient() const { return transposed_; }
+  const Vector& gradient_of_G() const { return G_x_; }
+
+  // dG in a direction of x, by a forward solve with B.
+  double along(In d, const LinearSolver& B) const try {
+    return beside_.along(here_, d) ? change_of_G(B) : std::nan("");
+  } catch (const std::exception&) {
+    return std::nan("");
+  }
+  double second_derivative_of_q() const { return transposed_ ? G_x_.dot(t_) : along(t_, *factors_.now()); }
+  double left_times_right() const { return transposed_ ? z_.head(n_).dot(t_.head(n_)) : 1; }
+
+ private:
+  // t of the place of here_.
+  bool tangent() {
+    border_.columns.col(0) = here_.F_pa();
+    border_.rows.col(0) = c_.head(n_);
+    border_.corner(0, 0) = c_[n_];
+    if (!factors_.factorize(here_.at().jacobian(), border_)) return false;
+    t_.setZero();
+    t_[n_] = 1;
+    factors_.now()->solve(t_);
+    return t_.allFinite();
+  }
+
+  // The next border row is this tangent, as is best for the conditioning of B.
+  void take_border() {
+    const double length = t_.cwiseQuotient(scale_).squaredNorm();
+    if (length > 0 && std::isfinite(length))
+      c_ = t_.cwiseQuotient(scale_).cwiseQuotient(scale_) / std::sqrt(length);
+  }
+
+  // G_x = d(dq/dx) . t - w . dA t, by the symmetry of second derivatives: along t. False: no transposed
+  // products.
+  bool gradient() {
+    const auto w = z_.head(n_);
+    F_given_ = here_.second_derivative(w, t_, G_x_, G_p_);
+    q_given_ = static_cast<bool>(definition_->quantity.second_derivative);
+    if (!(F_given_ && q_given_) && !beside_.along(here_, t_)) {
+      G_x_.setConstant(std::nan(""));
+      return true;
+    }
+    if (!F_given_ && !beside_.transposed_derivative(w, G_x_)) return false;
+    G_x_ = -G_x_;
+    G_p_ = -G_p_;
+    if (q_given_) {
+      r_[definition_->inner.along] = t_[n_];
+      definition_->quantity.second_derivative(here_.at(), here_.u(), here_.p(), t_.head(n_), r_,
+                                              work_.head(n_), dp_);
+      work_[n_] = dp_[definition_->inner.along];
+      G_x_ += work_;
+    } else {
+      beside_.sum([&](const Site& place, double weight) {
+        definition_->gradient(place, work_);
+        G_x_ += weight * work_;
+      });
+    }
+    return true;
+  }
+
+  double by_symmetry(int k) const {
+    double result = F_given_ ? G_p_[k] : -beside_.parameter_derivative(z_.head(n_), k);
+    if (q_given_)
+      result += dp_[k];
+    else
+      beside_.sum(
+          [&](const Site& place, double weight) { result += weight * definition_->derivative(place, k); });
+    return result;
+  }
+
+  // d(dq/dx) . t - dq/dx . B^-1 (dA t, 0), over the places beside.
+  double change_of_G(const LinearSolver& B) const {
+    beside_.derivative(t_, work_.head(n_));
+    work_[n_] = 0;
+    B.solve(work_);
+    double result = -q_x_.dot(work_);
+    beside_.sum([&](const Site& place, double weight) {
+      definition_->gradient(place, change_);
+      result += weight * change_.dot(t_);
+    });
+    return result;
+  }
+
+  void apply(In d, Out y) const override {
+    here_.apply(d, y.head(n_));
+    y[n_] = transposed_ ? G_x_.dot(d) : along(d, *factors_.now());
+  }
+
+  std::shared_ptr<const Definition> definition_;
+  Eigen::Index n_;
+  Site here_;
+  mutable Neighbours beside_;
+  SharedFactors factors_;
+  Vector scale_;
+  Borders border_;
+  Vector c_, q_x_, R_, t_, z_, G_x_, G_p_, r_, dp_;
+  mutable Vector work_, change_;
+  bool first_ = true, transposed_ = false, F_given_ = false, q_given_ = false;
+  Jacobian jacobian_;
+};
+
+// Of [A F_p; G_x G_p; r_x r_p]: with x = B^-1 (y, zeta) there remain as many equations as zeta and the free
+// parameters.
+class StationarySolver final : public LinearSolver {
+ public:
+  const char* name() const override { return "block elimination in the branch's factors"; }
+
+  bool factorize(const Jacobian& jacobian, const Borders& borders) override {
+    const auto* const* op = std::get_if<const Operator*>(&jacobian);
+    if (!op) return false;
+    at_ = dynamic_cast<const StationaryEvaluator*>(*op);
+    if (!at_) return false;
+    t_ = at_->tangent_of_branch();
+    G_x_ = at_->gradient_of_G();
+    has_gradient_ = at_->has_gradient();
+    B_ = at_->factors();
+    const Eigen::Index n = t_.size() - 1, m = borders.width();
+    rows_ = borders.rows;
+    X_.resize(n + 1, m);
+    y_.resize(n + 1);
+    S_.resize(1 + m, 1 + m);
+    rhs_.resize(1 + m);
+    S_(0, 0) = dG(t_);
+    S_.block(1, 0, m, 1).noalias() = rows_.transpose() * t_;
+    for (Eigen::Index j = 0; j < m; ++j) {
+      y_ << borders.columns.col(j).head(n), 0;
+      B_->solve(y_);
+      X_.col(j) = y_;
+      S_(0, 1 + j) = borders.columns(n, j) - dG(y_);
+      S_.col(1 + j).tail(m) = borders.corner.col(j);
+      S_.col(1 + j).tail(m).noalias() -= rows_.transpose() * y_;
+    }
+    if (!S_.allFinite()) return false;
+    small_.factorize(S_);
+    determinant_ = small_.determinant();
+    return determinant_ != 0 && std::isfinite(determinant_);
+  }
+
+  void solve(Out x) const override {
+    const Eigen::Index n = t_.size() - 1, m = X_.cols();
+    y_ << x.head(n), 0;
+    B_->solve(y_);
+    rhs_[0] = x[n] - dG(y_);
+    rhs_.tail(m) = x.tail(m);
+    rhs_.tail(m).noalias() -= rows_.transpose() * y_;
+    small_x_.resize(rhs_.size());
+    small_.solve(rhs_, small_x_);
+    x.head(n + 1) = y_ + small_x_[0] * t_;
+    x.head(n + 1).noalias() -= X_ * small_x_.tail(m);
+    x.tail(m) = small_x_.tail(m);
+  }
+
+  std::optional<int> determinant_sign() const override {
+    const auto sign = B_->determinant_sign();
+    if (!sign) return sign;
+    return determinant_ > 0 ? *sign : -*sign;
+  }
+
+ private:
+  double dG(In d) const {
+    if (has_gradient_) return G_x_.dot(d);
+    return d.isZero(0) ? 0 : at_->along(d, *B_);
+  }
+
+  const StationaryEvaluator* at_ = nullptr;
+  std::shared_ptr<LinearSolver> B_;
+  Vector t_, G_x_;
+  bool has_gradient_ = false;
+  Matrix rows_, X_, S_;
+  LU<double> small_;
+  double determinant_ = 1;
+  mutable Vector y_, rhs_, small_x_;
+};
+
+const StationaryEvaluator& stationary(const Accepted& now) {
+  const auto* at = dynamic_cast<const StationaryEvaluator*>(&now.at);
+  if (!at) throw std::invalid_argument("this monitor is for curves of folds and of stationary points");
+  return *at;
+}
+
+}  // namespace
+
+std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> problem, int along,
+                                                 Quantity quantity, MakeLinearSolver make_solver) {
+  const auto definition = std::make_shared<const Definition>(
+      Definition{{std::move(problem), along, std::move(make_solver)}, std::move(quantity)});
+  return augmented(
+      {definition, &definition->inner}, {},
+      [definition] { return std::make_unique<StationaryEvaluator>(definition); },
+      [] { return std::make_unique<StationarySolver>(); });
+}
+
+std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int along,
+                                     MakeLinearSolver make_solver) {
+  Quantity parameter;
+  parameter.gradient = [](Evaluator&, In, In, Out dq_du) { dq_du.setZero(); };
+  parameter.parameter_derivative = [along](Evaluator&, In, In, int k) { return k == along ? 1.0 : 0.0; };
+  parameter.second_derivative = [](Evaluator&, In, In, In, In, Out du, Out dp) {
+    du.setZero();
+    dp.setZero();
+  };
+  return stationary_points(std::move(problem), along, std::move(parameter), std::move(make_solver));
+}
+
+Monitor cusp_monitor() {
+  return {cusp_event, [](const Accepted& now) { return stationary(now).second_derivative_of_q(); }};
+}
+
+Monitor bogdanov_takens_monitor() {
+  return {"bogdanov_takens", [](const Accepted& now) { return stationary(now).left_times_right(); }};
+}
+
+Vector with_parameter(const Point& point) {
+  Vector x(point.u.size() + 1);
+  x << point.u, point.parameter;
+  return x;
+}
+
+}  // namespace arcslip::continuation

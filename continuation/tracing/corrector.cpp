@@ -1,0 +1,318 @@
+#include <arcslip/continuation/tracing/corrector.hpp>
+
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+// On the contraction expected of the next chord step: the larger a dense matrix, the more new factors cost
+// beside it. Those of a sparse matrix with little fill cost a few solves.
+double chord_safety(const Jacobian& J) {
+  return std::holds_alternative<Matrix>(J)
+             ? std::clamp(static_cast<double>(std::get<Matrix>(J).rows()) / 8, 1.0, 5.0)
+             : 1.0;
+}
+
+// Chord steps before new factors. Those of a sparse matrix may cost many solves, as on grids.
+int longest_chord(const Jacobian& J) {
+  return std::holds_alternative<SparseMatrix>(J) ? 8 : 5;
+}
+
+constexpr double smallest_damping = 1.0 / 256;
+constexpr double undamped = 1e-2;      // corrections below are taken whole, and tested at the next place
+constexpr double divergence = 2;       // of such corrections, from one to the next
+constexpr double linear_share = 1e-2;  // of a small Newton correction in the next one: not quadratic
+constexpr double smallest_relevant_state = 1e-6;  // in scales: below, corrections are measured absolutely
+constexpr double smallest_relevant_parameter = 1e-3;
+
+}  // namespace
+
+Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts,
+                     const MakeLinearSolver& make_solver)
+    : problem_(problem),
+      options_(options),
+      counts_(counts),
+      evaluator_(problem.evaluator()),
+      solver_(make_solver ? make_solver() : problem.linear_solver()),
+      borders_(problem.size(), 1),
+      p_(std::move(p)),
+      weights_(problem.size() + 1),
+      F_p_(problem.size()),
+      dv_(problem.size() + 1),
+      next_(problem.size() + 1),
+      trial_(problem.size() + 1),
+      tangent_(problem.size() + 1),
+      metric_(problem.size()),
+      free_(free),
+      parameter_scale_(problem.parameters()[static_cast<std::size_t>(free)].change()) {
+  weights_.head(problem.size()) = problem.scales().cwiseAbs2().cwiseInverse();
+  weights_[problem.size()] = 1 / (parameter_scale_ * parameter_scale_);
+  has_metric_ = problem.metric(dv_.head(problem.size()).setZero(), metric_);
+}
+
+double Corrector::dot(const Vector& a, const Vector& b) const {
+  if (!has_metric_) return (a.array() * b.array() * weights_.array()).sum();
+  const Eigen::Index n = metric_.size();
+  problem_.metric(b.head(n), metric_);
+  return a.head(n).dot(metric_) + a[n] * b[n] * weights_[n];
+}
+
+void Corrector::border_row(const Vector& t, Vector& row) const {
+  row = t.cwiseProduct(weights_);
+  if (has_metric_) problem_.metric(t.head(metric_.size()), row.head(metric_.size()));
+}
+
+Vector Corrector::border_row(const Vector& t) const {
+  Vector row(t.size());
+  border_row(t, row);
+  return row;
+}
+
+double Corrector::norm_u(const Vector& v) const {
+  const Eigen::Index n = v.size() - 1;
+  if (!has_metric_) return std::sqrt((v.head(n).array().square() * weights_.head(n).array()).sum());
+  problem_.metric(v.head(n), metric_);
+  return std::sqrt(std::max(v.head(n).dot(metric_), 0.0));
+}
+
+double Corrector::size(const Vector& dv, const Vector& v) const {
+  const Eigen::Index n = v.size() - 1;
+  const double u = norm_u(dv) / std::max(norm_u(v), smallest_relevant_state);
+  const double p = std::abs(dv[n]) / std::max(std::abs(v[n]), smallest_relevant_parameter * parameter_scale_);
+  return std::max(u, p);
+}
+
+bool Corrector::evaluate(const Vector& v, Needs needs) {
+  const Eigen::Index n = v.size() - 1;
+  p_[free_] = v[n];
+  ++counts_.residuals;
+  if (needs == Needs::jacobian) ++counts_.jacobians;
+  failure_.clear();
+  try {
+    if (evaluator_->move_to(v.head(n), p_, needs) != Evaluated::ok) return false;
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
+  if (evaluator_->residual().size() != n) {
+    failure_ = "the residual has " + std::to_string(evaluator_->residual().size()) + " entries for " +
+               std::to_string(n) + " unknowns";
+    return false;
+  }
+  return evaluator_->residual().allFinite();
+}
+
+bool Corrector::factorize(const Vector& v, const Vector& row) {
+  failure_.clear();
+  const Eigen::Index n = F_p_.size();
+  try {
+    evaluator_->parameter_derivative(free_, F_p_);
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
+  if (!F_p_.allFinite()) {
+    failure_ = "dF/dp is not finite";
+    return false;
+  }
+  if (!solver_) solver_ = suitable_solver(evaluator_->jacobian());
+  chord_safety_ = chord_safety(evaluator_->jacobian());
+  borders_.columns.col(0) = F_p_;
+  borders_.rows.col(0) = row.head(n);
+  borders_.corner(0, 0) = row[n];
+  ++counts_.factorizations;
+  try {
+    const bool regular = solver_->factorize(evaluator_->jacobian(), borders_);
+    if (!solver_->keeps_pivots())
+      memory_.pivots_kept = false;
+    else if (!memory_.pivots_kept) {
+      std::swap(memory_.pivots, memory_.factors);
+      memory_.pivots_kept = true;
+    }
+    memory_.factors.v = v;
+    memory_.factors.row = row;
+    return regular;
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
+}
+
+void Corrector::solve(Vector& dv) const {
+  const Eigen::Index n = dv.size() - 1;
+  dv.head(n) = -evaluator_->residual();
+  dv[n] = 0;
+  back_substitute(dv);
+}
+
+void Corrector::back_substitute(Vector& x) const {
+  ++counts_.solves;
+  try {
+    solver_->solve(x);
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    x.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+bool Corrector::piece(std::uint64_t& piece) {
+  try {
+    piece = evaluator_->piece();
+    return true;
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
+}
+
+std::optional<std::uint64_t> Corrector::piece_of_residual() const {
+  try {
+    return evaluator_->piece();
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return {};
+  }
+}
+
+// To the smallest of all corrections: dv - <dv, t> t.
+void Corrector::project(Vector& dv) {
+  if (tangent(tangent_)) dv -= dot(dv, tangent_) * tangent_;
+}
+
+bool Corrector::linearize(const Vector& v, const Vector& row) {
+  return evaluate(v, Needs::jacobian) && factorize(v, row);
+}
+
+void Corrector::restore(const FactorMemory& memory) {
+  const Counts before = counts_;
+  if (memory.pivots_kept) linearize(memory.pivots.v, memory.pivots.row);
+  if (memory.factors.v.size() != 0) linearize(memory.factors.v, memory.factors.row);
+  counts_ = before;
+  memory_ = memory;
+}
+
+void Corrector::forget() {
+  memory_ = {};
+  if (solver_) solver_->forget_pivots();
+}
+
+bool Corrector::tangent(Vector& t) const {
+  t.setZero();
+  t[t.size() - 1] = 1;
+  back_substitute(t);
+  const double length = std::sqrt(dot(t, t));
+  if (!std::isfinite(length) || length == 0) return false;
+  t /= length;
+  return true;
+}
+
+// With the factors that are there, to where linearizing is expected to end the correction. False: they do not
+// fit, and v is as good as before.
+bool Corrector::chord(Vector& v, Correction& result) {
+  if (!evaluate(v, Needs::residual)) {
+    result.evaluated = false;
+    return false;
+  }
+  solve(dv_);
+  double now = size(dv_, v);
+  result.first = now;
+  if (!(now < 1)) return false;
+  v += dv_;
+  ++result.iterations;
+  const int longest = longest_chord(evaluator_->jacobian());
+  for (int k = 1; k < longest && now * chord_safety_ * memory_.contraction > options_.tolerance; ++k) {
+    if (!evaluate(v, Needs::residual)) {
+      result.evaluated = false;
+      return false;
+    }
+    solve(next_);
+    const double next = size(next_, v);
+    const double ratio = next / now;
+    if (k == 1) result.contraction = ratio;
+    if (!(ratio <= options_.chord_contraction)) {
+      if (!(ratio <= 1)) v -= dv_;
+      break;
+    }
+    v += next_;
+    std::swap(dv_, next_);
+    now = next;
+    memory_.contraction = ratio;
+    ++result.iterations;
+  }
+  result.last = now;
+  return true;
+}
+
+double Corrector::distance_from_branch(const Vector& v) {
+  if (!evaluate(v, Needs::residual)) return std::numeric_limits<double>::quiet_NaN();
+  solve(dv_);
+  return std::sqrt(dot(dv_, dv_));
+}
+
+Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, CorrectorKind kind) {
+  Correction result;
+  double before = 0;                          // size of the correction that led to v
+  std::optional<std::uint64_t> piece_before;  // of F, where that began, if it was small
+  if (keep_factors && options_.chord && problem_.cheap_residual()) {
+    if (!chord(v, result) && !result.evaluated) return result;
+    before = result.last;
+  }
+  for (int k = 0; k < options_.iterations; ++k, ++result.iterations) {
+    if (!evaluate(v, Needs::jacobian)) {
+      result.evaluated = false;
+      return result;
+    }
+    if (!factorize(v, row)) {
+      result.singular = true;
+      return result;
+    }
+    solve(dv_);
+    if (kind == CorrectorKind::moore_penrose) project(dv_);
+    const double now = size(dv_, v);
+    if (result.first == 0) result.first = now;
+    if (result.contraction == 0 && before > 0) result.contraction = now / before;
+    if (k == 0 && before > 0) memory_.contraction = std::max(now / before, 1e-4);
+    result.last = now;
+    // At a kink corrections do not shrink either: to and fro between two pieces, where there is no solution.
+    std::optional<std::uint64_t> piece;
+    if (now > options_.tolerance && now <= options_.rounding_level) piece = piece_of_residual();
+    const bool stagnates = piece && piece == piece_before && now > 0.5 * before;
+    piece_before = piece;
+    if (now <= options_.tolerance || stagnates) {
+      v += dv_;
+      p_[free_] = v[v.size() - 1];
+      result.converged = true;
+      return result;
+    }
+    if (!std::isfinite(now)) return result;
+    if (k > 0 && before > 0 && before < undamped && now > linear_share * before) result.linear = true;
+    if (now < undamped) {
+      if (k > 0 && before > 0 && before < undamped && now > divergence * before) return result;
+      v += dv_;
+      before = now;
+      continue;
+    }
+    double damping = 1, next = 0;
+    for (;; damping /= 2) {
+      if (damping < smallest_damping) return result;
+      trial_ = v + damping * dv_;
+      if (!evaluate(trial_, Needs::residual)) continue;
+      solve(next_);
+      if (kind == CorrectorKind::moore_penrose) project(next_);
+      next = size(next_, trial_);
+      if (next <= (1 - damping / 4) * now) break;
+    }
+    v = trial_;
+    before = 0;
+  }
+  result.linear = true;  // in all its iterations it came nearer, and not near enough
+  return result;
+}
+
+}  // namespace arcslip::continuation

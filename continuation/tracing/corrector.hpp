@@ -1,0 +1,134 @@
+#pragma once
+// From a prediction to the branch: Newton's method for F(u, p) = 0 in the plane r . (v - v_predicted) = 0, v
+// = (u, p).
+//
+// Factors of a nearby place are used first, in chord steps, as long as these contract. Then F and J are
+// evaluated and factorized where they led to: if the correction dv = -B^-1 F from those factors is below the
+// tolerance, v + dv is the solution, whose error is of the order |dv|^2 (|dv| next to a kink), and the
+// factors are those of the branch there. If not, Newton's method goes on from there. So a point that was well
+// predicted costs one factorization.
+//
+// Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004,
+// chapter 3): |B^-1 F(v + lambda dv)| must fall below (1 - lambda/4) |dv|. It is invariant under scaling of
+// the equations and never compares Jacobians across a kink: so it serves piecewise smooth F as a semismooth
+// Newton method with a safeguard.
+
+#include <arcslip/continuation/events/scratch.hpp>
+#include <arcslip/continuation/problem/branch.hpp>
+#include <arcslip/continuation/problem/linear_solver.hpp>
+#include <arcslip/continuation/problem/options.hpp>
+#include <arcslip/continuation/problem/problem.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace arcslip::continuation {
+
+/// What became of a correction. Corrections are relative to |u| in scales (and to |p|).
+struct Correction {
+  bool converged = false;
+  bool evaluated = true;  // false: the problem could not be evaluated; see failure()
+  bool singular = false;  // the linear solver refused the matrix, or the problem its derivatives
+  int iterations = 0;
+  double first = 0, last = 0;  // size of the first and of the last correction
+  double contraction = 0;      // of the second over the first
+  /// A small Newton correction was followed by one that is not much smaller, or by too many.
+  bool linear = false;
+};
+
+/// Of which place and with which border row a matrix was factorized. None: empty.
+struct Linearization {
+  Vector v, row;  // n + 1
+};
+
+/// What a corrector takes from one correction to the next: the place of its factors, and, where they keep the
+/// pivots of earlier ones, the place of these; and the contraction that chord steps showed.
+struct FactorMemory {
+  Linearization factors, pivots;
+  bool pivots_kept = false;
+  double contraction = 1;
+};
+
+/// One place to work in: an evaluator, factors and buffers. Nothing in correct() or linearize() allocates.
+class Corrector {
+ public:
+  /// counts: where the work is added up; outlives the corrector. make_solver: if none, the problem's own, or
+  /// what suits the kind of Jacobian. Throws std::invalid_argument where the Jacobian is an operator and
+  /// nobody names a solver.
+  Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts,
+            const MakeLinearSolver& make_solver = {});
+
+  /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1.
+  /// keep_factors: the factors that are there are those of a nearby place with a similar row, and are tried
+  /// first. kind: moore_penrose leaves the plane, to the solution nearest to the prediction.
+  Correction correct(Vector& v, const Vector& row, bool keep_factors,
+                     CorrectorKind kind = CorrectorKind::pseudo_arclength);
+
+  /// |B^-1 F(v)| in scales, with the factors that are there: how far v is from the branch, to first order.
+  /// NaN where F cannot be evaluated.
+  double distance_from_branch(const Vector& v);
+
+  /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
+  bool linearize(const Vector& v, const Vector& row);
+
+  /// Moves the evaluator (not the factors) to v.
+  bool move_to(const Vector& v, Needs needs = Needs::residual) { return evaluate(v, needs); }
+
+  /// The smooth piece that the evaluator is in. False where the problem throws: see failure().
+  bool piece(std::uint64_t& piece);
+
+  /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in
+  /// scales. False where it is not finite.
+  bool tangent(Vector& t) const;
+
+  double size(const Vector& dv, const Vector& v) const;  // of a correction, relative
+  double norm_u(const Vector& v) const;                  // |u| in scales
+  /// <a, b> of vectors of n + 1, in the problem's metric and the scale of the free parameter.
+  double dot(const Vector& a, const Vector& b) const;
+  /// row . x = <t, x> for all x.
+  void border_row(const Vector& t, Vector& row) const;
+  Vector border_row(const Vector& t) const;
+  double parameter_scale() const { return parameter_scale_; }
+  const Vector& parameters() const { return p_; }
+  /// What the problem threw, or did wrong, when it could not be evaluated last. Empty: it said so itself.
+  const std::string& failure() const { return failure_; }
+  Evaluator& evaluator() { return *evaluator_; }
+  const LinearSolver& factors() const { return *solver_; }  // once there was a linearization
+  Scratch& scratch() { return scratch_; }
+
+  /// So that another corrector goes on as this one, bit for bit.
+  const FactorMemory& memory() const { return memory_; }
+  /// Makes the factors that another corrector had. Its work is not counted.
+  void restore(const FactorMemory& memory);
+  /// Forgets what was before, so that what comes does not depend on it.
+  void forget();
+
+ private:
+  bool evaluate(const Vector& v, Needs needs);
+  bool factorize(const Vector& v, const Vector& row);
+  void solve(Vector& dv) const;           // dv = -B^-1 (F, 0)
+  void back_substitute(Vector& x) const;  // x = B^-1 x; not finite where the linear solver throws
+  bool chord(Vector& v, Correction& result);
+  void project(Vector& dv);
+  std::optional<std::uint64_t> piece_of_residual() const;
+
+  const Problem& problem_;
+  NewtonOptions options_;
+  Counts& counts_;
+  std::unique_ptr<Evaluator> evaluator_;
+  std::unique_ptr<LinearSolver> solver_;
+  Borders borders_;
+  Vector p_, weights_, F_p_, dv_, next_, trial_, tangent_;
+  mutable Vector metric_;  // M x of the last product
+  bool has_metric_;
+  mutable std::string failure_;
+  int free_;
+  double chord_safety_ = 1;
+  double parameter_scale_;
+  FactorMemory memory_;
+  Scratch scratch_;
+};
+
+}  // namespace arcslip::continuation

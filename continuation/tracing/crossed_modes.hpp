@@ -1,0 +1,57 @@
+#pragma once
+// How many modes of B = [J F_p; r^T] pass zero between two points of a branch: branch points in one step,
+// each as often as the rank that is lost there.
+//
+// det B tells their parity alone. Along B(x) = (1 - x) B_0 + x B_1 the matrix is singular where
+// B_1^-1 B_0 has the eigenvalue -x/(1 - x): so its negative eigenvalues are counted, from the first point to
+// the middle of the step, and from there to the second one. Pairs of eigenvalues of J that cross the
+// imaginary axis, as at Hopf points, leave B regular and are not counted. Few eigenvalues differ from 1 by
+// much, those of modes near zero: up to 24 equations all are computed, and else those of a block Krylov space
+// of B_1^-1 B_m - 1, which ends at once where nothing is near zero.
+//
+// A mode that passes zero and comes back within half a step is not counted, but told by how much the mode
+// bends: between a at the first point, m in the middle and 1 at the second.
+
+#include <arcslip/continuation/problem/branch.hpp>
+#include <arcslip/continuation/problem/linear_solver.hpp>
+#include <arcslip/continuation/tracing/place.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace arcslip::continuation {
+
+struct CrossedModes {
+  int count = 0;
+  bool told = true;      // false: a mode bends so much that it may pass zero and come back
+  bool at_zero = false;  // a mode is zero at the second point, but for rounding: it has no sign there
+};
+
+class ModeCounter {
+ public:
+  /// All outlive this. p: all parameters.
+  ModeCounter(const Problem& problem, const Vector& p, int free, Counts& counts);
+
+  /// Between two places on one smooth piece, `length` apart. row: r of the factors at `to`. Nothing where J
+  /// cannot be evaluated between them, or another piece of F is there.
+  std::optional<CrossedModes> between(const Place& from, const Place& to, double length, const Vector& row,
+                                      const LinearSolver& at_to);
+
+ private:
+  bool evaluate(const Vector& v, std::uint64_t piece);
+  bool multiply(const Matrix& Q, Matrix& Y);
+  bool basis();
+
+  const Problem& problem_;
+  Vector p_;
+  int free_;
+  Counts& counts_;
+  std::unique_ptr<Evaluator> at_;
+  Vector scale_, F_p_, x_, y_, middle_;
+  const Vector* row_ = nullptr;
+  const LinearSolver* at_to_ = nullptr;
+  Matrix Q_, Y_, block_, image_;  // Y = B_1^-1 B_m Q
+};
+
+}  // namespace arcslip::continuation

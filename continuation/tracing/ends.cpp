@@ -1,0 +1,124 @@
+#include <arcslip/continuation/tracing/ends.hpp>
+
+#include <arcslip/continuation/problem/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr int samples = 16;  // of a step that may pass a bound between its ends
+constexpr int window_bisections = 50;
+
+}  // namespace
+
+std::optional<Exit> leaves(const Window& window, const Place& from, const Place& to, double length,
+                           bool straight) {
+  const Eigen::Index n = from.v.size() - 1;
+  const double p0 = from.v[n], p1 = to.v[n];
+  const double t0 = straight ? 0 : length * from.tangent[n], t1 = straight ? 0 : length * to.tangent[n];
+  const auto inside_of = [&](double p) { return std::clamp(p, window.lower, window.upper); };
+  const auto p = [&](double x) {
+    const double y = 1 - x;
+    return y * y * (1 + 2 * x) * p0 + x * x * (3 - 2 * x) * p1 + x * y * (y * t0 - x * t1);
+  };
+  const double p_end = inside_of(p1);
+  if (p1 == p_end && t0 * t1 >= 0) return {};
+  if (straight) return Exit{(p_end - p0) / (p1 - p0), p_end};
+  double inside = 0;
+  for (int k = 1; k <= samples; ++k) {
+    const double share = static_cast<double>(k) / samples, at = k == samples ? p1 : p(share);
+    const double bound = inside_of(at);
+    if (at == bound) {
+      inside = share;
+      continue;
+    }
+    double outside = share;
+    for (int bisection = 0; bisection < window_bisections; ++bisection) {
+      const double middle = 0.5 * (inside + outside), here = p(middle);
+      (here == inside_of(here) ? inside : outside) = middle;
+    }
+    return Exit{outside, bound};
+  }
+  return {};
+}
+
+bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orientation, Place& place,
+               Vector& row) {
+  const Eigen::Index n = place.v.size() - 1;
+  const double length = distance(with, from.v, place.v);
+  Vector guess(n + 1);
+  hermite(from.v, from.tangent, place.v, place.tangent, length, exit.share, guess);
+  guess[n] = exit.bound;
+  place.v = guess;
+  row = Vector::Unit(n + 1, n);
+  if (!with.correct(place.v, row, false).converged) return false;
+  place.v[n] = exit.bound;
+  if (distance(with, guess, place.v) > length || !settle(with, place)) return false;
+  const bool signs = orientation != 0 && place.orientation != 0;
+  if (place.piece != from.piece && signs) {  // beyond a kink the tangent may point anywhere
+    if (place.orientation != orientation) place.reverse();
+  } else {
+    if (with.dot(place.tangent, from.tangent) < 0) place.reverse();
+    if (signs && place.orientation != orientation) return false;
+  }
+  place.arclength = from.arclength + distance(with, from.v, place.v);
+  return true;
+}
+
+std::optional<Stop> limit_reached(const Options& options, const Branch& branch, int unknowns, double size,
+                                  double parameter, double seconds) {
+  if (size > options.largest_state)
+    return Stop{StopReason::state_too_large, size, options.largest_state,
+                "the solution grows without bound near " + text(parameter)};
+  const long points = branch.counts.points;
+  if (points >= options.points)
+    return Stop{StopReason::point_limit, static_cast<double>(points), static_cast<double>(options.points),
+                "reached the largest number of points, " + std::to_string(options.points)};
+  if (options.seconds > 0 && seconds >= options.seconds)
+    return Stop{StopReason::time_limit, seconds, options.seconds,
+                "reached the time limit of " + text(options.seconds) + " s"};
+  if (options.memory > 0) {
+    const auto numbers = 2 * static_cast<std::size_t>(unknowns) + 1;
+    const std::size_t each = sizeof(Point) + (options.keep_points ? sizeof(double) * numbers : 0);
+    const std::size_t bytes = each * branch.points.size();
+    if (bytes >= options.memory)
+      return Stop{StopReason::memory_limit, static_cast<double>(bytes), static_cast<double>(options.memory),
+                  "the points of the branch fill the " + std::to_string(options.memory) + " bytes allowed"};
+  }
+  return {};
+}
+
+namespace {
+
+constexpr int home_bisections = 30;
+constexpr double beside = 0.05;        // of a step: a start so near to it may lie on it
+constexpr double rounding_share = 10;  // of the corrector's: two solutions nearer than that are one
+
+}  // namespace
+
+bool may_come_home(const Corrector& in, const Place& start, const Place& from, const Place& to, double length,
+                   double largest_angle, Vector& v) {
+  if (from.arclength == 0) return false;
+  const auto ahead = [&](const Vector& place) { return in.dot(start.v - place, start.tangent); };
+  double lower = 0, upper = 1, a = ahead(from.v), b = ahead(to.v);
+  if (!(a > 0 && b <= beside * length) || distance(in, from.v, start.v) > (1 + beside) * length) return false;
+  if (in.dot(start.tangent, to.tangent) < std::cos(largest_angle)) return false;
+  v = to.v;
+  for (int k = 0; k < home_bisections && b < 0; ++k) {
+    const double middle = lower + (upper - lower) * std::clamp(a / (a - b), 0.1, 0.9);
+    hermite(from.v, from.tangent, to.v, to.tangent, length, middle, v);
+    const double at = ahead(v);
+    (at > 0 ? lower : upper) = middle;
+    (at > 0 ? a : b) = at;
+  }
+  return distance(in, v, start.v) <= beside * length;
+}
+
+double rounding_of_home(const Corrector& in, const Place& start, double rounding_level) {
+  const double p = std::abs(start.v[start.v.size() - 1]) / in.parameter_scale();
+  return rounding_share * rounding_level * (1 + in.norm_u(start.v) + p);
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,255 @@
+// Events that are no zeros of functions: kinks, and points where two branches cross.
+
+#include <arcslip/continuation/events/monitor_calls.hpp>
+#include <arcslip/continuation/special_points/branch_point.hpp>
+#include <arcslip/continuation/special_points/multiple_point.hpp>
+#include <arcslip/continuation/tracing/event_locator.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double guesses[] = {0.5, 0.1, 0.9};  // shares of a step: where branch points are looked for
+constexpr int most_kinks = 16;                 // looked for in one step
+constexpr double just_beyond[] = {1e-9, 1e-6,
+                                  1e-3};  // of a step: where the other side of a kink is looked at
+constexpr double beside_step = 0.1;       // of a step: a branch point so near lies on it
+constexpr double beyond_step = 1e-4;      // and so far beyond its ends, for rounding
+// Of a monitor's change over a step, and of the largest dp/ds as for the type of a branch point: less is
+// zero.
+constexpr double zero_share = 1e-6;
+
+}  // namespace
+
+// The branch point x as an event of the step. Nothing where it does not lie on the step.
+std::optional<LocatedEvent> EventLocator::crossing_event(const Place& from, const Place& to, const Vector& x,
+                                                         BranchPoint&& branches) {
+  const double length = to.arclength - from.arclength;
+  Corrector& probe = this->probe();
+  Vector beside(x.size());
+  const double share = probe.dot(x - from.v, to.v - from.v) / (length * length);
+  if (!(share > -beyond_step && share < 1 + beyond_step)) return std::nullopt;
+  hermite(from.v, from.tangent, to.v, to.tangent, length, share, beside);
+  if (distance(probe, beside, x) > beside_step * length) return std::nullopt;
+  LocatedEvent found;
+  found.place = from;
+  found.place.v = x;
+  found.place.tangent = branches.tangents.front();
+  found.place.arclength = from.arclength + std::clamp(share, 0.0, 1.0) * length;
+  for (const Monitor& monitor : monitors_)
+    if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
+  found.event.point = point(found.place, {});
+  found.event.data = std::move(branches);
+  return found;
+}
+
+std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const Place& to) {
+  Vector beside(from.v.size());
+  for (const double guess : guesses) {
+    hermite(from.v, from.tangent, to.v, to.tangent, to.arclength - from.arclength, guess, beside);
+    std::optional<BranchPointLocation> crossing;
+    try {
+      crossing = locate_branch_point(problem_, p_, free_, beside, options_.linear_solver, options_.newton);
+    } catch (const std::exception&) {  // what the corrector takes for a place that cannot be evaluated
+    }
+    if (!crossing) continue;
+    auto branches = describe_branch_point(*problem_, free_, *crossing, to.v - from.v);
+    if (!branches) continue;
+    if (auto found = crossing_event(from, to, crossing->x, std::move(*branches))) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<LocatedEvent> EventLocator::multiple_point(const Place& from, const Place& to, int rank_loss) {
+  const double length = to.arclength - from.arclength;
+  Corrector& probe = this->probe();
+  const Vector chord = to.v - from.v;
+  Vector beside(from.v.size());
+  for (const double guess : guesses) {
+    hermite(from.v, from.tangent, to.v, to.tangent, length, guess, beside);
+    std::optional<MultiplePoint> crossing;
+    try {
+      crossing = locate_multiple_point(*problem_, p_, free_, beside, rank_loss, (1 + beside_step) * length,
+                                       options_.linear_solver);
+    } catch (const std::exception&) {
+    }
+    if (!crossing || crossing->tangents.empty()) continue;
+    BranchPoint branches;
+    branches.type = BranchPoint::Type::multiple;
+    branches.tangents = std::move(crossing->tangents);
+    const auto along = [&](const Vector& t) { return std::abs(probe.dot(t, chord)); };
+    const auto traced =
+        std::max_element(branches.tangents.begin(), branches.tangents.end(),
+                         [&](const Vector& a, const Vector& b) { return along(a) < along(b); });
+    if (along(*traced) < length * std::cos(options_.step.largest_angle)) continue;
+    std::iter_swap(branches.tangents.begin(), traced);
+    Vector& tangent = branches.tangents.front();
+    if (probe.dot(tangent, chord) < 0) tangent = -tangent;
+    if (auto found = crossing_event(from, to, crossing->x, std::move(branches))) return found;
+  }
+  return std::nullopt;
+}
+
+std::vector<LocatedEvent> EventLocator::past(const Place& from, const Place& crossing, const Place& to) {
+  Place at = crossing;
+  at.piece = from.piece;
+  at.orientation = from.orientation;
+  const bool smooth = to.piece == from.piece;
+  if (!smooth || !probe().linearize(to.v, probe().border_row(crossing.tangent)) ||
+      !probe().move_to(at.v, Needs::jacobian))
+    return between(from, to);
+  evaluate(monitors_, probe(), at);
+  zero_at_crossing_.assign(monitors_.size(), false);
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    double& here = at.monitors[m];
+    const double a = from.monitors[m], b = to.monitors[m];
+    const double size =
+        monitors_[m].at_branch_points ? std::max(std::abs(a), std::abs(b)) : probe().parameter_scale();
+    zero_at_crossing_[m] = std::abs(here) <= zero_share * size;
+    if (zero_at_crossing_[m]) here = std::copysign(std::numeric_limits<double>::min(), a);
+  }
+  std::vector<LocatedEvent> found = gather(&EventLocator::find, from, at);
+  at.orientation = to.orientation;
+  from_crossing_ = true;
+  append(found, gather(&EventLocator::beyond_crossing, at, to));
+  from_crossing_ = false;
+  return found;
+}
+
+std::optional<LocatedEvent> EventLocator::beyond_crossing(std::size_t monitor, const Place& crossing,
+                                                          const Place& to) {
+  if (!zero_at_crossing_[monitor]) return find(monitor, crossing, to);
+  if (!monitors_[monitor].at_branch_points) return std::nullopt;
+  return LocatedEvent{event(monitor, crossing, 0, {}), crossing, crossing.quantities[monitor]};
+}
+
+LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Corner& corner) const {
+  LocatedEvent found;
+  found.event.monitor = monitor.name;
+  found.event.point = point(corner.before, {});
+  found.event.nonsmooth = true;
+  found.event.data = Kink{corner.before.tangent, corner.beyond.tangent};
+  found.place = corner.before;
+  return found;
+}
+
+// The branch shortly beyond a kink, with its tangent there: linearized ahead, where the other piece is, and,
+// farther off than the kink itself is known, corrected along that tangent.
+bool EventLocator::look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards,
+                               Place& beyond) {
+  Corrector& probe = this->probe();
+  beyond = kink;
+  beyond.v = kink.v + way * kink.tangent;
+  if (!probe.linearize(beyond.v, probe.border_row(kink.tangent)) || !settle(probe, beyond)) {
+    const Vector row = Vector::Unit(beyond.v.size(), beyond.v.size() - 1);  // at a right angle to it
+    if (!probe.linearize(beyond.v, row) || !settle(probe, beyond)) return false;
+  }
+  const bool against =
+      kink.orientation != 0 ? beyond.orientation != kink.orientation : probe.dot(beyond.tangent, towards) < 0;
+  if (against) beyond.reverse();
+  const Vector tangent = beyond.tangent;
+  beyond.v = kink.v + way * tangent;
+  const bool on_it = is_next_to_it ? probe.move_to(beyond.v) && probe.piece(beyond.piece)
+                                   : probe.correct(beyond.v, probe.border_row(tangent), false).converged &&
+                                         settle(probe, beyond);
+  if (!on_it) return false;
+  beyond.arclength = kink.arclength + way;
+  return beyond.piece != kink.piece && (kink.orientation == 0 || beyond.orientation == kink.orientation);
+}
+
+std::optional<Corner> EventLocator::corner(const Place& from, double length, const Vector& towards) {
+  Corner corner;
+  Correction correction;
+  if (!locate_kink(probe(), from, length, corner.before, correction)) return std::nullopt;
+  if (correction.converged)
+    probe().move_to(corner.before.v);
+  else if (!probe().linearize(corner.before.v, probe().border_row(from.tangent)))  // it is `from` itself
+    return std::nullopt;
+  evaluate(monitors_, probe(), corner.before);
+  for (const double share : just_beyond) {
+    if (!look_beyond(corner.before, share * length, share == just_beyond[0], towards, corner.beyond))
+      continue;
+    evaluate(monitors_, probe(), corner.beyond);
+    return corner;
+  }
+  return std::nullopt;
+}
+
+bool EventLocator::looks_for_kinks() const {
+  return std::any_of(monitors_.begin(), monitors_.end(), [](const Monitor& each) {
+    return each.kind == MonitorKind::kink || (each.quantity && each.divides_at_kinks);
+  });
+}
+
+std::vector<Corner> EventLocator::corners(const Place& from, const Place& to) {
+  std::vector<Corner> found;
+  if (to.piece == from.piece || !looks_for_kinks()) return found;
+  const Place* side = &from;
+  for (int k = 0; k < most_kinks && side->piece != to.piece; ++k) {
+    const Vector way = to.v - side->v;
+    const double length = std::sqrt(probe().dot(way, way));
+    if (!(length > 0)) break;
+    auto next = corner(*side, length, way);
+    if (!next) break;
+    found.push_back(std::move(*next));
+    side = &found.back().beyond;
+  }
+  return found;
+}
+
+std::optional<Corner> EventLocator::division(const Place& from, double length) {
+  Corrector& probe = this->probe();
+  Place at = from;
+  const auto part = [&](const Vector& v) {
+    at.v = v;
+    const Accepted now = accepted(probe, at);
+    std::uint64_t all = 0;
+    for (const Monitor& monitor : monitors_) {
+      if (monitor.part) value_of(monitor, now);
+      all = with_part(all, monitor, now);
+    }
+    return all;
+  };
+  Corner found;
+  Correction correction;
+  const auto is_inside = [&](const Vector& v) { return part(v) == from.part; };
+  if (!locate_kink(probe, from, length, found.before, correction, is_inside)) return std::nullopt;
+  const auto measured = [&](Place& place) {
+    if (!probe.linearize(place.v, probe.border_row(from.tangent)) || !settle(probe, place)) return false;
+    if (probe.dot(place.tangent, from.tangent) < 0) place.reverse();
+    evaluate(monitors_, probe, place);
+    return true;
+  };
+  if (!measured(found.before)) return std::nullopt;
+  for (const double share : just_beyond) {
+    Place& beyond = found.beyond = found.before;
+    beyond.v += share * length * found.before.tangent;
+    if (!probe.correct(beyond.v, probe.border_row(found.before.tangent), false).converged ||
+        !measured(beyond))
+      return std::nullopt;
+    beyond.arclength += share * length;
+    if (beyond.piece == from.piece && beyond.part != from.part) return found;
+  }
+  return std::nullopt;
+}
+
+std::vector<Corner> EventLocator::divisions(const Place& from, const Place& to) {
+  std::vector<Corner> found;
+  const Place* side = &from;
+  for (int k = 0; k < most_kinks && side->piece == to.piece && side->part != to.part; ++k) {
+    const double length = continuation::distance(probe(), side->v, to.v);
+    if (!(length > 0)) break;
+    auto next = division(*side, length);
+    if (!next) break;
+    found.push_back(std::move(*next));
+    side = &found.back().beyond;
+  }
+  return found;
+}
+
+}  // namespace arcslip::continuation

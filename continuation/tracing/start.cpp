@@ -1,0 +1,146 @@
+#include <arcslip/continuation/tracing/start.hpp>
+
+#include <arcslip/continuation/problem/linear_solver.hpp>
+#include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/continuation/special_points/inner_problem.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace arcslip::continuation {
+namespace {
+
+// Distances are measured in them: a wrong one is no place to find out that a branch goes nowhere.
+void check_scales(const Problem& problem) {
+  const Vector scales = problem.scales();
+  if (scales.size() != problem.size())
+    throw std::invalid_argument("the problem has " + std::to_string(scales.size()) + " scales for " +
+                                std::to_string(problem.size()) + " unknowns");
+  if (!scales.allFinite() || !(scales.minCoeff() > 0))
+    throw std::invalid_argument("the scales of the unknowns must be positive and finite");
+  for (const Parameter& parameter : problem.parameters())
+    if (!(parameter.scale >= 0 && std::isfinite(parameter.scale)))
+      throw std::invalid_argument("the scale of the parameter \"" + parameter.name + "\" is " +
+                                  text(parameter.scale) +
+                                  ", must be positive and finite, or 0 for the width of its window");
+}
+
+}  // namespace
+
+namespace {
+
+// A parameter that can be free, and its window.
+void check_free(const Problem& problem, int free, const Options& options) {
+  const auto parameters = problem.parameters();
+  if (free < 0 || static_cast<std::size_t>(free) >= parameters.size())
+    throw std::invalid_argument("the free parameter is number " + std::to_string(free) + " of " +
+                                std::to_string(parameters.size()));
+  const Parameter& parameter = parameters[static_cast<std::size_t>(free)];
+  if (is_unknown(problem, free))
+    throw std::invalid_argument("the parameter \"" + parameter.name +
+                                "\" is among the unknowns of this problem: another one has to be free");
+  if (!(std::max(options.lower, parameter.lower) < std::min(options.upper, parameter.upper)))
+    throw std::invalid_argument("the window [" + text(options.lower) + ", " + text(options.upper) +
+                                "] has no part within the bounds [" + text(parameter.lower) + ", " +
+                                text(parameter.upper) + "] of the parameter \"" + parameter.name + "\"");
+}
+
+}  // namespace
+
+void check_start(const Problem& problem, const Start& start, const Options& options) {
+  const int n = problem.size();
+  const auto parameters = problem.parameters();
+  if (n < 1) throw std::invalid_argument("the problem has no unknowns");
+  check_parameters(parameters);
+  if (start.u.size() != n)
+    throw std::invalid_argument("the start has " + std::to_string(start.u.size()) +
+                                " unknowns, the problem " + std::to_string(n));
+  if (start.p.size() != static_cast<Eigen::Index>(parameters.size()))
+    throw std::invalid_argument("the start has " + std::to_string(start.p.size()) +
+                                " parameters, the problem " + std::to_string(parameters.size()));
+  check_free(problem, start.free, options);
+  if (start.tangent.size() != 0 && (start.tangent.size() != n + 1 || !start.tangent.allFinite()))
+    throw std::invalid_argument("the tangent of the start needs " + std::to_string(n + 1) +
+                                " finite entries, not " + std::to_string(start.tangent.size()));
+  if (start.tangent.size() != 0 && start.tangent.isZero(0))
+    throw std::invalid_argument("the tangent of the start is zero");
+  if (start.direction != 1 && start.direction != -1)
+    throw std::invalid_argument("the direction of the start is " + std::to_string(start.direction) +
+                                ", must be +1 or -1");
+  const double p = start.p[start.free];
+  if (!start.u.allFinite() || !std::isfinite(p))
+    throw std::invalid_argument("the start has numbers that are not finite");
+  if (p < options.lower || p > options.upper)
+    throw std::invalid_argument("the start is at " + text(p) + ", outside the window [" +
+                                text(options.lower) + ", " + text(options.upper) + "]");
+  const Parameter& free = parameters[static_cast<std::size_t>(start.free)];
+  if (p < free.lower || p > free.upper)
+    throw std::invalid_argument("the start is at " + text(p) + ", outside the bounds [" + text(free.lower) +
+                                ", " + text(free.upper) + "] of the parameter \"" + free.name + "\"");
+  check_scales(problem);
+}
+
+void check_state(const Problem& problem, const State& state, std::size_t monitors) {
+  const int n = problem.size();
+  if (state.free < 0 || static_cast<std::size_t>(state.free) >= problem.parameters().size())
+    throw std::invalid_argument("the free parameter of the state is number " + std::to_string(state.free) +
+                                " of " + std::to_string(problem.parameters().size()));
+  if (state.here.v.size() != n + 1 ||
+      state.p.size() != static_cast<Eigen::Index>(problem.parameters().size()) ||
+      state.courses.size() != monitors)
+    throw std::invalid_argument("the state is of " + std::to_string(state.here.v.size() - 1) + " unknowns, " +
+                                std::to_string(state.p.size()) + " parameters and " +
+                                std::to_string(state.courses.size()) + " monitors, the problem of " +
+                                std::to_string(n) + ", " + std::to_string(problem.parameters().size()) +
+                                " and " + std::to_string(monitors));
+  check_scales(problem);
+}
+
+void check_monitors(const std::vector<Monitor>& monitors) {
+  for (const Monitor& monitor : monitors)
+    if (!monitor.value)
+      throw std::invalid_argument("the monitor \"" + monitor.name + "\" has no value function");
+}
+
+namespace {
+
+constexpr double smallest_width = 1e-150, largest_width = 1e150;  // whose squares are numbers
+
+class ScaledProblem final : public Problem {
+ public:
+  ScaledProblem(std::shared_ptr<const Problem> problem, std::size_t free, double scale)
+      : problem_(std::move(problem)) {
+    const auto all = problem_->parameters();
+    parameters_.assign(all.begin(), all.end());
+    parameters_[free].scale = scale;
+  }
+  int size() const override { return problem_->size(); }
+  std::span<const Parameter> parameters() const override { return parameters_; }
+  Vector scales() const override { return problem_->scales(); }
+  bool metric(In v, Out Mv) const override { return problem_->metric(v, Mv); }
+  std::unique_ptr<Evaluator> evaluator() const override { return problem_->evaluator(); }
+  bool cheap_residual() const override { return problem_->cheap_residual(); }
+  std::unique_ptr<LinearSolver> linear_solver() const override { return problem_->linear_solver(); }
+
+ private:
+  std::shared_ptr<const Problem> problem_;
+  std::vector<Parameter> parameters_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Problem> scaled_to_window(std::shared_ptr<const Problem> problem, int free,
+                                                double lower, double upper) {
+  const auto index = static_cast<std::size_t>(free);
+  if (!problem || free < 0 || index >= problem->parameters().size()) return problem;  // refused elsewhere
+  const Parameter& parameter = problem->parameters()[index];
+  if (parameter.scale != 0) return problem;
+  const double width = std::min(upper, parameter.upper) - std::max(lower, parameter.lower);
+  return std::make_shared<const ScaledProblem>(std::move(problem), index,
+                                               std::clamp(width, smallest_width, largest_width));
+}
+
+}  // namespace arcslip::continuation

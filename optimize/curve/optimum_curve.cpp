@@ -1,0 +1,405 @@
+#include <arcslip/optimize/curve/curve_of_optima.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <iterator>
+#include <utility>
+
+namespace arcslip::optimize {
+namespace {
+
+using continuation::Accepted;
+using continuation::Event;
+using continuation::Monitor;
+using continuation::StopReason;
+using observables::Status;
+using Kind = Inequality::Kind;
+
+constexpr double nearly_as_high = 1e-3;  // relative: peaks that may be active at the first optimum
+constexpr double nearly_bound = 1e-6;    // of y
+constexpr int most_exchanges = 20;       // of the active set at the first optimum
+constexpr double flat_slope = 1e-5;      // d ln A / dsigma of less: an extreme over s
+constexpr double u_turn = -0.9;          // cosine of the tangents before and after
+constexpr double smallest_step = 1e-8;
+constexpr double same_point = 1e-9;  // of y and sigma
+
+// Of the monitor of an inequality that may change.
+std::string change_name(std::size_t i) {
+  return text("change ", i);
+}
+
+bool is_change(const Event& event) {
+  return event.monitor != event_kinds::minimum && event.monitor != event_kinds::maximum &&
+         event.monitor != event_kinds::turning_point;
+}
+
+std::vector<KnownPeak> peaks_of(const OptimumPoint& point) {
+  std::vector<KnownPeak> all;
+  for (const OptimumPeak& peak : point.peaks) all.push_back({peak.kind, peak.omega, point.amplitude});
+  return all;
+}
+
+// Which of `count` inequalities has ended a piece; count: another peak joins. An extremum or a turn may stand
+// at the same place, after it.
+std::size_t last_change(const continuation::Branch& branch, std::size_t count) {
+  const auto last = std::find_if(branch.events.rbegin(), branch.events.rend(), is_change);
+  std::size_t i = 0;
+  while (i < count && last->monitor != change_name(i)) ++i;
+  return i;
+}
+
+}  // namespace
+
+CurveOfOptima::CurveOfOptima(const scene::Scene& scene, const OptimumProblem& problem,
+                             const DesignVariable& along, const OptimumCurveOptions& options)
+    : scene_(scene),
+      problem_(problem),
+      along_(along),
+      options_(options),
+      watch_(options.seconds, options.search.go_on),
+      space_(scene, with_along(problem, along)),
+      unit_(scene::to_rad_per_s(scene.frequency_unit)),
+      peaks_(space_.model(), space_.parameters(),
+             {problem.frequency_from * unit_, problem.frequency_to * unit_},
+             [this] { return watch_.go_on_within(); }) {
+  scaled_ = space_.scales();
+  curve_.along = along.name;
+  if (!(options.points >= 1)) throw OptionsError(text("points = ", options.points, ": at least 1"));
+  if (!(options.seconds >= 0)) throw OptionsError(text("seconds = ", options.seconds, ": at least 0"));
+  if (!(options.step > 0 && options.step <= 1))
+    throw OptionsError(text("step = ", options.step, ": above 0, and at most 1"));
+}
+
+OptimumCurve CurveOfOptima::run() {
+  try {
+    if (begin())
+      while (!ended_) {
+        piece();
+        if (!ended_) guard();
+      }
+  } catch (const Interrupted&) {
+    end_interrupted();
+  } catch (const std::exception& thrown) {
+    end(Status::failed, reasons::objective_failed,
+        text("it threw \"", thrown.what(), "\" at ", place(here_.sigma)));
+  }
+  finish();
+  return std::move(curve_);
+}
+
+OptimumProblem CurveOfOptima::with_along(OptimumProblem problem, const DesignVariable& along) {
+  if (!problem.cases.empty() || !problem.scatter.empty())
+    throw OptionsError("an optimum over several cases is not followed over \"" + along.name +
+                       "\"; leave the cases out, or ask for single values of it");
+  if (!problem.limits.empty() || !problem.linear_limits.empty())
+    throw OptionsError("an optimum with limits is not followed over \"" + along.name +
+                       "\"; leave the limits out, or ask for single values of it");
+  problem.over.push_back(along);
+  return problem;
+}
+
+bool CurveOfOptima::end(Status status, const results::Reason& reason, std::string message) {
+  curve_.status = status;
+  curve_.stop.reason = reason;
+  curve_.stop.message = std::move(message);
+  ended_ = true;
+  return false;
+}
+
+bool CurveOfOptima::end_interrupted() {
+  const observables::Stop why = watch_.why();
+  return end(Status::stopped, why.reason,
+             why.message + (curve_.points.empty() ? "" : " at " + place(here_.sigma)));
+}
+
+bool CurveOfOptima::begin() {
+  watch_.begin("the search for the first optimum");
+  scene::Scene at = scene_;
+  scene::set(at, along_.name, along_.lower);
+  OptimumOptions search = options_.search;
+  search.certificate = false;
+  search.go_on = [this] { return watch_.go_on(); };
+  curve_.start = optimum(at, problem_, search);
+  if (watch_.stopped()) return end_interrupted();
+  watch_.begin("the curve");
+  const Optimum& first = curve_.start;
+  const std::string where = text("at ", along_.name, " = ", along_.lower, ": ");
+  if (first.status != Status::complete || first.stop.reason == reasons::flat || first.design.empty())
+    return end(first.status == Status::complete ? Status::failed : first.status, first.stop.reason,
+               where + first.stop.message);
+  std::vector<double> design = first.design;
+  design.push_back(along_.lower);
+  const PeakState& state = peaks_.trace(design);
+  if (state.peaks.empty() || !state.complete)
+    return end(Status::failed, reasons::no_response, where + state.message);
+  reference_ = state.amplitude();
+  here_.sigma = sigma().scaled(along_.lower);
+  here_.active.held.assign(size(), 0);
+  for (std::size_t i = 0; i < state.peaks.size(); ++i)
+    if (state.peaks[i].amplitude >= (1 - nearly_as_high) * reference_ && !state.peaks[i].rises_inwards())
+      here_.active.peaks.push_back(i);
+  for (std::size_t k = 0; k < size(); ++k)
+    for (const int side : {-1, 1})
+      if (side * (scaled_[k].scaled(scaled_[k].bound(side)) - scaled_[k].scaled(design[k])) < nearly_bound)
+        here_.active.held[k] = side;
+  if (!hold_flat(design))
+    return end(Status::failed, reasons::flat,
+               text(where, "the amplitude does not depend on ", flat_,
+                    " there, but does between there and its bounds: which value to follow is not told"));
+  return settle(design);
+}
+
+bool CurveOfOptima::hold_flat(std::vector<double>& design) {
+  const auto result = setting().hold_flat(here_.active, design);
+  for (const auto& [k, value] : result.moved)
+    curve_.notes.push_back(text("at ", place(here_.sigma), " ", problem_.over[k].name, " = ", value,
+                                " has no influence, and was moved to its bound ", design[k]));
+  if (result.flat) flat_ = problem_.over[*result.flat].name;
+  return !result.flat;
+}
+
+bool CurveOfOptima::settle(const std::vector<double>& design) {
+  for (int k = 0; k < most_exchanges; ++k) {
+    if (!peaks_.follow_to(design, here_.active.peaks)) break;
+    Vector weights;
+    here_.z = setting().estimate(here_.active, weights);
+    OptimalityEvaluator at(data());
+    if (!here_.correct(at)) {
+      auto& peaks = here_.active.peaks;
+      if (peaks.size() < 2) break;
+      peaks.erase(peaks.begin() + (std::min_element(weights.begin(), weights.end()) - weights.begin()));
+      continue;
+    }
+    if (exchange(here_.active, at)) continue;
+    here_.take(at);
+    curve_.points.push_back(point(at));
+    set_safe();
+    return true;
+  }
+  return end(Status::failed, reasons::no_exchange,
+             text("at ", along_.name, " = ", along_.lower,
+                  ": the optimum was found, but no set of equally high peaks satisfies its equations; it may "
+                  "sit at a kink, or a parameter may have no influence"));
+}
+
+const OptimalityEvaluator& CurveOfOptima::evaluator(const Accepted& now) {
+  return static_cast<const OptimalityEvaluator&>(now.at);
+}
+
+OptimumPoint CurveOfOptima::point(const OptimalityEvaluator& at) {
+  OptimumPoint p;
+  p.along = at.design().back();
+  p.design.assign(at.design().begin(), at.design().end() - 1);
+  p.amplitude = reference_ * std::exp(at.level());
+  for (std::size_t i = 0; i < at.active_peaks().size(); ++i)
+    p.peaks.push_back({at.active_peaks()[i].kind, at.active_peaks()[i].omega(),
+                       at.weights()[static_cast<Eigen::Index>(i)]});
+  Eigen::Index heaviest = 0;
+  at.weights().maxCoeff(&heaviest);
+  p.response = peaks_.observe(at.active_peaks()[static_cast<std::size_t>(heaviest)]);
+  p.at_bound = here_.active.held;
+  p.minimum = at.is_minimum();
+  return p;
+}
+
+void CurveOfOptima::piece() {
+  const auto of = data();
+  std::vector<Inequality> may_change = inequalities(here_.active);
+  const Eigen::Index tau = here_.active.unknowns() - 1;
+  std::vector<Monitor> monitors;
+  for (std::size_t i = 0; i < may_change.size(); ++i)
+    monitors.push_back(
+        {.name = change_name(i),
+         .value = [each = may_change[i]](const Accepted& now) { return evaluator(now).slack(each); },
+         .crossing = continuation::Crossing::falling,
+         .terminal = true});
+  monitors.push_back({.name = event_kinds::peak_joins,
+                      .value = [](const Accepted& now) { return evaluator(now).distance_of_others(); },
+                      .crossing = continuation::Crossing::falling,
+                      .terminal = true});
+  const auto slope = [tau](const Accepted& now) { return now.tangent[tau]; };
+  const auto level = [tau](const Accepted& now) { return now.u[tau]; };
+  using continuation::Crossing;
+  monitors.push_back(
+      {.name = event_kinds::minimum, .value = slope, .crossing = Crossing::rising, .quantity = level});
+  monitors.push_back(
+      {.name = event_kinds::maximum, .value = slope, .crossing = Crossing::falling, .quantity = level});
+  Monitor turn = continuation::fold_monitor();
+  turn.name = event_kinds::turning_point;
+  monitors.push_back(turn);
+
+  continuation::Options options;
+  options.lower = sigma().scaled(along_.lower);
+  options.upper = sigma().scaled(along_.upper);
+  options.check_jacobian = false;
+  options.step.largest_parameter = options_.step * (options.upper - options.lower);
+  options.step.initial = step_;
+  options.step.smallest = smallest_step;
+  options.points = std::max<long>(1, options_.points - static_cast<long>(curve_.points.size()) + 1);
+  options.go_on = [this] { return watch_.go_on(); };
+
+  std::map<double, Seen> seen;  // by arclength
+  bool due = false, user = false;
+  std::exception_ptr thrown;
+  const auto observe = [&](const Accepted& now, const Event*) {
+    Standing there = here_;
+    there.tangent = now.tangent;
+    there.orient(evaluator(now));
+    seen[now.arclength] = {point(evaluator(now)), evaluator(now).slope_along(), there.orientation};
+    const OptimumPoint& at = seen[now.arclength].point;
+    try {
+      user = options_.progress && !options_.progress(at);
+    } catch (...) {
+      thrown = std::current_exception();
+      user = true;
+    }
+    due = way_since_response(at) >= interval_;
+    return !due && !user;
+  };
+  continuation::Start start{here_.z, Vector::Constant(1, here_.sigma), 0, 1, here_.tangent};
+  auto branch = continuation::trace(optimality(of), start, options, monitors, observe);
+  end_at_u_turn(branch);
+  ++curve_.work.pieces;
+  curve_.work.points += branch.counts.points;
+  curve_.work.evaluations += branch.counts.residuals;
+  curve_.work.hessians += branch.counts.jacobians;
+  keep(branch, seen);
+  if (thrown) std::rethrow_exception(thrown);
+  if (branch.points.empty()) {
+    lost(branch.stop);
+    return;
+  }
+  const auto& last = branch.points.back();
+  here_.z = last.u;
+  here_.sigma = last.parameter;
+  here_.tangent = last.tangent;
+  if (branch.points.size() > 1) step_ = last.arclength - branch.points[branch.points.size() - 2].arclength;
+  const std::vector<std::size_t> indices = here_.active.peaks;
+  const auto end_of_piece = at_last_point();
+  if (!end_of_piece) {
+    end(Status::stopped, reasons::lost_peak,
+        "at " + place(here_.sigma) + " a new response does not have the peaks that were followed");
+    return;
+  }
+  const OptimalityEvaluator& at = *end_of_piece;
+  here_.design = at.design();
+  here_.peaks = peaks_of(curve_.points.back());
+  here_.orientation = std::prev(seen.upper_bound(last.arclength))->second.orientation;  // of all the piece
+  for (Inequality& each : may_change)
+    if (each.kind == Kind::peak)
+      each.index = here_.active.peaks[static_cast<std::size_t>(
+          std::find(indices.begin(), indices.end(), each.index) - indices.begin())];
+  switch (branch.stop.reason) {
+    case StopReason::boundary:
+      verify();
+      if (ended_ || rewound_) return;
+      if (last.parameter >= options.upper)
+        end(Status::complete, reasons::boundary, "the optimum was followed up to " + place(last.parameter));
+      else
+        end(Status::stopped, reasons::turned_back,
+            "the curve of optima turned back, and left the range at " + place(last.parameter));
+      return;
+    case StopReason::event:
+      change(last_change(branch, may_change.size()), may_change, at);
+      return;
+    case StopReason::user:
+      if (watch_.stopped())
+        end_interrupted();
+      else if (due && !user)
+        verify();
+      else
+        stop_with(branch.stop);
+      return;
+    case StopReason::step_too_small:
+    case StopReason::not_evaluated:
+    case StopReason::start_failed:
+      lost(branch.stop);
+      return;
+    default:
+      stop_with(branch.stop);
+  }
+}
+
+std::unique_ptr<OptimalityEvaluator> CurveOfOptima::at_last_point() {
+  auto at = std::make_unique<OptimalityEvaluator>(data());
+  const OptimumPoint& last = curve_.points.back();
+  if (here_.move(*at) && at->residual().cwiseAbs().maxCoeff() <= same_level) return at;
+  std::vector<double> design = last.design;
+  design.push_back(last.along);
+  here_.active.peaks = find_again(peaks_.trace(design), peaks_of(last), same_level);
+  if (here_.active.peaks.empty()) return nullptr;
+  at = std::make_unique<OptimalityEvaluator>(data());
+  return here_.move(*at) ? std::move(at) : nullptr;
+}
+
+void CurveOfOptima::stop_with(const continuation::Stop& stop) {
+  end(Status::stopped, observables::reason_of(stop.reason), "at " + place(here_.sigma) + ": " + stop.message);
+}
+
+void CurveOfOptima::end_at_u_turn(continuation::Branch& branch) {
+  for (std::size_t i = 0; i < branch.events.size(); ++i) {
+    const Event& event = branch.events[i];
+    const std::size_t after = event.after;
+    if (event.monitor != event_kinds::turning_point || !event.nonsmooth ||
+        after + 1 >= branch.points.size() ||
+        branch.points[after].tangent.dot(branch.points[after + 1].tangent) > u_turn)
+      continue;
+    branch.stop = {StopReason::step_too_small, 0, 0, "the curve turns round and comes back on itself"};
+    branch.points.resize(after + 1);
+    branch.events.erase(branch.events.begin() + static_cast<std::ptrdiff_t>(i), branch.events.end());
+    return;
+  }
+}
+
+void CurveOfOptima::keep(const continuation::Branch& branch, const std::map<double, Seen>& seen) {
+  const auto find = [&](double arclength) {
+    const auto at = seen.find(arclength);
+    return at == seen.end() ? nullptr : &at->second;
+  };
+  std::vector<std::size_t> index;
+  for (const auto& each : branch.points) {
+    const Seen* at = find(each.arclength);
+    if (at && (curve_.points.empty() || distance(at->point, curve_.points.back()) > same_point))
+      curve_.points.push_back(at->point);
+    index.push_back(curve_.points.empty() ? 0 : curve_.points.size() - 1);
+  }
+  for (const Event& event : branch.events) {
+    const Seen* at = find(event.point.arclength);
+    // Along the curve the amplitude is stationary at turning points, too, where over s it is not.
+    const bool only_turns =
+        event.monitor != event_kinds::turning_point && at && std::abs(at->slope) > flat_slope;
+    if (!is_change(event) && !only_turns && at)
+      curve_.events.push_back({event.monitor, "", 0, event.nonsmooth, at->point, index[event.after]});
+  }
+}
+
+double CurveOfOptima::distance(const OptimumPoint& a, const OptimumPoint& b) const {
+  double most = std::abs(sigma().scaled(a.along) - sigma().scaled(b.along));
+  for (std::size_t k = 0; k < size(); ++k)
+    most = std::max(most, std::abs(scaled_[k].scaled(a.design[k]) - scaled_[k].scaled(b.design[k])));
+  return most;
+}
+
+double CurveOfOptima::way_since_response(const OptimumPoint& at) {
+  if (!checked_) return 0;
+  return distance(at, *checked_);
+}
+
+void CurveOfOptima::finish() {
+  curve_.work.peaks = peaks_.work();
+  curve_.work.seconds = watch_.seconds();
+  if (curve_.points.empty()) return;
+  const OptimumPoint& last = curve_.points.back();
+  std::vector<double> design = last.design;
+  design.push_back(last.along);
+  curve_.stop.message += text("; the last amplitude is ", last.amplitude, " m at ", space_.text(design));
+}
+
+OptimumCurve optimum_curve(const scene::Scene& scene, const OptimumProblem& problem,
+                           const DesignVariable& along, const OptimumCurveOptions& options) {
+  return CurveOfOptima(scene, problem, along, options).run();
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,242 @@
+#include <arcslip/optimize/search/certificate.hpp>
+
+#include <arcslip/continuation/diagrams/deflation.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/optimize/search/design_space.hpp>
+#include <arcslip/optimize/search/multipliers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcslip::optimize {
+namespace {
+
+constexpr double same_amplitude = 1e-7;  // relative
+constexpr double same_response = 1e-6;   // relative
+constexpr int most_steps = 20;           // to an end of a tolerance range
+constexpr double range_accuracy = 1e-6;  // of the share
+constexpr double narrow = 1e-9;          // relative: a bracket of the place where a limit is reached
+constexpr int deflation_iterations = 40;
+
+class Certifier {
+ public:
+  Certifier(Cases& cases, std::span<const double> lower, std::span<const double> upper,
+            std::vector<ActiveLimit> limits, const std::function<double()>& margin)
+      : cases_(cases),
+        margin_(margin),
+        lower_(lower),
+        upper_(upper),
+        design_(cases.state(0).design),
+        value_(cases.value()),
+        gradient_(cases.gradient()) {
+    result_.limits = std::move(limits);
+    for (std::size_t c = 0; c < cases.size(); ++c) optimum_.push_back(cases.state(c));
+    for (std::size_t g = 0; g < cases.groups(); ++g) levels_.push_back(cases.height(cases.highest_of(g)));
+  }
+
+  Certificate run(const std::function<bool()>& go_on) {
+    go_on_ = go_on;
+    const auto more = [&] { return !go_on || go_on(); };
+    stationarity();
+    for (std::size_t c = 0; c < cases_.size() && more(); ++c) other_branches(c);
+    if (more()) curvature();
+    for (std::size_t k = 0; k < design_.size() && more(); ++k) ranges(k);
+    return std::move(result_);
+  }
+
+ private:
+  void stationarity() {
+    Balance found = balance(cases_, lower_, upper_, std::move(result_.limits));
+    result_.gradient.assign(gradient_.begin(), gradient_.end());
+    result_.stationarity = found.stationarity;
+    result_.complementarity = found.complementarity;
+    result_.at_bound = found.at_bound;
+    result_.limits = std::move(found.limits);
+    smooth_ = found.smooth;
+    auto active = found.active.begin();
+    for (std::size_t c = 0; c < optimum_.size(); ++c)
+      for (std::size_t i = 0; i < optimum_[c].peaks.size(); ++i) {
+        const Peak& peak = optimum_[c].peaks[i];
+        CertifiedPeak each{peak.kind, peak.omega(), peak.amplitude};
+        each.in_case = c;
+        each.active = active != found.active.end() && active->in_case == c && active->peak == i;
+        if (each.active) each.weight = (active++)->multiplier;
+        result_.peaks.push_back(each);
+      }
+  }
+
+  void curvature() {
+    if (!smooth_) return;
+    const auto n = static_cast<Eigen::Index>(design_.size());
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+    for (std::size_t g = 0; g < cases_.groups(); ++g) {
+      const std::size_t c = cases_.highest_of(g);
+      const continuation::Matrix of_peak = cases_.peaks(c).hessian(cases_.state(c).highest);
+      if (of_peak.size() == 0) return;
+      H += cases_.weight(c) * of_peak;
+    }
+    result_.curvature = H;
+    const bool inside =
+        std::all_of(result_.at_bound.begin(), result_.at_bound.end(), [](int bound) { return bound == 0; });
+    continuation::Cholesky cholesky;
+    if (!inside || !result_.limits.empty() || !cholesky.factorize(result_.curvature)) return;
+    const Vector step = -cholesky.solve(gradient_);
+    result_.to_minimum.assign(step.begin(), step.end());
+  }
+
+  enum class End { level, limit, bound };
+
+  // The place beyond the optimum where V = (1 + share) V_opt, from a guess; where a limit is exceeded or the
+  // bound comes first, that.
+  double range_end(std::size_t k, int side, double share, double guess, End& end) {
+    auto design = design_;
+    const double target = std::log1p(share), bound = side < 0 ? lower_[k] : upper_[k];
+    double inner = design[k], outer = bound;  // within the range at inner; not yet known at the bound
+    double inner_margin = margin_at_optimum_, outer_margin = 0;
+    double value = guess;
+    bool bracketed = false;
+    end = End::level;
+    for (int step = 0; step < most_steps && (!go_on_ || go_on_()); ++step) {
+      if (!(side * (value - inner) > 0) || side * (value - outer) > 0) value = 0.5 * (inner + outer);
+      design[k] = value;
+      cases_.at(design);
+      const double now = cases_.value(), level = std::log(now / value_);
+      const double margin = margin_ ? margin_() : -1;
+      const bool kept = margin <= limit_tolerance;
+      if (kept && now < lowest_) {
+        lowest_ = now;
+        result_.lower_design = design;
+      }
+      if (kept && std::abs(level - target) <= range_accuracy * share) return value;
+      if (kept && level < target) {
+        if (value == bound) {
+          end = End::bound;
+          return value;
+        }
+        inner = value;
+        inner_margin = margin;
+      } else {
+        end = kept ? End::level : End::limit;
+        outer = value;
+        outer_margin = margin;
+        bracketed = true;
+      }
+      double next = bracketed ? 0.5 * (inner + outer) : bound;
+      if (end == End::limit) {
+        // A limit is nearly a line over the way; every third step halves, for one that is not.
+        const double share_of_way =
+            std::max(0.0, -inner_margin) / (outer_margin - std::min(0.0, inner_margin));
+        if (step % 3 != 2) next = inner + share_of_way * (outer - inner);
+        if (std::abs(next - inner) <= narrow * std::abs(outer)) return inner;
+      } else if (std::isfinite(now)) {
+        const double slope = cases_.gradient()[static_cast<Eigen::Index>(k)] / now;
+        // V is nearly a parabola over the distance from the optimum: so is Newton's method exact at once.
+        const double distance = value - design_[k];
+        const double newton =
+            slope * distance > 0 && level > 0
+                ? design_[k] + distance * std::pow(target / level, level / (slope * distance))
+                : next;
+        if (side * (newton - inner) > 0 && side * (outer - newton) >= 0) next = newton;
+      }
+      value = next;
+    }
+    return end == End::limit ? inner : value;
+  }
+
+  void ranges(std::size_t k) {
+    const double at = design_[k];
+    std::vector<ToleranceRange> of;
+    for (const double share : {0.01, 0.05}) {
+      ToleranceRange range{share, at, at};
+      for (const int side : {-1, 1}) {
+        double& end = side < 0 ? range.lower : range.upper;
+        const double bound = side < 0 ? lower_[k] : upper_[k];
+        double guess = at + side * 0.1 * std::abs(at);
+        if (!of.empty())
+          guess = at + ((side < 0 ? of[0].lower : of[0].upper) - at) * std::sqrt(share / of[0].share);
+        else if (result_.curvature.size() > 0) {
+          const auto i = static_cast<Eigen::Index>(k);
+          guess = at + side * std::sqrt(2 * share * value_ / std::max(result_.curvature(i, i), 1e-300));
+        }
+        if (side * (guess - bound) > 0) guess = bound;
+        End by = End::bound;
+        if (side * (bound - at) > 0) end = range_end(k, side, share, guess, by);
+        (side < 0 ? range.lower_is_bound : range.upper_is_bound) = by == End::bound;
+        (side < 0 ? range.lower_is_limit : range.upper_is_limit) = by == End::limit;
+      }
+      of.push_back(range);
+    }
+    result_.ranges.push_back(std::move(of));
+  }
+
+  // Of a case: the response at the upper end of the window from nothing, if the traced branch does not end
+  // in it, and other solutions at the highest peak.
+  void other_branches(std::size_t c) {
+    const PeakState& optimum = optimum_[c];
+    const PeakAmplitude& peaks = cases_.peaks(c);
+    const auto problem = peaks.problem();
+    Vector p = peaks.parameters(design_);
+    observables::Sensitivity sensitivity(problem);
+    Vector none(0);
+    const double highest = levels_[cases_.group(c)] / cases_.weight(c);
+    const auto add = [&](const char* by, const Vector& u, double omega) {
+      Vector x(u.size() + 1);
+      x << u, omega;
+      if (!sensitivity.at_frequency(x, p, {}, none) && !std::isfinite(sensitivity.amplitude())) return;
+      result_.others.push_back({by, omega, sensitivity.amplitude(), c});
+      if (sensitivity.amplitude() > (1 + same_amplitude) * highest) result_.others_lower = false;
+    };
+    const auto model = peaks.model_at(design_);
+    const auto& window = peaks.window();
+    const auto end = observables::first_response(model, window.upper, window.upper - window.lower, go_on_);
+    const bool same = end.u && optimum.upper_end.size() == end.u->size() &&
+                      (*end.u - optimum.upper_end).norm() <= same_response * end.u->norm();
+    if (end.u && !same) {
+      double most = -1, omega = 0;
+      Vector u;
+      const auto record = [&](observables::Observer& observer, const continuation::Accepted& now,
+                              const continuation::Event*) {
+        const auto& at = static_cast<const hbm::HbmEvaluator&>(now.at);
+        const double here = observer.extreme(at, now.u).amplitude;
+        if (here > most) most = here, omega = now.parameter, u = now.u;
+        return true;
+      };
+      observables::frequency_branch(model, window, window.upper, record, -1, observables::Steps::curve,
+                                    go_on_);
+      if (most > 0) add("sweep downwards", u, omega);
+    }
+    const Peak& peak = optimum.peaks[optimum.highest];
+    p[model::frequency] = peak.omega();
+    const Vector known = peak.x.head(problem->size());
+    continuation::DeflationOptions options;
+    options.iterations = deflation_iterations;
+    options.go_on = go_on_;
+    for (const Vector& u : continuation::deflate(*problem, p, {known}, {known}, options))
+      add("deflation", u, peak.omega());
+  }
+
+  Cases& cases_;
+  const std::function<double()>& margin_;
+  std::function<bool()> go_on_{};
+  std::span<const double> lower_, upper_;
+  const std::vector<double> design_;
+  const double value_;
+  const double margin_at_optimum_ = margin_ ? margin_() : -1;
+  double lowest_ = (1 - same_amplitude) * value_;
+  const Vector gradient_;
+  std::vector<PeakState> optimum_;  // of each case
+  std::vector<double> levels_;      // of each group
+  bool smooth_ = false;
+  Certificate result_;
+};
+
+}  // namespace
+
+Certificate certify(Cases& cases, std::span<const double> lower, std::span<const double> upper,
+                    std::vector<ActiveLimit> limits, const std::function<double()>& margin,
+                    const std::function<bool()>& go_on) {
+  return Certifier(cases, lower, upper, std::move(limits), margin).run(go_on);
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,221 @@
+#include <arcslip/optimize/search/design_space.hpp>
+
+#include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/observables/quantities.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace arcslip::optimize {
+namespace {
+
+constexpr std::array<double, 7> diagonal = {0.5, 0.25, 0.75, 0.125, 0.875, 0, 1};  // shares of the bounds
+constexpr int samples_of_all = 8, samples_of_each = 8;                             // parameter
+constexpr double as_active = 1e-6;  // relative: a linear limit that is nearer is active
+constexpr const char* linear_name = "a linear limit";
+
+}  // namespace
+
+DesignSpace::DesignSpace(const scene::Scene& scene, const OptimumProblem& problem)
+    : to_unit_(1 / scene::to_rad_per_s(scene.frequency_unit)) {
+  if (problem.over.empty()) throw OptionsError("there is nothing to vary: no parameter is named");
+  if (!(problem.frequency_from > 0 && problem.frequency_from < problem.frequency_to))
+    throw OptionsError(continuation::text("the frequency window is [", problem.frequency_from, ", ",
+                                          problem.frequency_to, "]: 0 < lower < upper"));
+  auto model = std::make_shared<model::Model>(model::build(scene));
+  for (const DesignVariable& v : problem.over) {
+    const std::string bounds =
+        continuation::text("bounds of \"", v.name, "\" are [", v.lower, ", ", v.upper, "]");
+    if (std::find(names_.begin(), names_.end(), v.name) != names_.end())
+      throw OptionsError("parameter \"" + v.name + "\" is named twice");
+    if (v.name == "frequency") throw OptionsError("the frequency is no design parameter");
+    scene::Scene with = scene;
+    scene::set(with, v.name, scene::value(scene, v.name));  // unknown, or tied
+    if (!(std::isfinite(v.lower) && std::isfinite(v.upper))) throw OptionsError(bounds + ": must be finite");
+    if (v.lower == v.upper)
+      throw OptionsError(bounds + ": equal bounds leave nothing to vary; leave the parameter out");
+    if (!(v.lower < v.upper)) throw OptionsError(bounds + ": the lower must be below the upper");
+    for (const double bound : {v.lower, v.upper}) scene::set(with, v.name, bound);  // may it take them?
+    names_.push_back(v.name);
+    parameters_.push_back(model::parameter_index(*model, v.name));
+    lower_.push_back(v.lower);
+    upper_.push_back(v.upper);
+    scales_.emplace_back(v.lower, v.upper);
+  }
+  model_ = std::move(model);
+  for (const LinearLimit& limit : problem.linear_limits) {
+    std::vector<double> weights(names_.size(), 0.0);
+    for (const auto& [name, weight] : limit.weights) {
+      const auto at = std::find(names_.begin(), names_.end(), name);
+      if (at == names_.end())
+        throw OptionsError("a linear limit names \"" + name + "\", which the search is not over: " + names());
+      weights[static_cast<std::size_t>(at - names_.begin())] += weight;
+    }
+    const auto add = [&](double sign, double bound) {
+      if (!std::isfinite(bound)) return;
+      Linear each{weights, sign * bound, bound != 0 ? std::abs(bound) : 1};
+      for (double& w : each.weights) w *= sign;
+      linear_.push_back(std::move(each));
+    };
+    add(1, limit.at_most);
+    add(-1, limit.at_least);
+  }
+  for (const ObservableLimit& limit : problem.limits) {
+    static_cast<void>(observable(limit.observable));
+    if (std::isnan(limit.at_least) || std::isnan(limit.at_most) || !(limit.at_least < limit.at_most))
+      throw OptionsError(continuation::text("limit on \"", limit.observable, "\" is [", limit.at_least, ", ",
+                                            limit.at_most, "]: the lower must be below the upper"));
+  }
+}
+
+std::vector<double> DesignSpace::start(std::vector<std::string>& notes) const {
+  std::vector<double> start;
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    const double own = model_->parameters[static_cast<std::size_t>(parameters_[k])].value;
+    start.push_back(std::clamp(own, lower_[k], upper_[k]));
+    if (start.back() != own)
+      notes.push_back(continuation::text("the start ", names_[k], " = ", own, " is outside [", lower_[k],
+                                         ", ", upper_[k], "], and was moved to ", start.back()));
+  }
+  return start;
+}
+
+int DesignSpace::attempts() const {
+  return static_cast<int>(diagonal.size());
+}
+
+std::vector<double> DesignSpace::attempt(int k) const {
+  const double share = diagonal[static_cast<std::size_t>(k)];
+  std::vector<double> y = scaled(lower_);
+  const std::vector<double> upper = scaled(upper_);
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += share * (upper[i] - y[i]);
+  return design(y);
+}
+
+int DesignSpace::samples() const {
+  return samples_of_all + samples_of_each * static_cast<int>(names_.size());
+}
+
+// A lattice by the powers of the root g of g^(n+1) = g + 1 (for n = 1 the golden ratio), from the centre.
+std::vector<double> DesignSpace::sample(int k) const {
+  const auto n = static_cast<double>(names_.size());
+  double g = 2;
+  for (int i = 0; i < 60; ++i) g = std::pow(1 + g, 1 / (n + 1));
+  std::vector<double> y = scaled(lower_);
+  const std::vector<double> upper = scaled(upper_);
+  double rate = 1, whole = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    rate /= g;
+    y[i] += std::modf(0.5 + rate * (k + 1), &whole) * (upper[i] - y[i]);
+  }
+  return design(y);
+}
+
+double DesignSpace::distance(std::span<const double> a, std::span<const double> b) const {
+  double most = 0;
+  for (std::size_t k = 0; k < names_.size(); ++k)
+    most = std::max(most, std::abs(scales_[k].scaled(a[k]) - scales_[k].scaled(b[k])) /
+                              (scales_[k].scaled(upper_[k]) - scales_[k].scaled(lower_[k])));
+  return most;
+}
+
+std::vector<double> DesignSpace::scaled(std::span<const double> design) const {
+  std::vector<double> y;
+  for (std::size_t k = 0; k < design.size(); ++k) y.push_back(scales_[k].scaled(design[k]));
+  return y;
+}
+
+std::vector<double> DesignSpace::design(std::span<const double> y) const {
+  std::vector<double> design;
+  for (std::size_t k = 0; k < names_.size(); ++k)
+    design.push_back(std::clamp(scales_[k].value(y[k]), lower_[k], upper_[k]));
+  return design;
+}
+
+double DesignSpace::slope(std::size_t k, double value) const {
+  return scales_[k].slope(value);
+}
+
+PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const {
+  using observables::ElementQuantity, observables::ResponseQuantity;
+  std::vector<std::string> known;
+  const auto is_wanted = [&](const std::string& path) { return known.emplace_back(path) == name; };
+  for (const ResponseQuantity& each : observables::response_quantities()) {
+    const auto* get = std::get_if<ResponseQuantity::Number>(&each.get);
+    if (!get || each.has || !is_wanted(std::string(each.path))) continue;
+    return [get = *get, unit = each.unit == observables::frequency_unit ? to_unit_ : 1](
+               const observables::ResponsePoint& point) { return unit * get(point); };
+  }
+  for (std::size_t e = 0; e < model_->elements.size(); ++e)
+    for (const std::string_view path :
+         {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping"}) {
+      const auto& element = model_->elements[e];
+      const bool is_of_friction = path == "stick_percent" || path == "energy";
+      if ((is_of_friction && !element.law->has_contact()) ||
+          !is_wanted(element.name + "." + std::string(path)))
+        continue;
+      return [e, get = std::get<ElementQuantity::Number>(observables::element_quantity(path).get)](
+                 const observables::ResponsePoint& point) { return get(point.elements[e]); };
+    }
+  std::string list;
+  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
+  const std::string near = scene::nearest(name, known);
+  throw OptionsError("no observable \"" + name + "\" to limit" +
+                     (near.empty() ? "" : "; did you mean \"" + near + "\"?") + " Known: " + list);
+}
+
+double DesignSpace::value(const Linear& limit, std::span<const double> design) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < names_.size(); ++k) sum += limit.weights[k] * design[k];
+  return (sum - limit.bound) / limit.scale;
+}
+
+void DesignSpace::add_linear(Problem& problem) const {
+  const std::size_t n = names_.size();
+  for (const Linear& limit : linear_)
+    problem.constraints.push_back({linear_name,
+                                   [this, n, limit](auto y, auto g) {
+                                     const std::vector<double> p = design(y.first(n));
+                                     std::fill(g.begin(), g.end(), 0.0);
+                                     for (std::size_t k = 0; k < std::min(n, g.size()); ++k)
+                                       g[k] = limit.weights[k] * slope(k, p[k]) / limit.scale;
+                                     return value(limit, p);
+                                   },
+                                   limit_tolerance});
+}
+
+double DesignSpace::margin(std::span<const double> design) const {
+  double margin = -std::numeric_limits<double>::infinity();
+  for (const Linear& limit : linear_) margin = std::max(margin, value(limit, design));
+  return margin;
+}
+
+std::vector<ActiveLimit> DesignSpace::active(std::span<const double> design) const {
+  std::vector<ActiveLimit> active;
+  for (const Linear& limit : linear_) {
+    const double at = value(limit, design);
+    if (at < -as_active) continue;
+    Vector gradient(static_cast<Eigen::Index>(design.size()));
+    for (std::size_t k = 0; k < design.size(); ++k)
+      gradient[static_cast<Eigen::Index>(k)] = limit.weights[k] * slope(k, design[k]) / limit.scale;
+    active.push_back({linear_name, 0, gradient, -at});
+  }
+  return active;
+}
+
+std::string DesignSpace::text(std::span<const double> design) const {
+  std::string list;
+  for (std::size_t k = 0; k < names_.size(); ++k)
+    list += (k == 0 ? "" : ", ") + names_[k] + " = " + continuation::text(design[k]);
+  return list;
+}
+
+std::string DesignSpace::names() const {
+  std::string list;
+  for (const std::string& name : names_) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,75 @@
+#pragma once
+// The parameters that a search is over, and the variables y that NLopt sees in their place
+// (scaled_parameter.hpp). Not installed.
+
+#include <arcslip/optimize/search/optimum.hpp>
+#include <arcslip/optimize/search/scaled_parameter.hpp>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace arcslip::optimize {
+
+inline constexpr double limit_tolerance = 1e-8;  // of limits, relative: what exceeds them by less keeps them
+
+class DesignSpace {
+ public:
+  /// Throws as optimum() does.
+  DesignSpace(const scene::Scene& scene, const OptimumProblem& problem);
+
+  std::shared_ptr<const model::Model> model() const { return model_; }
+  const std::vector<int>& parameters() const { return parameters_; }
+  std::span<const double> lower() const { return lower_; }
+  std::span<const double> upper() const { return upper_; }
+
+  const std::vector<ScaledParameter>& scales() const { return scales_; }
+
+  /// The model's own values, moved onto the bounds where they are outside, which is noted.
+  std::vector<double> start(std::vector<std::string>& notes) const;
+
+  /// Further places to begin at, along the diagonal of the bounds.
+  int attempts() const;
+  std::vector<double> attempt(int k) const;
+
+  /// Designs that fill the box of the variables evenly, each further one where there is most room.
+  int samples() const;
+  std::vector<double> sample(int k) const;
+
+  /// The largest difference of a variable, of its range.
+  double distance(std::span<const double> a, std::span<const double> b) const;
+
+  std::vector<double> scaled(std::span<const double> design) const;  // y
+  std::vector<double> design(std::span<const double> y) const;
+  double slope(std::size_t k, double value) const;  // dp_k/dy_k
+
+  /// What a limit's name stands for.
+  PeakAmplitude::Observable observable(const std::string& name) const;
+
+  /// The linear limits as constraints, and the largest of their values, which is above 0 where one is
+  /// exceeded; -infinity: there are none.
+  void add_linear(Problem& problem) const;
+  double margin(std::span<const double> design) const;
+  std::vector<ActiveLimit> active(std::span<const double> design) const;
+
+  std::string text(std::span<const double> design) const;  // "d.normal_load = 3, c.value = 0.1"
+  std::string names() const;
+
+ private:
+  struct Linear {
+    std::vector<double> weights;  // of the parameters
+    double bound, scale;          // sum <= bound
+  };
+  double value(const Linear& limit, std::span<const double> design) const;
+
+  std::shared_ptr<const model::Model> model_;
+  std::vector<std::string> names_;
+  std::vector<int> parameters_;
+  std::vector<double> lower_, upper_;
+  std::vector<ScaledParameter> scales_;
+  std::vector<Linear> linear_;
+  double to_unit_;  // from rad/s to the scene's unit of frequency
+};
+
+}  // namespace arcslip::optimize

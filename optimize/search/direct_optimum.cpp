@@ -1,0 +1,90 @@
+#include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/quantities.hpp>
+#include <arcslip/optimize/peaks/peak_amplitude.hpp>
+#include <arcslip/optimize/search/design_space.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace arcslip::optimize {
+
+using continuation::text;
+namespace {
+
+constexpr double as_high = 1e-6;  // relative: no other peak is higher
+
+// Of the curves of the result. Where another peak is higher at one, a sentence about it.
+std::string least_minimum(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space,
+                          observables::GoOn go_on, DirectOptimum& result) {
+  const double unit = scene::to_rad_per_s(scene.frequency_unit);
+  PeakAmplitude peaks(space.model(), space.parameters(),
+                      {problem.frequency_from * unit, problem.frequency_to * unit}, std::move(go_on));
+  std::string higher;
+  for (const auto& curve : result.curves)
+    for (const auto& event : curve.events) {
+      if (event.kind != observables::event_kinds::minimum ||
+          (result.found && event.point.amplitude >= result.point.amplitude))
+        continue;
+      const double highest = peaks.trace(std::span(&event.point.over, 1)).amplitude();
+      if (!(highest > (1 + as_high) * event.point.amplitude)) {
+        result.found = true;
+        result.point = event.point;
+      } else if (higher.empty()) {
+        higher = text("a curve of peaks has a minimum of ", event.point.amplitude, " m at ",
+                      problem.over[0].name, " = ", event.point.over, ", where the largest amplitude is ",
+                      highest, " m: another peak is higher there");
+      }
+    }
+  return higher;
+}
+
+}  // namespace
+
+DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem,
+                             const observables::ProgressCallback& progress) {
+  if (problem.over.size() != 1)
+    throw OptionsError(text("the direct way is over one parameter, not ", problem.over.size()));
+  if (!problem.cases.empty() || !problem.scatter.empty())
+    throw OptionsError("the direct way takes no cases, and nothing that scatters");
+  const DesignSpace space(scene, problem);
+  const observables::CurveRange range{problem.over[0].name, problem.over[0].lower, problem.over[0].upper,
+                                      problem.frequency_from, problem.frequency_to};
+  DirectOptimum result;
+  const bool slides =
+      std::any_of(scene.elements.begin(), scene.elements.end(), observables::is_friction_part);
+  if (slides && scene.harmonics.friction == scene::Friction::sampled) {
+    result.message =
+        "curves of peaks are followed with exact friction only: sampled, a response has a kink wherever a "
+        "sample "
+        "changes between stick and slip";
+    return result;
+  }
+  bool stopped = false;
+  const auto ask = [&](const observables::Progress& now) {
+    stopped = stopped || (progress && !progress(now));
+    return !stopped;
+  };
+  result.curves = observables::resonance_peaks(scene, range, ask);
+  std::string higher;
+  try {
+    higher = least_minimum(
+        scene, problem, space, [&] { return ask({}); }, result);
+  } catch (const Interrupted&) {
+  }
+  if (stopped) {
+    result.found = false;
+    result.message = "stopped by the caller";
+  } else if (!result.found) {
+    result.message = !higher.empty() ? higher
+                                     : "no curve of peaks has a minimum within the bounds; " +
+                                           result.curves.front().stop.message;
+  }
+  return result;
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,104 @@
+#pragma once
+// The optimum as equations in one more parameter s. Not installed.
+//
+// Of peaks A_i(p, s) those of the active set are equally high, and parameters of the design p may be held at
+// their bounds. With y = ln p (p over its larger bound where the bounds touch zero or have both signs), sigma
+// the same of s, and f_i = ln A_i, the unknowns z = (y_k of the free parameters, lambda_2 .. lambda_a, tau)
+// and lambda_1 = 1 - lambda_2 - ... - lambda_a satisfy
+//
+//   sum_i lambda_i df_i/dy_k = 0   for each free parameter,
+//   f_i - tau = 0                  for each active peak,
+//
+// as many as unknowns: the conditions of Karush, Kuhn and Tucker for min tau, f_i <= tau. The point is a
+// minimum if lambda_i >= 0, if nu_k = -side sum_i lambda_i df_i/dy_k >= 0 for each parameter held at its side
+// (-1 lower, 1 upper), and if sum_i lambda_i d2f_i/dy2 is positive definite on what the active gradients
+// leave free.
+//
+// The peaks are held by followers, each with the equations of its own kind, so that the unknowns are few and
+// resonances, corners and ends of the window are alike; the Jacobian is that of the second derivatives
+// (observables/sensitivity.hpp), hence exact.
+
+#include <arcslip/continuation/problem/problem.hpp>
+#include <arcslip/optimize/peaks/peak_amplitude.hpp>
+#include <arcslip/optimize/search/scaled_parameter.hpp>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace arcslip::optimize {
+
+struct ActiveSet {
+  std::vector<std::size_t> peaks;  // indices of PeakState::peaks
+  std::vector<int> held;           // of each parameter of the design: -1, 1: at that bound, 0: free
+
+  Eigen::Index free() const;
+  Eigen::Index unknowns() const { return free() + static_cast<Eigen::Index>(peaks.size()); }
+};
+
+/// An inequality that is active or may become so.
+struct Inequality {
+  enum class Kind { peak, bound } kind = Kind::peak;
+  std::size_t index = 0;  // of PeakState::peaks, or of the parameter
+  int side = 0;           // of a bound
+  friend bool operator==(const Inequality&, const Inequality&) = default;
+};
+
+/// What the equations are about. The peaks are over the design's parameters and s, which is the last.
+struct OptimalityData {
+  PeakAmplitude& peaks;
+  std::vector<ScaledParameter> scaled;  // of all
+  ActiveSet active;
+  double reference;  // m, of tau = ln(A / reference)
+};
+
+class OptimalityEvaluator final : public continuation::Evaluator {
+ public:
+  explicit OptimalityEvaluator(std::shared_ptr<const OptimalityData> data);
+
+  /// p: sigma. outside_domain where an active peak cannot be followed.
+  continuation::Evaluated move_to(continuation::In z, continuation::In p, continuation::Needs needs) override;
+  const continuation::Vector& residual() const override { return E_; }
+  const continuation::Jacobian& jacobian() const override { return jacobian_; }
+  void parameter_derivative(int, continuation::Out dE) const override { dE = E_sigma_; }
+  std::uint64_t piece() const override { return piece_; }
+
+  // At the last place.
+  const std::vector<double>& design() const { return design_; }  // p and s
+  const std::vector<Peak>& active_peaks() const { return peaks_; }
+  const continuation::Vector& weights() const { return lambda_; }
+  double level() const { return tau_; }
+
+  /// >= 0 where it holds: the multiplier of an inequality that is active, the distance from one that is not.
+  double slack(const Inequality& of) const;
+  /// The highest peak beside the active ones, that is followed: its index, or none.
+  std::optional<std::size_t> highest_other() const { return other_; }
+  /// Its distance below tau; 1 where there is none.
+  double distance_of_others() const { return other_ ? tau_ - levels_[*other_] : 1; }
+  /// d tau / dsigma of the optimum: the others follow (envelope theorem).
+  double slope_along() const { return gradients_.row(gradients_.rows() - 1).dot(lambda_); }
+  /// df_i/dy of any peak that is followed; of the design's parameters alone.
+  continuation::Vector gradient(std::size_t peak) const;
+  /// Whether the second-order condition holds, by the last Jacobian.
+  bool is_minimum() const;
+
+ private:
+  void differentiate();
+
+  std::shared_ptr<const OptimalityData> data_;
+  Eigen::Index free_, active_;
+  std::vector<Eigen::Index> free_parameters_;
+  std::vector<double> design_, levels_;
+  std::vector<Peak> all_, peaks_;
+  continuation::Vector lambda_, E_, E_sigma_, y_;
+  continuation::Matrix gradients_, second_;  // df_i/d(y, sigma), columns; sum lambda_i d2f_i
+  continuation::Jacobian jacobian_;
+  std::optional<std::size_t> other_;
+  double tau_ = 0;
+  std::uint64_t piece_ = 0;
+};
+
+/// The equations as a problem in z with the one parameter sigma.
+std::shared_ptr<const continuation::Problem> optimality(std::shared_ptr<const OptimalityData> data);
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,389 @@
+#include <arcslip/optimize/search/optimum.hpp>
+
+#include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/optimize/nlopt/interrupted.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/search/search.hpp>
+#include <arcslip/optimize/search/start.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace arcslip::optimize {
+
+using continuation::text;
+namespace {
+
+using observables::Status;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double seen_before = 1e-8;  // relative: a response that is higher by more has a peak not watched
+constexpr int most_rounds = 12;
+constexpr double gain = 1e-7;                   // relative, of a round that is worth another one
+constexpr double small_gradient = 1e-8;         // of d ln V / dy: what is left is rounding
+constexpr double as_good = 1e-13;               // relative: values that differ by rounding
+constexpr double as_good_within_limits = 1e-7;  // the same, and by what a limit's tolerance gains
+constexpr double settled_share = 0.1;           // of what a minimum may leave: where a refinement ends
+constexpr std::size_t most_retreats = 12;       // designs that are looked at again, of each distance
+constexpr std::array apart_by = {1e-2, 1e-3, 1e-4, 1e-5};             // of the range of a variable
+constexpr std::array slipping = {most_dissipation, 0.75, 0.9, 0.97};  // of k_d X: slip limits after a release
+constexpr int most_idle = 100;           // calls at designs that are known, one after the other
+constexpr double gain_outside = 0.5;     // of what a limit is exceeded by, relative
+constexpr std::size_t patience = 25;     // evaluations without a gain, for each parameter and one more
+constexpr int most_in_refinement = 200;  // evaluations of one algorithm
+
+}  // namespace
+
+Search::Search(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options)
+    : scene_(scene),
+      problem_(problem),
+      options_(options),
+      limited_(!problem.limits.empty() || !problem.linear_limits.empty()),
+      asked_(algorithm(options.algorithm.empty() ? std::string(default_algorithm) : options.algorithm)),
+      algorithm_(asked_),
+      watch_(options.seconds, options.go_on),
+      trials_(scene, problem, options, watch_, asked_.global) {
+  result_.algorithm = asked_.name;
+}
+
+Optimum Search::run() {
+  start_ = space().start(result_.notes);
+  for (bool more = true; more;) {
+    try {
+      search();
+      more = goes_on();
+    } catch (const Interrupted&) {
+      more = false;
+      interrupted();
+    } catch (const OptionsError&) {
+      throw;  // an algorithm that does not take what was given
+    } catch (const std::exception& thrown) {
+      more = false;
+      result_.status = Status::failed;
+      result_.stop.reason = reasons::objective_failed;
+      result_.stop.message = text("it threw \"", thrown.what(), "\"", after());
+    }
+  }
+  describe();
+  if (result_.status != Status::complete && !result_.design.empty() && std::isfinite(result_.amplitude)) {
+    result_.stop.message +=
+        text("; the least amplitude is ", result_.amplitude, " m at ", space().text(result_.design));
+    if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
+  }
+  result_.evaluations = std::move(trials_.evaluations());
+  result_.evaluations.insert(result_.evaluations.end(), trials_.elsewhere().begin(),
+                             trials_.elsewhere().end());
+  result_.work = cases().work();
+  add(work_elsewhere_, result_.work);
+  result_.seconds = watch_.seconds();
+  return std::move(result_);
+}
+
+std::string Search::after() {
+  return text(" after ", count(), count() == 1 ? " evaluation" : " evaluations");
+}
+
+// Once, however many rounds find it.
+void Search::note(std::string sentence) {
+  std::vector<std::string>& notes = result_.notes;
+  if (std::find(notes.begin(), notes.end(), sentence) == notes.end()) notes.push_back(std::move(sentence));
+}
+
+void Search::search() {
+  do {
+    begin();
+    for (int round = 0; !ended_; ++round) {
+      const auto before = std::pair(result_.status, result_.stop);
+      trials_.begin("the search");
+      minimize_once();
+      if (watch_.stopped()) return;
+      if (result_.status == Status::failed && best().value == stuck_value_ &&
+          result_.stop.reason != reasons::objective_failed)
+        std::tie(result_.status, result_.stop) = before;  // the optimum is still that of the round before
+      came_up_ = false;
+      if (!verify() && !release()) break;
+      if (round + 1 < most_rounds) continue;
+      if (came_up_) stop_at_higher_peak();
+      break;
+    }
+  } while (add_worst_scatter());
+}
+
+void Search::begin() {
+  trials_.begin("the first design");
+  const Start start = find_start(trials_, start_, result_.notes);
+  ended_ = !start.found;
+  if (start.found) {
+    start_ = start.design;
+    reference_ = cases().value();
+  } else if (!interrupted()) {
+    const bool flat = start.fault.reason == reasons::flat;
+    result_.status = flat ? Status::complete : Status::failed;
+    result_.stop.reason = start.fault.reason;
+    result_.stop.message = flat ? "the amplitude does not depend on " + space().names() +
+                                      " within the bounds: no friction element slips at the peak"
+                                : "no start was found within the bounds; at " + space().text(start_) + ": " +
+                                      start.fault.message;
+  }
+}
+
+bool Search::interrupted() {
+  if (watch_.go_on()) return false;
+  result_.stop = watch_.why();
+  result_.stop.message += after();
+  result_.status = Status::stopped;
+  ended_ = true;
+  return true;
+}
+
+void Search::minimize_once() {
+  Formulation& formulation = trials_.formulation();
+  round_responses_ = cases().work().responses;
+  round_value_ = std::min(cases().value(), best().value);
+  round_excess_ = best().excess;
+  std::vector<double> y = space().scaled(start_);
+  const Problem problem =
+      formulation.problem(y, algorithm_, reference_, [this](auto at) { trials_.move_to(at); });
+  result_.epigraph = result_.epigraph || (formulation.epigraph() && algorithm_.name == asked_.name);
+
+  Options options;
+  options.algorithm = algorithm_.name;
+  options.tolerances = options_.tolerances;
+  if (algorithm_.global)  // equal values are not the end: dampers that stick leave them
+    options.tolerances.f_relative = options.tolerances.f_absolute = 0;
+  if (algorithm_.name == asked_.name) {  // others go on without
+    options.local = options_.local;
+    options.population = options_.population;
+  }
+  options.seed = options_.seed;
+  const int known = algorithm_.global ? 0 : 1;  // a local search begins where the cases stand
+  options.evaluations = std::max(1, options_.evaluations - static_cast<int>(count()) + known);
+  if (refinements_ > 0) options.evaluations = std::min(options.evaluations, most_in_refinement);
+  const bool smooth = algorithm_.name[1] == 'D' && !formulation.epigraph() && problem.constraints.empty();
+  candidate_ = {};
+  known_ = gained_ = count();
+  gained_excess_ = best().excess;
+  gained_value_ = best().value;
+  idle_ = 0;
+  Ends by = Ends::no;
+  options.progress = [&](const Progress&) {
+    by = ends(smooth);
+    return watch_.go_on() && by == Ends::no;
+  };
+  Result found = minimize(problem, y, options);
+  if (found.reason != Reason::objective_failed && interrupted()) return;
+  take_candidate();
+  const bool short_run =
+      found.reason == Reason::evaluation_limit && static_cast<int>(count()) < options_.evaluations;
+  if (by != Ends::no || short_run) {
+    found.reason = by == Ends::vanishes || by == Ends::settles ? Reason::converged : Reason::rounding;
+    found.cause = by == Ends::vanishes  ? text("no entry of d ln A / d ln p is above ", small_gradient)
+                  : by == Ends::settles ? text("d ln A / d ln p left is ", candidate_.left.stationarity)
+                                        : text(algorithm_.name, " made no more progress");
+  }
+  result_.stop = {};
+  result_.stop.reason = reason_of(found.reason);
+  result_.stop.message = sentence(found);
+  result_.status = is_converged(found.reason) || found.reason == Reason::rounding ? Status::complete
+                   : found.reason == Reason::evaluation_limit                     ? Status::stopped
+                                                                                  : Status::failed;
+  ended_ = result_.status != Status::complete;
+}
+
+Search::Ends Search::ends(bool smooth) {
+  idle_ = count() > known_ ? 0 : idle_ + 1;
+  known_ = count();
+  if (smooth && gradient_vanishes()) {
+    trials_.call_best();
+    return Ends::vanishes;
+  }
+  const bool within = best().excess == 0;
+  if (best().excess < (1 - gain_outside) * gained_excess_ ||
+      (within && best().value < (1 - gain) * gained_value_)) {
+    gained_excess_ = best().excess;
+    gained_value_ = best().value;
+    gained_ = count();
+  }
+  const bool settled = (limited_ || refinements_ > 0) && !smooth && is_settled();
+  if (settled && refinements_ > 0) return Ends::settles;
+  const bool in_vain = limited_ && !algorithm_.global && count() - gained_ > patience * (1 + start_.size());
+  return idle_ == most_idle || in_vain ? Ends::idles : Ends::no;
+}
+
+bool Search::is_settled() {
+  const double value = cases().value();
+  if (!std::isfinite(value) || value > (1 + as_good_within_limits) * best().value || best().excess > 0 ||
+      trials_.formulation().excess() > 0)
+    return false;
+  Balance left = balance_here();
+  if (candidate_.design.empty() || left.stationarity < candidate_.left.stationarity)
+    candidate_ = {cases().state(0).design, std::move(left)};
+  return candidate_.left.stationarity <= settled_share * most_stationarity &&
+         candidate_.left.complementarity <= settled_share * most_complementarity;
+}
+
+void Search::take_candidate() {
+  if (candidate_.design.empty() || !is_stationary(candidate_.left)) return;
+  cases().at(candidate_.design);
+  if (cases().value() <= (1 + as_good_within_limits) * best().value && trials_.formulation().excess() == 0)
+    trials_.call_best();
+}
+
+bool Search::gradient_vanishes() {
+  const double value = cases().value();
+  if (!std::isfinite(value) || value > (1 + as_good) * best().value) return false;
+  for (std::size_t c = 0; c < cases().size(); ++c)
+    if (cases().state(c).peaks.size() > 1) return false;
+  const std::vector<double>& design = cases().state(0).design;
+  const Vector gradient = cases().gradient();
+  for (std::size_t k = 0; k < design.size(); ++k) {
+    const double slope = gradient[static_cast<Eigen::Index>(k)] / value * space().slope(k, design[k]);
+    const bool held =
+        (design[k] == space().lower()[k] && slope > 0) || (design[k] == space().upper()[k] && slope < 0);
+    if (!held && std::abs(slope) > small_gradient) return false;
+  }
+  return true;
+}
+
+// Of one round, with the numbers of all of them.
+std::string Search::sentence(const Result& found) {
+  if (found.reason == Reason::evaluation_limit)
+    return text("the limit of ", options_.evaluations, " evaluations was reached");
+  return found.cause + after();
+}
+
+bool Search::verify() {
+  if (best().design.empty() || !std::isfinite(best().value)) return false;
+  const int responses = cases().work().responses;
+  const bool gained = best().excess > 0  // there a lower amplitude is none
+                          ? std::isfinite(round_excess_) && best().excess < (1 - gain_outside) * round_excess_
+                          : round_excess_ > 0 || best().value < (1 - gain) * round_value_;
+  const double seen = best().value;
+  start_ = best().design;
+  trials_.begin("the verification");
+  cases().trace(start_, observables::Steps::curve);
+  for (std::size_t c = 0; c < cases().size(); ++c)
+    if (const PeakState& state = cases().state(c); !state.complete)
+      note(trials_.where(c) + "the response at " + space().text(start_) +
+           " ends within the window: " + state.message);
+  const double now = cases().value();
+  Formulation& formulation = trials_.formulation();
+  const double exceeded = formulation.excess();
+  const bool higher = !(std::abs(now / seen - 1) <= seen_before);
+  const bool beyond = exceeded > best().excess + limit_tolerance;
+  const bool changed =
+      formulation.epigraph() ? responses > round_responses_ : formulation.wants_epigraph(algorithm_);
+  if (!higher && !beyond) return changed && gained && !ended_;
+  came_up_ = true;
+  note(text("at ", space().text(start_), " a peak ",
+            higher ? text("of ", now, " m came up beside those that were followed, the highest of which has ",
+                          seen, " m")
+                   : text("at which a limit is exceeded by ", exceeded,
+                          " came up beside those that were followed")));
+  trials_.call_best();
+  if (++times_came_up_ > 1) retreat();
+  return !ended_;
+}
+
+// Where following loses a peak again and again, the response changes from one design to the next by more than
+// it can see, and so may the amplitude jump: from here on each design has a response of its own. What was
+// tried before is better in part; of that, what is so in a response, too: of designs that are far apart
+// first; where these gain nothing, of those between them, since the jump may be close by.
+void Search::retreat() {
+  trials_.trace_all();
+  std::vector<std::tuple<double, double, std::vector<double>>> tried;  // excess, V, design
+  for (std::size_t i = 0; i < count(); ++i)
+    tried.emplace_back(trials_.excesses()[i], trials_.evaluations()[i].amplitude,
+                       trials_.evaluations()[i].design);
+  std::erase_if(tried, [](const auto& each) { return std::isnan(std::get<1>(each)); });
+  std::sort(tried.begin(), tried.end());
+  std::vector<std::vector<double>> looked_at{best().design};
+  for (const double far_enough : apart_by) {
+    if (best().excess == 0 && best().value < (1 - gain) * round_value_) break;
+    std::size_t retreats = 0;
+    for (const auto& [excess, value, design] : tried) {
+      if (!(std::tie(excess, value) < std::tie(best().excess, best().value)) || retreats == most_retreats)
+        break;
+      const bool known = std::any_of(
+          looked_at.begin(), looked_at.end(),
+          [&](const std::vector<double>& other) { return space().distance(design, other) < far_enough; });
+      if (known) continue;
+      looked_at.push_back(design);
+      ++retreats;
+      trials_.evaluate(design, true);
+    }
+  }
+  start_ = best().design;
+}
+
+void Search::stop_at_higher_peak() {
+  result_.status = Status::stopped;
+  result_.stop.reason = reasons::other_peak;
+  result_.stop.message = text(
+      "the response at the best design had a higher peak than was followed, or one "
+      "at which a limit is exceeded, in ",
+      most_rounds, " rounds and ", count(), " evaluations");
+  ended_ = true;
+}
+
+bool Search::release() {
+  if (ended_ || algorithm_.global || !cases().stand_at(best().design)) return false;
+  if (!(best().value < (1 - gain) * stuck_value_)) return false;
+  stuck_value_ = best().value;
+  std::vector<std::vector<double>> designs;
+  for (const double share : slipping) {
+    const auto design = released(cases(), space().parameters(), space().lower(), share);
+    if (!design) return false;
+    if (designs.empty() || *design != designs.back()) designs.push_back(*design);
+  }
+  const std::string stuck = space().text(best().design);
+  const bool within = best().excess == 0;
+  // Slip that has just begun keeps the limits that are kept without, but a limit on the energy perhaps not
+  // where that is largest. From far outside, a search may go back to where all sticks.
+  std::optional<std::vector<double>> from;
+  double least = infinity;
+  for (const std::vector<double>& design : designs) {
+    trials_.evaluate(design, true);
+    const double excess = trials_.formulation().excess();
+    if (!std::isfinite(cases().value()) || !(excess < least)) continue;
+    from = design;
+    least = excess;
+    if (!within || excess == 0) break;
+  }
+  if (!from) return false;
+  if (!cases().stand_at(*from)) cases().trace(*from);
+  note("at " + stuck + " a friction element sticks; the search went on with it slipping, from " +
+       space().text(*from));
+  start_ = *from;
+  return true;
+}
+
+bool Search::add_worst_scatter() {
+  if (!trials_.scenarios().scatter() || result_.status != Status::complete || best().design.empty())
+    return false;
+  start_ = best().design;
+  if (!cases().stand_at(start_)) cases().trace(start_);
+  ++result_.scatter_rounds;
+  trials_.begin("the search for the worst of what scatters");
+  const std::vector<Scenario> worse = trials_.worse_scatter();
+  if (interrupted() || worse.empty()) return false;
+  for (const Scenario& each : worse) trials_.add(each);
+  stuck_value_ = infinity;
+  if (result_.scatter_rounds < options_.scatter_rounds) return true;
+  trials_.evaluate(start_);
+  result_.status = Status::stopped;
+  result_.stop.reason = reasons::scatter_limit;
+  result_.stop.message = text("the worst of what scatters was higher still after ", result_.scatter_rounds,
+                              " rounds and ", count(), " evaluations");
+  return false;
+}
+
+Optimum optimum(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options) {
+  return Search(scene, problem, options).run();
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,285 @@
+// Whether what a search has come to is a minimum, and where it goes on if not.
+
+#include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/search/search.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <tuple>
+#include <utility>
+
+namespace arcslip::optimize {
+
+using continuation::text;
+namespace {
+
+using observables::Status;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int most_restarts = 5;
+constexpr double gain = 1e-7;                  // relative, that is worth going on from another design
+constexpr double beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
+constexpr double limit_jumps = 2e-3;           // of a limit, relative
+constexpr double limit_bends = 1e-6;           // the same: far above what curvature makes of it so near
+constexpr double active = 1e-6;                // relative: as high as the highest case
+constexpr std::size_t most_starts = 8;         // elsewhere
+constexpr std::size_t most_by_cobyla = 5;      // of them, the lowest
+constexpr double apart = 0.1;        // of the range of a variable: designs that are worth two searches
+constexpr double same_level = 1e-9;  // of amplitudes, relative: both are where nothing slips at the peak
+
+// Go on where another algorithm ended at no minimum. CCSAQ descends from the feasible side by conservative
+// approximations (Svanberg 2002), slowly at the end; SLSQP is quick from near by.
+constexpr std::array ladder = {"LD_CCSAQ", "LD_SLSQP", "LN_COBYLA", "LD_SLSQP"};
+
+}  // namespace
+
+bool Search::goes_on() {
+  if (stood_ && result_.status == Status::failed && best().value == stood_->first &&
+      result_.stop.reason != reasons::objective_failed)
+    std::tie(result_.status, result_.stop) = stood_->second;  // it led to nothing
+  stood_.reset();
+  if (result_.status == Status::complete && interrupted()) return false;
+  trials_.recall_best();
+  if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
+    return false;
+  if (best().excess > 0) {
+    if (find_feasible() || look_elsewhere()) return true;
+    if (interrupted()) return false;
+    result_.status = Status::stopped;
+    result_.stop.reason = reasons::infeasible;
+    result_.stop.message = "no design that keeps within the limits was found: " + result_.stop.message;
+    return false;
+  }
+  if (result_.stop.reason == reasons::flat) return false;
+  if (!stand_at_best()) return false;
+  if (const Balance left = balance_here(); !is_stationary(left)) return refine(left);
+  if (look_elsewhere()) return true;
+  if (interrupted() || !options_.certificate || !stand_at_best()) return false;
+  trials_.begin("the certificate");
+  describe();
+  result_.certificate = certify(
+      cases(), space().lower(), space().upper(), trials_.formulation().active(),
+      [this] { return trials_.formulation().margin(); }, [this] { return watch_.go_on(); });
+  return !interrupted() && passed_lower();
+}
+
+Balance Search::balance_here() {
+  return balance(cases(), space().lower(), space().upper(), trials_.formulation().active());
+}
+
+bool Search::stand_at_best() {
+  if (!cases().stand_at(best().design)) cases().trace(best().design, observables::Steps::curve);
+  return std::isfinite(cases().value());
+}
+
+void Search::go_from(const std::vector<double>& design) {
+  start_ = design;
+  stuck_value_ = infinity;
+  refinements_ = 0;
+  algorithm_ = asked_;
+}
+
+bool Search::refine(const Balance& left) {
+  if (refinements_ < ladder.size() && best().value != refined_) {
+    const std::size_t next = refinements_;
+    note(text(algorithm_.name, " ended at ", space().text(best().design), ", where d ln A / d ln p is ",
+              left.stationarity, "; ", ladder[next], " went on from there"));
+    go_from(best().design);
+    refinements_ = next + 1;
+    algorithm_ = algorithm(ladder[next]);
+    return true;
+  }
+  refined_ = best().value;
+  if (look_elsewhere()) return true;
+  if (interrupted()) return false;
+  result_.status = Status::stopped;
+  result_.stop.reason = reasons::not_stationary;
+  result_.stop.message = text("no algorithm came to a minimum: d ln A / d ln p left is ", left.stationarity,
+                              " (at most ", most_stationarity, "), complementarity ", left.complementarity,
+                              " (at most ", most_complementarity, ")", after()) +
+                         jump(left);
+  return false;
+}
+
+std::string Search::jump(const Balance& left) {
+  std::vector<double> y = space().scaled(best().design);
+  for (std::size_t k = 0; k < y.size(); ++k)
+    y[k] -= beyond * left.left[static_cast<Eigen::Index>(k)] / left.stationarity;
+  const std::vector<double> design = space().design(y);
+  cases().trace(design, observables::Steps::curve);
+  const std::string there = "; a little beyond, at " + space().text(design) + ", ";
+  if (cases().value() > (1 + jumps) * best().value)
+    return there + text("the amplitude jumps to ", cases().value(), " m");
+  if (const double exceeded = trials_.formulation().excess(); exceeded > limit_jumps)
+    return there + text("a peak comes up at which a limit is exceeded by ", exceeded);
+  else if (exceeded > limit_bends)
+    return there +
+           text("a limit is exceeded by ", exceeded, " against its gradient, since another one holds there");
+  if (cases().value() > best().value)
+    return there + "the amplitude has risen against its gradient, since another one holds there";
+  return "";
+}
+
+bool Search::find_feasible() {
+  if (std::exchange(looked_elsewhere_, true)) return false;
+  trials_.begin("the search for a design within the limits");
+  const std::string exceeds = space().text(best().design);
+  for (int k = 0; k < space().attempts() + space().samples() && best().excess > 0; ++k) {
+    if (!watch_.go_on()) return false;
+    trials_.evaluate(k < space().attempts() ? space().attempt(k) : space().sample(k - space().attempts()),
+                     true);
+  }
+  if (best().excess > 0) return false;
+  go_from(best().design);
+  note("the search came to " + exceeds + ", where a limit is exceeded, and went on from " +
+       space().text(start_) + ", where none is");
+  return true;
+}
+
+bool Search::look_elsewhere() {
+  if (!limited_ || !options_.elsewhere || asked_.global || std::exchange(was_elsewhere_, true)) return false;
+  trials_.begin("the search elsewhere");
+  std::vector<std::string> ignored;
+  std::vector<std::pair<std::vector<double>, std::string>> beginnings;
+  const std::vector<double> here = best().design;
+  const bool within =
+      best().excess == 0;  // else such designs were looked for in vain, but by these algorithms
+  double least = within ? (1 - gain) * best().value : infinity;
+  if (within) {
+    const auto designs = lowest_elsewhere();
+    for (const auto& design : designs) beginnings.emplace_back(design, asked_.name);
+    // Its first steps are long: it leaves a basin, and the plateau where a damper sticks, for a lower one.
+    if (asked_.name != "LN_COBYLA")
+      for (std::size_t i = 0; i < std::min(most_by_cobyla, designs.size()); ++i)
+        beginnings.emplace_back(designs[i], "LN_COBYLA");
+  }
+  for (const char* other : {"LN_COBYLA", "LD_MMA"}) beginnings.emplace_back(space().start(ignored), other);
+  std::vector<double> lower;
+  if (within && best().value < least) {
+    least = best().value;
+    lower = best().design;
+  }
+  for (const auto& [design, by] : beginnings) {
+    if (interrupted()) break;
+    scene::Scene there = scene_;
+    for (std::size_t k = 0; k < design.size(); ++k) scene::set(there, problem_.over[k].name, design[k]);
+    OptimumOptions options = options_;
+    options.algorithm = by;
+    options.seconds = 0;
+    options.certificate = options.elsewhere = false;
+    std::exception_ptr thrown;
+    options.progress = [&](OptimumProgress now) {
+      now.evaluations += static_cast<int>(count() + trials_.elsewhere().size());
+      now.best = std::min(now.best, best().value);
+      now.phase = watch_.phase();
+      try {
+        if (options_.progress && !options_.progress(now)) watch_.stop();
+      } catch (...) {
+        thrown = std::current_exception();
+        watch_.stop();
+      }
+      return !watch_.stopped();
+    };
+    options.go_on = [this] { return watch_.go_on(); };
+    const Optimum found = optimum(there, problem_, options);
+    if (thrown) std::rethrow_exception(thrown);
+    trials_.elsewhere().insert(trials_.elsewhere().end(), found.evaluations.begin(), found.evaluations.end());
+    add(found.work, work_elsewhere_);
+    if (!found.feasible || found.design.empty() || !(found.amplitude < least)) continue;
+    least = found.amplitude;
+    lower = found.design;
+  }
+  if (lower.empty() || watch_.stopped()) return false;
+  trials_.evaluate(lower, true);
+  if (!std::isfinite(cases().value())) return false;
+  note("the search came to " + space().text(here) +
+       (within ? ", and went on from the lower " : ", where a limit is exceeded, and went on from ") +
+       space().text(lower) + " elsewhere");
+  stood_ = {best().value, {result_.status, result_.stop}};
+  go_from(lower);  // a limit that is active may be exceeded there, by rounding
+  return true;
+}
+
+std::vector<std::vector<double>> Search::lowest_elsewhere() {
+  std::vector<Evaluation> found;
+  std::vector<Evaluation> chosen{{best().design, best().value}};  // before one of them is that
+  // Where all dampers slip easily or none does, too: no sample may be so near the bounds.
+  std::vector<std::vector<double>> samples;
+  for (const auto& bounds : {space().lower(), space().upper()})
+    samples.emplace_back(bounds.begin(), bounds.end());
+  for (int k = 0; k < space().samples(); ++k) samples.push_back(space().sample(k));
+  for (const std::vector<double>& design : samples) {
+    if (static_cast<int>(count()) >= options_.evaluations) break;
+    if (!watch_.go_on()) return {};
+    trials_.evaluate(design, true);
+    if (std::isfinite(cases().value()) && trials_.formulation().excess() == 0)
+      found.push_back({design, cases().value()});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Evaluation& a, const Evaluation& b) { return a.amplitude < b.amplitude; });
+  for (const Evaluation& each : found) {
+    const bool near = std::any_of(chosen.begin(), chosen.end(), [&](const Evaluation& other) {
+      return space().distance(each.design, other.design) < apart ||
+             std::abs(each.amplitude / other.amplitude - 1) < same_level;
+    });
+    if (!near && chosen.size() <= most_starts) chosen.push_back(each);
+  }
+  std::vector<std::vector<double>> designs;
+  for (std::size_t i = 1; i < chosen.size(); ++i) designs.push_back(chosen[i].design);
+  return designs;
+}
+
+bool Search::passed_lower() {
+  const std::vector<double> lower = std::exchange(result_.certificate->lower_design, {});
+  if (lower.empty()) return false;
+  const double value = best().value;
+  const std::string left = space().text(best().design);
+  trials_.evaluate(lower, true);
+  if (best().excess > 0 || !(best().value < (1 - gain) * value)) return false;
+  if (restarts_++ == most_restarts) {
+    result_.status = Status::stopped;
+    result_.stop.reason = reasons::lower_beside;
+    result_.stop.message = text("there was a lower design beside each of ", most_restarts, " minima");
+    return false;
+  }
+  go_from(lower);
+  note("the search came to a minimum at " + left + ", and went on from the lower " + space().text(lower));
+  return true;
+}
+
+void Search::describe() {
+  if (result_.design == best().design && !result_.cases.empty()) return;
+  result_.design = best().design;
+  result_.amplitude = best().value;
+  result_.feasible = best().excess == 0;
+  result_.cases.clear();
+  result_.certificate.reset();
+  if (best().design.empty() || !std::isfinite(best().value)) return;
+  double most = 0;
+  for (std::size_t c = 0; c < best().cases.size(); ++c) {
+    const auto& [state, problem] = best().cases[c];
+    CaseResult each = trials_.scenarios().result(trials_.scenario(c));
+    each.amplitude = state.amplitude();
+    each.point = cases().peaks(c).observe(state, problem);
+    if (cases().weight(c) * each.amplitude > most) {
+      most = cases().weight(c) * each.amplitude;
+      result_.point = each.point;
+    }
+    result_.cases.push_back(std::move(each));
+  }
+  if (!cases().stand_at(best().design)) {  // interrupted elsewhere
+    for (std::size_t c = 0; c < result_.cases.size(); ++c)
+      result_.cases[c].active =
+          cases().groups() > 1 || cases().weight(c) * result_.cases[c].amplitude >= (1 - active) * most;
+    return;
+  }
+  for (const ActivePeak& peak : balance_here().active) {
+    result_.cases[peak.in_case].active = true;
+    result_.cases[peak.in_case].multiplier += peak.multiplier;
+  }
+}
+
+}  // namespace arcslip::optimize

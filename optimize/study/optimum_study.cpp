@@ -1,0 +1,238 @@
+#include <arcslip/optimize/study/optimum_study.hpp>
+
+#include <arcslip/optimize/search/scaled_parameter.hpp>
+#include <arcslip/optimize/search/watch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+
+namespace arcslip::optimize {
+namespace {
+
+constexpr double around[] = {0.5, 1, 2};  // times the optimum: where responses are shown, to four digits
+constexpr std::size_t most_shown = 12;    // cases in one figure
+
+// To four digits, as a label of a figure shows it.
+double rounded(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
+  return value == 0 ? 0
+         : unit < 1 ? std::round(value * std::round(1 / unit)) / std::round(1 / unit)
+                    : std::round(value / unit) * unit;
+}
+
+// The frequency responses at a multiple of the optimum, if the parameters may have it.
+std::vector<observables::ResponseBranch> responses(scene::Scene scene, const OptimumProblem& problem,
+                                                   const std::vector<double>& design, double factor,
+                                                   const observables::ProgressCallback& progress) {
+  std::vector<std::pair<std::string, double>> set;
+  try {
+    for (std::size_t k = 0; k < design.size(); ++k) {
+      const double value = rounded(factor * design[k]);
+      scene::set(scene, problem.over[k].name, value);
+      set.emplace_back(problem.over[k].name, value);
+    }
+  } catch (const scene::ParameterError&) {
+    return {};
+  }
+  auto branches =
+      observables::frequency_response(scene, {problem.frequency_from, problem.frequency_to}, progress);
+  for (auto& branch : branches) branch.set = set;
+  return branches;
+}
+
+// Of the highest cases.
+std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const OptimumProblem& problem,
+                                        const Optimum& optimum,
+                                        const observables::ProgressCallback& progress) {
+  const auto& cases = optimum.cases;
+  std::vector<std::size_t> shown(cases.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  if (shown.size() > most_shown) {
+    const auto height = [&](std::size_t c) { return cases[c].weight * cases[c].amplitude; };
+    std::stable_sort(shown.begin(), shown.end(),
+                     [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
+    shown.resize(most_shown);
+    std::sort(shown.begin(), shown.end());
+  }
+  std::vector<CaseCurves> all;
+  for (const std::size_t c : shown) {
+    if (!progress({})) break;
+    CaseCurves& curves = all.emplace_back(CaseCurves{c});
+    const scene::Scene in_case = scene_of(scene, problem, cases[c]);
+    if (problem.over.size() == 1)
+      curves.peaks =
+          direct_optimum(in_case, {problem.over, problem.frequency_from, problem.frequency_to}, progress)
+              .curves;
+    curves.responses = responses(in_case, problem, optimum.design, 1, progress);
+  }
+  return all;
+}
+
+// Tells what is new, and what is done, again and again. False stops, once and for all.
+class Teller {
+ public:
+  Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, const char* item)
+      : progress_(progress), unit_(scene::to_rad_per_s(scene.frequency_unit)) {
+    told_.item = item;
+    told_.share_done = std::numeric_limits<double>::quiet_NaN();
+    told_.counted = "evaluations";
+    told_.phase = "the first design";
+  }
+
+  void begin(const char* phase) { told_.phase = phase; }
+  const char* phase() const { return told_.phase; }
+
+  bool tell(const OptimumProgress& now) {
+    told_.points = now.evaluations;
+    told_.counted = now.evaluations == 1 ? "evaluation" : "evaluations";
+    told_.frequency = now.omega / unit_;
+    told_.best = std::isfinite(now.best) ? now.best : observables::no_value;
+    told_.phase = now.phase;
+    return again();
+  }
+  // Of a curve of optima. share: of its way.
+  bool tell(long points, const OptimumPoint& now, double share) {
+    told_.points = points;
+    told_.counted = "points";
+    told_.frequency = now.response.omega / unit_;
+    told_.best = now.amplitude;
+    told_.phase = "the curve";
+    told_.share_done = share;
+    return again();
+  }
+  bool again() {
+    go_on = go_on && (!progress_ || progress_(told_));
+    return go_on;
+  }
+
+  bool go_on = true;
+
+ private:
+  const observables::ProgressCallback& progress_;
+  double unit_;
+  observables::Progress told_;
+};
+
+// What figures show and the direct way, as long as the watch goes on: where it does not the result is not
+// complete.
+void add_curves(OptimumResult& result, const scene::Scene& with, bool limited, bool alone, Watch& watch,
+                Teller& teller) {
+  const observables::ProgressCallback ask = [&](const observables::Progress&) { return watch.go_on(); };
+  const auto begin = [&](const char* phase) {
+    watch.begin(phase);
+    teller.begin(phase);
+  };
+  const bool bounded = std::isfinite(result.optimum.amplitude);
+  if (result.has_cases() && bounded) {
+    begin("the curves of the cases");
+    result.curves = curves_of_cases(with, result.problem, result.optimum, ask);
+  }
+  if (!result.has_cases() && result.problem.over.size() == 1 && !limited) {
+    begin("the direct way");
+    result.direct = direct_optimum(with, result.problem, ask);
+  }
+  begin("the responses at the optimum");
+  for (const double factor : around)
+    if (!result.has_cases() && bounded && (factor == 1 || alone) && watch.go_on()) {
+      auto more = responses(with, result.problem, result.optimum.design, factor, ask);
+      std::move(more.begin(), more.end(), std::back_inserter(result.responses));
+    }
+}
+
+// A study that was ended before all of it was done is not complete, whatever its search has come to.
+void end_early(OptimumResult& result, const Watch& watch) {
+  const std::string before = result.stop.message;
+  result.stop = watch.why();
+  result.stop.message += "; of the search: " + before;
+  result.status = observables::Status::stopped;
+}
+
+OptimumOptions options_of(const SearchSettings& search) {
+  OptimumOptions options;
+  options.algorithm = search.algorithm;
+  options.evaluations = search.evaluations;
+  options.seconds = search.seconds;
+  if (!search.local.empty()) options.local = LocalOptions{search.local, options.tolerances};
+  options.population = search.population;
+  options.seed = static_cast<unsigned long>(search.seed);
+  return options;
+}
+
+}  // namespace
+
+double OptimumResult::difference_of_design() const {
+  if (!direct.found || optimum.design.size() != 1) return std::numeric_limits<double>::quiet_NaN();
+  return std::abs(optimum.design[0] / direct.point.over - 1);
+}
+
+double OptimumResult::difference_of_amplitude() const {
+  if (!direct.found || optimum.design.size() != 1) return std::numeric_limits<double>::quiet_NaN();
+  return std::abs(optimum.amplitude / direct.point.amplitude - 1);
+}
+
+scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of) {
+  for (const auto* values : {&of.set, &of.scatter})
+    for (const auto& [name, value] : *values) scene::set(scene, name, value);
+  if (of.of < problem.cases.size())
+    if (const auto& response = problem.cases[of.of].response) scene.responses = {{"", *response}};
+  return scene;
+}
+
+OptimumProblem with_distinct_cases(OptimumProblem problem) {
+  std::vector<DesignCase> cases;
+  for (DesignCase& each : problem.cases) {
+    const auto same = std::find_if(cases.begin(), cases.end(), [&](const DesignCase& other) {
+      return other.set == each.set && other.response == each.response;
+    });
+    if (same == cases.end())
+      cases.push_back(std::move(each));
+    else
+      same->weight = problem.criterion == Criterion::mean ? same->weight + each.weight
+                                                          : std::max(same->weight, each.weight);
+  }
+  problem.cases = std::move(cases);
+  return problem;
+}
+
+OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
+                            const observables::ProgressCallback& progress, bool alone) {
+  Teller teller(progress, scene, "search");
+  OptimumOptions options = options_of(settings.search);
+  options.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
+  options.go_on = [&] { return teller.again(); };
+  const bool limited = !settings.problem.limits.empty() || !settings.problem.linear_limits.empty();
+  OptimumResult result;
+  result.problem = with_distinct_cases(settings.problem);
+  Watch watch(options.seconds, options.go_on);
+  result.optimum = optimum(scene, result.problem, options);
+  result.status = result.optimum.status;
+  result.stop = result.optimum.stop;
+  watch.begin(teller.phase());
+  if (watch.go_on() && !result.optimum.design.empty())
+    add_curves(result, scene, limited, alone, watch, teller);
+  if (watch.stopped() && result.status == observables::Status::complete) end_early(result, watch);
+  return result;
+}
+
+OptimumCurveResult optimum_curve_study(const scene::Scene& scene, const OptimumSettings& settings,
+                                       const observables::ProgressCallback& progress) {
+  Teller teller(progress, scene, "curve");
+  const ScaledParameter along(settings.along->lower, settings.along->upper);
+  const double from = along.scaled(along.lower), to = along.scaled(along.upper);
+  long count = 0;
+  OptimumCurveOptions options{.search = options_of(settings.search), .seconds = settings.search.seconds};
+  options.search.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
+  options.search.go_on = [&] { return teller.again(); };
+  options.progress = [&](const OptimumPoint& now) {
+    return teller.tell(++count, now, (along.scaled(now.along) - from) / (to - from));
+  };
+  OptimumCurveResult result;
+  result.problem = settings.problem;
+  result.curve = optimum_curve(scene, result.problem, *settings.along, options);
+  return result;
+}
+
+}  // namespace arcslip::optimize
