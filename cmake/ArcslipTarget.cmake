@@ -47,7 +47,7 @@ function(arcslip_library name)
     list(GET pair 1 folder_of_${link})
     file(CREATE_LINK ${folder_of_${link}} ${root}/arcslip/${link} SYMBOLIC)
   endforeach()
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${name}.hpp ${root}/arcslip/${name}.hpp SYMBOLIC)
+  configure_file(${name}.hpp ${root}/arcslip/${name}.hpp COPYONLY)  # a link to a file would be installed as one
   set(headers ${root}/arcslip/${name}.hpp)
   set(sources "")
   set(light "")

@@ -8,6 +8,7 @@
 namespace arcslip::continuation {
 namespace {
 
+constexpr double least_power = 0.1;  // of the distance from a bound, with which u comes to rest there
 constexpr int samples = 16;  // of a step that may pass a bound between its ends
 constexpr int window_bisections = 50;
 
@@ -44,6 +45,21 @@ std::optional<Exit> leaves(const Window& window, const Place& from, const Place&
   return {};
 }
 
+std::optional<Exit> leaves(const Window& window, const Place& here, Trial& trial) {
+  const Place* from = &here;
+  for (std::size_t k = 0; k < trial.corners.size(); ++k) {
+    const Place& to = trial.corners[k].before;
+    if (const auto found = leaves(window, *from, to, to.arclength - from->arclength, false)) {
+      trial.end = to;
+      trial.corners.resize(k);
+      return found;
+    }
+    from = &trial.corners[k].beyond;
+  }
+  const Place& end = trial.end;
+  return leaves(window, *from, end, end.arclength - from->arclength, trial.kink && trial.corners.empty());
+}
+
 bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orientation, Place& place,
                Vector& row) {
   const Eigen::Index n = place.v.size() - 1;
@@ -65,6 +81,17 @@ bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orienta
   }
   place.arclength = from.arclength + distance(with, from.v, place.v);
   return true;
+}
+
+bool runs_along(const Corrector& in, const Place& before, const Place& here, double bound) {
+  const Eigen::Index n = here.v.size() - 1;
+  const auto change = [&](const Place& at) {
+    return std::abs(bound - at.v[n]) * in.norm_u(at.tangent) / std::abs(at.tangent[n]);
+  };
+  const double x = std::abs(bound - here.v[n]), x_before = std::abs(bound - before.v[n]);
+  if (!(x > 0 && x < x_before)) return false;
+  const double now = change(here), then = change(before);
+  return std::isfinite(now) && std::log(now / then) > least_power * std::log(x / x_before);
 }
 
 std::optional<Stop> limit_reached(const Options& options, const Branch& branch, int unknowns, double size,

@@ -1,9 +1,10 @@
 #pragma once
-// Where a trace ends: at its window, at a limit of its options, back at its start.
+// Where a trace ends: at its window, at a limit of its options, back at its start. Not installed.
 
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/continuation/tracing/place.hpp>
+#include <arcslip/continuation/tracing/trial.hpp>
 
 #include <optional>
 
@@ -25,12 +26,21 @@ struct Exit {
 std::optional<Exit> leaves(const Window& window, const Place& from, const Place& to, double length,
                            bool straight);
 
+/// The same of a step from `here`, section by section: trial.end becomes the end of the section in which it
+/// leaves, and no corners beyond it are left.
+std::optional<Exit> leaves(const Window& window, const Place& here, Trial& trial);
+
 /// From `place`, beyond the window, back to the bound, with its tangent. False where there is no such
 /// solution on this branch: none, one farther away than the step is long, or, with `orientation` the sign of
 /// the determinant on the branch there, one of the other sign. 0: not known. row: work space, n + 1; on
 /// return, that of the factors.
 bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orientation, Place& place,
                Vector& row);
+
+/// Whether a branch with these last two points comes nearer to a bound of the window for ever: with the
+/// distance x = |p - bound|, x |du/dp| is how much u changes until x is 1/e of what it is. Towards a point at
+/// the bound it falls as a power of x, 1/2 at a fold; where u goes to infinity it does not.
+bool runs_along(const Corrector& in, const Place& before, const Place& here, double bound);
 
 // The limits of a trace: state, points, time, memory.
 

@@ -1,10 +1,10 @@
-#include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/continuation/tracing/tracer_impl.hpp>
 
 #include <arcslip/continuation/events/monitor_calls.hpp>
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/continuation/special_points/multiple_point.hpp>
 #include <arcslip/continuation/special_points/reduction.hpp>
-#include <arcslip/continuation/tracing/ends.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,349 +17,387 @@ namespace {
 constexpr double rejection = 0.25;             // of the step after a rejection
 constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
 constexpr double parameter_overrun = 1.5;      // of the largest |dp| of a step
-constexpr double visible_corner = 0.05;        // rad: a kink of less is not seen in a curve
+constexpr double parameter_rounding = 1e-9;    // relative changes of p below tell no direction
+// A turn that keeps so much of itself over so much shorter a step is a kink.
+constexpr double kink_turn = 0.7, kink_step = 0.25;
+constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: no shorter step tells two branches apart
+constexpr double pair_share =
+    1e-3;  // of the first step in which a mode may pass zero and come back: not shorter
 constexpr double endless_tail =
     1e-12;  // of the parameter's scale: so near to a bound a branch that does not reach it ends
 constexpr double tail_before = 1e-9;     // and its last point was so near
-constexpr double least_power = 0.1;      // of the distance from a bound, with which u comes to rest there
 constexpr double been_away = 3;          // roundings of the way from the start: nearer, it has not come back
 constexpr double singular_bound = 1e-6;  // relative to p: so near to a singular bound a branch has reached it
 
+// Both tangents point one way in p, and p went the other way: another branch, or two folds in one step.
+bool went_back(const Place& from, const Place& to) {
+  const Eigen::Index n = to.v.size() - 1;
+  const double a = from.tangent[n], b = to.tangent[n], dp = to.v[n] - from.v[n];
+  return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(from.v[n]);
+}
+
+// Where pieces of F meet at it, or a branch point that is not simple.
+LocatedEvent unlocated_branch_point(const std::vector<Monitor>& monitors, const Place& from,
+                                    const Place& to) {
+  LocatedEvent found;
+  for (const Monitor& monitor : monitors)
+    if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
+  found.event.nonsmooth = from.piece != to.piece;
+  found.event.located = found.event.nonsmooth;
+  found.event.point = point(from, {});
+  BranchPoint half_branches;
+  half_branches.tangents = {from.tangent, to.tangent};
+  found.event.data = std::move(half_branches);
+  found.place = from;
+  return found;
+}
+
 }  // namespace
 
-bool Tracer::end(StopReason reason, double value, double limit, std::string message) {
-  s_.branch.stop = {reason, value, limit, std::move(message)};
-  s_.ended = true;
-  return false;
-}
-
-// For the user's eyes, the evaluator moves the last correction further, onto the point itself.
-bool Tracer::notify() {
-  if (!observer_) return true;
-  main_->move_to(s_.here.v);
-  return observer_(accepted(*main_, s_.here), nullptr);
-}
-
-bool Tracer::step() try {
+bool Tracer::Impl::step() try {
   if (s_.ended) return false;
   if (!s_.begun) return begin();
-  events_->forget();
-  for (;;) {
-    if (options_.go_on && !options_.go_on()) return end(StopReason::user, 1, 1, "stopped by the caller");
-    if (!gets_on())
-      return end(StopReason::wrong_jacobian, s_.jacobian_error, largest_jacobian_error,
-                 "the branch gets no further: " + s_.jacobian_doubt);
-    const double smallest = options_.step.smallest * (1 + main_->norm_u(s_.here.v));
-    if (s_.step < smallest)
-      return end(
-          evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, s_.step, smallest,
-          evaluated_
-              ? "the step fell below its smallest size after rejections" + doubt(s_.here.v) +
-                    doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver)
-              : "the problem could not be evaluated ahead, however short the step" + because(failure_));
+  events_.forget();
+  while (may_try()) {
     switch (attempt()) {
-      case Attempt::accepted:
+      case Outcome::accepted:
         return !s_.ended;
-      case Attempt::ended:
+      case Outcome::ended:
         return false;
-      case Attempt::unresolved:
-        ++s_.branch.counts.rejected_steps;
-        log_rejection();
-        s_.factors_fit = false;
-        s_.step *= unresolved_factor();
+      case Outcome::unresolved:
+        count_rejection();
+        s_.step *= control_.share_after_unresolved(trial_);
         break;
-      case Attempt::rejected:
-        ++s_.branch.counts.rejected_steps;
-        log_rejection();
-        if (rejection_.why == Rejected::not_converged) suspect(next_.v);
-        s_.factors_fit = false;
-        s_.has_before = false;
-        if (!main_->failure().empty()) {
-          evaluated_ = false;
-          failure_ = main_->failure();
-        }
-        if (s_.here.arclength > s_.trouble_end) {
-          s_.trouble_end = s_.here.arclength + s_.step;
-          s_.rejections = 0;
-        }
-        if (++s_.rejections >= rejections_before_a_corner && corner()) return !s_.ended;
-        s_.factors_fit = false;
+      case Outcome::rejected:
+        count_rejection();
+        if (passes_corner_instead()) return !s_.ended;
         s_.step *= rejection;
         break;
     }
   }
+  return false;
 } catch (const MonitorFailure& failure) {
   return end(StopReason::monitor_failed, failure.parameter, 0, failure.what());
+}
+
+// Predicts, corrects, and asks what a step has to keep to be accepted: one branch, the length of dp, the
+// curve, the quantities.
+Tracer::Impl::Outcome Tracer::Impl::attempt() {
+  Place& end = trial_.end;
+  trial_.begin();
+  control_.predict(end.v);
+  main_.border_row(s_.here.tangent, row_);
+  trial_.correction = main_.correct(end.v, row_, s_.factors_fit, options_.newton.corrector);
+  const Correction& correction = trial_.correction;
+  trial_.evaluated = correction.evaluated && main_.failure().empty();
+  trial_.failure = main_.failure();
+  if (!correction.converged)
+    return refuse(correction.singular ? Rejected::singular
+                  : trial_.evaluated  ? Rejected::not_converged
+                                      : Rejected::not_evaluated,
+                  correction.last, options_.newton.tolerance);
+  if (correction.linear) jacobian_.suspect(end.v);
+
+  v_ = end.v - s_.here.v;
+  const double chord = std::sqrt(main_.dot(v_, v_));
+  if (!(chord > 0) || !settle(main_, end)) return refuse(Rejected::singular, chord, 0);
+  if (went_back(s_.here, end)) return refuse(Rejected::another_branch, 0, 0);
+  trial_.length = chord;
+  trial_.turn = angle_between(
+      std::min(main_.dot(end.tangent, s_.here.tangent), main_.dot(v_, s_.here.tangent) / chord));
+  trial_.kink = trial_.turn > options_.step.largest_angle && is_kink();
+  if (trial_.turn > options_.step.largest_angle) {
+    if (!trial_.kink || end.orientation != s_.here.orientation)
+      return refuse(Rejected::turn, trial_.turn, options_.step.largest_angle);
+  } else if (const auto refused = look_for_crossing()) {
+    return *refused;
+  }
+  // The tangent may turn towards the parameter within the step, or at a kink.
+  const double moved = std::abs(end.v[n_] - s_.here.v[n_]), most = control_.largest_parameter_step();
+  if (moved > parameter_overrun * most)
+    return refuse(Rejected::parameter_step, moved, most, Outcome::unresolved);
+  end.arclength = s_.here.arclength + chord;
+  trial_.corners = events_.corners(s_.here, end);
+  if (!trial_.corners.empty()) {
+    const Place& last = trial_.corners.back().beyond;
+    trial_.length = last.arclength - s_.here.arclength + distance(main_, last.v, end.v);
+    end.arclength = s_.here.arclength + trial_.length;
+  }
+  if (!measure()) return refuse(Rejected::singular, 0, 0);
+  resolution_.measure_curve(trial_);
+  divide();
+  if (trial_.curve_error > 1 || resolution_.hides_a_piece(trial_))
+    return refuse(Rejected::curve, trial_.curve_error, 1, Outcome::unresolved);
+  if (!resolution_.tells_quantities(trial_)) return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
+  return take(trial_.kink ? s_.turn.step * kink_step : control_.after(trial_));
+}
+
+Tracer::Impl::Outcome Tracer::Impl::refuse(Rejected why, double value, double limit, Outcome as) {
+  trial_.rejection.why = why;
+  trial_.rejection.value = value;
+  trial_.rejection.limit = limit;
+  return as;
+}
+
+// Whether a further step is to be tried; otherwise the branch has ended.
+bool Tracer::Impl::may_try() {
+  if (options_.go_on && !options_.go_on()) return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (!jacobian_.gets_on())
+    return end(StopReason::wrong_jacobian, s_.jacobian_error, largest_jacobian_error,
+               "the branch gets no further: " + s_.jacobian_doubt);
+  const double smallest = control_.smallest();
+  if (!(s_.step < smallest)) return true;
+  if (!trial_.evaluated)
+    return end(StopReason::not_evaluated, s_.step, smallest,
+               "the problem could not be evaluated ahead, however short the step" + because(trial_.failure));
+  return end(StopReason::step_too_small, s_.step, smallest,
+             "the step fell below its smallest size after rejections" + jacobian_.doubt(s_.here.v) +
+                 doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver));
+}
+
+void Tracer::Impl::count_rejection() {
+  ++s_.branch.counts.rejected_steps;
+  s_.factors_fit = false;
+  if (!options_.on_rejection) return;
+  Rejection& now = trial_.rejection;
+  now.arclength = s_.here.arclength;
+  now.parameter = s_.here.v[n_];
+  now.step = s_.step;
+  now.words = now.why == Rejected::quantity ? monitors_[trial_.unresolved].name : trial_.failure;
+  options_.on_rejection(now);
+}
+
+// After a rejection: the next attempt goes by the tangent, and after several of them in one stretch of the
+// branch, across a corner. True: it has passed one, or ended there.
+bool Tracer::Impl::passes_corner_instead() {
+  if (trial_.rejection.why == Rejected::not_converged) jacobian_.suspect(trial_.end.v);
+  s_.has_before = false;
+  if (!main_.failure().empty()) {
+    trial_.evaluated = false;
+    trial_.failure = main_.failure();
+  }
+  if (s_.here.arclength > s_.trouble_end) {
+    s_.trouble_end = s_.here.arclength + s_.step;
+    s_.rejections = 0;
+  }
+  if (++s_.rejections >= rejections_before_a_corner && corner()) return true;
+  s_.factors_fit = false;
+  return false;
+}
+
+// Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink
+// with the step. A turn is first met with a long step and rejected; it is the same one as long as its place
+// is not passed.
+bool Tracer::Impl::is_kink() {
+  if (trial_.end.piece == s_.here.piece) return false;
+  const State::Turn now{trial_.turn, s_.step, s_.here.arclength + 2 * s_.step};
+  if (s_.here.arclength > s_.turn.end) s_.turn = now;
+  if (s_.step > kink_step * s_.turn.step) return false;
+  if (trial_.turn >= kink_turn * s_.turn.angle) return true;
+  s_.turn = now;  // it shrank, but may stay from here on
+  return false;
+}
+
+// The branch point in the step, if there is one. What comes of the step where there is more than is found: a
+// change of orientation is a jump to a branch near by, unless branches cross here, or it stays however short
+// the step; and several modes that pass zero are several branch points, unless they do at one place.
+std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
+  Place& to = trial_.end;
+  const bool turned = to.orientation != s_.here.orientation;
+  int modes = turned ? 1 : 0;
+  const double inseparable = branch_point_step * (1 + main_.norm_u(s_.here.v));
+  const bool apart = s_.step > inseparable;
+  if (modes_ && to.orientation != 0 && to.piece == s_.here.piece) {
+    const auto crossed = modes_->between(s_.here, to, trial_.length, row_, main_.factors());
+    if (crossed && crossed->at_zero && apart)
+      return refuse(Rejected::branch_points, 1, 0, Outcome::unresolved);
+    if (crossed && (crossed->count % 2 == 1) == turned) modes = crossed->count;
+    if (crossed && modes == 0 && !crossed->told && !resolution_.stretch_is_short(pair_share)) {
+      resolution_.begin_stretch(trial_.length);
+      return refuse(Rejected::branch_points, 2, 1, Outcome::unresolved);
+    }
+  }
+  if (modes == 0) return {};
+  to.arclength = s_.here.arclength + trial_.length;
+  auto& crossing = trial_.crossing;
+  if (modes == 1) crossing = events_.branch_point(s_.here, to);
+  for (int loss = std::max(modes, 2); modes_ && !crossing && loss <= largest_rank_loss; ++loss)
+    if (loss == modes || modes == 1) crossing = events_.multiple_point(s_.here, to, loss);
+  if (crossing) return {};
+  if (apart && turned) return refuse(Rejected::another_branch, 0, 0);
+  if (apart) return refuse(Rejected::branch_points, modes, 1, Outcome::unresolved);
+  const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
+  if (!doubt.empty() && to.piece == s_.here.piece) {
+    end(StopReason::step_too_small, s_.step, inseparable,
+        "the direction of the branch changes however short the step" + doubt);
+    return Outcome::ended;
+  }
+  crossing = unlocated_branch_point(monitors_, s_.here, to);
+  return {};
 }
 
 // The monitors at the solution of the last correction. Its factors, and so the tangent, are those of a place
 // within the corrector's tolerance, which near a sharp peak is enough to turn the sign of a monitor: a change
 // of sign is believed from the linearization at the solution itself.
-bool Tracer::measure(Place& place) {
-  evaluate(monitors_, *main_, place);
-  if (!events_->changes_sign(last_section(), place)) return true;
-  main_->border_row(place.tangent, v_);
-  if (!main_->linearize(place.v, v_) || !settle(*main_, place)) return false;
-  evaluate(monitors_, *main_, place);
+bool Tracer::Impl::measure() {
+  Place& place = trial_.end;
+  evaluate(monitors_, main_, place);
+  if (!events_.changes_sign(trial_.last_section(s_.here), place)) return true;
+  main_.border_row(place.tangent, v_);
+  if (!main_.linearize(place.v, v_) || !settle(main_, place)) return false;
+  evaluate(monitors_, main_, place);
   return true;
 }
 
 // Into sections along which each quantity is one smooth one, where it is the largest of several.
-void Tracer::divide() {
+void Tracer::Impl::divide() {
   std::vector<Corner> all;
-  const Place* from = &s_.here;
-  for (std::size_t k = 0; k <= corners_.size(); ++k) {
-    const Place& to = k < corners_.size() ? corners_[k].before : next_;
-    auto found = events_->divisions(*from, to);
+  std::size_t k = 0;
+  trial_.all_sections(s_.here, [&](const Place& from, const Place& to) {
+    auto found = events_.divisions(from, to);
     all.insert(all.end(), std::move_iterator(found.begin()), std::move_iterator(found.end()));
-    if (k == corners_.size()) break;
-    from = &corners_[k].beyond;
-    all.push_back(corners_[k]);
-  }
-  corners_ = std::move(all);
+    if (k < trial_.corners.size()) all.push_back(trial_.corners[k++]);
+    return true;
+  });
+  trial_.corners = std::move(all);
 }
 
-Tracer::Attempt Tracer::attempt() {
-  crossing_.reset();
-  corners_.clear();
-  curve_error_ = 0;
-  predict(next_.v);
-  main_->border_row(s_.here.tangent, row_);
-  const Correction correction = main_->correct(next_.v, row_, s_.factors_fit, options_.newton.corrector);
-  evaluated_ = correction.evaluated && main_->failure().empty();
-  failure_ = main_->failure();
-  if (!correction.converged)
-    return refuse(correction.singular ? Rejected::singular
-                  : evaluated_        ? Rejected::not_converged
-                                      : Rejected::not_evaluated,
-                  correction.last, options_.newton.tolerance);
-  if (correction.linear) suspect(next_.v);
-
-  v_ = next_.v - s_.here.v;
-  double length = std::sqrt(main_->dot(v_, v_));
-  if (!(length > 0) || !settle(*main_, next_)) return refuse(Rejected::singular, length, 0);
-  if (went_back(next_)) return refuse(Rejected::another_branch, 0, 0);
-
-  const double turn = angle_between(
-      std::min(main_->dot(next_.tangent, s_.here.tangent), main_->dot(v_, s_.here.tangent) / length));
-  bool kink = false;
-  if (turn > options_.step.largest_angle) {
-    kink = is_kink(turn, next_);
-    if (!kink || next_.orientation != s_.here.orientation)
-      return refuse(Rejected::turn, turn, options_.step.largest_angle);
-  } else if (const auto refused = look_for_crossing(length)) {
-    return *refused;
-  }
-  // The tangent may turn towards the parameter within the step, or at a kink.
-  const double moved = std::abs(next_.v[n_] - s_.here.v[n_]);
-  if (moved > parameter_overrun * largest_parameter_step())
-    return refuse(Rejected::parameter_step, moved, largest_parameter_step(), Attempt::unresolved);
-  next_.arclength = s_.here.arclength + length;
-  corners_ = events_->corners(s_.here, next_);
-  if (!corners_.empty()) {
-    const Place& last = corners_.back().beyond;
-    length = last.arclength - s_.here.arclength + distance(*main_, last.v, next_.v);
-    next_.arclength = s_.here.arclength + length;
-  }
-  if (!measure(next_)) return refuse(Rejected::singular, 0, 0);
-  curve_error_ = curve_error();
-  divide();
-  if (curve_error_ > 1) return refuse(Rejected::curve, curve_error_, 1, Attempt::unresolved);
-  if (hides_a_piece(length)) return refuse(Rejected::curve, curve_error_, 1, Attempt::unresolved);
-  if (!resolved(length)) return refuse(Rejected::quantity, 0, 0, Attempt::unresolved);
-  const double next_ds = kink ? s_.turn.step * kink_step : choose_step(turn, correction);
-  return take(length, next_ds, kink, correction);
-}
-
-// Where the step leaves the window, within a section of its own: next_ is then the end of that section, and
-// no kinks beyond it are left.
-std::optional<Exit> Tracer::exit(bool kink) {
-  const Window window{options_.lower, options_.upper};
-  const Place* from = &s_.here;
-  for (std::size_t k = 0; k < corners_.size(); ++k) {
-    const Place& to = corners_[k].before;
-    if (const auto found = leaves(window, *from, to, to.arclength - from->arclength, false)) {
-      next_ = to;
-      corners_.resize(k);
-      return found;
-    }
-    from = &corners_[k].beyond;
-  }
-  return leaves(window, *from, next_, next_.arclength - from->arclength, kink && corners_.empty());
-}
-
-// Accepts next_, or, beyond the window, ends the branch at its bound.
-Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Correction& correction) {
-  next_.arclength = s_.here.arclength + length;
-  if (const auto exit = this->exit(kink)) {
-    const double bound = exit->bound;
-    const Place& from = last_section();
-    // A branch point on the way changes the sign.
-    const bool crossed = crossing_ && from.arclength + exit->share * (next_.arclength - from.arclength) >
-                                          crossing_->place.arclength;
-    const int orientation = crossed ? next_.orientation : s_.here.orientation;
-    if (!draw_back(*main_, from, *exit, orientation, next_, row_) || !measure(next_)) {
-      const double left = std::abs(bound - s_.here.v[n_]);
-      if (left > singular_bound * std::max(std::abs(bound), main_->parameter_scale()))
-        return refuse(Rejected::end_of_window, left, 0);
-      if (!runs_along(bound)) {
-        end(StopReason::boundary, s_.here.v[n_], bound,
-            "reached the end of the window at " + text(bound) + ", a singular point");
-      } else if (left > endless_tail * main_->parameter_scale()) {
-        return refuse(Rejected::end_of_window, left, 0);
-      } else {
-        end_in_tail(bound);
-      }
-      return Attempt::ended;
-    }
-    if (crossing_ && (crossing_->place.v[n_] < options_.lower || crossing_->place.v[n_] > options_.upper))
-      crossing_.reset();
-    if (accept(std::move(next_), correction))
-      end(StopReason::boundary, bound, bound, "reached the end of the window at " + text(bound));
-    return Attempt::ended;
-  }
-  if (!kink && may_come_home(*main_, s_.start, s_.here, next_, length, options_.step.largest_angle, v_)) {
-    // The branch that passes so near is that of the start if it has the same solution in the start's plane.
-    v_ += main_->dot(s_.start.v - v_, s_.start.tangent) * s_.start.tangent;
-    main_->border_row(s_.start.tangent, row_);
-    const bool converged = main_->correct(v_, row_, false).converged;
-    const double miss = distance(*main_, v_, s_.start.v);
-    const double rounding = rounding_of_home(*main_, s_.start, options_.newton.rounding_level);
-    if (converged && miss <= rounding) {
-      next_ = s_.start;
-      next_.arclength = s_.here.arclength + distance(*main_, s_.here.v, next_.v);
-      if (accept(std::move(next_), correction))
-        end(StopReason::closed, miss, rounding, "came back to the start: the branch is closed");
-      return Attempt::ended;
-    }
-    main_->border_row(next_.tangent, row_);
-    if (!main_->linearize(next_.v, row_)) return refuse(Rejected::singular, 0, 0);
-  }
-  const double rounding = rounding_of_home(*main_, s_.start, options_.newton.rounding_level);
-  for (std::size_t k = 0; k < corners_.size() && s_.here.arclength > 0; ++k) {
-    const Place& at = corners_[k].before;
-    const double miss = distance(*main_, at.v, s_.start.v);
-    if (miss > rounding || at.arclength < been_away * rounding) continue;
-    next_ = s_.start;
-    next_.arclength = at.arclength;
-    corners_.resize(k);
-    if (accept(std::move(next_), correction))
-      end(StopReason::closed, miss, rounding, "came back to the start, a kink: the branch is closed");
-    return Attempt::ended;
-  }
-  s_.longest = std::max(s_.longest, length);
-  evaluated_ = true;
-  s_.has_before = !kink || !corners_.empty();
-  s_.factors_fit = !kink;
-  if (!accept(std::move(next_), correction)) return Attempt::ended;
-  s_.step = limited(next_ds);
+// Accepts the step; or ends the branch, at the bound of the window or at its start.
+Tracer::Impl::Outcome Tracer::Impl::take(double next_step) {
+  trial_.end.arclength = s_.here.arclength + trial_.length;
+  if (const auto exit = leaves({options_.lower, options_.upper}, s_.here, trial_)) return end_at_bound(*exit);
+  if (const auto closed = come_home()) return *closed;
+  s_.longest = std::max(s_.longest, trial_.length);
+  trial_.evaluated = true;
+  s_.has_before = !trial_.kink || !trial_.corners.empty();
+  s_.factors_fit = !trial_.kink;
+  if (!accept()) return Outcome::ended;
+  s_.step = control_.limited(next_step);
+  const double scale = main_.parameter_scale();
   for (const double bound : {options_.lower, options_.upper})
-    if (std::abs(bound - s_.here.v[n_]) <= endless_tail * main_->parameter_scale() &&
-        std::abs(bound - s_.before.v[n_]) <= tail_before * main_->parameter_scale() && runs_along(bound)) {
+    if (std::abs(bound - s_.here.v[n_]) <= endless_tail * scale &&
+        std::abs(bound - s_.before.v[n_]) <= tail_before * scale &&
+        runs_along(main_, s_.before, s_.here, bound)) {
       end_in_tail(bound);
-      return Attempt::ended;
+      return Outcome::ended;
     }
-  return within_limits() ? Attempt::accepted : Attempt::ended;
+  return within_limits() ? Outcome::accepted : Outcome::ended;
 }
 
-// Whether the branch comes nearer to a bound of the window for ever: with the distance x = |p - bound|, x
-// |du/dp| is how much u changes until x is 1/e of what it is. Towards a point at the bound it falls as a
-// power of x, 1/2 at a fold; where u goes to infinity it does not.
-bool Tracer::runs_along(double bound) const {
-  const auto change = [&](const Place& at) {
-    return std::abs(bound - at.v[n_]) * main_->norm_u(at.tangent) / std::abs(at.tangent[n_]);
-  };
-  const double x = std::abs(bound - s_.here.v[n_]), x_before = std::abs(bound - s_.before.v[n_]);
-  if (!(x > 0 && x < x_before)) return false;
-  const double now = change(s_.here), before = change(s_.before);
-  return std::isfinite(now) && std::log(now / before) > least_power * std::log(x / x_before);
-}
-
-void Tracer::end_in_tail(double bound) {
-  end(StopReason::boundary, s_.here.v[n_], bound,
-      "came within " + text(std::abs(bound - s_.here.v[n_])) + " of the end of the window at " + text(bound) +
-          ", which it does not reach: it goes to infinity along it, |u| = " + text(main_->norm_u(s_.here.v)) +
-          " in scales");
-}
-
-bool Tracer::within_limits() {
-  double seconds = 0;
-  if (options_.seconds > 0)
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-  const auto stop = limit_reached(options_, s_.branch, n_, main_->norm_u(s_.here.v), s_.here.v[n_], seconds);
-  return !stop || end(stop->reason, stop->value, stop->limit, stop->message);
-}
-
-void Tracer::keep(const Place& place, const Correction& correction) {
-  Point kept = point(place, correction);
-  if (!options_.keep_points) kept.u = kept.tangent = {};
-  s_.branch.points.push_back(std::move(kept));
-  ++s_.branch.counts.points;
-}
-
-// To a kink, from the beginning of a section, and across. A corner that is to be seen is a point of the
-// branch.
-bool Tracer::pass(const Place& from, const Corner& corner) {
-  const Place& kink = corner.before;
-  bool go_on = report(events_->between(from, kink));
-  if (!go_on || terminal_) return go_on;
-  go_on = report(events_->across(corner));
-  if (terminal_ || angle_between(main_->dot(kink.tangent, corner.beyond.tangent)) < visible_corner)
-    return go_on;
-  keep(kink, {});
-  if (!go_on || !observer_) return go_on;
-  const auto now = events_->look_at(kink);
-  return !now || observer_(*now, nullptr);
-}
-
-bool Tracer::accept(Place&& place, const Correction& correction) {
-  bool go_on = true;
-  const Place* from = &s_.here;
-  for (const Corner& corner : corners_) {
-    if (!go_on || terminal_) break;
-    go_on = pass(*from, corner);
-    from = &corner.beyond;
+Tracer::Impl::Outcome Tracer::Impl::end_at_bound(const Exit& exit) {
+  const double bound = exit.bound;
+  const Place& from = trial_.last_section(s_.here);
+  Place& place = trial_.end;
+  auto& crossing = trial_.crossing;
+  // A branch point on the way changes the sign.
+  const bool crossed = crossing && from.arclength + exit.share * (place.arclength - from.arclength) >
+                                       crossing->place.arclength;
+  const int orientation = crossed ? place.orientation : s_.here.orientation;
+  if (!draw_back(main_, from, exit, orientation, place, row_) || !measure()) {
+    const double left = std::abs(bound - s_.here.v[n_]), scale = main_.parameter_scale();
+    if (left > singular_bound * std::max(std::abs(bound), scale))
+      return refuse(Rejected::end_of_window, left, 0);
+    if (!runs_along(main_, s_.before, s_.here, bound)) {
+      end(StopReason::boundary, s_.here.v[n_], bound,
+          "reached the end of the window at " + text(bound) + ", a singular point");
+    } else if (left > endless_tail * scale) {
+      return refuse(Rejected::end_of_window, left, 0);
+    } else {
+      end_in_tail(bound);
+    }
+    return Outcome::ended;
   }
-  const bool crossed = crossing_ && crossing_->event.located && !crossing_->event.nonsmooth &&
-                       crossing_->place.arclength > from->arclength;
-  if (go_on && !terminal_)
-    go_on = report(with_crossing(crossed ? events_->past(*from, crossing_->place, place)
-                                         : events_->between(*from, place)));
-  if (terminal_) return end_at(*terminal_);
-  warn_of_undefined(place);
-  keep(place, correction);
-  s_.last_step = place.arclength - from->arclength;
-  s_.curve_error = curve_error_;
-  if (corners_.empty())
+  if (crossing && (crossing->place.v[n_] < options_.lower || crossing->place.v[n_] > options_.upper))
+    crossing.reset();
+  if (accept()) end(StopReason::boundary, bound, bound, "reached the end of the window at " + text(bound));
+  return Outcome::ended;
+}
+
+// Where the step comes back to the start, or to a kink at which the branch began: there it ends.
+std::optional<Tracer::Impl::Outcome> Tracer::Impl::come_home() {
+  Place& place = trial_.end;
+  const double rounding = rounding_of_home(main_, s_.start, options_.newton.rounding_level);
+  if (!trial_.kink &&
+      may_come_home(main_, s_.start, s_.here, place, trial_.length, options_.step.largest_angle, v_)) {
+    // The branch that passes so near is that of the start if it has the same solution in the start's plane.
+    v_ += main_.dot(s_.start.v - v_, s_.start.tangent) * s_.start.tangent;
+    main_.border_row(s_.start.tangent, row_);
+    const bool converged = main_.correct(v_, row_, false).converged;
+    const double miss = distance(main_, v_, s_.start.v);
+    if (converged && miss <= rounding) {
+      place = s_.start;
+      place.arclength = s_.here.arclength + distance(main_, s_.here.v, place.v);
+      if (accept()) end(StopReason::closed, miss, rounding, "came back to the start: the branch is closed");
+      return Outcome::ended;
+    }
+    main_.border_row(place.tangent, row_);
+    if (!main_.linearize(place.v, row_)) return refuse(Rejected::singular, 0, 0);
+  }
+  for (std::size_t k = 0; k < trial_.corners.size() && s_.here.arclength > 0; ++k) {
+    const Place& at = trial_.corners[k].before;
+    const double miss = distance(main_, at.v, s_.start.v);
+    if (miss > rounding || at.arclength < been_away * rounding) continue;
+    place = s_.start;
+    place.arclength = at.arclength;
+    trial_.corners.resize(k);
+    if (accept())
+      end(StopReason::closed, miss, rounding, "came back to the start, a kink: the branch is closed");
+    return Outcome::ended;
+  }
+  return {};
+}
+
+bool Tracer::Impl::accept() {
+  const bool go_on = record_.events_of(trial_);
+  if (record_.terminal()) return end_at(*record_.terminal());
+  Place& place = trial_.end;
+  record_.warn_of_undefined(place);
+  record_.keep(place, trial_.correction);
+  s_.last_step = place.arclength - trial_.last_section(s_.here).arclength;
+  s_.curve_error = trial_.curve_error;
+  if (trial_.corners.empty())
     std::swap(s_.before, s_.here);
   else
-    s_.before = corners_.back().beyond;
+    s_.before = trial_.corners.back().beyond;
   std::swap(s_.here, place);
-  if (is_due(s_.branch.counts.points)) look_at_jacobian(s_.here.v);
-  if (!go_on || !notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
+  jacobian_.look_at_some();
+  if (!go_on || !record_.show_last_point()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }
 
 // The branch ends at a terminal event: what was found beyond it, while it was not certain, is dropped.
-bool Tracer::end_at(const Place& place) {
+bool Tracer::Impl::end_at(const Place& terminal) {
   auto& points = s_.branch.points;
   auto& events = s_.branch.events;
-  while (!points.empty() && points.back().arclength > place.arclength) points.pop_back();
-  while (!events.empty() && events.back().point.arclength > place.arclength) events.pop_back();
-  keep(place, {});
+  while (!points.empty() && points.back().arclength > terminal.arclength) points.pop_back();
+  while (!events.empty() && events.back().point.arclength > terminal.arclength) events.pop_back();
+  record_.keep(terminal, {});
   s_.before = s_.here;
-  s_.here = place;
+  s_.here = terminal;
   const Event& last = events.back();
   return end(StopReason::event, last.value, 0,
-             "reached the terminal event \"" + last.monitor + "\" at " + text(place.v[n_]));
+             "reached the terminal event \"" + last.monitor + "\" at " + text(terminal.v[n_]));
 }
 
-Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
-             std::vector<Monitor> monitors, Observer observer) {
-  Tracer tracer(std::move(problem), start, options, std::move(monitors), std::move(observer));
-  while (tracer.step()) {
-  }
-  return tracer.take();
+void Tracer::Impl::end_in_tail(double bound) {
+  end(StopReason::boundary, s_.here.v[n_], bound,
+      "came within " + text(std::abs(bound - s_.here.v[n_])) + " of the end of the window at " + text(bound) +
+          ", which it does not reach: it goes to infinity along it, |u| = " + text(main_.norm_u(s_.here.v)) +
+          " in scales");
+}
+
+bool Tracer::Impl::within_limits() {
+  double seconds = 0;
+  if (options_.seconds > 0)
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  const auto stop = limit_reached(options_, s_.branch, n_, main_.norm_u(s_.here.v), s_.here.v[n_], seconds);
+  return !stop || end(stop->reason, stop->value, stop->limit, stop->message);
+}
+
+bool Tracer::Impl::end(StopReason reason, double value, double limit, std::string message) {
+  s_.branch.stop = {reason, value, limit, std::move(message)};
+  s_.ended = true;
+  return false;
 }
 
 }  // namespace arcslip::continuation

@@ -10,16 +10,10 @@
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/continuation/tracing/crossed_modes.hpp>
-#include <arcslip/continuation/tracing/ends.hpp>
-#include <arcslip/continuation/tracing/event_locator.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 
-#include <chrono>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -48,8 +42,9 @@ class Tracer {
   Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
          std::vector<Monitor> monitors = {}, Observer observer = {});
 
-  Tracer(const Tracer&) = delete;
-  Tracer& operator=(const Tracer&) = delete;
+  Tracer(Tracer&&) noexcept;
+  Tracer& operator=(Tracer&&) noexcept;
+  ~Tracer();
 
   /// One more point (the first call corrects the start). False once the branch has ended: see branch().stop.
   bool step();
@@ -57,88 +52,12 @@ class Tracer {
   /// Where the trace stands. This one goes on as if it had not been saved.
   State save() const;
 
-  const Branch& branch() const { return s_.branch; }
-  Branch take() { return std::move(s_.branch); }
+  const Branch& branch() const;
+  Branch take();
 
  private:
-  enum class Attempt { accepted, rejected, unresolved, ended };
-
-  void make_tools();
-  bool begin();
-  std::string singular_start(bool has_tangent) const;
-  Attempt refuse(Rejected why, double value, double limit, Attempt as = Attempt::rejected);
-  void log_rejection();
-  void suspect(const Vector& v);
-  void look_at_jacobian(const Vector& v);
-  std::string doubt(const Vector& v);
-  bool gets_on() const;
-  static bool is_due(long times);
-  // A turn that keeps so much of itself over so much shorter a step is a kink.
-  static constexpr double kink_step = 0.25;
-
-  Attempt attempt();
-  bool corner();
-  bool step_beyond_corner();
-  const Place& last_section() const { return corners_.empty() ? s_.here : corners_.back().beyond; }
-  Attempt take(double length, double next_ds, bool kink, const Correction& correction);
-  std::optional<Exit> exit(bool kink);
-  void predict(Vector& v) const;
-  bool went_back(const Place& next) const;
-  std::optional<Attempt> look_for_crossing(double length);
-  bool measure(Place& place);
-  void divide();
-  bool stretch_is_short(double share) const;
-  void begin_stretch(double length);
-  bool resolved(double length);
-  bool tells(const Place& from, const Place& to, double length);
-  double chord_departure(const Place& from, const Place& to, std::size_t m, double length) const;
-  bool is_kink(double turn, const Place& next);
-  bool accept(Place&& place, const Correction& correction);
-  bool pass(const Place& from, const Corner& corner);
-  std::optional<LocatedEvent> unlocated_branch_point(const Place& from, const Place& to) const;
-  std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found);
-  bool report(std::vector<LocatedEvent>&& found);
-  void warn_of_undefined(const Place& place);
-  const Event* add(Event&& event);
-  void keep(const Place& place, const Correction& correction);
-  bool end_at(const Place& place);
-  bool notify();
-  bool within_limits();
-  bool runs_along(double bound) const;
-  void end_in_tail(double bound);
-  double curve_error();
-  double curve_error(const Place& from, const Place& to);
-  bool hides_a_piece(double length);
-  double unresolved_factor() const;
-  double error_growth() const;
-  double choose_step(double angle, const Correction& correction) const;
-  double largest_parameter_step() const;
-  double limited(double ds) const;
-  bool end(StopReason reason, double value, double limit, std::string message);
-
-  std::shared_ptr<const Problem> problem_;
-  Options options_;
-  std::vector<Monitor> monitors_;
-  Observer observer_;
-  State s_;
-  int n_;
-  std::unique_ptr<Corrector> main_;
-  std::unique_ptr<EventLocator> events_;
-  std::unique_ptr<ModeCounter> modes_;  // where branch points are wanted
-  Place next_;
-  Rejection rejection_;               // the last one
-  std::size_t unresolved_ = 0;        // the monitor whose quantity it was
-  bool evaluated_ = true;             // the last rejection came from the corrector, not from the problem
-  double curve_error_ = 0;            // of the curve along the last step, over that allowed
-  bool other_piece_between_ = false;  // in the last step, of which its sections tell nothing
-  double chord_error_ = 0;            // of the monitored quantities in the last step, over that allowed
-  std::vector<Corner> corners_;       // in the step that is tried, in order
-  std::optional<Place> terminal_;
-  std::optional<LocatedEvent> crossing_;  // the branch point in the step that is tried
-  std::string failure_;                   // of the last rejection
-  Vector row_;
-  mutable Vector v_;
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Steps until the branch ends.

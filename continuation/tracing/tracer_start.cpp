@@ -1,11 +1,10 @@
 // How a trace begins: from a start, or from where another one was saved.
 
-#include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/continuation/special_points/inner_problem.hpp>
 #include <arcslip/continuation/special_points/reduction.hpp>
 #include <arcslip/continuation/tracing/start.hpp>
-#include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/continuation/tracing/tracer_impl.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,181 +17,158 @@ constexpr double first_share_of_window = 0.01;  // |dp| of a step where the user
 constexpr const char* remedy =
     ": on a fold or a branch point, p tells no way to go, and a start needs a tangent (Start::tangent)";
 
+// The window cut to the parameter's bounds, and the largest |dp| of a step.
+Options within(const Parameter& free, Options options) {
+  options.lower = std::max(options.lower, free.lower);
+  options.upper = std::min(options.upper, free.upper);
+  if (options.step.largest_parameter == 0)
+    options.step.largest_parameter = first_share_of_window * (options.upper - options.lower);
+  return options;
+}
+
+State before_the_start(const Start& start) {
+  State state;
+  state.free = start.free;
+  state.direction = start.direction;
+  state.p = start.p;
+  state.here.v.resize(start.u.size() + 1);
+  state.here.v << start.u, start.p[start.free];
+  state.here.tangent = start.tangent;
+  return state;
+}
+
+bool looks_for_branch_points(const std::vector<Monitor>& monitors) {
+  return std::any_of(monitors.begin(), monitors.end(),
+                     [](const Monitor& each) { return each.kind == MonitorKind::branch_point; });
+}
+
 }  // namespace
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
-               std::vector<Monitor> monitors, Observer observer)
-    : problem_(scaled_to_window(given(std::move(problem)), start.free, options.lower, options.upper)),
-      options_(options),
-      monitors_(std::move(monitors)),
-      observer_(std::move(observer)),
-      n_(problem_->size()) {
+               std::vector<Monitor> monitors, Observer observer) {
+  problem = scaled_to_window(given(std::move(problem)), start.free, options.lower, options.upper);
   check(options);
-  check_start(*problem_, start, options);
-  check_monitors(monitors_);
-  s_.free = start.free;
-  s_.direction = start.direction;
-  s_.p = start.p;
-  s_.here.v.resize(n_ + 1);
-  s_.here.v << start.u, start.p[s_.free];
-  s_.here.tangent = start.tangent;
-  make_tools();
+  check_start(*problem, start, options);
+  check_monitors(monitors);
+  impl_ = std::make_unique<Impl>(std::move(problem), before_the_start(start), options, std::move(monitors),
+                                 std::move(observer));
 }
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
-               std::vector<Monitor> monitors, Observer observer)
-    : problem_(scaled_to_window(given(std::move(problem)), state.free, options.lower, options.upper)),
-      options_(options),
-      monitors_(std::move(monitors)),
-      observer_(std::move(observer)),
-      s_(std::move(state)),
-      n_(problem_->size()) {
+               std::vector<Monitor> monitors, Observer observer) {
+  problem = scaled_to_window(given(std::move(problem)), state.free, options.lower, options.upper);
   check(options);
-  check_state(*problem_, s_, monitors_.size());
-  check_monitors(monitors_);
-  make_tools();
+  check_state(*problem, state, monitors.size());
+  check_monitors(monitors);
+  impl_ = std::make_unique<Impl>(std::move(problem), std::move(state), options, std::move(monitors),
+                                 std::move(observer));
 }
 
-void Tracer::make_tools() {
-  const Parameter& free = problem_->parameters()[static_cast<std::size_t>(s_.free)];
-  options_.lower = std::max(options_.lower, free.lower);
-  options_.upper = std::min(options_.upper, free.upper);
-  if (options_.step.largest_parameter == 0)
-    options_.step.largest_parameter = first_share_of_window * (options_.upper - options_.lower);
-  main_ = std::make_unique<Corrector>(*problem_, s_.p, s_.free, options_.newton, s_.branch.counts,
-                                      options_.linear_solver);
-  events_ = std::make_unique<EventLocator>(problem_, s_.p, s_.free, options_, monitors_, s_.courses,
-                                           s_.branch.counts);
-  main_->restore(s_.factors);
-  s_.factors = {};
-  if (std::any_of(monitors_.begin(), monitors_.end(),
-                  [](const Monitor& each) { return each.kind == MonitorKind::branch_point; }))
-    modes_ = std::make_unique<ModeCounter>(*problem_, s_.p, s_.free, s_.branch.counts);
-  next_ = s_.here;
-  next_.tangent.resize(n_ + 1);
-  row_.resize(n_ + 1);
-  v_.resize(n_ + 1);
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+Tracer::~Tracer() = default;
+
+bool Tracer::step() {
+  return impl_->step();
 }
 
 State Tracer::save() const {
+  return impl_->save();
+}
+
+const Branch& Tracer::branch() const {
+  return impl_->branch();
+}
+
+Branch Tracer::take() {
+  return std::move(impl_->branch());
+}
+
+Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
+             std::vector<Monitor> monitors, Observer observer) {
+  Tracer tracer(std::move(problem), start, options, std::move(monitors), std::move(observer));
+  while (tracer.step()) {
+  }
+  return tracer.take();
+}
+
+Tracer::Impl::Impl(std::shared_ptr<const Problem> problem, State state, const Options& options,
+                   std::vector<Monitor> monitors, Observer observer)
+    : problem_(std::move(problem)),
+      options_(within(problem_->parameters()[static_cast<std::size_t>(state.free)], options)),
+      monitors_(std::move(monitors)),
+      s_(std::move(state)),
+      n_(problem_->size()),
+      main_(*problem_, s_.p, s_.free, options_.newton, s_.branch.counts, options_.linear_solver),
+      events_(problem_, s_.p, s_.free, options_, monitors_, s_.courses, s_.branch.counts),
+      control_(options_, s_, main_),
+      resolution_(options_, monitors_, events_.looks_for_kinks(), s_, main_),
+      jacobian_(*problem_, options_, s_),
+      record_(options_, monitors_, std::move(observer), s_, main_, events_),
+      row_(n_ + 1),
+      v_(n_ + 1) {
+  main_.restore(s_.factors);
+  s_.factors = {};
+  if (looks_for_branch_points(monitors_))
+    modes_ = std::make_unique<ModeCounter>(*problem_, s_.p, s_.free, s_.branch.counts);
+  trial_.end = s_.here;
+  trial_.end.tangent.resize(n_ + 1);
+}
+
+State Tracer::Impl::save() const {
   State state = s_;
-  state.factors = main_->memory();
+  state.factors = main_.memory();
   return state;
 }
 
 // To go on a message that the linearization at the start is singular.
-std::string Tracer::singular_start(bool has_tangent) const {
+std::string Tracer::Impl::singular_start(bool has_tangent) const {
   const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
   return !doubt.empty() || has_tangent ? doubt : remedy;
 }
 
-bool Tracer::begin() {
+bool Tracer::Impl::begin() {
   s_.begun = true;
   const bool given = s_.here.tangent.size() != 0;
   if (!given) s_.here.tangent = Vector::Unit(n_ + 1, n_);
-  main_->border_row(s_.here.tangent, row_);
-  const Correction correction = main_->correct(s_.here.v, row_, false);
+  main_.border_row(s_.here.tangent, row_);
+  const Correction correction = main_.correct(s_.here.v, row_, false);
   if (correction.singular)
     return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
-               "the linearization at the start is singular" + because(main_->failure()) +
-                   (main_->failure().empty() ? singular_start(given) : ""));
+               "the linearization at the start is singular" + because(main_.failure()) +
+                   (main_.failure().empty() ? singular_start(given) : ""));
   if (!correction.converged && correction.evaluated) {
-    std::string doubts = doubt(s_.here.v);
+    std::string doubts = jacobian_.doubt(s_.here.v);
     if (doubts.empty() && correction.linear && !given) doubts = std::string("; it converges slowly") + remedy;
     return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
                "the corrector did not converge at the start (" + std::to_string(correction.iterations) +
-                   " iterations)" + doubts + because(main_->failure()));
+                   " iterations)" + doubts + because(main_.failure()));
   }
   if (!correction.converged)
     return end(StopReason::not_evaluated, correction.last, options_.newton.tolerance,
-               "the problem could not be evaluated at the start" + because(main_->failure()));
-  if (!settle(*main_, s_.here)) {
-    const std::string& failure = main_->failure();
+               "the problem could not be evaluated at the start" + because(main_.failure()));
+  if (!settle(main_, s_.here)) {
+    const std::string& failure = main_.failure();
     return end(failure.empty() ? StopReason::start_failed : StopReason::not_evaluated, 0, 0,
                failure.empty() ? "the linearization at the start is singular" + singular_start(given)
                                : "the problem could not be evaluated at the start: " + failure);
   }
   if (!given && s_.direction < 0) s_.here.reverse();
-  s_.branch.linear_solver = main_->factors().name();
-  const double to_scale = 1 / main_->parameter_scale();
+  s_.branch.linear_solver = main_.factors().name();
+  const double to_scale = 1 / main_.parameter_scale();
   const double along = to_scale * std::abs(s_.here.tangent[n_]);
   s_.step = options_.step.initial > 0
                 ? options_.step.initial
                 : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
-  s_.step = limited(s_.step);
-  keep(s_.here, correction);
-  evaluate(monitors_, *main_, s_.here);
-  warn_of_undefined(s_.here);
+  s_.step = control_.limited(s_.step);
+  record_.keep(s_.here, correction);
+  evaluate(monitors_, main_, s_.here);
+  record_.warn_of_undefined(s_.here);
   s_.start = s_.before = s_.here;
   s_.factors_fit = false;  // their border row is that of the start
-  look_at_jacobian(s_.here.v);
-  if (!notify()) return end(StopReason::user, 1, 1, "stopped by the caller");
+  jacobian_.look_at(s_.here.v);
+  if (!record_.show_last_point()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return within_limits();
-}
-
-// What a trace finds out about its problem on the way: whether the Jacobian is that of F, and why steps were
-// tried in vain.
-
-namespace {
-
-constexpr long seldom = 8;  // looks at the Jacobian: the 1st, 8th, 64th ... time that there is reason for one
-constexpr double standstill =
-    1e-3;  // of the longest step: so short, a branch with a wrong Jacobian gets no further
-constexpr long many_rejections = 20;  // which are also more than a quarter of the points
-
-}  // namespace
-
-bool Tracer::is_due(long times) {
-  while (times > 0 && times % seldom == 0) times /= seldom;
-  return times == 1;
-}
-
-void Tracer::look_at_jacobian(const Vector& v) {
-  if (!options_.check_jacobian || !s_.jacobian_doubt.empty() || !v.allFinite()) return;
-  Vector p = s_.p;
-  p[s_.free] = v[n_];
-  const JacobianError found = doubt_jacobian(*problem_, v.head(n_), p, s_.free);
-  if (found.message.empty()) return;
-  s_.jacobian_doubt = found.message;
-  s_.jacobian_error = found.relative;
-  s_.branch.warnings.push_back(found.message + " (at " + text(v[n_]) +
-                               "): tangents and events are as wrong, and the branch may end early");
-}
-
-// A correction that came to v did not converge as Newton's method does.
-void Tracer::suspect(const Vector& v) {
-  if (!is_due(++s_.slow)) return;
-  look_at_jacobian(s_.here.v);
-  look_at_jacobian(v);
-}
-
-// To go on a message where Newton's method failed.
-std::string Tracer::doubt(const Vector& v) {
-  if (s_.jacobian_doubt.empty()) look_at_jacobian(v);
-  return s_.jacobian_doubt.empty() ? std::string() : "; " + s_.jacobian_doubt;
-}
-
-bool Tracer::gets_on() const {
-  if (s_.jacobian_doubt.empty()) return true;
-  const Counts& counts = s_.branch.counts;
-  return s_.step >= standstill * s_.longest &&
-         !(counts.rejected_steps >= many_rejections && 4 * counts.rejected_steps > counts.points);
-}
-
-Tracer::Attempt Tracer::refuse(Rejected why, double value, double limit, Attempt as) {
-  rejection_.why = why;
-  rejection_.value = value;
-  rejection_.limit = limit;
-  return as;
-}
-
-void Tracer::log_rejection() {
-  if (!options_.on_rejection) return;
-  rejection_.arclength = s_.here.arclength;
-  rejection_.parameter = s_.here.v[n_];
-  rejection_.step = s_.step;
-  rejection_.words = rejection_.why == Rejected::quantity ? monitors_[unresolved_].name : failure_;
-  options_.on_rejection(rejection_);
 }
 
 }  // namespace arcslip::continuation

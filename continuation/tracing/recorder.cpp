@@ -1,0 +1,115 @@
+#include <arcslip/continuation/tracing/recorder.hpp>
+
+#include <arcslip/continuation/problem/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double visible_corner = 0.05;  // rad: a kink of less is not seen in a curve
+
+// The events of a section in the order of arclength, with the branch point in it: the first terminal one ends
+// the branch.
+std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found,
+                                        std::optional<LocatedEvent>& crossing) {
+  if (crossing && !crossing->event.monitor.empty()) {
+    const auto place =
+        std::upper_bound(found.begin(), found.end(), crossing->place.arclength,
+                         [](double s, const LocatedEvent& each) { return s < each.event.point.arclength; });
+    found.insert(place, std::move(*crossing));
+  }
+  crossing.reset();
+  return std::move(found);
+}
+
+}  // namespace
+
+void Recorder::keep(const Place& place, const Correction& correction) {
+  Point kept = point(place, correction);
+  if (!options_.keep_points) kept.u = kept.tangent = {};
+  s_.branch.points.push_back(std::move(kept));
+  ++s_.branch.counts.points;
+}
+
+void Recorder::warn_of_undefined(const Place& place) {
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (!std::isnan(place.monitors[m]) && !std::isnan(place.quantities[m])) continue;
+    const std::string start = "the monitor \"" + monitors_[m].name + "\" is not a number at ";
+    auto& all = s_.branch.warnings;
+    if (std::none_of(all.begin(), all.end(), [&](const std::string& w) { return w.starts_with(start); }))
+      all.push_back(start + text(place.v[place.v.size() - 1]) +
+                    ": its zeros beside such points are not seen");
+  }
+}
+
+bool Recorder::events_of(Trial& trial) {
+  bool go_on = true;
+  const Place* from = &s_.here;
+  for (const Corner& corner : trial.corners) {
+    if (!go_on || terminal_) break;
+    go_on = pass(*from, corner);
+    from = &corner.beyond;
+  }
+  if (!go_on || terminal_) return go_on;
+  const auto& crossing = trial.crossing;
+  const bool crossed = crossing && crossing->event.located && !crossing->event.nonsmooth &&
+                       crossing->place.arclength > from->arclength;
+  return report(with_crossing(
+      crossed ? events_.past(*from, crossing->place, trial.end) : events_.between(*from, trial.end),
+      trial.crossing));
+}
+
+// To a kink, from the beginning of a section, and across. A corner that is to be seen is a point of the
+// branch.
+bool Recorder::pass(const Place& from, const Corner& corner) {
+  const Place& kink = corner.before;
+  bool go_on = report(events_.between(from, kink));
+  if (!go_on || terminal_) return go_on;
+  go_on = report(events_.across(corner));
+  if (terminal_ || angle_between(main_.dot(kink.tangent, corner.beyond.tangent)) < visible_corner)
+    return go_on;
+  keep(kink, {});
+  if (!go_on || !observer_) return go_on;
+  const auto now = events_.look_at(kink);
+  return !now || observer_(*now, nullptr);
+}
+
+bool Recorder::report(std::vector<LocatedEvent>&& all) {
+  bool go_on = true;
+  for (LocatedEvent& found : all) {
+    const Event* event = add(std::move(found.event));
+    if (observer_ && go_on) {
+      const auto now = events_.look_at(found.place);
+      if (!now) main_.move_to(found.place.v);  // at a branch point B may be singular to the last bit
+      go_on = observer_(now ? *now : accepted(main_, found.place), event);
+    }
+    const bool terminal = std::any_of(monitors_.begin(), monitors_.end(), [&](const Monitor& m) {
+      return m.terminal && m.name == event->monitor;
+    });
+    if (terminal && !terminal_) terminal_ = std::move(found.place);
+  }
+  return go_on;
+}
+
+// In the order of arclength: an event may have waited for a few points until it was certain.
+const Event* Recorder::add(Event&& event) {
+  const double s = event.point.arclength;
+  const auto after = std::upper_bound(s_.branch.points.begin(), s_.branch.points.end(), s,
+                                      [](double x, const Point& y) { return x < y.arclength; });
+  event.after = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - s_.branch.points.begin(), 1) - 1);
+  const auto place = std::upper_bound(s_.branch.events.begin(), s_.branch.events.end(), s,
+                                      [](double x, const Event& y) { return x < y.point.arclength; });
+  return &*s_.branch.events.insert(place, std::move(event));
+}
+
+// For the user's eyes, the evaluator moves the last correction further, onto the point itself.
+bool Recorder::show_last_point() {
+  if (!observer_) return true;
+  main_.move_to(s_.here.v);
+  return observer_(accepted(main_, s_.here), nullptr);
+}
+
+}  // namespace arcslip::continuation

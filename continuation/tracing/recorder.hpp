@@ -1,0 +1,59 @@
+#pragma once
+// What becomes of an accepted step: its points and events, in the branch and for the observer. Not installed.
+
+#include <arcslip/continuation/events/monitor.hpp>
+#include <arcslip/continuation/problem/options.hpp>
+#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/tracing/event_locator.hpp>
+#include <arcslip/continuation/tracing/state.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/continuation/tracing/trial.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace arcslip::continuation {
+
+class Recorder {
+ public:
+  /// All but the observer outlive this.
+  Recorder(const Options& options, const std::vector<Monitor>& monitors, Observer observer, State& state,
+           Corrector& corrector, EventLocator& events)
+      : options_(options),
+        monitors_(monitors),
+        observer_(std::move(observer)),
+        s_(state),
+        main_(corrector),
+        events_(events) {}
+
+  /// A point of the branch.
+  void keep(const Place& place, const Correction& correction);
+
+  /// Where a monitor is not a number, its zeros go by unseen: a warning of the branch, once for each monitor.
+  void warn_of_undefined(const Place& place);
+
+  /// The events of a step from the last point, section by section, with those of its corners, and the branch
+  /// point on the way. False: the observer said stop.
+  bool events_of(Trial& trial);
+
+  /// The first terminal event, if one was met: the branch ends there.
+  const std::optional<Place>& terminal() const { return terminal_; }
+
+  /// The last point to the observer. False: it said stop.
+  bool show_last_point();
+
+ private:
+  bool pass(const Place& from, const Corner& corner);
+  bool report(std::vector<LocatedEvent>&& found);
+  const Event* add(Event&& event);
+
+  const Options& options_;
+  const std::vector<Monitor>& monitors_;
+  Observer observer_;
+  State& s_;
+  Corrector& main_;
+  EventLocator& events_;
+  std::optional<Place> terminal_;
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,124 @@
+#include <arcslip/continuation/tracing/resolution.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double pair_safety = 8, extreme_safety = 2;  // times the bend of a slope that is told
+constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
+constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
+constexpr double middle_share = 0.7;           // of the largest error of the curve, in the middle of a step
+constexpr double smallest_relevant_curve = 1e-6;  // |u| in scales: below, the curve's error is absolute
+constexpr double unknown_curve_error = 1 / 0.3;   // where the problem cannot be evaluated in the middle
+
+// Whether a slope that is a and b at the ends of a step, and between them a parabola `bend` s (1 - s) off the
+// straight line, has no more zeros than these tell, though it bends some times as much, to either side: none
+// between slopes of one sign, where bend <= (sqrt|a| + sqrt|b|)^2, and one where it is monotonic,
+// bend <= |a| + |b|.
+bool is_told(double a, double b, double bend) {
+  const double sum = std::abs(a) + std::abs(b);
+  return a * b > 0 ? pair_safety * bend <= sum + 2 * std::sqrt(a * b) : extreme_safety * bend <= sum;
+}
+
+}  // namespace
+
+void Resolution::measure_curve(Trial& trial) {
+  trial.curve_error = 0;
+  trial.other_piece_between = false;
+  if (!(options_.step.curve_tolerance > 0)) return;
+  double largest = 0;
+  trial.all_sections(s_.here, [&](const Place& from, const Place& to) {
+    if (from.piece == to.piece)
+      largest = std::max(largest, curve_error(from, trial, to));
+    else if (looks_for_kinks_)
+      trial.other_piece_between = true;
+    return true;
+  });
+  trial.curve_error = largest;
+}
+
+// Of one: at its middle, where it is largest but for what the fourth derivative changes within it.
+double Resolution::curve_error(const Place& from, Trial& trial, const Place& to) {
+  const double size = std::max({main_.norm_u(from.v), main_.norm_u(to.v), smallest_relevant_curve});
+  const double allowed = middle_share * options_.step.curve_tolerance * size;
+  const double length = distance(main_, from.v, to.v);
+  if (!(length > 0)) return 0;
+  hermite(from.v, from.tangent, to.v, to.tangent, length, 0.5, middle_);
+  const double error = main_.distance_from_branch(middle_) / allowed;
+  std::uint64_t piece = 0;
+  if (main_.piece(piece) && piece != to.piece) trial.other_piece_between = true;
+  return std::isfinite(error) ? error : unknown_curve_error;
+}
+
+bool Resolution::hides_a_piece(const Trial& trial) {
+  if (!trial.other_piece_between || stretch_is_short(unresolved_share)) return false;
+  begin_stretch(trial.length);
+  return true;
+}
+
+bool Resolution::tells_quantities(Trial& trial) {
+  trial.chord_error = 0;
+  if (stretch_is_short(unresolved_share)) return true;
+  const bool all =
+      trial.all_sections(s_.here, [&](const Place& from, const Place& to) { return tells(from, to, trial); });
+  if (!all) begin_stretch(trial.length);
+  return all;
+}
+
+// The same of one section. How much the slope bends between its ends is told by the change of the quantity,
+// and by the slope before.
+bool Resolution::tells(const Place& from, const Place& to, Trial& trial) const {
+  const double length = to.arclength - from.arclength;
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (!monitors_[m].quantity) continue;
+    const double a = from.monitors[m], b = to.monitors[m];
+    const double change = (to.quantities[m] - from.quantities[m]) / length;
+    if (std::isnan(a + b + change)) continue;  // see Branch::warnings
+    double bend = 6 * std::abs(change - 0.5 * (a + b));
+    if (s_.has_before && &from == &s_.here) {
+      const double before = (a - s_.before.monitors[m]) / s_.last_step;
+      if (std::isfinite(before))
+        bend =
+            std::max(bend, length * length / (length + s_.last_step) * std::abs((b - a) / length - before));
+    }
+    const double size = std::max(std::abs(a), std::abs(b)) * length;
+    const double chord_error = monitors_[m].chord_tolerance > 0
+                                   ? chord_departure(from, to, m, length) / monitors_[m].chord_tolerance
+                                   : 0;
+    if (chord_error > trial.chord_error) trial.chord_error = chord_error;
+    const double typical = std::max(std::abs(to.quantities[m]),
+                                    monitors_[m].quantity_is_parameter ? main_.parameter_scale() : 0.0);
+    if ((!is_told(a, b, bend) || chord_error > 1) && size > quantity_rounding * typical) {
+      trial.unresolved = m;
+      return false;
+    }
+  }
+  return true;
+}
+
+// Of the curve of a quantity q over p from its chord in a step, relative: to q along q or to p along p,
+// whichever is less, as on logarithmic axes. Of three points at ds/2 the middle one is off the chord by a
+// parallelogram of the slopes at the ends.
+double Resolution::chord_departure(const Place& from, const Place& to, std::size_t m, double length) const {
+  const Eigen::Index n = to.v.size() - 1;
+  const double area =
+      std::abs(from.tangent[n] * to.monitors[m] - to.tangent[n] * from.monitors[m]) * length * length / 8;
+  const double p = std::abs(to.v[n]), q = std::abs(to.quantities[m]);
+  return area /
+         std::max(q * std::abs(to.v[n] - from.v[n]), p * std::abs(to.quantities[m] - from.quantities[m]));
+}
+
+bool Resolution::stretch_is_short(double share) const {
+  return s_.here.arclength <= s_.unresolved_end && s_.step <= share * s_.unresolved_step;
+}
+
+void Resolution::begin_stretch(double length) {
+  if (s_.here.arclength <= s_.unresolved_end) return;
+  if (s_.here.arclength > s_.unresolved_end + length) s_.unresolved_step = 0;
+  s_.unresolved_end = s_.here.arclength + length;
+  s_.unresolved_step = std::max(s_.unresolved_step, s_.step);
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,78 @@
+#include <arcslip/continuation/tracing/step_control.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, at most
+constexpr double largest_extrapolation = 2.5;    // in last steps, for the cubic predictor
+constexpr double unresolved_rejection = 0.5;     // of the step where a quantity is not told by its slopes
+constexpr double curve_safety = 0.9;             // of the step that the curve's error allows
+
+// Of the step, where the curve's error is `error` times that allowed: it falls with the fourth power.
+double curve_factor(double error) {
+  return std::clamp(curve_safety / std::sqrt(std::sqrt(error)), shrinkage, growth);
+}
+
+}  // namespace
+
+double StepControl::smallest() const {
+  return options_.step.smallest * (1 + in_.norm_u(s_.here.v));
+}
+
+double StepControl::largest_parameter_step() const {
+  const double p = s_.here.v[s_.here.v.size() - 1];
+  const double relative = options_.step.relative_parameter * std::abs(p);
+  const double limit = options_.step.largest_parameter;
+  return relative > 0 ? std::min(limit, relative) : limit;  // at p = 0 there is no relative limit
+}
+
+double StepControl::limited(double ds) const {
+  const double largest_change = options_.step.relative_state * (1 + in_.norm_u(s_.here.v));
+  const double change = in_.norm_u(s_.here.tangent);  // |du/ds|
+  if (change * ds > largest_change) ds = largest_change / change;
+  if (options_.step.largest > 0) ds = std::min(ds, options_.step.largest);
+  const double along = std::abs(s_.here.tangent[s_.here.tangent.size() - 1]);
+  const double limit = largest_parameter_step();
+  return along * ds > limit ? limit / along : ds;
+}
+
+void StepControl::predict(Vector& v) const {
+  const Predictor predictor = options_.step.predictor;
+  if (predictor != Predictor::tangent && s_.has_before && s_.step <= largest_extrapolation * s_.last_step) {
+    const double share = s_.step / s_.last_step;
+    if (predictor == Predictor::cubic)
+      hermite(s_.before.v, s_.before.tangent, s_.here.v, s_.here.tangent, s_.last_step, 1 + share, v);
+    else
+      v = s_.here.v + share * (s_.here.v - s_.before.v);
+    return;
+  }
+  v = s_.here.v + s_.step * s_.here.tangent;
+}
+
+// Of the curve's error in steps of one length, from the last step to this one: where it grows, as towards a
+// resonance, it is expected to go on so (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
+double StepControl::error_growth(const Trial& trial) const {
+  if (!(s_.curve_error > 0) || !trial.corners.empty()) return 1;
+  const double length = (trial.end.arclength - s_.here.arclength) / s_.last_step;
+  return std::max(1.0, trial.curve_error / (s_.curve_error * std::pow(length, 4)));
+}
+
+double StepControl::after(const Trial& trial) const {
+  double factor = trial.turn > 0 ? options_.step.angle / trial.turn : growth;
+  const Correction& correction = trial.correction;
+  const bool contraction_counts = correction.first > std::sqrt(options_.newton.tolerance);
+  if (contraction_counts && correction.contraction > 0)
+    factor = std::min(factor, std::sqrt(options_.step.contraction / correction.contraction));
+  if (trial.chord_error > 0) factor = std::min(factor, curve_safety / std::sqrt(trial.chord_error));
+  if (trial.curve_error > 0) factor = std::min(factor, curve_factor(trial.curve_error * error_growth(trial)));
+  return s_.step * std::clamp(factor, shrinkage, growth);
+}
+
+double StepControl::share_after_unresolved(const Trial& trial) const {
+  return trial.curve_error > 1 ? curve_factor(trial.curve_error) : unresolved_rejection;
+}
+
+}  // namespace arcslip::continuation

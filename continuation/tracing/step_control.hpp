@@ -1,0 +1,41 @@
+#pragma once
+// How long the steps of a trace are, and where they lead: section 8.4 of the theory. Not installed.
+
+#include <arcslip/continuation/problem/options.hpp>
+#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/tracing/state.hpp>
+#include <arcslip/continuation/tracing/trial.hpp>
+
+namespace arcslip::continuation {
+
+class StepControl {
+ public:
+  /// All outlive this.
+  StepControl(const Options& options, const State& state, const Corrector& corrector)
+      : options_(options), s_(state), in_(corrector) {}
+
+  /// The step below which a trace ends.
+  double smallest() const;
+  /// |dp| of a step at most.
+  double largest_parameter_step() const;
+  /// A step cut to what the options allow.
+  double limited(double ds) const;
+
+  /// By the cubic or the secant of the last two points, or, after a kink, at the start or far out, the
+  /// tangent.
+  void predict(Vector& v) const;
+
+  /// The step after an accepted one.
+  double after(const Trial& trial) const;
+  /// The share of a step that is tried next where its corrector converged, but it does not tell the branch.
+  double share_after_unresolved(const Trial& trial) const;
+
+ private:
+  double error_growth(const Trial& trial) const;
+
+  const Options& options_;
+  const State& s_;
+  const Corrector& in_;
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,87 @@
+#pragma once
+// The parts of a tracer, and the loop around them: section 8 of the theory. Not installed.
+
+#include <arcslip/continuation/events/monitor.hpp>
+#include <arcslip/continuation/problem/branch.hpp>
+#include <arcslip/continuation/problem/options.hpp>
+#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/tracing/crossed_modes.hpp>
+#include <arcslip/continuation/tracing/ends.hpp>
+#include <arcslip/continuation/tracing/event_locator.hpp>
+#include <arcslip/continuation/tracing/jacobian_watch.hpp>
+#include <arcslip/continuation/tracing/recorder.hpp>
+#include <arcslip/continuation/tracing/resolution.hpp>
+#include <arcslip/continuation/tracing/state.hpp>
+#include <arcslip/continuation/tracing/step_control.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/continuation/tracing/trial.hpp>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace arcslip::continuation {
+
+class Tracer::Impl {
+ public:
+  /// state: that of a trace before its start, or of one that was saved. The problem has the scale of its free
+  /// parameter.
+  Impl(std::shared_ptr<const Problem> problem, State state, const Options& options,
+       std::vector<Monitor> monitors, Observer observer);
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  bool step();
+  State save() const;
+  Branch& branch() { return s_.branch; }
+
+ private:
+  /// What becomes of a step that is tried. rejected: a shorter one is tried, by the tangent and with new
+  /// factors; unresolved: the corrector converged, but a shorter step is needed; ended: the branch has ended.
+  enum class Outcome { accepted, rejected, unresolved, ended };
+
+  bool begin();  // tracer_start.cpp
+  std::string singular_start(bool has_tangent) const;
+
+  bool may_try();
+  Outcome attempt();
+  Outcome refuse(Rejected why, double value, double limit, Outcome as = Outcome::rejected);
+  void count_rejection();
+  bool passes_corner_instead();
+  std::optional<Outcome> look_for_crossing();
+  bool is_kink();
+  bool measure();
+  void divide();
+  Outcome take(double next_step);
+  Outcome end_at_bound(const Exit& exit);
+  std::optional<Outcome> come_home();
+  bool accept();
+
+  bool corner();  // tracer_corners.cpp
+  bool step_beyond_corner();
+
+  void end_in_tail(double bound);
+  bool end_at(const Place& terminal);
+  bool within_limits();
+  bool end(StopReason reason, double value, double limit, std::string message);
+
+  std::shared_ptr<const Problem> problem_;
+  Options options_;
+  std::vector<Monitor> monitors_;
+  State s_;
+  int n_;
+  Corrector main_;
+  EventLocator events_;
+  std::unique_ptr<ModeCounter> modes_;  // where branch points are wanted
+  StepControl control_;
+  Resolution resolution_;
+  JacobianWatch jacobian_;
+  Recorder record_;
+  Trial trial_;
+  Vector row_, v_;  // n + 1
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,57 @@
+#pragma once
+// A step that is tried, until it is accepted or rejected. Not installed.
+
+#include <arcslip/continuation/problem/options.hpp>
+#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/tracing/place.hpp>
+#include <arcslip/continuation/tracing/state.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace arcslip::continuation {
+
+/// A tracer has one, so that its vectors are allocated once.
+struct Trial {
+  Place end;
+  Correction correction;
+  double length = 0;                     // arclength of the step, by way of its corners
+  double turn = 0;                       // rad, of the tangent
+  bool kink = false;                     // it crosses a kink that is no corner of it
+  std::vector<Corner> corners;           // on the way, in order
+  std::optional<LocatedEvent> crossing;  // the branch point on the way
+  double curve_error = 0;                // of the cubics along it, over that allowed
+  bool other_piece_between = false;      // of which its sections tell nothing
+  double chord_error = 0;                // of the monitored quantities, over that allowed
+  Rejection rejection;                   // why it was rejected
+  std::size_t unresolved = 0;            // the monitor whose quantity was the reason
+  bool evaluated = true;                 // false: the reason is that the problem could not be evaluated
+  std::string failure;                   // in its words
+
+  void begin() {
+    crossing.reset();
+    corners.clear();
+    curve_error = 0;
+  }
+
+  /// Where the last of its smooth sections begins.
+  const Place& last_section(const Place& here) const {
+    return corners.empty() ? here : corners.back().beyond;
+  }
+
+  /// f(from, to) for each smooth section of the step from `here`, in order, while it returns true. Whether it
+  /// always did.
+  template <class F>
+  bool all_sections(const Place& here, F&& f) const {
+    const Place* from = &here;
+    for (const Corner& corner : corners) {
+      if (!f(*from, corner.before)) return false;
+      from = &corner.beyond;
+    }
+    return f(*from, end);
+  }
+};
+
+}  // namespace arcslip::continuation
