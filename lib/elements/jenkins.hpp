@@ -12,8 +12,8 @@
 //
 // G: integral of phi phi^T over all stick, g_i and l_j: of phi over one phase; kappa = 1/pi (mean row 1/(2
 // pi)), or 2/pi over half a period where the motion is antisymmetric. Moving ends of phases do not enter,
-// since f is continuous there; an anchor moves with x(r_i) alone, since x'(r_i) = 0. See docs/theory.md,
-// section 3.
+// since f is continuous there; an anchor moves with x(r_i) alone, since x'(r_i) = 0. See
+// docs/theory/03-friction-integrals.md.
 //
 // Without slip (max x - min x <= 2 p/k_d) f is centred: f = k_d (x - (max x + min x)/2), the limit from the
 // slipping side.

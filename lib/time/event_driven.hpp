@@ -18,7 +18,7 @@
 //
 // Derivatives with respect to the start run along as columns of the same series. A memory that follows has
 // those of what it follows from there on; the forces are continuous, so that nothing jumps. Source:
-// docs/theory.md, section 9.
+// docs/theory/09-event-driven.md.
 
 #include <arcslip/time/motion.hpp>
 #include <arcslip/time/period_map.hpp>

@@ -18,7 +18,7 @@
 // sliders, and to the order of the method with others.
 //
 // A massless motion (M w = 0) has r . w = 0 at all times; one without mass and damping has v = (x1 - x0)/h.
-// Source: Newmark 1959; docs/theory.md, section 10.
+// Source: Newmark 1959; docs/theory/10-newmark.md.
 
 #include <arcslip/time/implicit_elements.hpp>
 #include <arcslip/time/motion.hpp>

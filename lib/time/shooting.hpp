@@ -12,7 +12,7 @@
 //
 // Floquet multipliers: the eigenvalues of M without the sliders that rest throughout, each of which would add
 // one multiplier 1. As many are zero, in general, as sliders slip at once at some instant. Source:
-// docs/theory.md, section 9.
+// docs/theory/09-event-driven.md.
 
 #include <arcslip/time/event_driven.hpp>
 #include <arcslip/time/period_map.hpp>
