@@ -1,12 +1,12 @@
 #pragma once
-// Derivatives of J and F_p by differences, within one smooth piece of F.
+// Finite differences of J and F_p within one smooth piece of F.
 //
-// Central, with h so short that both sides lie in the piece of x and F can be evaluated there,
+// Central differences, with h so small that both sides lie in the piece of x and F can be evaluated there,
 //
 //   f'(0) = (f(h) - f(-h)) / 2h + O(h^2),
 //
-// for beside the end of a piece derivatives may grow without bound, as where a contact begins. At the end
-// itself, one-sided of the same order on the side that does: f'(0) = +-(4 f(+-h) - f(+-2h) - 3 f(0)) / 2h.
+// since near the end of a piece derivatives may be unbounded, as at the onset of contact. At the end itself,
+// one-sided differences of the same order: f'(0) = +-(4 f(+-h) - f(+-2h) - 3 f(0)) / 2h.
 
 #include <arcslip/continuation/inner_problem.hpp>
 
@@ -24,8 +24,8 @@ struct DifferenceQuotient {
   double here = 0;
 };
 
-/// go(i, distance): evaluates place i there, and says whether it could and is in the piece of 0. The places
-/// are then those of the quotient. Nothing where there is no room.
+/// go(i, distance): evaluates point i there; true if that succeeds and the point is in the piece of 0.
+/// Afterwards the points are those of the quotient. Nothing if the piece is too narrow.
 template <class Go>
 std::optional<DifferenceQuotient> difference_within_piece(double h, Go&& go) {
   for (const double share : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
@@ -37,16 +37,17 @@ std::optional<DifferenceQuotient> difference_within_piece(double h, Go&& go) {
   return {};
 }
 
-/// Places beside one of the inner problem, for derivatives of A and of what else depends on the place.
+/// Neighbouring points of a point of the inner problem, for derivatives of A and other functions of
+/// the point.
 class Neighbours {
  public:
   explicit Neighbours(const InnerProblem& inner);
 
-  /// Takes its places along d, n + 1, or along p_k; `here` has to stay where it is. False: there is no room.
+  /// Chooses the points along d, n + 1, or along p_k; `here` must not move. False if the piece is too narrow.
   bool along(const Site& here, In d);
   bool over(const Site& here, int k);
 
-  /// Calls f(place, weight) for each place: the derivative of g is the sum of weight * g(place).
+  /// Calls f(point, weight) for each point: the derivative of g is the sum of weight * g(point).
   template <class F>
   void sum(F&& f) {
     if (quotient_.here != 0) f(*here_, quotient_.here);
@@ -54,7 +55,7 @@ class Neighbours {
   }
 
   void derivative(In d, Out y);              // y = dA d, n
-  bool transposed_derivative(In w, Out dx);  // dx = dA^T w, n + 1. False: an operator without transpose
+  bool transposed_derivative(In w, Out dx);  // dx = dA^T w, n + 1. False: operator without transpose
   double parameter_derivative(In w, int k);  // w . dF_pk
 
  private:

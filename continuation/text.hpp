@@ -1,5 +1,5 @@
 #pragma once
-// Numbers in messages for people.
+// Formatting of numbers in messages.
 
 #include <sstream>
 #include <string>

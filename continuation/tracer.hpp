@@ -4,8 +4,8 @@
 //   Branch branch = trace(problem, {.u = u0, .p = p0, .free = 0}, {.lower = -1, .upper = 1},
 //   {fold_monitor()});
 //
-// Each accepted point is linearized once. Those factors give its tangent, serve its monitors, and correct the
-// next point by chord steps while these contract.
+// Each accepted point is linearized once. The factors give its tangent, serve its monitors, and correct the
+// next point by chord steps as long as these contract.
 
 #include <arcslip/continuation/branch.hpp>
 #include <arcslip/continuation/corrector.hpp>
@@ -24,37 +24,37 @@
 
 namespace arcslip::continuation {
 
-/// Where a branch begins: u need only be near a solution at the parameters p.
+/// The start of a branch: an approximate solution u at the parameters p.
 struct Start {
   Vector u;           // n
   Vector p;           // all parameters
   int free = 0;       // index of the free one
-  int direction = 1;  // +1: towards larger values of the free parameter, -1: smaller; no other number
-  Vector tangent{};   // n + 1, or none: the way to go, in place of `direction`; the solution is then sought
-                      // across it, and not at p[free]
+  int direction = 1;  // +1: towards larger values of the free parameter, -1: towards smaller ones
+  Vector tangent{};   // n + 1, or none: the initial direction, in place of `direction`; the solution is then
+                      // sought in the plane normal to it, and not at p[free]
 };
 
 /// Called at each accepted point and, with the event, at each event, as soon as it is certain. Returns false
-/// to stop. What it throws is thrown on, by step() and trace().
+/// to stop. Exceptions are passed on by step() and trace().
 using Observer = std::function<bool(const Accepted&, const Event*)>;
 
 class Tracer {
  public:
-  /// Throws std::invalid_argument where options, sizes or the start do not fit.
+  /// Throws std::invalid_argument for invalid options, sizes or start.
   Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
          std::vector<Monitor> monitors = {}, Observer observer = {});
 
-  /// Goes on from where a trace of the same problem with the same options and monitors was saved.
+  /// Resumes a saved trace of the same problem with the same options and monitors.
   Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
          std::vector<Monitor> monitors = {}, Observer observer = {});
 
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  /// One more point (the first call corrects the start). False once the branch has ended: see branch().stop.
+  /// Adds a point (the first call corrects the start). False if the branch has ended: see branch().stop.
   bool step();
 
-  /// Where the trace stands. This one goes on as if it had not been saved.
+  /// The current state. Saving does not affect this trace.
   State save() const;
 
   const Branch& branch() const { return s_.branch; }
@@ -73,7 +73,7 @@ class Tracer {
   std::string doubt(const Vector& v);
   bool gets_on() const;
   static bool is_due(long times);
-  // A turn that keeps so much of itself over so much shorter a step is a kink.
+  // A turn of which this share remains in a step shortened by this factor is a kink.
   static constexpr double kink_step = 0.25;
 
   Attempt attempt();
@@ -124,24 +124,24 @@ class Tracer {
   int n_;
   std::unique_ptr<Corrector> main_;
   std::unique_ptr<EventLocator> events_;
-  std::unique_ptr<ModeCounter> modes_;  // where branch points are wanted
+  std::unique_ptr<ModeCounter> modes_;  // if branch points are monitored
   Place next_;
   Rejection rejection_;               // the last one
-  std::size_t unresolved_ = 0;        // the monitor whose quantity it was
+  std::size_t unresolved_ = 0;        // the monitor of the unresolved quantity
   bool evaluated_ = true;             // the last rejection came from the corrector, not from the problem
-  double curve_error_ = 0;            // of the curve along the last step, over that allowed
-  bool other_piece_between_ = false;  // in the last step, of which its sections tell nothing
-  double chord_error_ = 0;            // of the monitored quantities in the last step, over that allowed
-  std::vector<Corner> corners_;       // in the step that is tried, in order
+  double curve_error_ = 0;            // of the curve along the last step, relative to its tolerance
+  bool other_piece_between_ = false;  // within the last step, unnoticed by its sections
+  double chord_error_ = 0;       // of the monitored quantities in the last step, relative to the tolerance
+  std::vector<Corner> corners_;  // in the attempted step, in order
   std::optional<Place> terminal_;
-  std::optional<LocatedEvent> crossing_;  // the branch point in the step that is tried
+  std::optional<LocatedEvent> crossing_;  // the branch point in the attempted step
   std::string failure_;                   // of the last rejection
   Vector row_;
   mutable Vector v_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-/// Steps until the branch ends.
+/// Traces the branch until it ends.
 Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
              std::vector<Monitor> monitors = {}, Observer observer = {});
 
