@@ -15,15 +15,14 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double rejection = 0.25;             // of the step after a rejection
-constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
+constexpr int rejections_before_a_corner = 2;  // in one section of the branch
 constexpr double parameter_overrun = 1.5;      // of the largest |dp| of a step
-constexpr double visible_corner = 0.05;        // rad: a kink of less is not seen in a curve
-constexpr double endless_tail =
-    1e-12;  // of the parameter's scale: so near to a bound a branch that does not reach it ends
-constexpr double tail_before = 1e-9;     // and its last point was so near
-constexpr double least_power = 0.1;      // of the distance from a bound, with which u comes to rest there
-constexpr double been_away = 3;          // roundings of the way from the start: nearer, it has not come back
-constexpr double singular_bound = 1e-6;  // relative to p: so near to a singular bound a branch has reached it
+constexpr double visible_corner = 0.05;        // rad: smaller kinks are invisible in a plotted curve
+constexpr double endless_tail = 1e-12;  // of the parameter's scale: end this close to an unreached bound
+constexpr double tail_before = 1e-9;    // with its last point this close
+constexpr double least_power = 0.1;     // of the distance from a bound: u converges at least like this power
+constexpr double been_away = 3;  // roundings of the distance from the start: closer, it has not returned
+constexpr double singular_bound = 1e-6;  // relative to p: a singular bound this close is reached
 
 }  // namespace
 
@@ -33,7 +32,7 @@ bool Tracer::end(StopReason reason, double value, double limit, std::string mess
   return false;
 }
 
-// For the user's eyes, the evaluator moves the last correction further, onto the point itself.
+// For the observer, the evaluator moves by the last correction onto the point itself.
 bool Tracer::notify() {
   if (!observer_) return true;
   main_->move_to(s_.here.v);
@@ -48,15 +47,15 @@ bool Tracer::step() try {
     if (options_.go_on && !options_.go_on()) return end(StopReason::user, 1, 1, "stopped by the caller");
     if (!gets_on())
       return end(StopReason::wrong_jacobian, s_.jacobian_error, largest_jacobian_error,
-                 "the branch gets no further: " + s_.jacobian_doubt);
+                 "the branch cannot be continued: " + s_.jacobian_doubt);
     const double smallest = options_.step.smallest * (1 + main_->norm_u(s_.here.v));
     if (s_.step < smallest)
-      return end(
-          evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, s_.step, smallest,
-          evaluated_
-              ? "the step fell below its smallest size after rejections" + doubt(s_.here.v) +
-                    doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver)
-              : "the problem could not be evaluated ahead, however short the step" + because(failure_));
+      return end(evaluated_ ? StopReason::step_too_small : StopReason::not_evaluated, s_.step, smallest,
+                 evaluated_
+                     ? "the step size fell below its minimum after rejections" + doubt(s_.here.v) +
+                           doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver)
+                     : "the problem could not be evaluated at the next point, even with the smallest step" +
+                           because(failure_));
     switch (attempt()) {
       case Attempt::accepted:
         return !s_.ended;
@@ -92,9 +91,9 @@ bool Tracer::step() try {
   return end(StopReason::monitor_failed, failure.parameter, 0, failure.what());
 }
 
-// The monitors at the solution of the last correction. Its factors, and so the tangent, are those of a place
-// within the corrector's tolerance, which near a sharp peak is enough to turn the sign of a monitor: a change
-// of sign is believed from the linearization at the solution itself.
+// The monitors at the solution of the last correction. Its factors, and thus the tangent, belong to a point
+// within the corrector's tolerance, which near a sharp peak can change the sign of a monitor: a sign change
+// is accepted only with the linearization at the solution itself.
 bool Tracer::measure(Place& place) {
   evaluate(monitors_, *main_, place);
   if (!events_->changes_sign(last_section(), place)) return true;
@@ -104,7 +103,7 @@ bool Tracer::measure(Place& place) {
   return true;
 }
 
-// Into sections along which each quantity is one smooth one, where it is the largest of several.
+// Divides the step into sections with constant Monitor::part.
 void Tracer::divide() {
   std::vector<Corner> all;
   const Place* from = &s_.here;
@@ -171,8 +170,8 @@ Tracer::Attempt Tracer::attempt() {
   return take(length, next_ds, kink, correction);
 }
 
-// Where the step leaves the window, within a section of its own: next_ is then the end of that section, and
-// no kinks beyond it are left.
+// Cuts the step where it leaves the window: next_ becomes the end of that section, and later kinks
+// are dropped.
 std::optional<Exit> Tracer::exit(bool kink) {
   const Window window{options_.lower, options_.upper};
   const Place* from = &s_.here;
@@ -194,7 +193,7 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   if (const auto exit = this->exit(kink)) {
     const double bound = exit->bound;
     const Place& from = last_section();
-    // A branch point on the way changes the sign.
+    // A branch point within the step changes the sign.
     const bool crossed = crossing_ && from.arclength + exit->share * (next_.arclength - from.arclength) >
                                           crossing_->place.arclength;
     const int orientation = crossed ? next_.orientation : s_.here.orientation;
@@ -219,7 +218,7 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
     return Attempt::ended;
   }
   if (!kink && may_come_home(*main_, s_.start, s_.here, next_, length, options_.step.largest_angle, v_)) {
-    // The branch that passes so near is that of the start if it has the same solution in the start's plane.
+    // The nearby branch is that of the start if it has the same solution in the start's plane.
     v_ += main_->dot(s_.start.v - v_, s_.start.tangent) * s_.start.tangent;
     main_->border_row(s_.start.tangent, row_);
     const bool converged = main_->correct(v_, row_, false).converged;
@@ -229,7 +228,7 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
       next_ = s_.start;
       next_.arclength = s_.here.arclength + distance(*main_, s_.here.v, next_.v);
       if (accept(std::move(next_), correction))
-        end(StopReason::closed, miss, rounding, "came back to the start: the branch is closed");
+        end(StopReason::closed, miss, rounding, "returned to the start: the branch is closed");
       return Attempt::ended;
     }
     main_->border_row(next_.tangent, row_);
@@ -244,7 +243,7 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
     next_.arclength = at.arclength;
     corners_.resize(k);
     if (accept(std::move(next_), correction))
-      end(StopReason::closed, miss, rounding, "came back to the start, a kink: the branch is closed");
+      end(StopReason::closed, miss, rounding, "returned to the start, a kink: the branch is closed");
     return Attempt::ended;
   }
   s_.longest = std::max(s_.longest, length);
@@ -262,9 +261,9 @@ Tracer::Attempt Tracer::take(double length, double next_ds, bool kink, const Cor
   return within_limits() ? Attempt::accepted : Attempt::ended;
 }
 
-// Whether the branch comes nearer to a bound of the window for ever: with the distance x = |p - bound|, x
-// |du/dp| is how much u changes until x is 1/e of what it is. Towards a point at the bound it falls as a
-// power of x, 1/2 at a fold; where u goes to infinity it does not.
+// Whether the branch approaches a bound of the window asymptotically: with the distance x = |p - bound|,
+// x |du/dp| is the change of u while x decreases by the factor e. Towards a point at the bound it decreases
+// like a power of x, 1/2 at a fold; if u goes to infinity it does not.
 bool Tracer::runs_along(double bound) const {
   const auto change = [&](const Place& at) {
     return std::abs(bound - at.v[n_]) * main_->norm_u(at.tangent) / std::abs(at.tangent[n_]);
@@ -278,7 +277,7 @@ bool Tracer::runs_along(double bound) const {
 void Tracer::end_in_tail(double bound) {
   end(StopReason::boundary, s_.here.v[n_], bound,
       "came within " + text(std::abs(bound - s_.here.v[n_])) + " of the end of the window at " + text(bound) +
-          ", which it does not reach: it goes to infinity along it, |u| = " + text(main_->norm_u(s_.here.v)) +
+          " without reaching it: the branch goes to infinity, |u| = " + text(main_->norm_u(s_.here.v)) +
           " in scales");
 }
 
@@ -297,8 +296,8 @@ void Tracer::keep(const Place& place, const Correction& correction) {
   ++s_.branch.counts.points;
 }
 
-// To a kink, from the beginning of a section, and across. A corner that is to be seen is a point of the
-// branch.
+// Moves to a kink, from the start of a section, and across it. A visible corner becomes a point of
+// the branch.
 bool Tracer::pass(const Place& from, const Corner& corner) {
   const Place& kink = corner.before;
   bool go_on = report(events_->between(from, kink));
@@ -340,7 +339,7 @@ bool Tracer::accept(Place&& place, const Correction& correction) {
   return true;
 }
 
-// The branch ends at a terminal event: what was found beyond it, while it was not certain, is dropped.
+// Ends the branch at a terminal event: points and events beyond it, found while it was pending, are dropped.
 bool Tracer::end_at(const Place& place) {
   auto& points = s_.branch.points;
   auto& events = s_.branch.events;

@@ -1,4 +1,4 @@
-// What becomes of the events of a step: their order, and branch points that could not be located.
+// Processing of the events of a step: their order, and branch points that could not be located.
 
 #include <arcslip/continuation/multiple_point.hpp>
 #include <arcslip/continuation/reduction.hpp>
@@ -12,16 +12,14 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: no shorter step tells two branches apart
-constexpr double pair_share =
-    1e-3;  // of the first step in which a mode may pass zero and come back: not shorter
+constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: shorter steps cannot separate two branches
+constexpr double pair_share = 1e-3;  // of the first step in which a mode may cross zero and return: minimum
 
 }  // namespace
 
-// The branch point in the step to next_, if there is one. What comes of the step where there is more than is
-// found: a change of orientation is a jump to a branch near by, unless branches cross here, or it stays
-// however short the step; and several modes that pass zero are several branch points, unless they do at one
-// place.
+// Locates the branch point in the step to next_, if any, and rejects the step otherwise: a change of
+// orientation is a jump to a nearby branch, unless branches cross here or it persists with the smallest step;
+// and several modes that cross zero are several branch points, unless they do so at the same point.
 std::optional<Tracer::Attempt> Tracer::look_for_crossing(double length) {
   const bool turned = next_.orientation != s_.here.orientation;
   int modes = turned ? 1 : 0;
@@ -47,14 +45,14 @@ std::optional<Tracer::Attempt> Tracer::look_for_crossing(double length) {
   const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
   if (!doubt.empty() && next_.piece == s_.here.piece) {
     end(StopReason::step_too_small, s_.step, branch_point_step * (1 + main_->norm_u(s_.here.v)),
-        "the direction of the branch changes however short the step" + doubt);
+        "the orientation of the branch changes even with the smallest step" + doubt);
     return Attempt::ended;
   }
   crossing_ = unlocated_branch_point(s_.here, next_);
   return {};
 }
 
-// In the order of arclength: an event may have waited for a few points until it was certain.
+// In order of arclength: an event may have been pending for a few points.
 const Event* Tracer::add(Event&& event) {
   const double s = event.point.arclength;
   const auto after = std::upper_bound(s_.branch.points.begin(), s_.branch.points.end(), s,
@@ -65,14 +63,14 @@ const Event* Tracer::add(Event&& event) {
   return &*s_.branch.events.insert(place, std::move(event));
 }
 
-// Where a monitor is not a number, its zeros go by unseen.
+// Where a monitor is NaN, its zeros are missed.
 void Tracer::warn_of_undefined(const Place& place) {
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!std::isnan(place.monitors[m]) && !std::isnan(place.quantities[m])) continue;
     const std::string start = "the monitor \"" + monitors_[m].name + "\" is not a number at ";
     auto& all = s_.branch.warnings;
     if (std::none_of(all.begin(), all.end(), [&](const std::string& w) { return w.starts_with(start); }))
-      all.push_back(start + text(place.v[n_]) + ": its zeros beside such points are not seen");
+      all.push_back(start + text(place.v[n_]) + ": zeros near such points are missed");
   }
 }
 
@@ -93,7 +91,7 @@ bool Tracer::report(std::vector<LocatedEvent>&& all) {
   return go_on;
 }
 
-// Where pieces of F meet at it, or a branch point that is not simple.
+// If pieces of F meet there, or the branch point is not simple.
 std::optional<LocatedEvent> Tracer::unlocated_branch_point(const Place& from, const Place& to) const {
   LocatedEvent found;
   for (const Monitor& monitor : monitors_)
@@ -108,7 +106,7 @@ std::optional<LocatedEvent> Tracer::unlocated_branch_point(const Place& from, co
   return found;
 }
 
-// The events of a step in the order of arclength: the first terminal one ends the branch.
+// The events of a step in order of arclength: the first terminal one ends the branch.
 std::vector<LocatedEvent> Tracer::with_crossing(std::vector<LocatedEvent>&& found) {
   if (crossing_ && !crossing_->event.monitor.empty()) {
     const auto place =

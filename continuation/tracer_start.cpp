@@ -1,4 +1,4 @@
-// How a trace begins: from a start, or from where another one was saved.
+// Start of a trace: from a start point, or from a saved state.
 
 #include <arcslip/continuation/inner_problem.hpp>
 #include <arcslip/continuation/jacobian_check.hpp>
@@ -14,9 +14,10 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double first_share_of_window = 0.01;  // |dp| of a step where the user names none
+constexpr double first_share_of_window = 0.01;  // |dp| of a step by default
 constexpr const char* remedy =
-    ": on a fold or a branch point, p tells no way to go, and a start needs a tangent (Start::tangent)";
+    ": at a fold or a branch point p does not determine the direction, and a start needs a tangent "
+    "(Start::tangent)";
 
 }  // namespace
 
@@ -80,7 +81,7 @@ State Tracer::save() const {
   return state;
 }
 
-// To go on a message that the linearization at the start is singular.
+// Appended to the message that the linearization at the start is singular.
 std::string Tracer::singular_start(bool has_tangent) const {
   const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
   return !doubt.empty() || has_tangent ? doubt : remedy;
@@ -130,14 +131,13 @@ bool Tracer::begin() {
   return within_limits();
 }
 
-// What a trace finds out about its problem on the way: whether the Jacobian is that of F, and why steps were
-// tried in vain.
+// Diagnostics of a trace: wrong Jacobians, and the causes of rejected steps.
 
 namespace {
 
-constexpr long seldom = 8;  // looks at the Jacobian: the 1st, 8th, 64th ... time that there is reason for one
+constexpr long seldom = 8;  // checks of the Jacobian: at the 1st, 8th, 64th ... occasion
 constexpr double standstill =
-    1e-3;  // of the longest step: so short, a branch with a wrong Jacobian gets no further
+    1e-3;  // of the longest step: a branch with a wrong Jacobian ends at shorter steps
 constexpr long many_rejections = 20;  // which are also more than a quarter of the points
 
 }  // namespace
@@ -156,17 +156,17 @@ void Tracer::look_at_jacobian(const Vector& v) {
   s_.jacobian_doubt = found.message;
   s_.jacobian_error = found.relative;
   s_.branch.warnings.push_back(found.message + " (at " + text(v[n_]) +
-                               "): tangents and events are as wrong, and the branch may end early");
+                               "): tangents and events are equally wrong, and the branch may end early");
 }
 
-// A correction that came to v did not converge as Newton's method does.
+// A correction to v did not converge quadratically.
 void Tracer::suspect(const Vector& v) {
   if (!is_due(++s_.slow)) return;
   look_at_jacobian(s_.here.v);
   look_at_jacobian(v);
 }
 
-// To go on a message where Newton's method failed.
+// Appended to the message that Newton's method failed.
 std::string Tracer::doubt(const Vector& v) {
   if (s_.jacobian_doubt.empty()) look_at_jacobian(v);
   return s_.jacobian_doubt.empty() ? std::string() : "; " + s_.jacobian_doubt;

@@ -1,4 +1,4 @@
-// How long the next step is, where it leads, and what a step has to keep to be accepted.
+// Step size control, prediction, and the acceptance criteria of a step.
 
 #include <arcslip/continuation/tracer.hpp>
 
@@ -10,27 +10,27 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, at most
-// A turn that keeps so much of itself over so much shorter a step is a kink.
+constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, limits
+// A turn of which this share remains in a step shortened by kink_step is a kink.
 constexpr double kink_turn = 0.7;
-constexpr double parameter_rounding = 1e-9;    // relative changes of p below tell no direction
+constexpr double parameter_rounding = 1e-9;    // relative changes of p below this give no direction
 constexpr double largest_extrapolation = 2.5;  // in last steps, for the cubic predictor
-constexpr double unresolved_rejection = 0.5;   // of the step where a quantity is not told by its slopes
-constexpr double pair_safety = 8, extreme_safety = 2;  // times the bend of a slope that is told
-constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
-constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
-constexpr double curve_safety = 0.9;           // of the step that the curve's error allows
-constexpr double middle_share = 0.7;           // of the largest error of the curve, in the middle of a step
+constexpr double unresolved_rejection = 0.5;   // of the step if the slopes do not determine a quantity
+constexpr double pair_safety = 8, extreme_safety = 2;  // times the measured bend of a slope
+constexpr double unresolved_share = 1.0 / 50;          // of the step first found unresolved: minimum
+constexpr double quantity_rounding = 1e-9;  // relative changes of a quantity below this are ignored
+constexpr double curve_safety = 0.9;        // of the step allowed by the curve's error
+constexpr double middle_share = 0.7;  // of the maximum error of the curve: its value in the middle of a step
 constexpr double smallest_relevant_curve = 1e-6;  // |u| in scales: below, the curve's error is absolute
 
-// Of the step, where the curve's error is `error` times that allowed: it falls with the fourth power.
+// Factor of the step for a curve error of `error` times the tolerance: the error is of fourth order.
 double curve_factor(double error) {
   return std::clamp(curve_safety / std::sqrt(std::sqrt(error)), shrinkage, growth);
 }
 
-// Whether a slope that is a and b at the ends of a step, and between them a parabola `bend` s (1 - s) off the
-// straight line, has no more zeros than these tell, though it bends some times as much, to either side: none
-// between slopes of one sign, where bend <= (sqrt|a| + sqrt|b|)^2, and one where it is monotonic,
+// Whether a slope with values a and b at the ends of a step, and a deviation bend s (1 - s) from the straight
+// line between them, has no more zeros than a and b imply, even with a safety factor on bend of either sign:
+// none between slopes of one sign, if bend <= (sqrt|a| + sqrt|b|)^2, and one if it is monotonic,
 // bend <= |a| + |b|.
 bool is_told(double a, double b, double bend) {
   const double sum = std::abs(a) + std::abs(b);
@@ -54,7 +54,7 @@ double Tracer::limited(double ds) const {
   return along * ds > limit ? limit / along : ds;
 }
 
-// By the cubic or the secant of the last two points, or, after a kink, at the start or far out, the tangent.
+// By the cubic or the secant of the last two points, or by the tangent after a kink, at the start or far out.
 void Tracer::predict(Vector& v) const {
   const Predictor predictor = options_.step.predictor;
   if (predictor != Predictor::tangent && s_.has_before && s_.step <= largest_extrapolation * s_.last_step) {
@@ -68,14 +68,15 @@ void Tracer::predict(Vector& v) const {
   v = s_.here.v + s_.step * s_.here.tangent;
 }
 
-// Both tangents point one way in p, and p went the other way: another branch, or two folds in one step.
+// Both tangents point the same way in p, but p changed the other way: another branch, or two folds in
+// one step.
 bool Tracer::went_back(const Place& next) const {
   const double a = s_.here.tangent[n_], b = next.tangent[n_], dp = next.v[n_] - s_.here.v[n_];
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(s_.here.v[n_]);
 }
 
-// Of the curve of a quantity q over p from its chord in a step, relative: to q along q or to p along p,
-// whichever is less, as on logarithmic axes. Of three points at ds/2 the middle one is off the chord by a
+// Deviation of the curve of a quantity q over p from its chord in a step, relative to q along q or to p along
+// p, whichever is less, as on logarithmic axes. The middle of three points at ds/2 is off the chord by a
 // parallelogram of the slopes at the ends.
 double Tracer::chord_departure(const Place& from, const Place& to, std::size_t m, double length) const {
   const double area =
@@ -85,9 +86,9 @@ double Tracer::chord_departure(const Place& from, const Place& to, std::size_t m
          std::max(q * std::abs(to.v[n_] - from.v[n_]), p * std::abs(to.quantities[m] - from.quantities[m]));
 }
 
-// Whether each monitored quantity has no more extremes in the step than its slopes at the ends of its
-// sections tell. Beside a kink a slope may bend however short the step: in one stretch the step is shortened
-// no further than to a part of the first one.
+// Whether each monitored quantity has no more extrema in the step than implied by its slopes at the ends of
+// the sections. Next to a kink a slope may bend however short the step: within one section of the branch the
+// step is shortened to a fixed fraction of the first one at most.
 bool Tracer::resolved(double length) {
   chord_error_ = 0;
   if (stretch_is_short(unresolved_share)) return true;
@@ -102,8 +103,8 @@ bool Tracer::resolved(double length) {
   return all;
 }
 
-// The same of one section. How much the slope bends between its ends is told by the change of the quantity,
-// and by the slope before.
+// The same for one section. The bend of the slope between its ends follows from the change of the quantity,
+// and from the preceding slope.
 bool Tracer::tells(const Place& from, const Place& to, double length) {
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!monitors_[m].quantity) continue;
@@ -132,8 +133,7 @@ bool Tracer::tells(const Place& from, const Place& to, double length) {
   return true;
 }
 
-// Whether steps have been shortened enough in the stretch of the branch where they do not tell what is asked
-// for.
+// Whether steps have been shortened enough in an unresolved section of the branch.
 bool Tracer::stretch_is_short(double share) const {
   return s_.here.arclength <= s_.unresolved_end && s_.step <= share * s_.unresolved_step;
 }
@@ -145,21 +145,21 @@ void Tracer::begin_stretch(double length) {
   s_.unresolved_step = std::max(s_.unresolved_step, s_.step);
 }
 
-// Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink
-// with the step. A turn is first met with a long step and rejected; it is the same one as long as its place
-// is not passed.
+// Whether too large a turn of the tangent is a kink: the piece changes, and the turn does not decrease with
+// the step. A turn is first met with a long step and rejected; it counts as the same one until its arclength
+// is passed.
 bool Tracer::is_kink(double turn, const Place& next) {
   if (next.piece == s_.here.piece) return false;
   const State::Turn now{turn, s_.step, s_.here.arclength + 2 * s_.step};
   if (s_.here.arclength > s_.turn.end) s_.turn = now;
   if (s_.step > kink_step * s_.turn.step) return false;
   if (turn >= kink_turn * s_.turn.angle) return true;
-  s_.turn = now;  // it shrank, but may stay from here on
+  s_.turn = now;  // it decreased, but may persist from here on
   return false;
 }
 
-// Of the cubics along the smooth pieces between here and next_, over that allowed: the largest. And whether
-// there is more between than these.
+// The largest error of the cubics along the smooth pieces between here and next_, relative to the tolerance.
+// Also whether there are other pieces in between.
 double Tracer::curve_error() {
   double largest = 0;
   other_piece_between_ = false;
@@ -176,7 +176,7 @@ double Tracer::curve_error() {
   return largest;
 }
 
-// Of one: at its middle, where it is largest but for what the fourth derivative changes within it.
+// The error of one cubic: in its middle, where it is largest up to the variation of the fourth derivative.
 double Tracer::curve_error(const Place& from, const Place& to) {
   const double size = std::max({main_->norm_u(from.v), main_->norm_u(to.v), smallest_relevant_curve});
   const double allowed = middle_share * options_.step.curve_tolerance * size;
@@ -189,17 +189,17 @@ double Tracer::curve_error(const Place& from, const Place& to) {
   return std::isfinite(error) ? error : 1 / shrinkage;
 }
 
-// Whether kinks lie in the step that were not found, two between ends on one piece or one that is hard to
-// come to: then it is shortened, though not without end, as the cubic may touch another piece where the
-// branch does not.
+// Whether the step contains kinks that were not found, two between ends on one piece or one that is hard to
+// locate: then it is shortened, down to a limit, as the cubic may touch another piece where the branch
+// does not.
 bool Tracer::hides_a_piece(double length) {
   if (!other_piece_between_ || stretch_is_short(unresolved_share)) return false;
   begin_stretch(length);
   return true;
 }
 
-// Of the curve's error in steps of one length, from the last step to this one: where it grows, as towards a
-// resonance, it is expected to go on so (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
+// Growth of the curve's error at equal step length, from the last step to this one: growth, as towards a
+// resonance, is expected to continue (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
 double Tracer::error_growth() const {
   if (!(s_.curve_error > 0) || !corners_.empty()) return 1;
   const double length = (next_.arclength - s_.here.arclength) / s_.last_step;
@@ -216,12 +216,12 @@ double Tracer::choose_step(double angle, const Correction& correction) const {
   return s_.step * std::clamp(factor, shrinkage, growth);
 }
 
-// Of the step, after one that was tried in vain though the corrector converged.
+// Factor of the step after a rejection with a converged corrector.
 double Tracer::unresolved_factor() const {
   return curve_error_ > 1 ? curve_factor(curve_error_) : unresolved_rejection;
 }
 
-// Steps across a kink at which the branch turns by any angle.
+// Steps across a kink with an arbitrary turn of the branch.
 
 namespace {
 
@@ -229,9 +229,9 @@ constexpr int most_corners = 3;  // one after the other
 
 }  // namespace
 
-// Where the branch turns by any angle at a kink just ahead: goes to the kink, looks beyond it, and steps
-// along the tangent there, whose direction the sign of the determinant tells. Where that step fails, the
-// piece beyond the kink may end at once, as where two elements begin to slip together: then on to its end.
+// If the branch turns by any angle at a kink just ahead: moves to the kink, looks beyond it, and steps along
+// the tangent there, oriented by the sign of the determinant. If that step fails, the piece beyond the kink
+// may be very short, as where two elements start to slip together: then continues to its end.
 bool Tracer::corner() {
   crossing_.reset();
   corners_.clear();
