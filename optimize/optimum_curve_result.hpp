@@ -1,5 +1,5 @@
 #pragma once
-// Curves of optima as a study gives them.
+// Curves of optima as results of a study.
 
 #include <arcslip/optimize/optimum_curve.hpp>
 
@@ -10,8 +10,8 @@
 namespace arcslip::optimize {
 
 struct OptimumCurveResult {
-  std::string study, kind;                          // told by who runs the study
-  std::vector<std::pair<std::string, double>> set;  // what for_each gave
+  std::string study, kind;                          // set by the caller
+  std::vector<std::pair<std::string, double>> set;  // parameters set by for_each
   OptimumProblem problem;
   OptimumCurve curve;
 };

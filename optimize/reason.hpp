@@ -1,30 +1,29 @@
 #pragma once
-// Why a minimisation ended.
+// Why a minimization ended.
 
 #include <string_view>
 
 namespace arcslip::optimize {
 
-/// Converged (the result is a minimum to the tolerances that were asked for):
-///   converged         the algorithm's own test of a minimum holds.
+/// Converged (the result is a minimum within the tolerances):
+///   converged         the algorithm reports convergence.
 ///   converged_value   |df| <= f_relative |f| or |df| <= f_absolute over a step.
 ///   converged_step    |dx| <= x_relative |x| or |dx_i| <= x_absolute over a step.
 ///   target            f(x) <= target at an x that satisfies the constraints.
 /// Stopped (the result is the best so far):
-///   evaluation_limit  the objective was called as often as allowed.
-///   time_limit        the time is over; looked at after each call, so that one slow call can pass it.
-///   user              the progress callback returned false.
-///   rounding          rounding errors leave no progress. The result is often as good as rounding allows.
-///                     Causes: tolerances below rounding, a gradient that does not belong to the objective.
+///   evaluation_limit  the limit of evaluations was reached.
+///   time_limit        the time limit was reached; checked after each call, so that a slow call may exceed
+///   it. user              the progress callback returned false. rounding          rounding errors prevent
+///   further progress. The result is often accurate to rounding.
+///                     Causes: tolerances below rounding, a wrong gradient.
 /// Failed (the result is the best so far, if there is one):
 ///   objective_failed  the objective, a constraint or the progress callback threw; the message has what().
-///   not_finite        the objective is NaN or -infinity anywhere or +infinity at the start, or a constraint
-///   or an
-///                     entry of a gradient is not finite. An entry that was never written counts as NaN.
-///   invalid_arguments NLopt refused the problem; the message says why.
-///   out_of_memory     NLopt could not allocate.
-///   failed            the algorithm gave up without saying why. Causes: degenerate constraints, wrong
-///   gradients.
+///   not_finite        the objective is NaN or -infinity, or +infinity at the start, or a constraint or an
+///                     entry of a gradient is not finite. An entry that was not written counts as NaN.
+///   invalid_arguments NLopt rejected the problem; the message says why.
+///   out_of_memory     NLopt ran out of memory.
+///   failed            the algorithm failed without giving a reason. Causes: degenerate constraints,
+///                     wrong gradients.
 enum class Reason {
   converged,
   converged_value,
@@ -47,8 +46,7 @@ std::string_view name(Reason reason);
 /// True for the first group.
 bool is_converged(Reason reason);
 
-/// The reason that stands for a return code of NLopt (its enum nlopt_result); `failed` where it is none of
-/// them.
+/// The reason for a return code of NLopt (its enum nlopt_result); `failed` for unknown codes.
 Reason reason_of(int nlopt_result);
 
 }  // namespace arcslip::optimize
