@@ -217,7 +217,7 @@ std::string doubt(const OptimumResult& result) {
 TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumProblem& problem,
                              const std::string& along) {
   TableOf<OptimumPoint> table;
-  table.add({along}, studies::parameter_unit(scene, along), "the parameter, here",
+  table.add({along}, studies::parameter_unit(scene, along), "the continuation parameter",
             [](const OptimumPoint& at) { return at.along; });
   add_design(
       scene, problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
@@ -258,7 +258,7 @@ TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumProblem& pr
   table.add({"omega"}, "rad/s", "of the peak that changes",
             [of_peak](const OptimumEvent& event) { return of_peak(event, event.omega); });
   table.add({"nonsmooth"}, "", "at another event", [](const OptimumEvent& event) { return event.nonsmooth; });
-  table.add({"after"}, "", "index of the point before it",
+  table.add({"after"}, "", "index of the preceding point",
             [](const OptimumEvent& event) { return event.after; });
   table.add(points(scene, problem, along), [](const OptimumEvent& event) { return &event.point; }, {"point"});
   return table;

@@ -209,7 +209,7 @@ std::vector<BadInput> make() {
       line("a scene that is not there", {"run", "nothing.json"}, "nothing.json: No such file or directory"),
       line("a folder as the scene", {"run", "."}, ". is a directory, must be a scene file"),
       line("results into a folder that is not there", {"frf", "scene.json", "--json", "nowhere/frf.json"},
-           "cannot write nowhere/frf.json: No such file or directory (make the folder first, or check its "
+           "cannot write nowhere/frf.json: No such file or directory (create the folder first, or check its "
            "name)"),
       line("results into a folder", {"frf", "scene.json", "--csv", "."}, "Is a directory (it is a folder"),
       line("results into the scene file itself", {"frf", "scene.json", "--json", "./scene.json"},

@@ -268,7 +268,7 @@ TEST_CASE("figures of an earlier run do not stand beside other data where gnuplo
   CHECK(ended.exit_code == 0);
   CHECK(ended.err.find("gnuplot could not draw the figures (exit code 3)") != std::string::npos);
   CHECK(ended.err.find("\nno \\u001b[31mred") != std::string::npos);
-  CHECK(ended.err.find("those of an earlier run are removed") != std::string::npos);
+  CHECK(ended.err.find("those of an earlier run were removed") != std::string::npos);
   std::vector<std::string> left;
   for (const std::string& file : place.files())
     if (file.starts_with("results/") && !file.ends_with(".json") && !file.ends_with(".csv") &&
