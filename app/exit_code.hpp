@@ -2,7 +2,7 @@
 
 namespace arcslip::app {
 
-/// How the program ends.
+/// Exit codes of the program.
 enum class ExitCode {
   done = 0,
   usage_or_file = 1,

@@ -6,12 +6,12 @@
 namespace arcslip::app {
 namespace {
 
-volatile std::sig_atomic_t end_asked = 0;  // a handler can reach nothing else
+volatile std::sig_atomic_t end_asked = 0;  // the only state a handler may access
 
 extern "C" void ask_for_end(int signal) {
   if (end_asked != 0) {
     std::signal(signal, SIG_DFL);
-    std::raise(signal);  // taken when this handler returns
+    std::raise(signal);  // delivered when this handler returns
   }
   end_asked = 1;
 }
@@ -19,10 +19,10 @@ extern "C" void ask_for_end(int signal) {
 void watch(int signal) {
   struct sigaction old {};
   if (::sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN) {
-    return;  // as nohup wants it
+    return;  // ignored, as under nohup
   }
   struct sigaction action {};
-  action.sa_handler = ask_for_end;  // without SA_RESTART: whoever waits looks whether to go on
+  action.sa_handler = ask_for_end;  // without SA_RESTART: blocking calls return and check
   sigemptyset(&action.sa_mask);
   ::sigaction(signal, &action, nullptr);
 }

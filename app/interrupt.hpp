@@ -2,17 +2,17 @@
 
 namespace arcslip::app {
 
-/// From here on the first Ctrl-C (SIGINT) or SIGTERM asks for an end and the second one ends the program; a
-/// reader of standard output who goes away is an error of writing (EPIPE), not a signal.
+/// Installs the signal handlers: the first Ctrl-C (SIGINT) or SIGTERM requests an end and the second one ends
+/// the program; a closed reader of standard output is a write error (EPIPE), not a signal.
 void watch_signals();
 
-/// Whether an end was asked for.
+/// Whether an end was requested.
 bool interrupted();
 
-/// That an end was asked for is told once.
+/// Reports a requested end once.
 class Interruption {
  public:
-  /// True once, when it was asked for.
+  /// True at the first call after the request, then false.
   bool is_new();
 
  private:

@@ -44,10 +44,10 @@ std::string help(const Key& key) {
   if (key.type == KeyType::window) text += ", lower and upper";
   if (key.unit == "frequency") text += ", in the scene's unit";
   if (key.type == KeyType::value && key.name == "from") text += ", in its unit";
-  if (key.type == KeyType::parameter) text += ", as damper.normal_load";
+  if (key.type == KeyType::parameter) text += ", e.g. damper.normal_load";
   if (key.type == KeyType::parameters)
-    text += ", each with its bounds, as damper.normal_load=0.1:100; may be repeated";
-  if (key.type == KeyType::followed) text += ", with its range, as force.cosine=1:8";
+    text += ", each with its bounds, e.g. damper.normal_load=0.1:100; may be repeated";
+  if (key.type == KeyType::followed) text += ", with its range, e.g. force.cosine=1:8";
   if (!key.otherwise.empty()) {
     const bool is_text = key.otherwise.front() == '"';
     text +=
@@ -111,7 +111,7 @@ std::string KeyOption::help() const {
 GivenKey KeyOption::given() const {
   const bool may_be_empty = key.type == KeyType::text || key.type == KeyType::parameter || has_ranges(key);
   if (!may_be_empty && std::find(texts.begin(), texts.end(), "") != texts.end()) {
-    throw UsageError(name() + " needs a value that is not empty");
+    throw UsageError(name() + " needs a nonempty value");
   }
   GivenKey given{key, name() + joined(texts), {}};
   if (has_ranges(key)) {

@@ -10,7 +10,7 @@
 
 namespace arcslip::app {
 
-/// A key and what stands behind its option, which has the name of the key, as texts until all is read.
+/// A key and the raw texts of its option, which has the name of the key.
 struct KeyOption {
   scene::Key key;
   std::vector<std::string> texts{};
@@ -18,11 +18,11 @@ struct KeyOption {
   std::string name() const { return "--" + key.name; }
   std::string type_name() const;  // "NAME.FIELD"
   std::string help() const;
-  /// What the user gave. Throws UsageError for texts that are no such value.
+  /// The value given by the user. Throws UsageError if the texts are not a valid value.
   GivenKey given() const;
 };
 
-/// Those of the keys that have an option: all but lists and objects.
+/// The keys that have an option: all except lists and objects.
 std::vector<KeyOption> options_of(const std::vector<scene::Key>& keys);
 
 }  // namespace arcslip::app

@@ -24,7 +24,7 @@
 namespace arcslip::app {
 namespace {
 
-/// A stream that is closed at the start would lend its number to the first file that is opened.
+/// Otherwise the first file opened would take the descriptor of a standard stream that is closed at startup.
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) < 0) {
@@ -65,11 +65,11 @@ ExitCode run(int argc, const char* const* argv) {
     tell(error.what());
     return ExitCode::stopped_early;
   } catch (const std::bad_alloc&) {
-    tell("out of memory: ask for fewer harmonics, a shorter range or fewer values in for_each");
+    tell("out of memory: use fewer harmonics, a shorter range or fewer values in for_each");
   } catch (const std::exception& error) {
     tell(error.what());
   } catch (...) {
-    tell("an unknown error: please report it with the scene");
+    tell("unknown error: please report it with the scene");
   }
   return ExitCode::usage_or_file;
 }

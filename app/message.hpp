@@ -4,14 +4,14 @@
 
 namespace arcslip::app {
 
-/// Lines on standard error, with what a terminal must not get escaped (results/text.hpp). What cannot be
-/// written there is lost.
+/// Prints lines on standard error, with characters unsafe for a terminal escaped (results/text.hpp). Write
+/// errors are ignored.
 void tell_line(std::string_view text);
 
-/// The same with "arcslip: " before it.
+/// The same with the prefix "arcslip: ".
 void tell(std::string_view message);
 
-/// Text of the program's own as it is, without a line break.
+/// Prints trusted text unchanged, without a line break.
 void put(std::string_view text);
 
 }  // namespace arcslip::app

@@ -1,6 +1,6 @@
 #pragma once
-// From the text of an option to its value. Each throws UsageError, with the option, for what is none; an
-// empty text is an option that was not given.
+// Conversion of option texts to values. Each function throws UsageError, naming the option, for an invalid
+// text; an empty text means that the option was not given.
 
 #include "options.hpp"
 
@@ -14,11 +14,11 @@ namespace arcslip::app {
 /// --set name.field=value.
 std::pair<std::string, double> assignment(const std::string& text);
 
-/// what: "a finite number", told where it is none.
+/// what: the expected value in error messages, "a finite number".
 std::optional<double> number(const std::string& option, const std::string& text, const std::string& what);
 std::optional<int> whole_number(const std::string& option, const std::string& text, const std::string& what);
 std::optional<double> frequency(const std::string& option, const std::string& text);
-/// --frequency: one, or a window.
+/// --frequency: one frequency, or a window.
 std::vector<double> frequencies(const std::vector<std::string>& texts);
 /// name.field, or name.field=lower:upper.
 ParameterRange parameter_range(const std::string& option, const std::string& text);

@@ -27,7 +27,7 @@ struct Verb {
   std::vector<KeyOption> keys{};
 };
 
-/// "from" and "to" of a kind that has a range of frequencies.
+/// The keys "from" and "to" of a kind with a frequency range.
 std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
   std::vector<scene::Key> keys;
   for (const scene::StudyType* type : catalogue.studies) {
@@ -42,7 +42,7 @@ std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
 }
 
 std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
-  std::vector<Verb> verbs{{run, "every study of the scene: results and figures"}};
+  std::vector<Verb> verbs{{run, "run every study of the scene: results and figures"}};
   for (const scene::StudyType* type : catalogue.studies) {
     verbs.push_back({std::string(type->verb()), std::string(type->help()), type});
   }
@@ -50,7 +50,7 @@ std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
     key.help += " of frequency responses";
     verbs.front().keys.push_back({key});
   }
-  verbs.push_back({check, "validate; print the resolved scene with every default"});
+  verbs.push_back({check, "validate the scene and print it with every default"});
   return verbs;
 }
 
@@ -62,28 +62,28 @@ std::string names_of(const std::vector<Verb>& verbs) {
   return names + " or schema";
 }
 
-/// What the parser keeps as text until all of it is read.
+/// Option values kept as text until parsing is complete.
 struct Texts {
   std::vector<std::string> set;
   std::string harmonics, combinations;
 };
 
-/// What every verb takes that takes a scene.
+/// The options of every verb that takes a scene.
 void add_scene_options(CLI::App* verb, Options& options, Texts& texts) {
   verb->add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-1)")
       ->required()
       ->type_name("");
   verb->footer(std::string(exit_codes));
   verb->add_option("--set", texts.set,
-                   "give a parameter a value, as damper.normal_load=3; replaces its values in for_each, "
-                   "cases and scatter; may "
-                   "be repeated")
+                   "set a parameter, e.g. damper.normal_load=3; overrides its values in for_each, cases and "
+                   "scatter; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME.FIELD=VALUE");
-  verb->add_option("--harmonics", texts.harmonics, "highest harmonic of the balance")->type_name("N");
+  verb->add_option("--harmonics", texts.harmonics, "highest harmonic of the harmonic balance")
+      ->type_name("N");
 }
 
-/// Refers to the option, which must stay where it is.
+/// Keeps a reference to `of`, which must stay valid.
 void add_key_option(CLI::App& verb, KeyOption& of) {
   CLI::Option* option = verb.add_option(of.name(), of.texts, of.help());
   option->type_name(of.type_name())->allow_extra_args(false);  // what follows may be the scene
@@ -104,24 +104,24 @@ void add_study_options(CLI::App& verb, Verb& of, Options& options, Texts& texts)
                   std::string("folder for results and figures (default: ") +
                       (of.name == run ? "out/<name of the scene file>)" : "none are written)"))
       ->type_name("DIR");
-  verb.add_option("--json", options.json, "results as JSON into a file, or - for standard output")
+  verb.add_option("--json", options.json, "write results as JSON to a file, or - for standard output")
       ->type_name("FILE|-");
-  verb.add_option(
-          "--csv", options.csv,
-          "results as CSV into a file, with events and a summary beside it (a.events.csv, a.summary.csv), or "
-          "- for standard output")
+  verb.add_option("--csv", options.csv,
+                  "write results as CSV to a file, with events and a summary next to it (a.events.csv, "
+                  "a.summary.csv), or - for standard output")
       ->type_name("FILE|-");
   if (of.type == nullptr || of.type->takes_coefficients()) {
-    verb.add_flag("--coefficients", options.coefficients, "JSON with the harmonics of each response");
+    verb.add_flag("--coefficients", options.coefficients,
+                  "include the Fourier coefficients of each response in JSON");
   }
   verb.add_option("--combinations", texts.combinations,
-                  "combinations of the values in for_each, at most (default: " +
+                  "maximum number of combinations of the values in for_each (default: " +
                       std::to_string(scene::usual_combinations) + ")")
       ->type_name("N");
-  verb.add_flag("--quiet", options.quiet, "no progress and no notes, only errors");
+  verb.add_flag("--quiet", options.quiet, "print only errors, no progress and no notes");
 }
 
-/// The number that an option gave to a key, if it did.
+/// The number given for a key by an option, if any.
 std::optional<double> number_of(const Options& options, const std::string& key) {
   for (const GivenKey& given : options.keys) {
     const auto* node = std::get_if<scene::file::Node>(&given.value);
@@ -135,12 +135,12 @@ std::optional<double> number_of(const Options& options, const std::string& key) 
 void check_consistent(const Options& options, bool json_given, bool csv_given, bool out_given) {
   if ((json_given && options.json.empty()) || (csv_given && options.csv.empty()) ||
       (out_given && options.out.empty())) {
-    throw UsageError("--out, --json and --csv need a name that is not empty");
+    throw UsageError("--out, --json and --csv need a nonempty name");
   }
   if (!options.json.empty() && options.json == options.csv) {
     throw UsageError("--json and --csv both go to " +
                      (options.json == "-" ? "standard output" : options.json) +
-                     ": give one of them another place");
+                     ": choose another path for one of them");
   }
   const auto from = number_of(options, "from"), to = number_of(options, "to");
   if (from && to && !(*from < *to)) {
@@ -166,7 +166,7 @@ std::variant<Options, Information> parse(int argc, const char* const* argv,
   app.set_version_flag("--version", "arcslip " + std::string(results::version()), "print the version");
   app.set_help_flag("--help,-h", "print this help");
   app.get_formatter()->label("SUBCOMMAND", "VERB SCENE");
-  app.footer(std::string(exit_codes) + "\narcslip VERB --help tells the options of a verb.");
+  app.footer(std::string(exit_codes) + "\nRun arcslip VERB --help for the options of a verb.");
 
   std::vector<Verb> verbs = verbs_of(catalogue);
   std::map<const CLI::App*, const Verb*> verb_of;
@@ -175,7 +175,7 @@ std::variant<Options, Information> parse(int argc, const char* const* argv,
     verb->group("Verbs");
     verb_of.emplace(verb, &each);
     if (argc < 2 || each.name != argv[1]) {
-      continue;  // nobody asks for its options
+      continue;  // its options are not needed
     }
     if (each.type != nullptr) {
       each.keys = options_of(each.type->keys());
@@ -192,7 +192,7 @@ std::variant<Options, Information> parse(int argc, const char* const* argv,
   schema->group("Verbs");
 
   if (argc < 2) {
-    throw UsageError("what shall be done? Give a verb and a scene, as in arcslip run scene.json\n" + hint);
+    throw UsageError("no verb given. Give a verb and a scene, as in arcslip run scene.json\n" + hint);
   }
   try {
     app.parse(argc, argv);

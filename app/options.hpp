@@ -1,5 +1,5 @@
 #pragma once
-// What the user wrote on the command line.
+// The command line options.
 
 #include "exit_code.hpp"
 
@@ -21,38 +21,38 @@ struct ParameterRange {
   std::optional<std::pair<double, double>> range;
 };
 
-/// A key of a study, as an option gave it.
+/// A key of a study, given by an option.
 struct GivenKey {
   scene::Key key;
   std::string text;  // "--from 18", for messages
-  std::variant<scene::file::Node, std::vector<ParameterRange>>
-      value;  // ranges: of KeyType::parameters, followed
+  // ranges: of KeyType::parameters and KeyType::followed
+  std::variant<scene::file::Node, std::vector<ParameterRange>> value;
 };
 
 struct Options {
-  std::string verb;                                 // "run", "check", or that of a kind of study
+  std::string verb;                                 // "run", "check", or the verb of a kind of study
   const scene::StudyType* type = nullptr;           // of the verb
   std::string scene;                                // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
   std::vector<GivenKey> keys;       // of the study; run: of its frequency responses
   std::string out, json, csv;       // paths, "-" for standard output (json, csv), "" for none
-  std::optional<int> combinations;  // of for_each, at most
+  std::optional<int> combinations;  // of for_each, maximum
   bool coefficients = false;
   bool quiet = false;
 };
 
-/// Arguments that make no sense. what() says which and what to do.
+/// Invalid arguments. what() names the argument and the remedy.
 class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Text that was asked for in place of work: help, the version, the schema of scenes.
+/// Text printed instead of a run: help, the version, the schema of scenes.
 struct Information {
   std::string text;
 };
 
-/// catalogue: the kinds of studies, each of which has a verb. Throws UsageError.
+/// catalogue: the kinds of studies, each with its verb. Throws UsageError.
 std::variant<Options, Information> parse(int argc, const char* const* argv,
                                          const scene::Catalogue& catalogue);
 

@@ -52,7 +52,7 @@ std::string progress_text(const results::Progress& progress, const std::string& 
   if (progress.frequency > 0) {
     add("  %.6g %s", progress.frequency, unit.c_str());
   }
-  if (progress.step != 0) {  // at a fixed frequency there is none
+  if (progress.step != 0) {  // no step at a fixed frequency
     add("  step %.2g %s", progress.step, unit.c_str());
   }
   if (!std::isnan(progress.best)) {

@@ -8,11 +8,11 @@
 
 namespace arcslip::app {
 
-/// One line on standard error that is rewritten at most ten times a second; where that is no terminal, a line
-/// every ten seconds.
+/// A progress line on standard error, rewritten at most ten times a second; if that is not a terminal, a new
+/// line every ten seconds.
 class ProgressLine {
  public:
-  /// `unit` is that of the frequencies.
+  /// unit: of the frequencies.
   ProgressLine(bool quiet, std::string unit);
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -26,14 +26,14 @@ class ProgressLine {
   static constexpr std::chrono::milliseconds rewritten_every{100}, told_every{10000};
   bool shown_, terminal_;
   std::string unit_;
-  std::size_t width_ = 0;  // of what stands there now
+  std::size_t width_ = 0;  // of the line shown now
   Clock::time_point begin_ = Clock::now();
   Clock::time_point next_;
 };
 
-/// "branch 3/12  152 points  19.84 Hz  step 0.012 Hz  41 %  4 s left"; of a search "search 1/4  the
-/// certificate  37 evaluations  20.1 Hz  best 0.0123 m  12 s", where nobody knows how much is left. `seconds`
-/// have passed since the beginning.
+/// "branch 3/12  152 points  19.84 Hz  step 0.012 Hz  41 %  4 s left"; for a search, whose remaining time is
+/// unknown, "search 1/4  the certificate  37 evaluations  20.1 Hz  best 0.0123 m  12 s". seconds: elapsed
+/// time.
 std::string progress_text(const results::Progress& progress, const std::string& unit, double seconds);
 
 }  // namespace arcslip::app

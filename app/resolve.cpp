@@ -45,7 +45,7 @@ using scene::KeyType;
 using scene::file::Member;
 using scene::file::Node;
 
-/// The keys of a study's settings, as its file has them.
+/// The keys of a study's settings, as in the scene file.
 Node::Object own_keys(const scene::Scene& scene, const scene::Study& study) {
   Node::Object keys;
   study.type->write(study.settings, scene, keys);
@@ -71,14 +71,14 @@ const GivenKey* find(const Options& options, const std::string& name) {
   return found != options.keys.end() ? &*found : nullptr;
 }
 
-/// The parameter that an option gives to a key of one, or "".
+/// The parameter given by an option for a key of type parameter, or "".
 std::string parameter_of(const GivenKey& given) {
   const auto* node = std::get_if<Node>(&given.value);
   const auto* text = node != nullptr ? node->get<std::string>() : nullptr;
   return given.key.type == KeyType::parameter && text != nullptr ? *text : "";
 }
 
-/// Throws where an option names no parameter at all; what else may be wrong with it is told when it is read.
+/// Throws if an option names no parameter at all; other faults are reported when the option is read.
 void check_parameter(const scene::Scene& scene, const std::string& option, const std::string& parameter) {
   if (parameter.empty() || parameter == "frequency") {
     return;
@@ -115,7 +115,7 @@ Node pair_of(const std::pair<double, double>& range) {
   return {Node::List{{range.first}, {range.second}}};
 }
 
-/// Lists of parameters and of their bounds; where an option gives no bounds, those that the study has.
+/// Lists of parameters and of their bounds; bounds not given by an option are those of the study.
 void add_parameters(const GivenKey& given, const Node::Object& own, std::vector<Member>& keys) {
   const Node* names = find(own, given.key.name);
   const Node* bounds = find(own, "bounds");
@@ -130,7 +130,7 @@ void add_parameters(const GivenKey& given, const Node::Object& own, std::vector<
     }
     if (!each.range && known == nullptr) {
       const std::string option = "--" + given.key.name + " " + each.parameter;
-      throw UsageError(option + ": its bounds are not known; give them as " + option + "=lower:upper");
+      throw UsageError(option + ": no bounds given; give them as " + option + "=lower:upper");
     }
     all_names.push_back({each.parameter});
     all_bounds.push_back(each.range ? pair_of(*each.range) : *known);
@@ -143,14 +143,14 @@ void add_followed(const GivenKey& given, std::vector<Member>& keys) {
   const ParameterRange& one = std::get<std::vector<ParameterRange>>(given.value).front();
   if (!one.range) {
     const std::string option = "--" + given.key.name + " " + one.parameter;
-    throw UsageError(option + ": its range is not known; give it as " + option + "=from:to");
+    throw UsageError(option + ": no range given; give it as " + option + "=from:to");
   }
   keys.push_back({given.key.name, {one.parameter}});
   keys.push_back({"from", {one.range->first}});
   keys.push_back({"to", {one.range->second}});
 }
 
-/// The keys that the options give, beside the study's own.
+/// The keys given by the options, in addition to the study's own.
 std::vector<Member> keys_of(const Options& options, const Node::Object& own) {
   std::vector<Member> keys;
   for (const GivenKey& given : options.keys) {
@@ -165,7 +165,7 @@ std::vector<Member> keys_of(const Options& options, const Node::Object& own) {
   return keys;
 }
 
-/// The parameters that the options name, which the study then no longer has among its lists.
+/// The parameters named by the options, which are then dropped from the lists of the study.
 std::vector<std::string> named_parameters(const Options& options) {
   std::vector<std::string> names;
   for (const GivenKey& given : options.keys) {
@@ -180,7 +180,7 @@ std::vector<std::string> named_parameters(const Options& options) {
   return names;
 }
 
-/// Throws where --set gives a value to a parameter that the study itself varies.
+/// Throws if --set sets a parameter that the study itself varies.
 void check_set(const std::vector<Key>& known, const std::vector<Member>& keys, const Options& options) {
   for (const Key& key : known) {
     if (key.type != KeyType::parameter && key.type != KeyType::followed) {
@@ -188,16 +188,17 @@ void check_set(const std::vector<Key>& known, const std::vector<Member>& keys, c
     }
     for (const auto& [parameter, value] : options.set) {
       if (parameter == parameter_at(keys, key.name)) {
-        throw UsageError("--set " + parameter + "=" + results::shortest(value) + ": the study " +
-                         (key.type == KeyType::followed
-                              ? "goes along this parameter; give --" + key.name + " for its range"
-                              : "is over this parameter; give --from and --to for its range"));
+        throw UsageError(
+            "--set " + parameter + "=" + results::shortest(value) + ": the study " +
+            (key.type == KeyType::followed
+                 ? "continues the optimum over this parameter; give --" + key.name + " for its range"
+                 : "varies this parameter; give --from and --to for its range"));
       }
     }
   }
 }
 
-/// Throws where --from and --to leave nothing between them.
+/// Throws if the range between --from and --to is empty.
 void check_range(const scene::Scene& scene, const scene::Study& study, const std::vector<Member>& keys,
                  const Options& options) {
   const GivenKey* from_given = find(options, "from");
@@ -223,7 +224,7 @@ void check_range(const scene::Scene& scene, const scene::Study& study, const std
                              study.name + "\" begins; found " + results::quantity(to, unit));
 }
 
-/// The option that gave the key at this place within a study, or "".
+/// The option that gave the key at this location within a study, or "".
 std::string option_at(const std::string& place, const Options& options) {
   const std::string key = place.substr(0, place.find('/'));
   for (const GivenKey& given : options.keys) {
@@ -243,7 +244,7 @@ std::string option_at(const std::string& place, const Options& options) {
   return "";
 }
 
-/// The study that says what the command line does not. Its index, or none where the scene has none.
+/// The index of the study that provides what the command line leaves out, if the scene has one.
 std::optional<std::size_t> study_to_follow(const scene::Scene& scene, const Options& options) {
   const GivenKey* over = find(options, "over");
   const std::string parameter = over != nullptr ? parameter_of(*over) : "";
@@ -262,7 +263,7 @@ std::optional<std::size_t> study_to_follow(const scene::Scene& scene, const Opti
   return found;
 }
 
-/// A study with defaults, under a name that no other one has.
+/// A study with defaults and a unique name.
 scene::Study new_study(const scene::Scene& scene, const Options& options) {
   std::string name = options.verb;
   while (std::any_of(scene.studies.begin(), scene.studies.end(),
@@ -272,8 +273,8 @@ scene::Study new_study(const scene::Scene& scene, const Options& options) {
   return {name, options.type, options.type->defaults(), {}};
 }
 
-/// Throws where neither the scene nor the options say all that a study needs. is_new: the scene has none of
-/// this kind; else it has none over this parameter, and ranges are to be given.
+/// Throws if scene and options together do not define the study. is_new: the scene has no study of this kind;
+/// otherwise it has none over this parameter, and ranges are required.
 void check_complete(const Options& options, bool is_new, const std::string& over) {
   std::vector<std::string> missing;
   for (const Key& key : options.type->keys()) {
@@ -284,7 +285,7 @@ void check_complete(const Options& options, bool is_new, const std::string& over
   }
   if (!missing.empty()) {
     throw UsageError("the scene has no study of kind " + std::string(options.type->name()) +
-                     (is_new ? "" : " over " + over) + ", so not all is known: give " + listed(missing) +
+                     (is_new ? "" : " over " + over) + ": give " + listed(missing) +
                      ", or add such a study to the scene");
   }
 }
@@ -315,7 +316,7 @@ scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Op
   }
   const Node::Object own = own_keys(scene, study);
   std::vector<Member> keys = keys_of(options, own);
-  for (const Key& key : study.type->keys()) {  // what it goes along and is over at once
+  for (const Key& key : study.type->keys()) {  // a parameter both in "along" and in "over"
     const std::string along = parameter_at(own, key.name);
     if (key.type == KeyType::followed && find(keys, key.name) == nullptr && !along.empty() &&
         std::find(named.begin(), named.end(), along) != named.end()) {

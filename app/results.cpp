@@ -38,7 +38,7 @@ std::string beside(const std::string& file, const std::string& part) {
   return path.string() + "." + part + extension;
 }
 
-/// Whether a file begins as the tables of results do. Others that have such a name are left alone.
+/// Whether a file starts like a table of results. Other files of that name are left alone.
 bool is_table(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
@@ -49,8 +49,8 @@ bool is_table(const std::string& path) {
   return std::getline(file, first, ',') && first == "study";
 }
 
-/// The study in the folder to which figures of this name belong: of those that have files there the one with
-/// the longest name that this one begins with; "" where there is none.
+/// The study in the folder that a figure of this name belongs to: among the studies with files there, the one
+/// whose name is the longest prefix; "" if there is none.
 std::string owner(const std::string& folder, std::string name) {
   std::error_code ignored;
   while (!name.empty() && !std::filesystem::exists(StudyFiles{folder, name}.path(".scene.json"), ignored)) {
@@ -60,7 +60,7 @@ std::string owner(const std::string& folder, std::string name) {
   return name;
 }
 
-/// Removes the figures of a study that an earlier run has drawn and this one has not.
+/// Removes figures of a study left by an earlier run and not drawn by this one.
 void remove_other_figures(const StudyFiles& files, const std::vector<std::string>& drawn) {
   std::error_code error;
   std::vector<std::string> others;
@@ -101,14 +101,14 @@ ResultsFolder::ResultsFolder(const std::string& folder) : descriptor_(-1) {
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
     const std::string cause = error ? error.message() : "it is a file";
-    throw UsageError("cannot make the folder " + folder + ": " + cause + " (choose another with --out)");
+    throw UsageError("cannot create the folder " + folder + ": " + cause + " (choose another with --out)");
   }
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // A file system without locks goes without.
+  // File systems without locks are accepted.
   if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
-    throw UsageError("another run writes into the folder " + folder +
-                     ": wait for its end, or choose another with --out");
+    throw UsageError("another run is writing to the folder " + folder +
+                     ": wait until it ends, or choose another folder with --out");
   }
   output::clear_temporaries(folder);
 }
@@ -192,11 +192,13 @@ void check_places(const std::vector<Place>& places, const std::string& scene_fil
     const auto file = std::pair(status.st_dev, status.st_ino);
     const auto same = is_there ? by_file.emplace(file, place.what) : std::pair(by_file.end(), true);
     if (!same.second && same.first->second.empty()) {
-      throw UsageError(results::visible(place.path) + " is the scene itself: give the results another place");
+      throw UsageError(results::visible(place.path) +
+                       " is the scene file itself: choose another path for the results");
     }
     if (!other.second || !same.second) {
       throw UsageError((other.second ? same.first->second : other.first->second) + " and " + place.what +
-                       " both go to " + results::visible(place.path) + ": give one of them another place");
+                       " both go to " + results::visible(place.path) +
+                       ": choose another path for one of them");
     }
     output::check_writable(place.path);
   }
@@ -224,7 +226,7 @@ std::string Writing::missing() const {
   for (const std::string& what : missing_) {
     list += (list.empty() ? "" : ", ") + what;
   }
-  return list.empty() ? "all that is computed is written" : "not written: " + list;
+  return list.empty() ? "all results were written" : "not written: " + list;
 }
 
 ExitCode Writing::code(ExitCode otherwise) const {

@@ -1,5 +1,5 @@
 #pragma once
-// Where the results of a run go, and that they can go there, known before anything is computed.
+// Output files of a run, and the checks before anything is computed that they can be written.
 
 #include "exit_code.hpp"
 
@@ -17,7 +17,7 @@
 
 namespace arcslip::app {
 
-/// The files of one study in a folder: NAME.scene.json, NAME.json, NAME.csv with those beside it, and the
+/// The files of one study in a folder: NAME.scene.json, NAME.json, NAME.csv with its companions, and the
 /// figures.
 struct StudyFiles {
   std::string folder, name;
@@ -25,12 +25,12 @@ struct StudyFiles {
   std::string path(const std::string& extension) const;
 };
 
-/// A name for the files of each study, different for each.
+/// Unique file names for each study.
 std::vector<StudyFiles> study_files(const std::string& folder, std::span<const scene::Study> studies);
 
-/// A folder that one run at a time writes into: made with those above it, and held as long as this lives,
-/// even if the program is killed. What a killed run has left half-written is removed. Throws UsageError where
-/// it cannot be made or another run holds it.
+/// A folder locked for one run at a time: created with its parents and locked for the lifetime of this
+/// object; the lock does not outlive a killed program. Removes temporary files left by a killed run. Throws
+/// UsageError if it cannot be created or another run holds the lock.
 class ResultsFolder {
  public:
   explicit ResultsFolder(const std::string& folder);
@@ -42,12 +42,12 @@ class ResultsFolder {
   int descriptor_;
 };
 
-/// Where something is to be written, and what, for people.
+/// An output path, and a description of what goes there.
 struct Place {
   std::string what, path;
 };
 
-/// A file and the sink that writes it. No sink: there is to be none; what an earlier run has left is removed.
+/// A file and the sink that writes it. Without a sink, the file of an earlier run is removed.
 struct File {
   std::string path;
   std::function<std::unique_ptr<results::Sink>(std::ostream&)> sink;
@@ -55,39 +55,39 @@ struct File {
 
 File json_file(const std::string& path);
 
-/// Results as CSV: the first of their tables in `path`; the others and the summary beside it, with the key of
-/// the table or "summary" before the ending of the name, but not where that is standard output ("-"), a pipe
-/// or a device.
+/// Results as CSV: the first table in `path`; the others and the summary next to it, with the key of the
+/// table or "summary" inserted before the extension, unless `path` is standard output ("-"), a pipe or a
+/// device.
 std::vector<File> csv_files(const std::string& path, std::span<const results::Schema> schemas);
 
-/// Writes results that are there.
+/// Writes collected results.
 void write(const File& file, const results::Results& results, std::ostream& out);
 
-/// Where CSV of any results may go.
+/// Adds every path that CSV results may be written to.
 void add_csv_places(const std::string& what, const std::string& path, std::vector<Place>& places);
 
-/// Whether a place may have to wait for a reader: standard output ("-"), a pipe, a device.
+/// Whether writing may block on a reader: standard output ("-"), a pipe, a device.
 bool may_wait(const std::string& place);
 
-/// All of a study that has files of its own.
+/// Adds the paths of a study with files of its own.
 void add_places(const StudyFiles& files, const std::string& study, std::vector<Place>& places);
 
-/// Throws UsageError where two of them are one file, by whatever name, or one is the scene file or that below
-/// standard output; output::WriteError where one cannot be written.
+/// Throws UsageError if two of the paths are the same file, under whatever name, or one is the scene file or
+/// the file behind standard output; output::WriteError if one cannot be written.
 void check_places(const std::vector<Place>& places, const std::string& scene_file);
 
-/// Writes one thing after the other: what cannot be written is told on standard error and costs nothing else.
+/// Writes several outputs in turn: a failure is reported on standard error and does not affect the others.
 class Writing {
  public:
-  /// Whether it is written: whatever may throw output::WriteError; `what` it writes, for people.
+  /// Calls write(), which may throw output::WriteError. what: the output, for messages. Returns success.
   bool attempt(const std::string& what, const std::function<void()>& write);
-  /// The file of an earlier run.
+  /// Removes the file of an earlier run.
   static void remove(const std::string& path);
-  /// `what` is not there for a reason that is told.
+  /// Records that `what` is missing, for a reason reported elsewhere.
   void misses(std::string what) { missing_.push_back(std::move(what)); }
-  /// What is not there: part of a sentence.
+  /// The missing outputs, as part of a sentence.
   std::string missing() const;
-  /// How the program is to end, which would end in another way if all were written.
+  /// The exit code; `otherwise` if everything was written.
   ExitCode code(ExitCode otherwise) const;
 
  private:
@@ -95,11 +95,11 @@ class Writing {
   std::vector<std::string> missing_;
 };
 
-/// The scene as it is computed, beside the results of its study. Returns its path where it is written.
+/// Writes the resolved scene next to the results of its study. Returns its path, if written.
 std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene& scene, Writing& writing);
 
-/// Draws the figures of a study; those that an earlier run has left are removed. Returns the paths of what is
-/// there; tells on standard error what is missing, and why.
+/// Draws the figures of a study and removes those of an earlier run. Returns the paths of the files written;
+/// reports missing figures and the cause on standard error.
 std::vector<std::string> write_figures(const StudyFiles& files,
                                        const std::vector<results::FigureData>& figures, Writing& writing);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where results go while they are computed.
+// Sinks for results during the computation.
 
 #include "results.hpp"
 
@@ -14,7 +14,7 @@
 
 namespace arcslip::app {
 
-/// Hands all that it is given to each of several sinks, which outlive it.
+/// Forwards everything to several sinks, which must outlive it.
 class Tee : public results::Sink {
  public:
   explicit Tee(std::vector<results::Sink*> sinks) : sinks_(std::move(sinks)) {}
@@ -29,8 +29,8 @@ class Tee : public results::Sink {
   std::vector<results::Sink*> sinks_;
 };
 
-/// The results of one study, as those of one schema of a sink for several studies: whoever made that sink
-/// begins and finishes it.
+/// Forwards the results of one study to one schema of a sink shared by several studies. The owner of that
+/// sink begins and finishes it.
 class OneOfSeveral : public results::Sink {
  public:
   OneOfSeveral(results::Sink& all, std::size_t schema) : all_(all), schema_(schema) {}
@@ -46,8 +46,8 @@ class OneOfSeveral : public results::Sink {
   std::size_t schema_;
 };
 
-/// Files that are written as results come, so that none is kept. Each has its name, whole, from commit() on.
-/// One that cannot be written costs the others nothing.
+/// Files written as results arrive, so that no results are kept in memory. The files appear under their
+/// names, complete, with commit(). A failure to write one does not affect the others.
 class OpenFiles : public results::Sink {
  public:
   explicit OpenFiles(std::vector<File> files);
@@ -58,7 +58,7 @@ class OpenFiles : public results::Sink {
   void end(const results::End& end) override;
   void finish() override;
 
-  /// Returns the paths of those that are written, and leaves to `writing` to tell of the others.
+  /// Returns the paths of the files written; `writing` reports the others.
   std::vector<std::string> commit(Writing& writing);
 
  private:

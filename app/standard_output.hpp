@@ -8,17 +8,17 @@
 
 namespace arcslip::app {
 
-/// Standard output, which may be closed, full or read by nobody: then the rest of the run goes on without it,
-/// and finish() says so.
+/// Standard output, which may be closed, full or without a reader: the run then continues without it, and
+/// finish() reports the error.
 class StandardOutput {
  public:
-  /// What a terminal may get as it is, such as JSON and CSV.
+  /// Output that is safe for a terminal as it is, such as JSON and CSV.
   void write(const std::function<void(std::ostream&)>& writer);
 
-  /// Lines for people, with what a terminal must not get escaped (results/text.hpp).
+  /// Human-readable lines, with characters unsafe for a terminal escaped (results/text.hpp).
   void write_lines(const std::function<void(std::ostream&)>& writer);
 
-  /// Throws output::WriteError where not all was written.
+  /// Throws output::WriteError if not everything was written.
   void finish() const;
 
  private:

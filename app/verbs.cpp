@@ -35,7 +35,7 @@ bool takes_standard_output(const Options& options) {
   return options.json == "-" || options.csv == "-";
 }
 
-/// Meets what writing the results would meet at its beginning. Returns the folder, held for this run.
+/// Checks that all results can be written, before anything is computed. Returns the locked output folder.
 std::optional<ResultsFolder> prepare_places(const Options& options, const std::vector<scene::Study>& studies,
                                             const std::vector<StudyFiles>& files) {
   std::optional<ResultsFolder> folder;
@@ -56,7 +56,7 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
   return folder;
 }
 
-/// Throws where one table would have to hold results of different kinds.
+/// Throws if one table would have to hold results of different kinds.
 void check_one_table(const Options& options, const scene::Scene& scene,
                      const std::vector<scene::Study>& studies) {
   const auto list = [&](const scene::Study& study) { return study.type->schema(scene, study, {}).list; };
@@ -69,7 +69,7 @@ void check_one_table(const Options& options, const scene::Scene& scene,
   }
 }
 
-/// "1000000000"; beyond 15 digits with an exponent.
+/// "1000000000"; with an exponent beyond 15 digits.
 std::string whole(double count) {
   std::ostringstream text;
   text.precision(15);
@@ -77,7 +77,7 @@ std::string whole(double count) {
   return text.str();
 }
 
-/// Throws where lists in for_each, whose lengths multiply, ask for more than anybody may have meant.
+/// Throws if the lists of for_each, whose lengths multiply, have more combinations than allowed.
 void check_combinations(const Options& options, const std::vector<scene::Study>& studies) {
   const int most = options.combinations.value_or(scene::usual_combinations);
   for (const scene::Study& study : studies) {
@@ -97,11 +97,11 @@ void check_combinations(const Options& options, const std::vector<scene::Study>&
 
 void tell_partial(Interruption& interruption) {
   if (interruption.is_new()) {
-    tell("interrupted; what is computed so far will be written (Ctrl-C again: end at once)");
+    tell("interrupted; the results so far will be written (press Ctrl-C again to quit at once)");
   }
 }
 
-/// Computes a study into a sink, and shows how far it is. Returns its figures.
+/// Runs a study into a sink with a progress line. Returns its figures.
 std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, const scene::Study& study,
                                                  scene::RunOptions how, const Options& options,
                                                  results::Sink& sink, Interruption& interruption) {
@@ -159,8 +159,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   for (const scene::Study& study : studies) {
     schemas.push_back(study.type->schema(scene, study, how));
   }
-  // Files take results as they come; what may have to wait for a reader, or has to put several lists in
-  // order, takes them in the end.
+  // Files are written as results arrive; outputs that may block on a reader, or that have to sort several
+  // lists, are written at the end.
   std::vector<File> common = common_files(options, schemas);
   const auto later = std::stable_partition(common.begin(), common.end(), [&](const File& file) {
     return !may_wait(file.path) && are_of_one_list(schemas);
@@ -181,7 +181,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   std::ostringstream tables;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     if (interrupted()) {
-      tell("the study \"" + studies[i].name + "\" was not begun: what it would write is left as it was");
+      tell("the study \"" + studies[i].name + "\" was not started: its files are unchanged");
       continue;
     }
     any_begun = true;
@@ -237,8 +237,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   if (interrupted()) {
     code = ExitCode::stopped_early;
     if (interruption.is_new()) {
-      tell(!any_begun ? "interrupted before a study was begun: nothing is computed, and nothing is written"
-                      : "interrupted while results were written; " + writing.missing());
+      tell(!any_begun ? "interrupted before any study was started: nothing was computed or written"
+                      : "interrupted while writing results; " + writing.missing());
     }
   }
   return writing.code(code);
@@ -268,8 +268,8 @@ ExitCode run(scene::Scene scene, Options options) {
   }
   if (!any) {
     throw UsageError(
-        "--from and --to of run are those of frequency responses, of which the scene has none: use the verb "
-        "of the study's kind");
+        "with run, --from and --to apply to frequency responses, but the scene has none: use the verb of the "
+        "study's kind");
   }
   if (options.out.empty()) {
     options.out = (std::filesystem::path("out") / std::filesystem::path(options.scene).stem()).string();

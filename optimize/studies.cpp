@@ -95,9 +95,8 @@ void read_along(const Reading& reading, OptimumSettings& settings) {
   const Place place = reading.keys.find("along");
   for (const std::string& key : scene::keys_beside(KeyType::followed))
     if (place.node == nullptr && reading.keys.has(key))
-      reading.faults.add(reading.keys.find(key).pointer, "found the key " + quoted(key) +
-                                                             " without \"along\", the parameter of which it "
-                                                             "is a value");
+      reading.faults.add(reading.keys.find(key).pointer,
+                         "found the key " + quoted(key) + " without \"along\", whose range it belongs to");
   if (place.node == nullptr) return;
   DesignVariable along;
   const scene::Field field = read_parameter(place, reading.parameters, along.name, reading.faults);
@@ -110,8 +109,8 @@ void read_along(const Reading& reading, OptimumSettings& settings) {
       beside.emplace_back(key);
   }
   if (!beside.empty())
-    reading.faults.add(place.pointer, "found \"along\" beside " + listed(beside) +
-                                          ", with which no optimum is followed; must stand without");
+    reading.faults.add(place.pointer, "found \"along\" together with " + listed(beside) +
+                                          ", which it does not support; must be given alone");
   const bool is_other =
       !beside.empty() || is_taken(along.name, place.pointer, taken(settings.problem), reading.faults);
   std::tie(along.lower, along.upper) = read_range(reading, field);
@@ -153,10 +152,10 @@ KeysOf<OptimumSettings> keys() {
     return within(&S::problem, std::move(group));
   };
   const auto of_search = [](KeyGroup<SearchSettings> group) { return within(&S::search, std::move(group)); };
-  constexpr const char* algorithm = "a string, the name of an algorithm of NLopt";
+  constexpr const char* algorithm = "a string, the name of an NLopt algorithm";
   KeysOf<S> keys;
   keys.add(of_problem({{{"over", KeyType::parameters, "", "parameters \"part.field\" or ties", "", true,
-                         "the parameters that are chosen"},
+                         "the design parameters"},
                         with_schema({"bounds", KeyType::other, "parameter", "a pair [lower, upper] for each",
                                      "", true, "lower and upper bound of each"},
                                     bounds_schema)},
@@ -168,42 +167,42 @@ KeysOf<OptimumSettings> keys() {
                        drop_from}));
   keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
   keys.add(of_search(text("algorithm", &SearchSettings::algorithm, algorithm,
-                          "\"" + std::string(default_algorithm) + "\"",
-                          "an algorithm of NLopt, by its own name")));
+                          "\"" + std::string(default_algorithm) + "\"", "the NLopt algorithm")));
   keys.add(of_search(text("local", &SearchSettings::local, algorithm, "",
-                          "the algorithm inside MLSL and AUGLAG, as LN_BOBYQA")));
+                          "the local algorithm of MLSL and AUGLAG, such as LN_BOBYQA")));
   keys.add(of_search(whole("evaluations", &SearchSettings::evaluations, 1, largest_search,
-                           "designs to be looked at, at most")));
+                           "maximum number of design evaluations")));
   keys.add(of_search(
       number(&SearchSettings::seconds,
              {.name = "seconds", .unit = "s", .lower = 0, .upper = std::numeric_limits<double>::infinity()},
-             "time for the search, at most; 0: no limit")));
+             "time limit of the search; 0: no limit")));
   keys.add(of_search(whole("population", &SearchSettings::population, 0, largest_search,
-                           "of the stochastic algorithms; 0: their own choice")));
+                           "population size of stochastic algorithms; 0: their default")));
   keys.add(of_search(whole("seed", &SearchSettings::seed, 0, largest_search,
-                           "of the stochastic algorithms: the same seed gives the same run")));
-  keys.add(of_problem({{with_schema({"constraints", KeyType::other, "", "a list of objects", "[]", false,
-                                     "limits on observables of the peaks, and on sums of parameters"},
-                                    constraints_schema)},
-                       read_constraints,
-                       write_constraints}));
+                           "random seed of stochastic algorithms: the same seed gives the same run")));
+  keys.add(of_problem(
+      {{with_schema({"constraints", KeyType::other, "", "a list of objects", "[]", false,
+                     "limits on observables of the peaks and on linear combinations of parameters"},
+                    constraints_schema)},
+       read_constraints,
+       write_constraints}));
   keys.add(of_problem({{with_schema({"cases", KeyType::other, "", "a list of objects, or lists of values", "",
-                                     false, "circumstances that one design is to serve"},
+                                     false, "load cases of the design"},
                                     cases_schema)},
                        read_cases,
                        write_cases}));
   keys.add(of_problem(word("criterion", &OptimumProblem::criterion, criteria,
-                           "what is to be least of the cases: the worst of their amplitudes, or their "
+                           "what is minimized over the cases: the largest weighted amplitude, or the "
                            "weighted mean")));
-  keys.add(
-      of_problem({{with_schema({"scatter", KeyType::other, "parameter", "pairs [lower, upper] by parameter",
-                                "{}", false, "parameters that scatter, of which the worst values count"},
-                               scatter_schema)},
-                  read_scatter,
-                  write_scatter}));
+  keys.add(of_problem(
+      {{with_schema({"scatter", KeyType::other, "parameter", "pairs [lower, upper] by parameter", "{}", false,
+                     "uncertain parameters, given by bounds; their worst case counts"},
+                    scatter_schema)},
+       read_scatter,
+       write_scatter}));
   keys.add({{{"along", KeyType::followed, "", "a parameter \"part.field\" or a tie", "", false,
-              "a parameter over which the optimum is followed"},
-             with_schema({"from", KeyType::other, "parameter", "what the parameter may be", "", false,
+              "the parameter over which the optimum is continued"},
+             with_schema({"from", KeyType::other, "parameter", "within the parameter's bounds", "", false,
                           "first value of that parameter"},
                          number_schema),
              with_schema({"to", KeyType::other, "parameter", "above \"from\"", "", false,
@@ -228,9 +227,7 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
   using KeyedStudy::KeyedStudy;
   std::string_view name() const override { return "optimum"; }
   std::string_view verb() const override { return "optimize"; }
-  std::string_view help() const override {
-    return "the values of parameters for which the highest resonance peak is least";
-  }
+  std::string_view help() const override { return "the parameters that minimize the highest resonance peak"; }
   bool takes_coefficients() const override { return false; }
   results::Schema schema(const scene::Scene& scene, const scene::Study& study,
                          const scene::RunOptions& /*options*/) const override {
@@ -272,7 +269,7 @@ std::vector<Taken> taken(const OptimumProblem& problem) {
   for (const DesignVariable& variable : problem.over)
     all.push_back({variable.name, "which the study is \"over\""});
   for (const DesignCase& each : problem.cases)
-    for (const auto& value : each.set) all.push_back({value.first, "to which \"cases\" give values"});
+    for (const auto& value : each.set) all.push_back({value.first, "which \"cases\" set"});
   for (const DesignVariable& variable : problem.scatter)
     all.push_back({variable.name, "which is in \"scatter\""});
   return all;

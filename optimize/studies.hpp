@@ -1,5 +1,5 @@
 #pragma once
-// The kind of study "optimum", for a catalogue.
+// The study kind "optimum", for a catalogue.
 //
 //   scene::Catalogue catalogue = studies::catalogue();
 //   optimize::add_studies(catalogue);

@@ -87,7 +87,8 @@ void cut(Branch& branch, const Event& end, double miss, double reach) {
   while (!branch.points.empty() && branch.points.back().arclength >= s) branch.points.pop_back();
   while (!branch.events.empty() && branch.events.back().point.arclength > s) branch.events.pop_back();
   branch.points.push_back(end.point);
-  branch.stop = {StopReason::closed, miss, reach, "came back to the branch point that it left: it is closed"};
+  branch.stop = {StopReason::closed, miss, reach,
+                 "returned to the branch point it left: the branch is closed"};
 }
 
 }  // namespace arcslip::continuation

@@ -1,5 +1,5 @@
 #pragma once
-// Branches of a diagram put together from their traces: turned, shifted, joined, cut.
+// Assembly of the branches of a diagram from traces: reverse, shift, append, cut.
 
 #include <arcslip/continuation/problem/branch.hpp>
 
@@ -11,22 +11,22 @@ Vector joined(const Vector& u, double parameter);
 /// A branch point where smooth branches cross.
 bool simple(const Event& event);
 
-/// From its end to its beginning, with arclength of the other sign.
+/// Reverses the order of points and events and the sign of the arclength.
 void reverse(Branch& branch);
 
 /// Adds to the arclength of all points and events.
 void shift(Branch& branch, double arclength);
 
-/// `next` goes on where `branch` ends.
+/// Appends `next`, which continues `branch` from its end.
 void append(Branch& branch, Branch&& next);
 
-/// Event::after of all events.
+/// Sets Event::after of all events.
 void number(Branch& branch);
 
-/// Drops the last point but one where it is the last but for rounding, as where a trace begins at a bound.
+/// Drops the last point but one if it equals the last one to rounding, as when a trace starts at a bound.
 void drop_empty_step(Branch& branch);
 
-/// A loop from a branch point back to it, `end`: what was traced beyond is dropped. miss, reach: of its stop.
+/// Cuts a loop from a branch point back to it at `end`: drops the part beyond. miss, reach: of its stop.
 void cut(Branch& branch, const Event& end, double miss, double reach);
 
 }  // namespace arcslip::continuation

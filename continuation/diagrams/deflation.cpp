@@ -13,7 +13,7 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double smallest_share = 1.0 / 1024;  // of a step, where the problem cannot be evaluated further out
+constexpr double smallest_share = 1.0 / 1024;  // of a step, if the problem cannot be evaluated further out
 constexpr double displacement = 1e-2;          // from a known solution, relative to 1 + |u|
 constexpr double golden = 0.6180339887498949;  // the limit of the steps varies, so that they do not cycle
 constexpr double limit_range = 0.5;            // of itself
@@ -93,7 +93,7 @@ void Deflation::log_gradient(const Vector& u) {
   }
 }
 
-// Goes by step_, or by as much of it as the problem can be evaluated at.
+// Moves by step_, or by the part of it at which the problem can be evaluated.
 bool Deflation::go(Vector& u) {
   for (double share = 1; share >= smallest_share; share /= 2) {
     trial_ = u + share * step_;
@@ -135,7 +135,7 @@ std::optional<Vector> Deflation::solve(Vector u, double limit) {
   return {};
 }
 
-// A direction that is special to no problem, of norm 1.
+// A generic direction of norm 1.
 Vector aside(Deflation& in, Eigen::Index n, const Vector& scales) {
   Vector v(n);
   for (Eigen::Index i = 0; i < n; ++i)

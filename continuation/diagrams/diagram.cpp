@@ -18,7 +18,7 @@ void DiagramTracer::incomplete(const std::string& why) {
 
 Diagram DiagramTracer::run() {
   first_branch();
-  // Branch points are met while this goes on, those of one depth before those of the next.
+  // Branch points are added meanwhile, those of one depth before those of the next.
   for (std::size_t k = 0; k < diagram_.branch_points.size() && !stopped_; ++k) {
     if (diagram_.branch_points[k].depth >= limits_.depth) break;
     for (std::size_t h = 0; h < diagram_.branch_points[k].half_branches.size() && !stopped_; ++h) leave(k, h);
@@ -58,12 +58,12 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
   const auto half = [&](std::size_t i) -> HalfBranch& { return diagram_.branch_points[k].half_branches[i]; };
   if (half(h).branch >= 0) return;
   if (!half(h).untraced.empty()) return incomplete(half(h).untraced);
-  if (diagram_.branch_points[k].event < 0) {  // it lay beyond a terminal event that was certain only later
-    half(h).untraced = "the branch that met it ended before it";
+  if (diagram_.branch_points[k].event < 0) {  // beyond a terminal event that became certain only later
+    half(h).untraced = "the branch that met it ended before reaching it";
     return incomplete(half(h).untraced);
   }
   if (static_cast<int>(diagram_.branches.size()) >= limits_.branches) {
-    half(h).untraced = "reached the largest number of branches, " + std::to_string(limits_.branches);
+    half(h).untraced = "reached the maximum number of branches, " + std::to_string(limits_.branches);
     return incomplete(half(h).untraced);
   }
   const auto forward = enter(k, half(h));
@@ -99,7 +99,7 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
   event.point.tangent = half(h).direction;
   const auto opposite = simple(event) ? nearest(origin, -half(h).direction) : std::nullopt;
   if (!closed && opposite && half(*opposite).branch < 0 && !stopped_) {
-    diagram_.branches.back().branch = ahead;  // the way back may lie on it
+    diagram_.branches.back().branch = ahead;  // the backward trace may reach it
     if (const auto backward = enter(k, half(*opposite))) {
       half(*opposite).branch = index;
       whole = follow(*backward, index, diagram_.branches.back().depth);
@@ -157,7 +157,7 @@ Branch DiagramTracer::follow(const Entry& entry, int branch, int depth) {
   Branch traced = tracer.take();
   drop_empty_step(traced);
   if (last == Arrival::repeated)
-    traced.stop = {StopReason::user, 0, 0, "came to a half-branch that was traced before"};
+    traced.stop = {StopReason::user, 0, 0, "reached a half-branch that was already traced"};
   if (last == Arrival::home) {
     const Vector x = joined(at.point.u, at.point.parameter);
     const Junction& origin = diagram_.branch_points[*entry.origin];
@@ -199,7 +199,7 @@ std::size_t DiagramTracer::meet(const Event& event, int depth) {
     junction.half_branches.push_back({crossing.tangents.back(), -1, {}});
     if (!event.nonsmooth && depth < limits_.depth)
       incomplete("the branch point at " + std::to_string(junction.parameter) +
-                 " is not simple: other branches through it are not followed");
+                 " is not simple: other branches through it are not traced");
     if (event.nonsmooth) look_for_others(junction, joined(junction.u, junction.parameter), crossing);
   }
   diagram_.branch_points.push_back(std::move(junction));
@@ -238,10 +238,10 @@ Diagram trace_diagram(std::shared_ptr<const Problem> problem, const Start& start
   if (!options.keep_points) throw std::invalid_argument("a diagram needs its points: keep_points is false");
   if (diagram.depth < 0)
     throw std::invalid_argument("the depth of a diagram is " + std::to_string(diagram.depth) +
-                                ", less than 0");
+                                ", must be >= 0");
   if (diagram.branches < 1)
-    throw std::invalid_argument("a diagram of at most " + std::to_string(diagram.branches) +
-                                " branches: it needs 1");
+    throw std::invalid_argument("the maximum number of branches of a diagram is " +
+                                std::to_string(diagram.branches) + ", must be >= 1");
   if (!(diagram.same_place > 0)) throw std::invalid_argument("same_place must be larger than 0");
   return DiagramTracer(std::move(problem), start, options, diagram, std::move(monitors), std::move(observer))
       .run();

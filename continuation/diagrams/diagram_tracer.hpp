@@ -1,5 +1,5 @@
 #pragma once
-// How a diagram grows: branches that are followed, and branch points whose half-branches are known or not.
+// Construction of a diagram: the branches to trace, and the branch points with their half-branches.
 
 #include <arcslip/continuation/diagrams/diagram.hpp>
 #include <arcslip/continuation/tracing/start.hpp>
@@ -13,15 +13,15 @@
 
 namespace arcslip::continuation {
 
-/// Where a half-branch begins to be followed.
+/// The start of a half-branch.
 struct Entry {
   Start start;
   double step = 0;
-  std::optional<std::size_t> origin = {};  // index of the branch point that is left
+  std::optional<std::size_t> origin = {};  // index of the branch point it leaves
 };
 
-/// How a branch comes to a branch point: on a half-branch that is new, that was traced before, or that is the
-/// opposite of the one on which it left.
+/// How a branch reaches a branch point: on a new half-branch, on one traced before, or on the opposite of the
+/// one on which it left.
 enum class Arrival { first, repeated, home };
 
 /// See trace_diagram().

@@ -1,4 +1,4 @@
-// The ways to leave a branch point: which there are, where they are entered, and which are known already.
+// The half-branches of a branch point: their directions, entry points, and which are already traced.
 
 #include <arcslip/continuation/diagrams/branch_parts.hpp>
 #include <arcslip/continuation/diagrams/diagram_tracer.hpp>
@@ -15,7 +15,7 @@ constexpr double entry_error = 0.25;  // of the distance to the nearest other ha
 constexpr double entry_turn = 0.3;    // of the angle to it
 constexpr double beside_segment = 0.05;
 constexpr double same_point = 1e-2;  // of h
-constexpr int oblique_probes = 8;    // directions in which pieces are looked for
+constexpr int oblique_probes = 8;    // directions in which pieces are searched for
 
 }  // namespace
 
@@ -50,8 +50,8 @@ void DiagramTracer::look_for_others(Junction& junction, const Vector& x, const B
   const std::size_t found = junction.half_branches.size();
   if (found == traced + 2) return;
   for (std::size_t i = traced; i < found; ++i)
-    junction.half_branches[i].untraced =
-        "where pieces meet, " + std::to_string(found) + " half-branches leave: these are not switched to";
+    junction.half_branches[i].untraced = "where pieces meet, " + std::to_string(found) +
+                                         " half-branches leave: branch switching is not supported there";
 }
 
 // The first solution on a half-branch, so near that no other is meant. Nothing where there is none, or where

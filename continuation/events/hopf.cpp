@@ -14,7 +14,7 @@ constexpr const char* not_computed = "the eigenvalues of the Jacobian could not 
 
 constexpr double same_crossing = 1e-8;  // real parts, of the largest eigenvalue: pairs that cross together
 
-// The eigenvalues of J by falling real parts, for all monitors of one place: computed where J is another one.
+// The eigenvalues of J by decreasing real part, shared by all monitors at one point: recomputed if J changed.
 class Spectrum {
  public:
   std::complex<double> eigenvalue(const Jacobian& jacobian, std::size_t k) {
@@ -22,8 +22,8 @@ class Spectrum {
     return eigenvalues_[k];
   }
 
-  // Of the k-th eigenvalue, on the imaginary axis to rounding. Which of several pairs that cross together the
-  // k-th is, rounding decides: they are told apart by their frequencies, the first of them having the lowest.
+  // Of the k-th eigenvalue, on the imaginary axis to rounding. The order of pairs that cross together depends
+  // on rounding: they are sorted by frequency, lowest first.
   EventData hopf(const Jacobian& jacobian, std::size_t k, const Vector& scales) {
     compute(jacobian);
     double largest = 0;
@@ -93,15 +93,15 @@ void to_dense(const Jacobian& J, Matrix& dense) {
     dense = *sparse;
   else
     throw std::invalid_argument(
-        "the Jacobian is an operator, whose eigenvalues cannot be computed: Hopf points need a dense or a "
-        "sparse one");
+        "the Jacobian is an operator, whose eigenvalues cannot be computed: Hopf points require a dense or "
+        "sparse Jacobian");
 }
 
 std::vector<Monitor> hopf_monitors(const Problem& problem) {
   const int n = problem.size();
   if (n > largest_spectrum)
-    throw std::invalid_argument("Hopf points are looked for with at most " +
-                                std::to_string(largest_spectrum) + " unknowns, not " + std::to_string(n) +
+    throw std::invalid_argument("Hopf monitors support at most " + std::to_string(largest_spectrum) +
+                                " unknowns, not " + std::to_string(n) +
                                 ": all eigenvalues are computed at each point");
   const Vector scales = problem.scales();
   std::vector<Monitor> monitors(static_cast<std::size_t>(n));

@@ -54,8 +54,8 @@ Monitor kink_monitor() {
 
 namespace {
 
-// Relative to u in each unknown, whatever its unit: |v| = 1 in scales, so that |v_i| is a change of u_i that
-// is not too large.
+// Relative to u in each unknown, whatever its unit: |v| = 1 in scales, so that |v_i| is a moderate change
+// of u_i.
 double step_along(In u, const Vector& v) {
   double h = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < v.size(); ++i)
@@ -63,7 +63,7 @@ double step_along(In u, const Vector& v) {
   return difference_step * (std::isfinite(h) ? std::max(1.0, h) : 1.0);
 }
 
-// F_uu v v, by differences of J v. Nothing where there is no room for them in the piece of u.
+// F_uu v v, by differences of J v. Nothing if the piece of u is too narrow.
 std::optional<Vector> second_along(const Accepted& now, const Vector& v) try {
   if (now.at.move_to(now.u, now.p, Needs::jacobian) != Evaluated::ok) return {};
   const std::uint64_t piece = now.at.piece();

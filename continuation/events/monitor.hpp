@@ -1,5 +1,5 @@
 #pragma once
-// Monitors: scalar functions on a branch whose zeros are its events.
+// Monitors: scalar functions along a branch, whose zeros are its events.
 
 #include <arcslip/continuation/events/scratch.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -12,10 +12,10 @@
 
 namespace arcslip::continuation {
 
-/// An accepted solution with all that was computed for it. `at` and `bordered`, the factors of [J F_p; r^T],
-/// stand where the last correction began: within the corrector's tolerance of (u, p). An observer finds `at`
-/// at (u, p) itself. At a branch point, whose own matrix may be singular to the last bit, `bordered` is that
-/// of the next point of the branch.
+/// An accepted solution with everything computed for it. `at` and `bordered`, the factors of [J F_p; r^T],
+/// belong to the start of the last correction, within the corrector's tolerance of (u, p). For an observer,
+/// `at` is at (u, p) itself. At a branch point, whose own matrix may be singular to the last bit, `bordered`
+/// belongs to the next point of the branch.
 struct Accepted {
   In u;        // n
   In p;        // all parameters
@@ -24,82 +24,80 @@ struct Accepted {
   Evaluator& at;
   const LinearSolver& bordered;
   double parameter;  // value of the free one
-  Scratch& scratch;  // of this trace: what monitors keep between calls
+  Scratch& scratch;  // of this trace: data that monitors keep between calls
 };
 
-/// Which changes of sign count, along the branch in the direction of travel.
+/// The sign changes that count, in the direction of travel along the branch.
 enum class Crossing { any, falling, rising };
 
-/// What makes an event of a monitor: its value is zero, a branch point or a kink, whose value is not looked
-/// at.
+/// The events of a monitor: zeros of its value, or branch points or kinks, for which the value is ignored.
 enum class MonitorKind { zero, branch_point, kink };
 
-/// Its functions are called by one trace at a time, and copies of it by several at once: what they change
-/// beside their own variables is to stand in Accepted::scratch.
+/// A monitor is called by one trace at a time, and copies of it by several traces at once: shared mutable
+/// data belongs in Accepted::scratch.
 struct Monitor {
   std::string name;
   std::function<double(const Accepted&)> value;
   Crossing crossing = Crossing::any;
 
-  /// Where value() is the slope dq/ds of a quantity: q, asked for after value() at the same place. Steps are
-  /// then kept short enough that q between two points is told by its slopes there, so that no pair of
-  /// extremes hides in one. And a zero is an event only if q departs from it, before the next zero and from
-  /// the last one, by more than the rounding of q: see EventLocator.
+  /// If value() is the slope dq/ds of a quantity: q, called after value() at the same point. Steps are then
+  /// kept short enough that the slopes at both ends determine q in between, so that no pair of extrema is
+  /// missed within a step. A zero is an event only if q changes between it and the neighbouring zeros by more
+  /// than the rounding error of q: see EventLocator.
   std::function<double(const Accepted&)> quantity = {};
 
-  /// What is kept of an event beside its point, asked for where it is smooth. The evaluator is at the event;
-  /// it may be moved.
+  /// The data of a smooth event, in addition to its point. The evaluator is at the event, and may be moved.
   std::function<EventData(const Accepted&)> describe = {};
 
-  /// The branch ends at its first event.
+  /// Whether the branch ends at the first event.
   bool terminal = false;
 
   MonitorKind kind = MonitorKind::zero;
 
-  /// Whether a zero of value() is an event at all, asked where one was found (not of slopes of a quantity).
-  /// None: every zero is.
+  /// Whether a zero of value() is an event, called at each zero found (not for slopes of a quantity). None:
+  /// every zero is an event.
   std::function<bool(const Accepted&)> is_event = {};
 
-  /// Where value() is the slope of quantity(): steps are kept so short that the curve of q over the free
-  /// parameter p departs from the chords between its points by no more than this share, of q or of p. 0: not
-  /// asked for.
+  /// If value() is the slope of quantity(): steps are limited so that the curve of q over the free parameter
+  /// p deviates from the chords between its points by no more than this relative tolerance, of q or of p. 0:
+  /// no limit.
   double chord_tolerance = 0;
 
-  /// Where value() is the slope of quantity(): steps are divided at their kinks, so that a zero there is told
-  /// by the slopes on both sides. False: they are taken as they are, as where kinks are many and small.
+  /// If value() is the slope of quantity(): steps are divided at their kinks, so that the slopes on both
+  /// sides decide about a zero there. False: steps are not divided, as for many small kinks.
   bool divides_at_kinks = true;
 
-  /// Where quantity() is the largest of several smooth ones: which of them it is, asked for after value() at
-  /// the same place. Steps are divided where it changes, as at kinks of F. Both are asked for beside the
-  /// branch as well, where the tangent is another place's.
+  /// If quantity() is the maximum of several smooth quantities: the index of the largest, called after
+  /// value() at the same point. Steps are divided where it changes, as at kinks of F. Both functions are also
+  /// called next to the branch, with the tangent of another point.
   std::function<std::uint64_t(const Accepted&)> part = {};
 
-  /// Whether a zero of value() at a branch point is an event of this monitor as well. False: of dp/ds.
+  /// Whether a zero of value() at a branch point is an event of this monitor as well. False for dp/ds.
   bool at_branch_points = true;
 
-  /// quantity() is the free parameter, whose scale is known: extremes that differ by less than 1e-9 of it are
-  /// not looked for by shorter steps, as in a tail in which p falls to 0.
+  /// quantity() is the free parameter, whose scale is known: steps are not shortened to find extrema that
+  /// differ by less than 1e-9 of it, as in a tail in which p decays to 0.
   bool quantity_is_parameter = false;
 };
 
-/// dp/ds = 0: a fold in the free parameter, described by its null vectors and its curvature; at a nonsmooth
-/// fold dp/ds jumps. A branch that turns where another one crosses it, as the arms of a pitchfork do, has no
-/// fold there: F_p lies in the range of J, and it is a branch point (branch_point_monitor()).
+/// dp/ds = 0: folds in the free parameter, with their null vectors and curvature; at a nonsmooth fold dp/ds
+/// jumps. A branch that turns at a crossing, such as the arms of a pitchfork, has no fold there: F_p lies in
+/// the range of J, and the point is a branch point (branch_point_monitor()).
 Monitor fold_monitor();
-inline constexpr const char* fold_event = "fold";  // its name, and so that of its events
+inline constexpr const char* fold_event = "fold";  // name of the monitor and its events
 
-/// The unknown u[index] has the value: terminal, a bound of an unknown, as of the second parameter on a curve
-/// of special points, which is an unknown there. (The free parameter's own bounds are Options::lower, upper
-/// and Parameter::lower, upper.)
+/// A bound of an unknown: terminal, with an event where u[index] = value. On a curve of special points the
+/// second parameter is such an unknown. (For the bounds of the free parameter see Options::lower, upper and
+/// Parameter::lower, upper.)
 Monitor bound_monitor(std::string name, int index, double value);
 
-/// Simple branch points, with the tangents of both branches. Nonsmooth where pieces meet at one: the first
-/// tangent is then that before it, the second that beyond. Not located where it is not simple.
-/// Needs a linear solver that knows the sign of its determinant and has transposed solves.
+/// Simple branch points, with the tangents of both branches. Nonsmooth if pieces meet there: the first
+/// tangent is then the one before, the second the one beyond. A point that is not simple is not located.
+/// Requires a linear solver with the sign of the determinant and transposed solves.
 Monitor branch_point_monitor();
 
-/// Kinks of piecewise smooth problems (Evaluator::piece): where the tangent jumps, with the tangents of both
-/// sides. A change of piece that leaves the tangent as it was is none.
+/// Kinks of piecewise smooth problems (Evaluator::piece): jumps of the tangent, with the tangents of both
+/// sides. A change of piece with a continuous tangent is no event.
 Monitor kink_monitor();
 
 }  // namespace arcslip::continuation

@@ -1,5 +1,5 @@
 #pragma once
-// The functions of a monitor, called so that what they throw names the monitor.
+// Calls of the functions of a monitor, with exceptions that name the monitor.
 
 #include <arcslip/continuation/events/monitor.hpp>
 
@@ -30,8 +30,8 @@ inline double value_of(const Monitor& monitor, const Accepted& now) {
 inline double quantity_of(const Monitor& monitor, const Accepted& now) {
   return monitor.quantity ? call(monitor.quantity, monitor, now) : 0;
 }
-/// Which of several smooth ones the monitor's quantity is, added to those of the monitors before it. As it
-/// was: it is made of none.
+/// Combines the part of the monitor's quantity with those of the monitors before it; unchanged if it
+/// has none.
 inline std::uint64_t with_part(std::uint64_t before, const Monitor& monitor, const Accepted& now) {
   return monitor.part ? (before ^ call(monitor.part, monitor, now)) * 1099511628211ull : before;
 }

@@ -1,7 +1,6 @@
 #pragma once
 // A bracketed zero of a function of one variable, by Chandrupatla's method (Adv. Eng. Software 28, 1997):
-// inverse quadratic interpolation where it is safe, bisection where not. A jump across zero is bracketed as
-// well.
+// inverse quadratic interpolation where safe, otherwise bisection. A jump across zero is bracketed as well.
 
 #include <cmath>
 #include <utility>

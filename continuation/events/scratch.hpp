@@ -1,7 +1,7 @@
 #pragma once
-// What the monitors of one trace keep between their calls, as a spectrum that several of them read. It
-// belongs to the trace, so that monitors hold nothing that changes: copies of them serve traces in several
-// threads.
+// Data that the monitors of one trace keep between calls, such as a spectrum shared by several of them. It
+// belongs to the trace, so that monitors have no mutable state and copies of them may serve traces in
+// several threads.
 
 #include <memory>
 #include <typeindex>
@@ -16,8 +16,8 @@ class Scratch {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
-  /// The one object of this type, made by T{} when it is first asked for. Others may have used it at other
-  /// places of the branch: what it holds is to be compared with where it is asked for.
+  /// The single object of this type, created as T{} at the first request. Another monitor may have set it at
+  /// another point of the branch: check what it refers to before use.
   template <class T>
   T& get() {
     for (const auto& [type, kept] : all_)

@@ -5,16 +5,16 @@
 //   its transpose (x, y) = (f, g):     y = S^-T (g - V^T f),  x = J^-T (f - R^T y)
 //   det [J C; R D] = det J det S
 //
-// Why one refinement suffices where J is singular to rounding. Let s be the smallest singular value of the
-// matrix that the solver of J really solves with, J + E, |E| of the order e of rounding, and phi its null
-// vector to s; all else of size 1. w and V are large only along phi, by 1/s, and so is S. y is a quotient of
-// two such numbers: its relative error is e. In x = w - V y the large parts cancel and leave the error
-// d = e/s along phi, where J + E hardly sees it: the residual is e d in f and d in g. Now these are
-// eliminated in turn: w is e d/s, where s >= e no larger than d, so that nothing large cancels any more, and
-// y = O(s d) removes d from g with a relative error e. In general each sweep shrinks the error by e (1 +
-// e/s), down to what rounding of size e in f leaves: e (1 + e/s), times the condition of the whole where s <
-// e. The residual is that of J itself, so that E leaves no trace. Iterative solvers, with e their tolerance,
-// take some sweeps more.
+// Why one refinement suffices for a numerically singular J. Let s be the smallest singular value of the
+// matrix that the solver of J effectively solves with, J + E, |E| of the order e of rounding, and phi its
+// singular vector; all else is of size 1. w and V are large only along phi, of order 1/s, and so is S. y is a
+// quotient of two such numbers: its relative error is e. In x = w - V y the large parts cancel and leave an
+// error d = e/s along phi, to which J + E is insensitive: the residual is e d in f and d in g. The refinement
+// step eliminates these: w is e d/s, for s >= e no larger than d, so that no large parts cancel any more, and
+// y = O(s d) removes d from g with a relative error e. In general each sweep reduces the error by e (1 +
+// e/s), down to the effect of rounding of size e in f: e (1 + e/s), times the condition number of the
+// bordered matrix if s < e. The residual is computed with J itself, so that E has no effect on the result.
+// Iterative solvers, with e their tolerance, take a few more sweeps.
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
@@ -40,7 +40,7 @@ class BlockElimination final : public LinearSolver {
 
   bool factorize(const Jacobian& J, const Borders& borders) override {
     ready_ = false;
-    J_ = J;  // of its own: refinement goes on while the evaluator moves
+    J_ = J;  // a copy: refinement needs it after the evaluator has moved
     borders_ = borders;
     const Eigen::Index n = borders.columns.rows(), m = borders.width();
     resize(n, m);
@@ -94,7 +94,7 @@ class BlockElimination final : public LinearSolver {
     return true;
   }
 
-  // One solve without refinement: z = M^-1 b, as far as it is right. b and z: different vectors.
+  // One solve without refinement: z = M^-1 b approximately. b and z must not alias.
   bool eliminate(const Vector& b, Vector& z) const {
     const Eigen::Index n = w_.size(), m = y_.size();
     if (!plain_->solve(b.head(n), w_)) return false;
@@ -130,7 +130,7 @@ class BlockElimination final : public LinearSolver {
       y.tail(m).noalias() += borders_.corner * z.tail(m);
   }
 
-  // False: x is as it was.
+  // False: x is unchanged.
   bool refine(Out x, bool transposed) const {
     const Vector& sums = transposed ? column_sums_ : row_sums_;
     const auto eliminate = [&](const Vector& b, Vector& z) {
@@ -163,7 +163,7 @@ class BlockElimination final : public LinearSolver {
           column_sums_[j] += std::abs(entry.value());
         }
     } else {
-      // Of an operator, what it makes of a vector without a pattern.
+      // For an operator, from its product with a generic vector.
       for (Eigen::Index i = 0; i < n; ++i)
         w_[i] = (static_cast<std::uint32_t>(i) * 2654435769u) >> 31 ? 1 : -1;
       std::get<const Operator*>(J_)->apply(w_, row_sums_.head(n));

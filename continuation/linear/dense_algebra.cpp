@@ -9,7 +9,7 @@
 namespace arcslip::continuation {
 namespace {
 
-// A single column goes through Eigen's product of matrix and vector, as a vector does.
+// A single column uses Eigen's matrix-vector product, like a vector.
 template <class Triangular>
 void solve_triangular(const Triangular& T, Matrix& B) {
   if (B.cols() == 1) {

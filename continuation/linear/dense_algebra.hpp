@@ -1,7 +1,7 @@
 #pragma once
-// Decompositions of dense matrices, by Eigen: compiled once, in one file, and not wherever one is used.
+// Decompositions of dense matrices by Eigen, compiled once, in one file.
 //
-// Where a decomposition does not converge, what it returns is empty. Matrices with no rows are allowed.
+// A decomposition that does not converge returns empty results. Matrices without rows are allowed.
 
 #include <arcslip/continuation/problem/problem.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace arcslip::continuation {
 
-/// LU with partial pivoting, P A = L U. Nothing allocates after the first matrix of a size.
+/// LU with partial pivoting, P A = L U. No allocation after the first matrix of a size.
 template <class Scalar>
 class LU {
  public:
@@ -21,13 +21,13 @@ class LU {
   LU(LU&&) noexcept;
   LU& operator=(LU&&) noexcept;
 
-  /// A singular A leaves a pivot 0, and solutions that are not finite.
+  /// A singular A gives a zero pivot and non-finite solutions.
   void factorize(const Matrix& A);
 
-  /// x = A^-1 b and x = A^-T b, x another vector than b.
+  /// x = A^-1 b and x = A^-T b; x must not alias b.
   void solve(const Eigen::Ref<const Vector>& b, Eigen::Ref<Vector> x) const;
   void solve_transposed(const Eigen::Ref<const Vector>& b, Eigen::Ref<Vector> x) const;
-  /// X = A^-1 B; X is another matrix than B.
+  /// X = A^-1 B; X must not alias B.
   void solve_columns(const Matrix& B, Matrix& X) const;
 
   Scalar pivot(Eigen::Index i) const;  // of U
@@ -63,8 +63,8 @@ class Cholesky {
   Matrix L_;
 };
 
-/// min |A x - b| for each column of B, where A has full rank; x is the shortest of many where it has not.
-/// `threshold`: what counts as zero, of the largest pivot. 0: rounding.
+/// Minimizes |A x - b| for each column b of B; x is the minimum-norm solution if A is rank deficient.
+/// threshold: pivots below this share of the largest count as zero; 0: rounding.
 struct LeastSquares {
   Matrix X;
   Eigen::Index rank = 0;
@@ -72,15 +72,15 @@ struct LeastSquares {
 LeastSquares least_squares(const Matrix& A, const Matrix& B, double threshold = 0);
 LeastSquares shortest_least_squares(const Matrix& A, const Matrix& B, double threshold = 0);
 
-/// An orthonormal basis of the columns of A, which are independent: n x m.
+/// An orthonormal basis of the column space of A, n x m, whose columns are independent.
 Matrix orthonormal_columns(const Matrix& A);
-/// Of what is orthogonal to them: n x (n - m).
+/// An orthonormal basis of the orthogonal complement, n x (n - m).
 Matrix orthogonal_complement(const Matrix& A);
-/// The same where columns may depend on each other, to `threshold` of the largest: n x (n - rank).
+/// The same for columns that may be dependent, to `threshold` relative to the largest pivot: n x (n - rank).
 Matrix orthogonal_complement(const Matrix& A, double threshold);
-/// Columns that span A x = 0, by LU with full pivoting.
+/// A basis of the null space of A, by LU with full pivoting.
 Matrix kernel(const Matrix& A);
-/// A right = 0 and A^T left = 0 of an n x n matrix whose rank is n - k; both n x k. Nothing allocates after
+/// Null spaces A right = 0 and A^T left = 0 of an n x n matrix of rank n - k; both n x k. No allocation after
 /// the first matrix of a size.
 class NullSpaces {
  public:
@@ -96,24 +96,24 @@ class NullSpaces {
   Matrix right_, left_, columns_;
 };
 
-/// A = U diag(values) V^T with falling values; U is not computed.
+/// A = U diag(values) V^T with values in decreasing order; U is not computed.
 struct SingularValues {
   Vector values;
   Matrix V;
 };
 SingularValues singular_values(const Matrix& A);
 
-/// A = V diag(values) V^T of a symmetric A, with rising values.
+/// A = V diag(values) V^T of a symmetric A, with values in increasing order.
 struct SymmetricModes {
   Vector values;
   Matrix V;
 };
 SymmetricModes symmetric_modes(const Matrix& A);
 Vector symmetric_eigenvalues(const Matrix& A);
-/// mu of A v = mu B v, rising, with B positive definite.
+/// Eigenvalues mu of A v = mu B v in increasing order, B positive definite.
 Vector symmetric_eigenvalues(const Matrix& A, const Matrix& B);
 
-/// A V = V diag(values) of any real A.
+/// A V = V diag(values) of a general real A.
 struct Modes {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd V;
@@ -121,7 +121,7 @@ struct Modes {
 Modes modes(const Matrix& A);
 Eigen::VectorXcd eigenvalues(const Matrix& A);
 
-/// The same for matrices of one size; nothing allocates after the first.
+/// Eigenvalues of matrices of one size; no allocation after the first.
 class Eigenvalues {
  public:
   Eigenvalues();

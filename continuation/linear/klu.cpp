@@ -1,9 +1,9 @@
 // KLU (Davis, Palamadai Natarajan, ACM TOMS 37, 2010): P A Q = L U + F, the blocks of L U on the diagonal and
 // F above them, so that det A has the sign of det P det Q prod U_kk.
 //
-// Other values in the same pattern are factorized with the pivots that are there, which takes no search and
-// no memory, unless the factors grow: the reciprocal pivot growth is min_j max_i |A_ij| / max_i |U_ij|. What
-// digits are lost by growth, and by pivots that are chosen for sparsity, refinement restores.
+// Other values in the same pattern are refactorized with the same pivots, without search and allocation,
+// unless the factors grow: the reciprocal pivot growth is min_j max_i |A_ij| / max_i |U_ij|. Refinement
+// restores the digits lost by growth, and by pivots chosen for sparsity.
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/linear/refinement.hpp>
@@ -26,26 +26,25 @@ namespace {
 // powers of two: the largest entry of each row of J is near 1, of each row of R near n^-5, and of each column
 // of [C; D], D by n^5, near 1.
 //
-// C has no part in the scales of the rows: where F_p is large in some of them, as e^u is at the top of a
-// peak, J would there be smaller than the borders, and these be chosen as pivots.
+// C does not enter the row scales: where F_p is large in some rows, as e^u at the top of a peak, J would be
+// smaller than the borders there, and these would be chosen as pivots.
 //
-// Why so small: the rows of [R D] are full. Where pivots are chosen by size, one of them chosen early fills
-// all rows that follow (a tridiagonal J of 3000, indefinite: 3.7 million entries instead of 9000), and as
-// elimination goes on they grow like R J^-1, by n^2 for a Laplacian. Made small, they wait until J leaves
-// nothing else. What accuracy is lost by small pivots of J refinement restores: see block_elimination.cpp,
-// which is the same elimination.
+// Why so small: the rows of [R D] are full. If one of them is chosen as pivot early, it fills all following
+// rows (a tridiagonal J of 3000, indefinite: 3.7 million entries instead of 9000), and during elimination
+// they grow like R J^-1, by n^2 for a Laplacian. Small rows are chosen last. Refinement restores the accuracy
+// lost by small pivots of J: see block_elimination.cpp, which is the same elimination.
 class BorderedSparse {
  public:
-  /// True: the pattern is a new one. Otherwise only values were written, and nothing was allocated.
-  /// Throws std::length_error where there are more entries than an int counts.
+  /// True: the pattern is new. Otherwise only values were written, without allocation.
+  /// Throws std::length_error if there are more entries than an int can count.
   bool assemble(const SparseMatrix& J, const Borders& borders);
 
   SparseMatrix& matrix() { return matrix_; }  // compressed, (n + m) x (n + m)
   const SparseMatrix& matrix() const { return matrix_; }
 
-  /// The factors of its rows, > 0; not finite or without use where finite() is false.
+  /// The row scales, > 0; unusable if finite() is false.
   const Vector& scales() const { return scales_; }
-  /// The factors of its last m columns, m: the unknowns are those of the matrix over them.
+  /// The scales of its last m columns, m: the unknowns are those of the scaled matrix divided by them.
   const Vector& column_scales() const { return column_scales_; }
   /// Sums of the magnitudes in its rows, and in its columns before its rows were scaled; more for the
   /// borders, so that residuals relative to them are rounding.
@@ -75,7 +74,7 @@ int number_of_entries(const SparseMatrix& J, std::int64_t m) {
   return static_cast<int>(entries);
 }
 
-// The pattern is compared while it is written: against the copy of the values this costs next to nothing.
+// The pattern is compared while the values are copied, at negligible cost.
 bool BorderedSparse::assemble(const SparseMatrix& J, const Borders& borders) {
   const int n = static_cast<int>(J.rows()), m = borders.width(), entries = number_of_entries(J, m);
   bool new_pattern = matrix_.rows() != n + m || matrix_.nonZeros() != entries;
@@ -219,11 +218,11 @@ class Klu final : public LinearSolver {
     klu_free_symbolic(&symbolic_, &common_);
   }
 
-  // False: singular. That the machine is too small is no property of the matrix.
+  // False: singular. Lack of memory is an exception, not a property of the matrix.
   bool usable(const void* result) const {
     if (common_.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common_.status == KLU_TOO_LARGE)
-      throw std::length_error("the factors by KLU have more entries than an int counts");
+      throw std::length_error("the KLU factors have more entries than an int can count");
     return result && common_.status == KLU_OK;
   }
 
@@ -261,7 +260,7 @@ class Klu final : public LinearSolver {
     return true;
   }
 
-  // Of a permutation: each cycle of even length changes it.
+  // Sign of a permutation: each cycle of even length changes it.
   int parity(const int* permutation) {
     const auto n = static_cast<std::size_t>(symbolic_->n);
     seen_.assign(n, 0);

@@ -13,14 +13,13 @@ std::unique_ptr<LinearSolver> suitable_solver(const Jacobian& J) {
   if (std::holds_alternative<Matrix>(J)) return dense_lu();
   if (std::holds_alternative<SparseMatrix>(J)) return klu();
   throw std::invalid_argument(
-      "the Jacobian is an operator: name its linear solver (options.linear_solver), for example "
+      "the Jacobian is an operator: set its linear solver (options.linear_solver), for example "
       "block_elimination() around a solver of J");
 }
 
 void refuse_kind(const std::string& solver, const std::string& kind) {
-  throw std::invalid_argument(solver + " takes " + kind +
-                              " Jacobians, and that of this problem is none: name no linear solver, and one "
-                              "that suits is chosen");
+  throw std::invalid_argument(solver + " takes " + kind + " Jacobians, and that of this problem is not " +
+                              kind + ": set no linear solver for the default");
 }
 
 namespace {
@@ -79,9 +78,9 @@ class DenseLU final : public LinearSolver {
   std::optional<int> determinant_sign() const override { return sign_; }
 
  private:
-  // Partial pivoting compares the entries of J with those of the border's rows, and a row that is large only
-  // in its corner, where the parameter moves nothing, would drown J if it were taken for a pivot: each border
-  // is made as large as J, its columns first. A J that is no larger than the border may vanish beside it.
+  // Partial pivoting compares the entries of J with those of the border rows, and a row that is large only in
+  // its corner, where the parameter has no influence, would swamp J if chosen as pivot: each border is scaled
+  // to the size of J, its columns first. A J no larger than the border could be lost next to it.
   void balance(const Matrix& J, const Borders& borders) {
     const Eigen::Index n = J.rows(), m = borders.width();
     rows_.setOnes(m);

@@ -1,6 +1,6 @@
 #pragma once
-// Three ways to solve bordered systems (problem/linear_solver.hpp): dense LU and sparse LU of the whole
-// matrix, and block elimination around a solver of J alone, which may be the user's own.
+// Three solvers of bordered systems (problem/linear_solver.hpp): dense LU and sparse LU of the whole matrix,
+// and block elimination around a solver of J alone, which may be user-defined.
 
 #include <arcslip/continuation/problem/linear_solver.hpp>
 
@@ -10,21 +10,21 @@
 
 namespace arcslip::continuation {
 
-/// A solver of J x = b alone, as iterative solvers and solvers of other libraries are.
+/// A solver of J x = b alone, such as an iterative solver or a solver of another library.
 class PlainSolver {
  public:
   virtual ~PlainSolver() = default;
   virtual const char* name() const = 0;
-  /// Makes ready for solves with J. False: not possible.
+  /// Prepares for solves with J. False on failure.
   virtual bool prepare(const Jacobian& J) = 0;
-  /// x = J^-1 b. False: not reached.
+  /// x = J^-1 b. False if not converged.
   virtual bool solve(In b, Out x) const = 0;
-  /// x = J^-T b. False: not reached, or there is no transpose.
+  /// x = J^-T b. False if not converged, or without transposed solves.
   virtual bool solve_transposed(In b, Out x) const {
     static_cast<void>(b), static_cast<void>(x);
     return false;
   }
-  /// Of J, where it is known.
+  /// Sign of det J, if known.
   virtual std::optional<int> determinant_sign() const { return {}; }
 };
 
@@ -32,21 +32,20 @@ class PlainSolver {
 /// Dense Jacobians.
 std::unique_ptr<LinearSolver> dense_lu();
 
-/// Sparse LU of the whole matrix by KLU. The ordering is kept, and the pivots while they are good.
+/// Sparse LU of the whole matrix by KLU. The ordering is reused, and the pivots as long as they are stable.
 /// Sparse Jacobians.
 std::unique_ptr<LinearSolver> klu();
 
 /// Block elimination around a solver of J, with iterative refinement on the whole system (Govaerts and Pryce,
-/// BIT 30, 1990), which survives a J that is singular to rounding. For every kind of Jacobian that `plain`
-/// takes.
+/// BIT 30, 1990), which tolerates a numerically singular J. For every kind of Jacobian that `plain` supports.
 std::unique_ptr<LinearSolver> block_elimination(std::unique_ptr<PlainSolver> plain);
 
-/// What suits the kind of Jacobian: dense LU or KLU. Throws std::invalid_argument for an Operator, whose
-/// solver has to be named.
+/// The default for the kind of Jacobian: dense LU or KLU. Throws std::invalid_argument for an Operator, which
+/// requires a user-defined solver.
 std::unique_ptr<LinearSolver> suitable_solver(const Jacobian& J);
 
-/// What a solver throws for a Jacobian of another kind than its own: std::invalid_argument, with the solver's
-/// name and the kind it takes, "dense" or "sparse".
+/// Throws std::invalid_argument for an unsupported kind of Jacobian. kind: the supported one, "dense"
+/// or "sparse".
 [[noreturn]] void refuse_kind(const std::string& solver, const std::string& kind);
 
 }  // namespace arcslip::continuation

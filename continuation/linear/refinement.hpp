@@ -1,7 +1,7 @@
 #pragma once
-// Iterative refinement of M x = b: sweeps of an inexact solve of the residual, until this is at rounding or
-// falls no more. The size of a residual is its backward error, the largest over the rows of
-// |b - M x| / (|b| + |row| |x|), with |row| the sum of magnitudes in the row and |x| the largest entry.
+// Iterative refinement of M x = b: inexact solves for the residual, until it is at rounding level or
+// stagnates. Residuals are measured by the backward error, the maximum over the rows of |b - M x| / (|b| +
+// |row| |x|), with |row| the sum of magnitudes in the row and |x| the largest entry.
 
 #include <arcslip/continuation/problem/problem.hpp>
 
@@ -18,13 +18,13 @@ class Refinement {
     for (Vector* v : {&b_, &x_, &next_, &residual_, &next_residual_}) v->resize(n);
   }
 
-  /// For |row| of a full row: sums of n terms round by sqrt(n).
+  /// For |row| of a full row: the rounding error of sums of n terms grows like sqrt(n).
   static double of_full_row(Eigen::Index n) {
     return std::max(1.0, 0.25 * std::sqrt(static_cast<double>(n)));
   }
 
-  /// x = M^-1 x. False: x is as it was. row_sums: |row| for each row.
-  /// eliminate(b, x): x = M^-1 b as well as it can, bool; multiply(x, y): y = M x, bool.
+  /// x = M^-1 x. False: failed, x is unchanged. row_sums: |row| for each row.
+  /// eliminate(b, x): x = M^-1 b approximately, bool; multiply(x, y): y = M x, bool.
   template <class Eliminate, class Multiply>
   bool solve(Out x, const Vector& row_sums, const Eliminate& eliminate, const Multiply& multiply) {
     b_ = x;
@@ -51,7 +51,7 @@ class Refinement {
   static constexpr int sweeps = 12;
   static constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   static constexpr double useful = 1e-8;   // backward errors above are failures
-  static constexpr double progress = 0.5;  // of the backward error in a sweep: more is stagnation
+  static constexpr double progress = 0.5;  // ratio of the backward errors of two sweeps: more is stagnation
 
   // Mx becomes the residual b - M x; returns its backward error.
   double subtract(const Vector& x, const Vector& row_sums, Vector& Mx) const {

@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// As KLU wants them: pairs, real part first. std::complex has this layout.
+// The layout of KLU: pairs, real part first, like std::complex.
 double* pairs(Complex* of) {
   return reinterpret_cast<double*>(of);
 }
@@ -34,17 +34,17 @@ struct ComplexSparseLU::Decomposition {
     klu_free_numeric(&numeric, &common);
     klu_free_symbolic(&symbolic, &common);
   }
-  // That the machine is too small is no property of the matrix.
+  // Lack of memory is an exception, not a property of the matrix.
   void check_memory() const {
     if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common.status == KLU_TOO_LARGE)
-      throw std::length_error("the factors by KLU have more entries than an int counts");
+      throw std::length_error("the KLU factors have more entries than an int can count");
   }
 
   mutable klu_common common;
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
-  Matrix A;  // KLU writes to none of it, but takes no const
+  Matrix A;  // KLU does not modify it, but takes no const
 };
 
 ComplexSparseLU::ComplexSparseLU(const Matrix& pattern) : lu_(std::make_unique<Decomposition>()) {

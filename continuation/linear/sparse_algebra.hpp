@@ -1,6 +1,5 @@
 #pragma once
-// The decomposition of a sparse complex matrix, by KLU: compiled once, in one file, and not wherever it is
-// used.
+// LU decomposition of a sparse complex matrix by KLU, compiled once, in one file.
 
 #include <Eigen/Sparse>
 
@@ -14,20 +13,19 @@ class ComplexSparseLU {
  public:
   using Matrix = Eigen::SparseMatrix<std::complex<double>>;
 
-  /// Chooses Q for matrices n x n that are not zero in these places, in compressed form.
+  /// Chooses Q for n x n matrices of this sparsity pattern, in compressed form.
   explicit ComplexSparseLU(const Matrix& pattern);
   ~ComplexSparseLU();
   ComplexSparseLU(ComplexSparseLU&&) noexcept;
   ComplexSparseLU& operator=(ComplexSparseLU&&) noexcept;
 
-  /// Multiplications of factorize(), as expected: a dense matrix takes n^3 / 3.
+  /// Expected number of multiplications of factorize(); n^3 / 3 for a dense matrix.
   double multiplications() const;
 
-  /// A has the pattern. False: some pivot is no larger than `least` times the largest entry of its column of
-  /// A.
+  /// A has the pattern. False if a pivot is at most `least` times the largest entry of its column of A.
   bool factorize(const Matrix& A, double least);
 
-  /// B := A^-1 B, after a factorize() that was true.
+  /// B := A^-1 B, after a successful factorize().
   void solve_in_place(Eigen::MatrixXcd& B) const;
 
  private:

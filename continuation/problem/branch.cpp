@@ -48,7 +48,7 @@ Point interpolate(const Branch& branch, double arclength) {
   const auto& points = branch.points;
   if (points.empty() || !(arclength >= points[0].arclength && arclength <= points.back().arclength) ||
       points[0].u.size() == 0)
-    throw std::out_of_range("no points of the branch beside arclength " + std::to_string(arclength));
+    throw std::out_of_range("the branch has no points around arclength " + std::to_string(arclength));
   const auto above = std::upper_bound(points.begin() + 1, points.end(), arclength,
                                       [](double s, const Point& x) { return s < x.arclength; });
   const Point& b = above == points.end() ? points.back() : *above;

@@ -1,5 +1,5 @@
 #pragma once
-// A solution branch of F(u, p) = 0 in one free parameter, and how it ended.
+// A solution branch of F(u, p) = 0 in one free parameter, and why it ended.
 
 #include <arcslip/continuation/problem/problem.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace arcslip::continuation {
 
-/// A solution. Arclength and tangent are measured in the problem's scales: |t|^2 = sum (t_i / scale_i)^2 = 1.
+/// A solution point. Arclength and tangent use the problem's scales: |t|^2 = sum (t_i / scale_i)^2 = 1.
 struct Point {
   Vector u;               // n
   double parameter = 0;   // value of the free parameter
@@ -22,17 +22,17 @@ struct Point {
 /// A smooth fold in the free parameter.
 struct Fold {
   Vector right_null;  // J v = 0, n, |v| = 1 in scales
-  Vector left_null;   // w J = 0, n, |w| = 1; empty where the linear solver has no transposed solves
+  Vector left_null;   // w J = 0, n, |w| = 1; empty if the linear solver has no transposed solves
   double curvature =
       0;  // d2p/ds2: > 0 where the branch lies at larger parameters than the fold, < 0 at smaller
 };
 
-/// A branch point: J has rank n - 1 and F_p lies in its range, so that two smooth branches cross. Or
-/// `multiple`: [J F_p] has lost more than one rank, and any number of branches may cross.
+/// A branch point. Simple: J has rank n - 1 and F_p lies in its range, so that two smooth branches cross.
+/// `multiple`: [J F_p] has rank n - 2 or less, and any number of branches may cross.
 struct BranchPoint {
   enum class Type { transcritical, pitchfork, multiple };  // pitchfork: dp/ds = 0 on one of the branches
   Type type = Type::transcritical;
-  std::vector<Vector> tangents;  // of the branches, n + 1; the first is that of the branch traced
+  std::vector<Vector> tangents;  // of the branches, n + 1; first that of the branch traced
   Vector left_null;              // w J = 0, w . F_p = 0, n, |w| = 1; empty if multiple
 };
 
@@ -54,32 +54,32 @@ struct Event {
   std::string monitor;
   Point point;
   double value = 0;        // of the monitor, at the point
-  bool nonsmooth = false;  // the monitor jumps here across zero, with a change of piece
+  bool nonsmooth = false;  // the monitor jumps across zero at a kink
   bool located = true;     // false: the corrector failed between the points; `point` is the nearer one
-  std::size_t after = 0;   // index of the branch point before it
-  EventData data{};        // what is known of this kind of event
+  std::size_t after = 0;   // index of the preceding point of the branch
+  EventData data{};        // data specific to the kind of event
 };
 
 // clang-format off
-/// Why a branch ended: value and limit are the two numbers of its formula.
+/// Why a branch ended. `value` and `limit` are the two sides of the condition.
 ///   boundary         p = lower or p = upper: the free parameter reached a bound of the window. The usual end.
-///   closed           |v - v_start| <= its rounding, after a way round: the branch is a loop.
-///   event            a terminal monitor has its first zero: value is the monitor's there.
+///   closed           |v - v_start| <= rounding: the branch is a closed loop.
+///   event            the first event of a terminal monitor: value is that of the monitor.
 ///   start_failed     |correction| > tolerance: Newton's method at the start did not converge. Causes: a start far
 ///                    from a solution, a wrong Jacobian, no solution there.
 ///   step_too_small   |ds| < smallest step, after rejections. Causes: a wrong Jacobian, an end of the branch, a
 ///                    tolerance below rounding, a multiple branch point.
-///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, as an undamped resonance.
+///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, such as an undamped resonance.
 ///   point_limit      points >= limit.
 ///   time_limit       seconds >= limit.
 ///   memory_limit     bytes of the points kept >= limit.
-///   user             the callback said stop.
-///   not_evaluated    the problem could not be evaluated at any attempt, gave numbers that are not finite, or
-///                    threw, as did its linear solver: the message has its words. value is the step that was
-///                    tried, limit the smallest.
-///   monitor_failed   a function of a monitor threw: the message names it and has its words. value is p there.
-///   wrong_jacobian   an entry of J or dF/dp is wrong, which the message names, and the branch no longer gets on:
-///                    value is the relative error of the entry, limit what would have been let pass.
+///   user             the callback requested a stop.
+///   not_evaluated    the problem could not be evaluated, returned non-finite values, or it or its linear solver threw
+///                    an exception, which the message quotes. value is the last step tried, limit the smallest.
+///   monitor_failed   a function of a monitor threw: the message names the monitor and quotes the exception. value is
+///                    the parameter.
+///   wrong_jacobian   the branch cannot be continued, and an entry of J or dF/dp, named by the message, is wrong: value
+///                    is the relative error of the entry, limit the tolerance.
 // clang-format on
 enum class StopReason {
   boundary,
@@ -101,11 +101,11 @@ const char* name(StopReason reason);
 
 struct Stop {
   StopReason reason = StopReason::boundary;
-  double value = 0, limit = 0;  // the numbers that decided it
-  std::string message;          // one sentence for people
+  double value = 0, limit = 0;  // of the condition of the reason
+  std::string message;          // one sentence for the user
 };
 
-/// Work done.
+/// Work counters.
 struct Counts {
   long points = 0, rejected_steps = 0, residuals = 0, jacobians = 0, factorizations = 0, solves = 0;
 };
@@ -115,10 +115,10 @@ struct Branch {
   std::vector<Event> events;  // in the order of arclength
   Stop stop;
   Counts counts;
-  std::string linear_solver;  // the one that was used
+  std::string linear_solver;  // name of the linear solver used
 
-  /// What makes the branch doubtful, a sentence each: monitors that are not a number at a point, so that
-  /// their zeros beside it are no events; a Jacobian that is wrong, so that tangents and events may be.
+  /// Reasons to doubt the branch, one sentence each: a monitor that is NaN at a point, so that zeros next to
+  /// it are missed; a wrong Jacobian, so that tangents and events may be wrong.
   std::vector<std::string> warnings;
 };
 
@@ -127,8 +127,8 @@ struct Branch {
 void hermite(const Vector& v0, const Vector& t0, const Vector& v1, const Vector& t1, double length, double s,
              Vector& v);
 
-/// The point at an arclength within the branch, on the cubic through its neighbours with their tangents: not
-/// corrected. Throws std::out_of_range beyond the ends, or where points keep no unknowns.
+/// The point at an arclength within the branch by cubic Hermite interpolation between the neighbouring
+/// points, without correction. Throws std::out_of_range beyond the ends, or if points keep no unknowns.
 Point interpolate(const Branch& branch, double arclength);
 
 }  // namespace arcslip::continuation

@@ -1,12 +1,12 @@
 #pragma once
-// Derivatives by differences within one smooth piece of F.
+// Finite differences within one smooth piece of F.
 //
-// Central, with h so short that both sides lie in the piece of x and F can be evaluated there,
+// Central differences, with h so small that both sides lie in the piece of x and F can be evaluated there,
 //
 //   f'(0) = (f(h) - f(-h)) / 2h + O(h^2),
 //
-// for beside the end of a piece derivatives may grow without bound, as where a contact begins. At the end
-// itself, one-sided of the same order on the side that does: f'(0) = +-(4 f(+-h) - f(+-2h) - 3 f(0)) / 2h.
+// since near the end of a piece derivatives may be unbounded, as at the onset of contact. At the end itself,
+// one-sided differences of the same order: f'(0) = +-(4 f(+-h) - f(+-2h) - 3 f(0)) / 2h.
 
 #include <array>
 #include <optional>
@@ -21,8 +21,8 @@ struct DifferenceQuotient {
   double here = 0;
 };
 
-/// go(i, distance): evaluates place i there, and says whether it could and is in the piece of 0. The places
-/// are then those of the quotient. Nothing where there is no room.
+/// go(i, distance): evaluates point i there; true if that succeeds and the point is in the piece of 0.
+/// Afterwards the points are those of the quotient. Nothing if the piece is too narrow.
 template <class Go>
 std::optional<DifferenceQuotient> difference_within_piece(double h, Go&& go) {
   for (const double share : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {

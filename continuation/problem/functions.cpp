@@ -92,8 +92,8 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     return static_cast<bool>(f_->apply_transposed_jacobian);
   }
 
-  // d F / d x by central differences, where x is one of the entries of u_ or p_; at an edge of the domain by
-  // differences to one side, -3 F + 4 F(h) - F(2h) over 2h, and next to two edges by shorter ones.
+  // dF/dx by central differences, x an entry of u_ or p_; at an edge of the domain by one-sided differences,
+  // [-3 F + 4 F(h) - F(2h)] / 2h, and between two edges with shorter steps.
   void difference(double& x, double scale, Out dF) const {
     const double at = x;
     std::exception_ptr thrown;
@@ -131,7 +131,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
 
   std::shared_ptr<const Functions> f_;
   mutable Vector u_, p_;
-  Vector u_of_J_, p_of_J_;  // where an operator is applied: it stays while residuals are looked at elsewhere
+  Vector u_of_J_, p_of_J_;  // the point of the operator, fixed while residuals are evaluated elsewhere
   Vector F_;
   mutable Vector plus_, minus_;
   Jacobian J_;
@@ -159,9 +159,9 @@ std::shared_ptr<const Problem> from_functions(Functions f) {
     throw std::invalid_argument("a problem has at least 1 unknown, not " + std::to_string(f.size));
   if (!f.residual) throw std::invalid_argument("a problem needs a residual function");
   if (!!f.jacobian + !!f.sparse_jacobian + !!f.apply_jacobian > 1)
-    throw std::invalid_argument("a problem has one Jacobian: dense, sparse or applied");
+    throw std::invalid_argument("a problem has at most one Jacobian: dense, sparse or matrix-free");
   if (f.apply_transposed_jacobian && !f.apply_jacobian)
-    throw std::invalid_argument("apply_transposed_jacobian needs apply_jacobian beside it");
+    throw std::invalid_argument("apply_transposed_jacobian requires apply_jacobian");
   if (f.scales.size() == 0) f.scales = Vector::Ones(f.size);
   if (f.scales.size() != f.size)
     throw std::invalid_argument(std::to_string(f.scales.size()) + " scales for " + std::to_string(f.size) +

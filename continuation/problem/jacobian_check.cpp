@@ -26,7 +26,7 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
   const Eigen::Index n = problem.size();
   const auto parameters = problem.parameters();
   if (u.size() != n || p.size() != static_cast<Eigen::Index>(parameters.size()))
-    throw std::invalid_argument("a place of " + std::to_string(u.size()) + " unknowns and " +
+    throw std::invalid_argument("the point has " + std::to_string(u.size()) + " unknowns and " +
                                 std::to_string(p.size()) + " parameters, the problem has " +
                                 std::to_string(n) + " and " + std::to_string(parameters.size()));
   const Vector scales = problem.scales();
@@ -48,7 +48,7 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
     x = at;
     if (!usable) return;
     const Vector difference = (plus - beside->residual()) / (2 * h);
-    // What differences of another step say tells how good they are.
+    // Differences of another step size show the accuracy.
     x = at + wider * h;
     if (beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus = beside->residual();
     x = at - wider * h;
@@ -78,15 +78,14 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
   return worst;
 }
 
-// Whether J and dF/dp are the derivatives of F, by differences along few directions: what a trace can afford,
-// whatever the number of unknowns.
+// Check of J and dF/dp by differences along a few directions, affordable within a trace for any number
+// of unknowns.
 //
-// Along a direction d without pattern, e(h) = J d - [F(x + h d) - F(x - h d)] / 2h is at rounding where J is
-// right. Where it is not small, that may be the differences' own error: noise and rounding grow as 1/h, what
-// the higher derivatives leave as h^2, and beside a kink the differences to both sides are not those of J. An
-// error of J stays: J is accused where e(h) is the same for steps in the ratio 1 : 8 : 64 and both sides
-// agree. The row is then that of the largest e, and bisection finds the column, by log2(n) further
-// differences.
+// Along a generic direction d, e(h) = J d - [F(x + h d) - F(x - h d)] / 2h is at rounding level if J is
+// correct. Otherwise it may be the error of the differences: noise and rounding grow like 1/h, the truncation
+// error like h^2, and next to a kink the one-sided differences disagree. An error of J is independent of h: J
+// is reported as wrong if e(h) is the same for steps in the ratio 1 : 8 : 64 and both sides agree. The row is
+// that of the largest e, and bisection finds the column with log2(n) further differences.
 
 namespace {
 
@@ -209,8 +208,7 @@ class Doubt {
     }
     Verdict worst;
     double largest = largest_jacobian_error;
-    // Finer steps alone would accuse J where it is itself by differences of the first one, at an edge of the
-    // domain.
+    // Finer steps alone would blame a J that is itself computed by differences, at an edge of the domain.
     for (std::size_t k = finer - 1; k + 1 < looks.size(); ++k) {
       const Look &below = looks[k - 1], &now = looks[k], &above = looks[k + 1];
       if (!below.usable || !now.usable || !above.usable) continue;
@@ -273,14 +271,14 @@ std::string describe(const JacobianError& worst, const Problem& problem) {
     text << "u[" << worst.column << "]";
   else
     text << "(" << problem.parameters()[static_cast<std::size_t>(worst.column - problem.size())].name << ")";
-  text << " is given as " << worst.given << ", differences of F say " << worst.difference;
+  text << " is given as " << worst.given << ", finite differences give " << worst.difference;
   return text.str();
 }
 
 JacobianError doubt_jacobian(const Problem& problem, In u, In p, int free) {
   try {
     return Doubt(problem, u, p, free).find();
-  } catch (const std::exception&) {  // what the problem throws elsewhere is no fault of J
+  } catch (const std::exception&) {  // an exception at another point is no error of J
     return {};
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Whether J and dF/dp are the derivatives of F: against central differences, entry by entry.
+// Check of J and dF/dp against central differences of F, entry by entry.
 
 #include <arcslip/continuation/problem/problem.hpp>
 
@@ -7,30 +7,30 @@
 
 namespace arcslip::continuation {
 
-/// The worst entry. row: of F; column: 0 .. n-1 of u, n and more of the parameters.
+/// The entry with the largest error. row: of F; column: 0 .. n-1 for u, n and above for the parameters.
 struct JacobianError {
   int row = -1, column = -1;
   double given = 0, difference = 0;
   double relative =
       0;  // |given - difference| over the largest entry of that column, and over F's own rounding
-  std::string message;  // one sentence for people, empty where all entries agree
+  std::string message;  // one sentence for the user, empty if all entries agree
 };
 
-/// At (u, p), with steps in the scales of unknowns and parameters; 2 (n + parameters) evaluations of F.
-/// Columns in which a difference crosses a kink (Evaluator::piece), or leaves the domain, are left out. The
-/// differences themselves are good to about 1e-9 relative. Throws what the problem throws.
+/// Checks all entries at (u, p), with steps in the scales of unknowns and parameters and 2 (n + parameters)
+/// evaluations of F. Columns whose difference crosses a kink (Evaluator::piece) or leaves the domain are
+/// skipped. The differences are accurate to about 1e-9 relative. Exceptions of the problem are passed on.
 JacobianError check_jacobian(const Problem& problem, In u, In p);
 
-constexpr double largest_jacobian_error = 1e-5;  // of a row, that doubt_jacobian() lets pass
+constexpr double largest_jacobian_error = 1e-5;  // of a row, tolerance of doubt_jacobian()
 
-/// An entry that is certainly wrong, of J or of dF/dp of the parameter `free`: by differences along two
-/// directions, which cost one J and 4 residuals where all is right, and 2 log2(n) more to find the entry. An
-/// error is seen where it makes 1e-5 of what its row gives along the directions, and is told from noise in F,
-/// from kinks and from what is too curved for differences. `message` is empty where nothing is wrong, or
-/// nothing is certain. Throws nothing that the problem throws.
+/// Finds an entry of J, or of dF/dp of the parameter `free`, that is certainly wrong, by differences along
+/// two directions: one J and 4 residuals if all is right, and 2 log2(n) more residuals to find the entry. An
+/// error is detected if it exceeds 1e-5 of the row's product with the directions, and is distinguished from
+/// noise in F, kinks and strong curvature. `message` is empty if no error is certain. Exceptions of the
+/// problem are caught.
 JacobianError doubt_jacobian(const Problem& problem, In u, In p, int free);
 
-/// The sentence for people.
+/// The sentence for the user.
 std::string describe(const JacobianError& worst, const Problem& problem);
 
 }  // namespace arcslip::continuation

@@ -4,7 +4,7 @@
 //   [ J    C ] [x]   [f]        J: n x n,  C: n x m,  R: m x n,  D: m x m
 //   [ R    D ] [y] = [g]
 //
-// whose matrix is regular at folds, where J alone is not. linear/linear_solvers.hpp has those that are there.
+// whose matrix is regular at folds, where J alone is not. linear/linear_solvers.hpp has the implementations.
 
 #include <arcslip/continuation/problem/problem.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace arcslip::continuation {
 
-/// What stands around J.
+/// The borders of J.
 struct Borders {
   Borders(int n, int m) : columns(n, m), rows(n, m), corner(m, m) {}
   int width() const { return static_cast<int>(corner.rows()); }
@@ -22,36 +22,35 @@ struct Borders {
   Eigen::MatrixXd corner;   // D, m x m
 };
 
-/// Keeps the factors of one bordered matrix. One for each thread.
+/// Solver of bordered systems, which keeps the factors of one matrix. Not thread-safe: one for each thread.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
 
-  /// As results report it: "dense LU", "KLU".
+  /// The name in results: "dense LU", "KLU".
   virtual const char* name() const = 0;
 
-  /// False where the matrix is singular or not finite; the factors are then not usable. J keeps its kind,
-  /// size and pattern from call to call. Throws std::invalid_argument for a kind that the solver does not
-  /// take.
+  /// False if the matrix is singular or not finite; the factors are then invalid. J keeps its kind, size and
+  /// pattern from call to call. Throws std::invalid_argument for an unsupported kind.
   virtual bool factorize(const Jacobian& J, const Borders& borders) = 0;
 
-  /// x: n + m, on entry the right-hand side (f, g), on return the solution. Not finite where it failed.
+  /// x: n + m, on entry the right-hand side (f, g), on return the solution; not finite after a failure.
   virtual void solve(Out x) const = 0;
 
-  /// The same with the transposed matrix. False: this solver has no transposed solves, x is as it was.
+  /// The same with the transposed matrix. False: no transposed solves, x is unchanged.
   virtual bool solve_transposed(Out x) const {
     static_cast<void>(x);
     return false;
   }
 
-  /// Whether the last factors took pivots, or anything else, from earlier ones, so that they are not those of
-  /// this matrix alone to the last bit.
+  /// Whether the last factors reuse pivots, or anything else, of earlier ones, so that they depend on the
+  /// history in the last bits.
   virtual bool keeps_pivots() const { return false; }
-  /// So that the next factors do not.
+  /// Makes the next factors independent of earlier ones.
   virtual void forget_pivots() {}
 
-  /// Sign of the determinant of the bordered matrix, +1 or -1, where the solver knows it. It orients branches
-  /// across kinks and tells branch points and jumps; without it their parity goes unchecked.
+  /// Sign of the determinant of the bordered matrix, +1 or -1, if the solver provides it. It orients branches
+  /// across kinks and detects branch points and jumps between branches; without it they go unchecked.
   virtual std::optional<int> determinant_sign() const { return {}; }
 };
 

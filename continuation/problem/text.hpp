@@ -1,5 +1,5 @@
 #pragma once
-// Text for messages. Not installed.
+// Formatting of messages. Not installed.
 
 #include <cmath>
 #include <sstream>
@@ -19,7 +19,7 @@ void add_text(std::ostream& out, const Part& part) {
   out << part;
 }
 
-/// The parts one after the other, numbers with ten digits.
+/// The concatenated parts, numbers with ten digits.
 template <class... Parts>
 std::string text(const Parts&... parts) {
   std::ostringstream out;

@@ -13,19 +13,19 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double smallest_distance = 1e-7;  // of two branches, relative, that Newton's method can tell
-constexpr double displacement = 1e-9;       // relative, over which F changes by its rounding alone
+constexpr double smallest_distance = 1e-7;  // of two branches, relative, that Newton's method resolves
+constexpr double displacement = 1e-9;       // relative, over which F changes by rounding only
 constexpr int displacements = 8;
 constexpr double divergence = 2;       // of Newton's corrections, from one to the next
-constexpr double double_point = 1e-8;  // distance in scales of a place where A loses another rank
-constexpr double rounding = 1e-14;     // of a correction, relative: nothing is gained by another
+constexpr double double_point = 1e-8;  // distance in scales from a further rank loss of A
+constexpr double rounding = 1e-14;     // of a correction, relative: converged
 constexpr double rounding_safety = 20;
-constexpr double smallest_share = 1e-9;  // of the form's smaller eigenvalue in the larger: the error of both
+constexpr double smallest_share = 1e-9;  // ratio of the form's eigenvalues: their error
 constexpr double smallest_slope = 1e-6;  // dp/ds != 0, in scales
 
-// Whether the equations are regular: a change of F as large as b_0, which is that of its quadratic terms at
-// distances of 1 in scales, moves x by less than 1 / double_point. Where A loses another rank, which Newton's
-// method finds as well, or the form is singular, it moves to infinity.
+// Whether the equations are regular: a change of F of size b_0, that of its quadratic terms at distances of 1
+// in scales, moves x by less than 1 / double_point. If A loses another rank, a point that Newton's method
+// finds as well, or the form is singular, the change of x is unbounded.
 bool regular(const Vector& unfolding, const Vector& scale, const LinearSolver& solver) {
   const Eigen::Index n = unfolding.size();
   Vector x = Vector::Zero(n + 2);
@@ -35,8 +35,8 @@ bool regular(const Vector& unfolding, const Vector& scale, const LinearSolver& s
   return x.allFinite() && x.head(n + 1).cwiseQuotient(scale.head(n + 1)).norm() * double_point < 1;
 }
 
-// Corrections are relative to |v| in scales, or absolute where it is less than 1: branch points at 0 are
-// common. On return, evaluator and factors are where the last correction began: within its square of v.
+// Corrections are relative to |v| in scales, or absolute if it is less than 1: branch points at 0 are common.
+// On return, evaluator and factors are at the start of the last correction, within its square of v.
 bool newton(Evaluator& at, LinearSolver& solver, const Vector& p, const Vector& scale,
             const NewtonOptions& options, Vector& v) {
   const Borders none(static_cast<int>(v.size()), 0);
@@ -60,8 +60,8 @@ bool newton(Evaluator& at, LinearSolver& solver, const Vector& p, const Vector& 
   return false;
 }
 
-// What the rounding of F amounts to in beta: its spread beside x, in places where F in the direction of beta
-// is that of x to second order. solver: of the linearization at x.
+// The rounding error of beta: its spread near x, at points where F in the direction of beta equals that of x
+// to second order. solver: of the linearization at x.
 double rounding_of_beta(const Problem& problem, Vector p, int along, const Vector& x, const Vector& scale,
                         const LinearSolver& solver) {
   const Eigen::Index n = x.size() - 1;

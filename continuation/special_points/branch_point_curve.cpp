@@ -18,7 +18,7 @@ struct Definition {
   Vector unfolding;
 };
 
-// Numbers that no symmetry and no mode of vibration makes orthogonal to a vector: their spectrum is broad.
+// A generic vector with a broad spectrum, orthogonal to no symmetry or mode of vibration.
 Vector generic(Eigen::Index size, double phase) {
   Vector c(size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -53,7 +53,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     C_ << generic(n_ + 1, 0.5).cwiseQuotient(scale_), generic(n_ + 1, 2.0).cwiseQuotient(scale_);
   }
 
-  // Borders follow the null space from Jacobian to Jacobian and stay between: residuals beside a
+  // Borders are updated to the null space with each Jacobian and fixed in between: residuals near a
   // linearization are those of the same equations.
   Evaluated move_to(In x, In p, Needs needs) override {
     const Evaluated result = here_.move_to(x.head(n_ + 1), p);
@@ -98,13 +98,13 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
 
   std::uint64_t piece() const override { return here_.at().piece(); }
 
-  // M at the last place.
+  // M at the last point.
   const std::shared_ptr<LinearSolver>& factors() const { return factors_.now(); }
   const Matrix& right() const { return V_; }
   const Vector& g() const { return g_; }
   const Vector& unfolding() const { return definition_->unfolding; }
 
-  // dg in a direction of x: by the gradients, or by forward solves with M.
+  // Directional derivative of g in x: from the gradients, or by forward solves with M.
   void derivative(In d, const LinearSolver& M, Out dg) const {
     if (transposed_)
       dg.noalias() = G_.transpose() * d;
@@ -157,7 +157,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     return w_.allFinite();
   }
 
-  // C = V, orthonormal in scales, and b = w, as is best for the conditioning of M.
+  // C = V, orthonormal in scales, and b = w, the best choice for the conditioning of M.
   void next_border() {
     C_ = scale_.cwiseInverse().asDiagonal() * V_;
     C_.col(0).normalize();
@@ -184,7 +184,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     return true;
   }
 
-  // dg_j = -w . dA V_j over the places beside, where M (y, w . dA V_j) = (dA V_j, 0).
+  // dg_j = -w . dA V_j at the neighbouring points, where M (y, w . dA V_j) = (dA V_j, 0).
   void change_of_g(const LinearSolver& M, Out dg) const {
     for (int j = 0; j < 2; ++j) {
       work_.tail(2).setZero();

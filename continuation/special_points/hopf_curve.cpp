@@ -20,7 +20,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// How far two eigenvalues are from +- i sqrt(kappa).
+// The distance of two eigenvalues from +- i sqrt(kappa).
 double miss(Complex x, Complex y, Complex root) {
   return std::min(std::abs(x - root) + std::abs(y + root), std::abs(x + root) + std::abs(y - root));
 }
@@ -28,7 +28,7 @@ double miss(Complex x, Complex y, Complex root) {
 // A pair of eigenvalues of J, complex conjugates or both real, and its invariant subspaces.
 class Pair {
  public:
-  // The nearest to +- i sqrt(kappa). False where the eigenvalues cannot be computed.
+  // The pair nearest to +- i sqrt(kappa). False if the eigenvalues cannot be computed.
   bool find(const Matrix& J, double kappa) {
     if (!eigenvalues_.compute(J)) return false;
     const Eigen::VectorXcd& mu = eigenvalues_.values();
@@ -46,7 +46,7 @@ class Pair {
     return std::isfinite(nearest);
   }
 
-  // V, W and adj(R) of the pair that was found: the null spaces of P.
+  // V, W and adj(R) of the pair: the null spaces of P.
   bool span(const Matrix& J) {
     P_.noalias() = J * J;
     P_ -= sum * J;
@@ -118,7 +118,8 @@ class HopfEvaluator final : public Evaluator {
   std::uint64_t piece() const override { return here_.at().piece(); }
 
  private:
-  // The derivatives of sigma and pi by x and p: sums of those of w_j . J v_i with the weights I and adj(R).
+  // The derivatives of sigma and pi with respect to x and p: sums of those of w_j . J v_i, weighted by I
+  // and adj(R).
   bool differentiate() {
     by_x_.setZero();
     by_p_.setZero();
@@ -164,7 +165,8 @@ std::shared_ptr<const Problem> hopf_points(std::shared_ptr<const Problem> proble
     throw std::invalid_argument("a curve of Hopf points needs 2 to " + std::to_string(largest_spectrum) +
                                 " unknowns, not " + std::to_string(problem->size()));
   if (!(frequency > 0 && std::isfinite(frequency)))
-    throw std::invalid_argument("a typical frequency is positive, not " + std::to_string(frequency));
+    throw std::invalid_argument("the typical frequency is " + std::to_string(frequency) +
+                                ", must be positive");
   Matrix dense;
   to_dense(problem->evaluator()->jacobian(), dense);
   return augmented(inner, Vector::Constant(1, frequency * frequency),

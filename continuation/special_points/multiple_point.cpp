@@ -14,16 +14,16 @@ namespace {
 
 constexpr int iterations = 12;
 constexpr double converged = 1e-12;         // of a correction of x in scales, relative to 1 + |u|
-constexpr double smallest_distance = 1e-7;  // of branches, relative, that are not told apart
-constexpr double smallest_share = 1e-6;     // of the least singular value of the form in the largest
+constexpr double smallest_distance = 1e-7;  // of branches, relative, that are not resolved
+constexpr double smallest_share = 1e-6;     // ratio of the smallest to the largest singular value of the form
 constexpr double sphere = 1e-2;             // r, relative to 1 + |u|: where the branches are found
 constexpr double zero = 1e-12;              // of the forms on the sphere, relative
 constexpr double isolated = 1e-4;           // of r: the least singular value at a zero, relative
-constexpr double same_zero = 1e-3;          // distance of zeros of the forms that are one
-constexpr double opposite = 0.99;           // cosine of two half-branches that are one branch
+constexpr double same_zero = 1e-3;          // closer zeros of the forms are the same
+constexpr double opposite = 0.99;           // cosine of two half-branches of one branch
 constexpr int newton_steps = 60;
 
-// Numbers in [-1, 1] that are the same everywhere.
+// Reproducible pseudorandom numbers in [-1, 1].
 class Scatter {
  public:
   Vector on_sphere(Eigen::Index n) {
@@ -114,7 +114,7 @@ class Forms {
   Vector value(const Vector& y, double r) const {
     return Q_.transpose() * second_(y) + r * (K_.transpose() * third_(y));
   }
-  // Of the forms and of |y|^2 / 2.
+  // Gradients of the forms and of |y|^2 / 2.
   Matrix gradient(const Vector& y, double r) const {
     Matrix D(y.size(), y.size());
     D.topRows(y.size() - 1) =
@@ -129,7 +129,7 @@ class Forms {
   double size_ = 0;
 };
 
-// All zeros of the forms on the unit sphere. Nothing where they are not isolated.
+// All zeros of the forms on the unit sphere. Nothing if they are not isolated.
 std::optional<std::vector<Vector>> zeros(const Forms& forms, Eigen::Index k, double r) {
   const int starts = k == 3 ? 600 : 6000;
   Scatter scatter;
@@ -157,7 +157,7 @@ std::optional<std::vector<Vector>> zeros(const Forms& forms, Eigen::Index k, dou
   return found;
 }
 
-// To the zero of beta itself at radius r, from one of the forms.
+// Corrects a zero of the forms to the zero of beta itself at radius r.
 bool correct(Reduction& reduction, const Forms& forms, double r, Vector& y, Vector& place) {
   const Eigen::Index k = y.size();
   Vector g(k);

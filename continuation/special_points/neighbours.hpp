@@ -1,5 +1,5 @@
 #pragma once
-// Derivatives of J and F_p by differences within one smooth piece of F (difference.hpp).
+// Finite differences of J and F_p within one smooth piece of F (difference.hpp).
 
 #include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/continuation/special_points/inner_problem.hpp>
@@ -10,16 +10,17 @@
 
 namespace arcslip::continuation {
 
-/// Places beside one of the inner problem, for derivatives of A and of what else depends on the place.
+/// Neighbouring points of a point of the inner problem, for derivatives of A and other functions of
+/// the point.
 class Neighbours {
  public:
   explicit Neighbours(const InnerProblem& inner);
 
-  /// Takes its places along d, n + 1, or along p_k; `here` has to stay where it is. False: there is no room.
+  /// Chooses the points along d, n + 1, or along p_k; `here` must not move. False if the piece is too narrow.
   bool along(const Site& here, In d);
   bool over(const Site& here, int k);
 
-  /// Calls f(place, weight) for each place: the derivative of g is the sum of weight * g(place).
+  /// Calls f(point, weight) for each point: the derivative of g is the sum of weight * g(point).
   template <class F>
   void sum(F&& f) {
     if (quotient_.here != 0) f(*here_, quotient_.here);
@@ -27,7 +28,7 @@ class Neighbours {
   }
 
   void derivative(In d, Out y);              // y = dA d, n
-  bool transposed_derivative(In w, Out dx);  // dx = dA^T w, n + 1. False: an operator without transpose
+  bool transposed_derivative(In w, Out dx);  // dx = dA^T w, n + 1. False: operator without transpose
   double parameter_derivative(In w, int k);  // w . dF_pk
 
  private:

@@ -66,8 +66,8 @@ bool Reduction::factorize() try {
   at_->parameter_derivative(along_, F_p_);
   if (!F_p_.allFinite()) return false;
   if (!M_) M_ = suitable_solver(at_->jacobian());
-  // F_p may vanish here, as where a symmetry keeps a branch: a column without size spoils the scaling of M.
-  // It is taken together with a column of W, which changes the unknowns beta by a multiple of dp.
+  // F_p may vanish here, for instance by symmetry: a zero column spoils the scaling of M. A column of W is
+  // added to it, which changes the unknowns beta by a multiple of dp.
   apply(at_->jacobian(), generic(n_, 1, 3.0).col(0).normalized(), rhs_.head(n_));
   shift_ = std::max(rhs_.head(n_).norm(), F_p_.norm());
   magnitude_ = W_.col(0).cwiseAbs().dot(rhs_.head(n_).cwiseAbs() + F_p_.cwiseAbs()) + 0.1 * shift_;
@@ -198,9 +198,8 @@ std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Ve
     const Vector beta = reduction.beta(r * Vector{{std::cos(angle), std::sin(angle)}}, place);
     if (!(std::abs(beta[0]) <= rounding_of_beta * reduction.magnitude() * r)) return {};
   }
-  return "; the solutions here are not isolated: [J F_p] has a null space of two dimensions along the "
-         "branch, as where "
-         "a symmetry (rotations, shifts in time) turns each solution into a family: add a phase condition";
+  return "; the solutions here are not isolated: [J F_p] has a two-dimensional null space along the branch, "
+         "for instance due to a continuous symmetry (rotations, time shifts): add a phase condition";
 } catch (const std::exception&) {
   return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The reduced equation of Lyapunov and Schmidt beside a place x = (u, p): see multiple_point.hpp.
+// Lyapunov-Schmidt reduction near a point x = (u, p): see multiple_point.hpp.
 
 #include <arcslip/continuation/problem/linear_solver.hpp>
 #include <arcslip/continuation/problem/problem.hpp>
@@ -11,12 +11,12 @@ namespace arcslip::continuation {
 
 class Reduction {
  public:
-  /// rank_loss: m, 1 or more. Each place needs transposed solves.
+  /// rank_loss: m, 1 or more. Requires transposed solves.
   Reduction(const Problem& problem, const Vector& p, int along, int rank_loss,
             const MakeLinearSolver& make_solver);
 
-  /// To x, where C and W are taken from the null spaces of A as they are told there. False: F or its
-  /// linearization cannot be had, or M is singular.
+  /// Moves to x, with C and W from the null spaces of A there. False if F or its linearization cannot be
+  /// evaluated, or M is singular.
   bool move_to(const Vector& x);
 
   const Vector& x() const { return x_; }
@@ -29,14 +29,13 @@ class Reduction {
     return magnitude_;
   }  // of |w_1| . |A x| in a generic direction x, and a tenth of |A x|
 
-  /// Moves along z to the place where F + W beta = 0; returns beta, m. Not finite where F cannot be
-  /// evaluated.
+  /// Solves F + W beta = 0 along z; returns beta, m. Not finite if F cannot be evaluated.
   Vector settle();
 
-  /// H_i = -dG_i/dy, (m+1) x (m+1) each, stacked: m (m+1) x (m+1), by differences of A. False: not to be had.
+  /// H_i = -dG_i/dy, (m+1) x (m+1) each, stacked: m (m+1) x (m+1), by differences of A. False on failure.
   bool form(Matrix& H);
 
-  /// beta(y), and x + V y + z in `place`. Not finite where it is not found.
+  /// beta(y); x + V y + z in `place`. Not finite if not converged.
   Vector beta(const Vector& y, Vector& place);
 
  private:
@@ -58,12 +57,12 @@ class Reduction {
   double shift_ = 0, magnitude_ = 0;
 };
 
-// Whether the solutions around one are a curve at all, or a surface, as where a symmetry turns each of them
-// into a family (an orbit of rotations, of shifts in time) and no phase condition picks one.
+// Whether the solutions near a point form a curve, or a surface, as with a continuous symmetry (rotations,
+// time shifts) and no phase condition.
 
-/// A sentence where F = 0, to rounding, all around v = (u, p) in the plane of the two directions in which [J
-/// F_p] is smallest: beta(y) of reduction.hpp with m = 1 is zero on a circle, where it is of the size of |y|
-/// at a point of a regular branch and of |y|^2 at a branch point. Empty: nothing to say.
+/// A sentence if F = 0, to rounding, all around v = (u, p) in the plane of the two directions in which [J
+/// F_p] is smallest: beta(y) of reduction.hpp with m = 1 is then zero on a circle, where it is of order |y|
+/// at a regular point and of order |y|^2 at a branch point. Empty otherwise.
 std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Vector& p, int along,
                                const MakeLinearSolver& make_solver);
 

@@ -49,7 +49,7 @@ class StationaryEvaluator final : public Evaluator, public Operator {
         work_(n_ + 1),
         change_(n_ + 1),
         jacobian_(static_cast<const Operator*>(this)) {
-    // Until there is a tangent, a border row that no symmetry makes orthogonal to it.
+    // A generic border row until there is a tangent, orthogonal to it by no symmetry.
     for (Eigen::Index i = 0; i <= n_; ++i)
       c_[i] = (1 + 0.3 * std::sin(7.0 * static_cast<double>(i))) / scale_[i];
   }
@@ -71,7 +71,7 @@ class StationaryEvaluator final : public Evaluator, public Operator {
     transposed_ = factors_.now()->solve_transposed(z_);
     take_border();
     if (transposed_) transposed_ = gradient();
-    return Evaluated::ok;  // without a gradient, at the end of a piece, its linear solver refuses
+    return Evaluated::ok;  // without a gradient, at the end of a piece, the linear solver fails
   }
 
   const Vector& residual() const override { return R_; }
@@ -91,13 +91,13 @@ class StationaryEvaluator final : public Evaluator, public Operator {
 
   std::uint64_t piece() const override { return here_.at().piece(); }
 
-  // B at the last place.
+  // B at the last point.
   const std::shared_ptr<LinearSolver>& factors() const { return factors_.now(); }
   const Vector& tangent_of_branch() const { return t_; }
   bool has_gradient() const { return transposed_; }
   const Vector& gradient_of_G() const { return G_x_; }
 
-  // dG in a direction of x, by a forward solve with B.
+  // Directional derivative of G in x, by a forward solve with B.
   double along(In d, const LinearSolver& B) const try {
     return beside_.along(here_, d) ? change_of_G(B) : std::nan("");
   } catch (const std::exception&) {
@@ -107,7 +107,7 @@ class StationaryEvaluator final : public Evaluator, public Operator {
   double left_times_right() const { return transposed_ ? z_.head(n_).dot(t_.head(n_)) : 1; }
 
  private:
-  // t of the place of here_.
+  // t at the point of here_.
   bool tangent() {
     border_.columns.col(0) = here_.F_pa();
     border_.rows.col(0) = c_.head(n_);
@@ -119,7 +119,7 @@ class StationaryEvaluator final : public Evaluator, public Operator {
     return t_.allFinite();
   }
 
-  // The next border row is this tangent, as is best for the conditioning of B.
+  // The next border row is this tangent, the best choice for the conditioning of B.
   void take_border() {
     const double length = t_.cwiseQuotient(scale_).squaredNorm();
     if (length > 0 && std::isfinite(length))
@@ -164,7 +164,7 @@ class StationaryEvaluator final : public Evaluator, public Operator {
     return result;
   }
 
-  // d(dq/dx) . t - dq/dx . B^-1 (dA t, 0), over the places beside.
+  // d(dq/dx) . t - dq/dx . B^-1 (dA t, 0), at the neighbouring points.
   double change_of_G(const LinearSolver& B) const {
     beside_.derivative(t_, work_.head(n_));
     work_[n_] = 0;
@@ -195,8 +195,8 @@ class StationaryEvaluator final : public Evaluator, public Operator {
   Jacobian jacobian_;
 };
 
-// Of [A F_p; G_x G_p; r_x r_p]: with x = B^-1 (y, zeta) there remain as many equations as zeta and the free
-// parameters.
+// Solver of [A F_p; G_x G_p; r_x r_p]: x = B^-1 (y, zeta) leaves as many equations as there are entries in
+// zeta and free parameters.
 class StationarySolver final : public LinearSolver {
  public:
   const char* name() const override { return "block elimination in the branch's factors"; }

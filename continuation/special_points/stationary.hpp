@@ -3,25 +3,25 @@
 // branches, such as the peaks of a frequency response.
 //
 // Along a branch in the parameter `along`, written a below, with x = (u, p_a), A = [J F_pa] (n x (n+1)) and a
-// border row c, the tangent t is told by
+// border row c, the tangent t is given by
 //
 //   B t = e_{n+1},   B = [ A   ]
 //                        [ c^T ],
 //
-// whose matrix B, that of the branch itself, is regular at folds and peaks. There
+// where B, the matrix of the branch itself, is regular at folds and peaks. There
 //
 //   G(x, p) = dq/dx . t = 0.
 //
-// F = 0, G = 0 are n + 1 equations in x and one more free parameter: a problem like any other, which trace()
-// follows, with events, kinks and boundaries. A fold is the case q = p_a. With the left vector B^T z = dq/dx,
+// F = 0, G = 0 are n + 1 equations in x and one more free parameter, which trace() continues like any other
+// problem, with events, kinks and boundaries. Folds are the case q = p_a. With the left vector B^T z = dq/dx,
 // z = (w, G), the gradient of G is (Govaerts 2000, chapter 3: minimally augmented systems)
 //
 //   dG = d(dq/dx) . t - w . dA t,
 //
-// by second derivatives of F and q along t, those of the problem or differences, since these are symmetric.
-// So one factorization of B and one transposed solve serve all: the augmented system is solved by block
-// elimination in B, never formed. A linear solver without transposed solves is served by derivatives of G in
-// the directions that are needed, a forward solve for each (the Newton steps of Moore and Spence's system).
+// with the second derivatives of F and q along t from the problem or from differences, as they are symmetric.
+// So one factorization of B and one transposed solve suffice: the augmented system is solved by block
+// elimination with B and never formed. For a linear solver without transposed solves, directional derivatives
+// of G are used, at one forward solve each (the Newton steps of Moore and Spence's system).
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -33,17 +33,17 @@
 
 namespace arcslip::continuation {
 
-/// A scalar of solutions. The evaluator is at (u, p).
+/// A scalar function of the solution. The evaluator is at (u, p).
 struct Quantity {
   std::function<void(Evaluator& at, In u, In p, Out dq_du)> gradient;            // n
   std::function<double(Evaluator& at, In u, In p, int k)> parameter_derivative;  // dq/dp_k
-  /// The gradient of q_u . v + sum_k q_pk r_k: by u (n) and by all parameters. None: by differences.
+  /// The gradient of q_u . v + sum_k q_pk r_k with respect to u (n) and all parameters. None: by differences.
   std::function<void(Evaluator& at, In u, In p, In v, In r, Out du, Out dp)> second_derivative = {};
 };
 
 /// The stationary points of q along branches in the parameter `along`, as a problem in the unknowns (u,
-/// p_along) and the same parameters; p[along] is not looked at. Throws std::out_of_range for an index without
-/// parameter. make_solver: of the bordered systems in B; if none, the problem's own, or what suits.
+/// p_along) with the same parameters; p[along] is ignored. make_solver: for the bordered systems with B; if
+/// none, the problem's own, or the default for its Jacobian. Throws std::out_of_range for an invalid index.
 std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> problem, int along,
                                                  Quantity quantity, MakeLinearSolver make_solver = {});
 
@@ -51,16 +51,16 @@ std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> 
 std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int along,
                                      MakeLinearSolver make_solver = {});
 
-/// On a curve of folds, zero at cusps: the second derivative of p_along on the branch through the fold.
-/// Its value on any curve of stationary points is the second derivative of q along the branch.
+/// On a curve of folds, zero at cusps: the second derivative of p_along along the branch through the fold.
+/// On other curves of stationary points its value is the second derivative of q along the branch.
 Monitor cusp_monitor();
-inline constexpr const char* cusp_event = "cusp";  // its name, and so that of its events
+inline constexpr const char* cusp_event = "cusp";  // name of the monitor and its events
 
 /// On a curve of folds of u' = F, zero at Bogdanov-Takens points: w . v of the null vectors J v = 0, w J = 0.
-/// Needs transposed solves; without, its value is never zero.
+/// Requires transposed solves; without them its value is never zero.
 Monitor bogdanov_takens_monitor();
 
-/// The unknowns (u, p_along) of a point of a branch in p_along, to start a curve from.
+/// The unknowns (u, p_along) of a point of a branch in p_along, the start of a curve.
 Vector with_parameter(const Point& point);
 
 }  // namespace arcslip::continuation

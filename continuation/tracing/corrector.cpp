@@ -11,24 +11,24 @@
 namespace arcslip::continuation {
 namespace {
 
-// On the contraction expected of the next chord step: the larger a dense matrix, the more new factors cost
-// beside it. Those of a sparse matrix with little fill cost a few solves.
+// Limit of the contraction expected of the next chord step: new factors of a dense matrix cost more the
+// larger it is. Those of a sparse matrix with little fill cost a few solves.
 double chord_safety(const Jacobian& J) {
   return std::holds_alternative<Matrix>(J)
              ? std::clamp(static_cast<double>(std::get<Matrix>(J).rows()) / 8, 1.0, 5.0)
              : 1.0;
 }
 
-// Chord steps before new factors. Those of a sparse matrix may cost many solves, as on grids.
+// Chord steps before new factors. Factors of a sparse matrix may cost many solves, as on grids.
 int longest_chord(const Jacobian& J) {
   return std::holds_alternative<SparseMatrix>(J) ? 8 : 5;
 }
 
 constexpr double smallest_damping = 1.0 / 256;
-constexpr double undamped = 1e-2;      // corrections below are taken whole, and tested at the next place
+constexpr double undamped = 1e-2;      // smaller corrections are not damped, and tested at the next point
 constexpr double divergence = 2;       // of such corrections, from one to the next
 constexpr double linear_share = 1e-2;  // of a small Newton correction in the next one: not quadratic
-constexpr double smallest_relevant_state = 1e-6;  // in scales: below, corrections are measured absolutely
+constexpr double smallest_relevant_state = 1e-6;  // in scales: below this, corrections are absolute
 constexpr double smallest_relevant_parameter = 1e-3;
 
 }  // namespace
@@ -212,8 +212,8 @@ bool Corrector::tangent(Vector& t) const {
   return true;
 }
 
-// With the factors that are there, to where linearizing is expected to end the correction. False: they do not
-// fit, and v is as good as before.
+// Chord steps with the present factors, until one linearization is expected to complete the correction. False
+// if they do not contract; v is then unchanged.
 bool Corrector::chord(Vector& v, Correction& result) {
   if (!evaluate(v, Needs::residual)) {
     result.evaluated = false;
@@ -279,7 +279,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
     if (result.contraction == 0 && before > 0) result.contraction = now / before;
     if (k == 0 && before > 0) memory_.contraction = std::max(now / before, 1e-4);
     result.last = now;
-    // At a kink corrections do not shrink either: to and fro between two pieces, where there is no solution.
+    // At a kink corrections may not decrease either: cycling between two pieces, if there is no solution.
     std::optional<std::uint64_t> piece;
     if (now > options_.tolerance && now <= options_.rounding_level) piece = piece_of_residual();
     const bool stagnates = piece && piece == piece_before && now > 0.5 * before;
@@ -311,7 +311,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
     v = trial_;
     before = 0;
   }
-  result.linear = true;  // in all its iterations it came nearer, and not near enough
+  result.linear = true;  // it converged in all iterations, but too slowly
   return result;
 }
 

@@ -1,17 +1,16 @@
 #pragma once
-// From a prediction to the branch: Newton's method for F(u, p) = 0 in the plane r . (v - v_predicted) = 0, v
-// = (u, p).
+// The corrector: Newton's method for F(u, p) = 0 in the plane r . (v - v_predicted) = 0, v = (u, p).
 //
-// Factors of a nearby place are used first, in chord steps, as long as these contract. Then F and J are
-// evaluated and factorized where they led to: if the correction dv = -B^-1 F from those factors is below the
-// tolerance, v + dv is the solution, whose error is of the order |dv|^2 (|dv| next to a kink), and the
-// factors are those of the branch there. If not, Newton's method goes on from there. So a point that was well
-// predicted costs one factorization.
+// The factors of a nearby point are used first, in chord steps, as long as these contract. Then F and J are
+// evaluated and factorized at the result: if the correction dv = -B^-1 F with the new factors is below the
+// tolerance, v + dv is the solution, with an error of order |dv|^2 (|dv| next to a kink), and the factors are
+// those of the branch there. If not, Newton's method continues from there. So a well predicted point costs
+// one factorization.
 //
 // Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004,
 // chapter 3): |B^-1 F(v + lambda dv)| must fall below (1 - lambda/4) |dv|. It is invariant under scaling of
-// the equations and never compares Jacobians across a kink: so it serves piecewise smooth F as a semismooth
-// Newton method with a safeguard.
+// the equations and never compares Jacobians across a kink, so that for piecewise smooth F the method is a
+// safeguarded semismooth Newton method.
 
 #include <arcslip/continuation/events/scratch.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -26,48 +25,49 @@
 
 namespace arcslip::continuation {
 
-/// What became of a correction. Corrections are relative to |u| in scales (and to |p|).
+/// Result of a correction. Corrections are relative to |u| in scales (and to |p|).
 struct Correction {
   bool converged = false;
   bool evaluated = true;  // false: the problem could not be evaluated; see failure()
-  bool singular = false;  // the linear solver refused the matrix, or the problem its derivatives
+  bool singular = false;  // singular matrix, or derivatives that cannot be evaluated
   int iterations = 0;
   double first = 0, last = 0;  // size of the first and of the last correction
-  double contraction = 0;      // of the second over the first
-  /// A small Newton correction was followed by one that is not much smaller, or by too many.
+  double contraction = 0;      // ratio of the second to the first
+  /// Newton's method converged linearly only: a small correction was followed by one not much smaller, or by
+  /// too many.
   bool linear = false;
 };
 
-/// Of which place and with which border row a matrix was factorized. None: empty.
+/// The point and border row of a factorized matrix; empty if none.
 struct Linearization {
   Vector v, row;  // n + 1
 };
 
-/// What a corrector takes from one correction to the next: the place of its factors, and, where they keep the
-/// pivots of earlier ones, the place of these; and the contraction that chord steps showed.
+/// State that a corrector carries from one correction to the next: the point of its factors, the point of the
+/// earlier factors whose pivots they keep, and the contraction of the chord steps.
 struct FactorMemory {
   Linearization factors, pivots;
   bool pivots_kept = false;
   double contraction = 1;
 };
 
-/// One place to work in: an evaluator, factors and buffers. Nothing in correct() or linearize() allocates.
+/// Corrector with its evaluator, factors and buffers. correct() and linearize() do not allocate.
 class Corrector {
  public:
-  /// counts: where the work is added up; outlives the corrector. make_solver: if none, the problem's own, or
-  /// what suits the kind of Jacobian. Throws std::invalid_argument where the Jacobian is an operator and
-  /// nobody names a solver.
+  /// counts: work counters, which must outlive the corrector. make_solver: if none, the problem's own, or the
+  /// default for the kind of Jacobian. Throws std::invalid_argument if the Jacobian is an operator and no
+  /// solver is given.
   Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts,
             const MakeLinearSolver& make_solver = {});
 
   /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1.
-  /// keep_factors: the factors that are there are those of a nearby place with a similar row, and are tried
-  /// first. kind: moore_penrose leaves the plane, to the solution nearest to the prediction.
+  /// keep_factors: the present factors are those of a nearby point with a similar row, and are tried first.
+  /// kind: moore_penrose leaves the plane, for the solution nearest to the prediction.
   Correction correct(Vector& v, const Vector& row, bool keep_factors,
                      CorrectorKind kind = CorrectorKind::pseudo_arclength);
 
-  /// |B^-1 F(v)| in scales, with the factors that are there: how far v is from the branch, to first order.
-  /// NaN where F cannot be evaluated.
+  /// |B^-1 F(v)| in scales with the present factors: the distance of v from the branch, to first order. NaN
+  /// if F cannot be evaluated.
   double distance_from_branch(const Vector& v);
 
   /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
@@ -76,11 +76,11 @@ class Corrector {
   /// Moves the evaluator (not the factors) to v.
   bool move_to(const Vector& v, Needs needs = Needs::residual) { return evaluate(v, needs); }
 
-  /// The smooth piece that the evaluator is in. False where the problem throws: see failure().
+  /// The smooth piece of the evaluator's last point. False if the problem throws: see failure().
   bool piece(std::uint64_t& piece);
 
   /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in
-  /// scales. False where it is not finite.
+  /// scales. False if it is not finite.
   bool tangent(Vector& t) const;
 
   double size(const Vector& dv, const Vector& v) const;  // of a correction, relative
@@ -92,17 +92,18 @@ class Corrector {
   Vector border_row(const Vector& t) const;
   double parameter_scale() const { return parameter_scale_; }
   const Vector& parameters() const { return p_; }
-  /// What the problem threw, or did wrong, when it could not be evaluated last. Empty: it said so itself.
+  /// Why the last evaluation failed: the exception of the problem, or the misuse. Empty: the problem returned
+  /// the failure itself.
   const std::string& failure() const { return failure_; }
   Evaluator& evaluator() { return *evaluator_; }
-  const LinearSolver& factors() const { return *solver_; }  // once there was a linearization
+  const LinearSolver& factors() const { return *solver_; }  // valid after a linearization
   Scratch& scratch() { return scratch_; }
 
-  /// So that another corrector goes on as this one, bit for bit.
+  /// The state with which another corrector continues bit for bit.
   const FactorMemory& memory() const { return memory_; }
-  /// Makes the factors that another corrector had. Its work is not counted.
+  /// Recomputes the factors of another corrector, without counting the work.
   void restore(const FactorMemory& memory);
-  /// Forgets what was before, so that what comes does not depend on it.
+  /// Resets all history, so that later results do not depend on earlier corrections.
   void forget();
 
  private:

@@ -9,15 +9,15 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr Eigen::Index all_modes = 24;  // so many are computed at once
-constexpr Eigen::Index block_size = 3;  // of the Krylov space: modes that pass zero at one place
-constexpr double quiet = 0.2;           // of B_1^-1 B_m - 1: below, no mode passes zero
+constexpr Eigen::Index all_modes = 24;  // up to this size all are computed
+constexpr Eigen::Index block_size = 3;  // of the Krylov space: modes that cross zero at the same point
+constexpr double quiet = 0.2;           // of B_1^-1 B_m - 1: below this no mode crosses zero
 constexpr double dependent = 1e-8;      // of a column, left by the others
 constexpr double zero = 1e-6;           // of a mode at the second point, in its value in the middle
 constexpr double nearly_real = 1e-4;    // of an eigenvalue: double ones are split by rounding
-constexpr double pair_safety = 8;       // times the bend of a mode that is told, as for slopes of quantities
+constexpr double pair_safety = 8;       // times the measured bend of a mode, as for slopes of quantities
 
-// Columns of `block` made orthonormal to Q and to each other, as far as they are independent.
+// The independent columns of `block`, orthonormalized against Q and each other.
 Matrix orthonormal_beside(const Matrix& Q, const Matrix& block) {
   Matrix result(block.rows(), 0);
   for (Eigen::Index j = 0; j < block.cols(); ++j) {
@@ -86,7 +86,7 @@ bool ModeCounter::multiply(const Matrix& Q, Matrix& Y) try {
   return false;
 }
 
-// Q and Y. No columns: nothing is near zero.
+// Builds Q and Y. No columns: no mode is near zero.
 bool ModeCounter::basis() {
   const Eigen::Index size = scale_.size();
   if (size <= all_modes) {

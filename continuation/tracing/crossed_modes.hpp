@@ -1,16 +1,16 @@
 #pragma once
-// How many modes of B = [J F_p; r^T] pass zero between two points of a branch: branch points in one step,
-// each as often as the rank that is lost there.
+// The number of modes of B = [J F_p; r^T] that cross zero between two points of a branch: the branch points
+// in one step, each with its rank loss as multiplicity.
 //
-// det B tells their parity alone. Along B(x) = (1 - x) B_0 + x B_1 the matrix is singular where
-// B_1^-1 B_0 has the eigenvalue -x/(1 - x): so its negative eigenvalues are counted, from the first point to
-// the middle of the step, and from there to the second one. Pairs of eigenvalues of J that cross the
-// imaginary axis, as at Hopf points, leave B regular and are not counted. Few eigenvalues differ from 1 by
-// much, those of modes near zero: up to 24 equations all are computed, and else those of a block Krylov space
-// of B_1^-1 B_m - 1, which ends at once where nothing is near zero.
+// det B yields only the parity. Along B(x) = (1 - x) B_0 + x B_1 the matrix is singular where B_1^-1 B_0 has
+// the eigenvalue -x/(1 - x), so that its negative eigenvalues are counted, from the first point to the middle
+// of the step and from there to the second point. Pairs of eigenvalues of J that cross the imaginary axis, as
+// at Hopf points, leave B regular and are not counted. Only the few eigenvalues of modes near zero differ
+// much from 1: for up to 24 equations all are computed, otherwise those in a block Krylov space of B_1^-1 B_m
+// - 1, which terminates at once if no mode is near zero.
 //
-// A mode that passes zero and comes back within half a step is not counted, but told by how much the mode
-// bends: between a at the first point, m in the middle and 1 at the second.
+// A mode that crosses zero and returns within half a step is not counted, but detected by the curvature of
+// the mode: between a at the first point, m in the middle and 1 at the second.
 
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>
@@ -24,17 +24,17 @@ namespace arcslip::continuation {
 
 struct CrossedModes {
   int count = 0;
-  bool told = true;      // false: a mode bends so much that it may pass zero and come back
-  bool at_zero = false;  // a mode is zero at the second point, but for rounding: it has no sign there
+  bool told = true;      // false: a mode is curved enough to cross zero and return
+  bool at_zero = false;  // a mode is zero to rounding at the second point, and has no sign there
 };
 
 class ModeCounter {
  public:
-  /// All outlive this. p: all parameters.
+  /// All arguments must outlive this. p: all parameters.
   ModeCounter(const Problem& problem, const Vector& p, int free, Counts& counts);
 
-  /// Between two places on one smooth piece, `length` apart. row: r of the factors at `to`. Nothing where J
-  /// cannot be evaluated between them, or another piece of F is there.
+  /// Between two points on one smooth piece, `length` apart. row: r of the factors at `to`. Returns nothing
+  /// if J cannot be evaluated between them, or another piece of F lies between.
   std::optional<CrossedModes> between(const Place& from, const Place& to, double length, const Vector& row,
                                       const LinearSolver& at_to);
 

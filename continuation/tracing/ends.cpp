@@ -8,8 +8,8 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double least_power = 0.1;  // of the distance from a bound, with which u comes to rest there
-constexpr int samples = 16;  // of a step that may pass a bound between its ends
+constexpr double least_power = 0.1;  // of the distance from a bound: u converges at least like this power
+constexpr int samples = 16;          // of a step that may cross a bound between its ends
 constexpr int window_bisections = 50;
 
 }  // namespace
@@ -102,7 +102,7 @@ std::optional<Stop> limit_reached(const Options& options, const Branch& branch, 
   const long points = branch.counts.points;
   if (points >= options.points)
     return Stop{StopReason::point_limit, static_cast<double>(points), static_cast<double>(options.points),
-                "reached the largest number of points, " + std::to_string(options.points)};
+                "reached the maximum number of points, " + std::to_string(options.points)};
   if (options.seconds > 0 && seconds >= options.seconds)
     return Stop{StopReason::time_limit, seconds, options.seconds,
                 "reached the time limit of " + text(options.seconds) + " s"};
@@ -112,7 +112,8 @@ std::optional<Stop> limit_reached(const Options& options, const Branch& branch, 
     const std::size_t bytes = each * branch.points.size();
     if (bytes >= options.memory)
       return Stop{StopReason::memory_limit, static_cast<double>(bytes), static_cast<double>(options.memory),
-                  "the points of the branch fill the " + std::to_string(options.memory) + " bytes allowed"};
+                  "the points of the branch reached the memory limit of " + std::to_string(options.memory) +
+                      " bytes"};
   }
   return {};
 }
@@ -120,8 +121,8 @@ std::optional<Stop> limit_reached(const Options& options, const Branch& branch, 
 namespace {
 
 constexpr int home_bisections = 30;
-constexpr double beside = 0.05;        // of a step: a start so near to it may lie on it
-constexpr double rounding_share = 10;  // of the corrector's: two solutions nearer than that are one
+constexpr double beside = 0.05;        // of a step: a start this close may lie on it
+constexpr double rounding_share = 10;  // of the corrector's: closer solutions are the same
 
 }  // namespace
 

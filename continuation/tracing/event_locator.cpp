@@ -15,8 +15,8 @@ namespace {
 constexpr double newton_share = 1e-2;   // the corrector's tolerance, of that on the branch
 constexpr double smallest_kink = 1e-4;  // rad
 
-// An extreme between two places that is not looked for lies no farther off than where the tangents to the
-// quantity there meet.
+// An extremum between two points that is not searched for lies within the intersection of the tangents to the
+// quantity at both ends.
 double farthest_extreme(std::size_t monitor, const Place& from, const Place& to) {
   const double a = from.monitors[monitor], b = to.monitors[monitor], length = to.arclength - from.arclength;
   const double q = from.quantities[monitor], next = to.quantities[monitor];
@@ -80,8 +80,8 @@ std::vector<LocatedEvent> EventLocator::gather(Find by, const Place& from, const
   return found;
 }
 
-// What becomes of a waiting extreme where the quantity has come to q: departed from it, it is certain; gone
-// beyond it, it is none.
+// Updates a pending extremum with the value q: certain if q has departed from it, dropped if q has passed
+// beyond it.
 void EventLocator::judge(Course& course, double q, std::vector<LocatedEvent>& certain) {
   if (!course.waiting) return;
   const double departure = course.side * (course.waiting->quantity - q), rounding = course.waiting->rounding;
@@ -115,7 +115,7 @@ void EventLocator::follow(std::size_t monitor, Find by, const Place& from, const
   }
   const bool went_on = course.waiting && course.waiting->rounding > 0 &&
                        course.side * (next - course.waiting->quantity) > course.waiting->rounding;
-  if (went_on) {  // q tells more than its slope, whose sign is still that beyond the extreme: it is here
+  if (went_on) {  // q decides against its slope, whose sign is still that beyond the extremum: it is here
     course.waiting->event.point = point(to, {});
     course.waiting->event.value = to.monitors[monitor];
     course.waiting->place = to;
@@ -172,24 +172,24 @@ Event EventLocator::event(std::size_t monitor, const Place& place, double value,
   return result;
 }
 
-// The zero of a monitor between two places, on a smooth section or beside a kink.
+// The zero of a monitor between two points, on a smooth section or next to a kink.
 
 namespace {
 
-constexpr double nonsmooth_share = 1e-4;  // of a monitor's change over a step, left at its zero
+constexpr double nonsmooth_share = 1e-4;  // of a monitor's change over a step, remaining at its zero
 constexpr double beyond_kink = 1e-3;      // of the way from the kink to the next point, to look at that side
-constexpr double linearized_there = 1e-13;  // corrections below leave factors that are those of the solution
+constexpr double linearized_there = 1e-13;  // smaller corrections leave the factors of the solution
 constexpr double steepest = 1.5;            // rad: between the chord of a step and the branch on it
 constexpr double state_tolerance = 1e-10;   // relative, of u at an event
-constexpr int samples_beside = 4;           // of q on each side of an extreme, for its rounding
+constexpr int samples_beside = 4;           // of q on each side of an extremum, for its rounding
 constexpr double sample_share = 1e-2;       // of the step, between them
-constexpr double spreads = 2;               // of the samples: more is no rounding
+constexpr double spreads = 2;               // of the samples: more is not rounding
 constexpr double spreads_at_kink = 8;       // of two samples
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 }  // namespace
 
-// Where the corrector fails between the points, the one whose monitor is nearer to zero stands for the event.
+// If the corrector fails between the points, the one with the monitor nearer to zero represents the event.
 LocatedEvent EventLocator::nearer_end(std::size_t monitor, const Place& from, const Place& to) const {
   const Place& end = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
   Event found = event(monitor, end, end.monitors[monitor], {});
@@ -249,7 +249,7 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Plac
     hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
     correction = probe.correct(place.v, row, factors);
     if (!correction.converged) correction = probe.correct(place.v, row, false);
-    // A tangent from factors beside the solution may be off by more than what is looked for.
+    // A tangent from factors near the solution may be less accurate than the zero requires.
     if (!correction.converged || (correction.last > linearized_there && !probe.linearize(place.v, row)) ||
         !settle(probe, place)) {
       failed = true;

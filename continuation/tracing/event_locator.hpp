@@ -1,20 +1,19 @@
 #pragma once
-// Events between two neighbouring points of a branch: where a monitor changes its sign.
+// Location of events between two neighbouring points of a branch: sign changes of monitors.
 //
-// The zero is bracketed on the cubic between the points, each trial corrected onto the branch. A step across
-// kinks is several smooth sections, which end and begin there: an event lies within a section, or at a kink,
-// where the values of the monitor on its two sides differ in sign.
+// The zero is bracketed on the cubic between the points, with each trial corrected onto the branch. A step
+// across kinks is divided there into smooth sections: an event lies within a section, or at a kink, if the
+// values of the monitor on its two sides differ in sign.
 //
-// A monitor that is the slope of a quantity q has zeros from rounding where q is flat. Zeros alternate
-// between maxima and minima of q, and two neighbours q_1, q_2 with |q_1 - q_2| <= r are no events: they
-// cancel. So an extreme is certain once q has departed from it by more than r, which is in the same step
-// unless q changes so little in it that r matters; till then it waits. r is measured: the spread of q beside
-// the extreme, over a part of the step in which the change of q itself is negligible. Where q goes on beyond
-// a waiting extreme by more than r, while its slope has not changed its sign again, q is right: the extreme
-// moves along, from point to point.
+// A monitor that is the slope of a quantity q has spurious zeros from rounding where q is flat. Zeros
+// alternate between maxima and minima of q, and two neighbours q_1, q_2 with |q_1 - q_2| <= r cancel and are
+// no events. So an extremum is certain once q has changed from it by more than r, usually in the same step;
+// until then it is pending. r is measured: the spread of q near the extremum, over a part of the step in
+// which the change of q itself is negligible. If q passes beyond a pending extremum by more than r without
+// another sign change of its slope, q decides: the extremum moves along, from point to point.
 //
-// A monitor may have zeros that are no events (Monitor::is_event). What is located in a step does not depend
-// on the steps before it: the probe forgets.
+// A monitor may have zeros that are not events (Monitor::is_event). The events located in a step do not
+// depend on the steps before it: the probe is reset.
 
 #include <arcslip/continuation/tracing/place.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
@@ -29,54 +28,52 @@ void append(std::vector<LocatedEvent>& found, std::vector<LocatedEvent>&& next);
 
 class EventLocator {
  public:
-  /// p: all parameters; free: index of the free one. courses: as many as monitors, or none yet. counts: where
-  /// the work is added up. Both outlive this.
+  /// p: all parameters; free: index of the free one. courses: one for each monitor, or none yet. counts: work
+  /// counters. Both must outlive this.
   EventLocator(std::shared_ptr<const Problem> problem, Vector p, int free, const Options& options,
                const std::vector<Monitor>& monitors, std::vector<Course>& courses, Counts& counts);
 
-  /// So that the events of a step do not depend on the steps before it, to the last bit.
+  /// Resets the probe, so that the events of a step do not depend on earlier steps, to the last bit.
   void forget() {
     if (probe_) probe_->forget();
   }
 
-  /// Whether any monitor changes its sign, in whichever direction.
+  /// Whether any monitor changes sign, in either direction.
   bool changes_sign(const Place& from, const Place& to) const;
 
-  /// The kink at which the piece of `from` ends, within `length` along its tangent. towards: which side is
-  /// beyond, where the signs of determinants are not known. Nothing where none is found.
+  /// The kink at which the piece of `from` ends, within `length` along its tangent. towards: the direction
+  /// beyond, if the signs of determinants are not known. Nothing if none is found.
   std::optional<Corner> corner(const Place& from, double length, const Vector& towards);
 
-  /// Whether a monitor is one of kinks, or the slope of a quantity that is divided there.
+  /// Whether any monitor needs the kinks of a step.
   bool looks_for_kinks() const;
 
-  /// The kinks of a step, in order, where they are looked for; otherwise a step is taken as it is. From
-  /// `from` on, as many as are found.
+  /// The kinks of a step that were found, in order from `from`; empty if no monitor needs them.
   std::vector<Corner> corners(const Place& from, const Place& to);
 
-  /// Where within a smooth section a quantity goes over from one of several to another, in order.
+  /// The points of a smooth section at which the part of a quantity changes (Monitor::part), in order.
   std::vector<Corner> divisions(const Place& from, const Place& to);
 
-  /// The events that have become certain with this section, in the order of arclength. `after` is left to the
-  /// caller.
+  /// The events that became certain with this section, in order of arclength. The caller sets `after`.
   std::vector<LocatedEvent> between(const Place& from, const Place& to);
 
-  /// The same where the branch passes a branch point on the way: matrices are singular there, and a zero
-  /// beside it would be sought on either branch. So its two sides are searched by themselves, and a monitor
-  /// that vanishes at the branch point has its zero there.
+  /// The same for a section with a branch point: matrices are singular there, and a zero next to it would be
+  /// sought on either branch. So its two sides are searched separately, and a monitor that vanishes at the
+  /// branch point has its zero there.
   std::vector<LocatedEvent> past(const Place& from, const Place& crossing, const Place& to);
 
-  /// The same for a kink.
+  /// The events at a kink.
   std::vector<LocatedEvent> across(const Corner& corner);
 
-  /// The branch point between two places whose orientations differ: where two branches cross. Nothing where
-  /// none do: then `to` is on another branch. The event is the first branch_point monitor's, or has no name.
+  /// The branch point between two points of different orientation. Nothing if no branches cross: then `to` is
+  /// on another branch. The event belongs to the first branch_point monitor, or has no name.
   std::optional<LocatedEvent> branch_point(const Place& from, const Place& to);
 
-  /// The same where [J F_p] loses `rank_loss` ranks at once, 2 or more.
+  /// The same for a rank loss of [J F_p] of 2 or more.
   std::optional<LocatedEvent> multiple_point(const Place& from, const Place& to, int rank_loss);
 
-  /// An event as monitors and observers see it: evaluator and factors are those there, until the next call.
-  /// Nothing where it cannot be linearized.
+  /// An event as passed to monitors and observers: evaluator and factors are those at the event, until the
+  /// next call. Nothing if it cannot be linearized.
   std::optional<Accepted> look_at(const Place& event);
 
  private:
@@ -111,8 +108,8 @@ class EventLocator {
   const std::vector<Monitor>& monitors_;
   std::vector<Course>& courses_;
   Counts& counts_;
-  std::unique_ptr<Corrector> probe_;    // made when the first event is met
-  bool from_crossing_ = false;          // the section that is searched begins at a branch point
+  std::unique_ptr<Corrector> probe_;    // created at the first event
+  bool from_crossing_ = false;          // the current section starts at a branch point
   std::vector<bool> zero_at_crossing_;  // which monitors vanish there
 };
 

@@ -1,4 +1,4 @@
-// Events that are no zeros of functions: kinks, and points where two branches cross.
+// Events other than zeros of functions: kinks, and crossings of two branches.
 
 #include <arcslip/continuation/events/monitor_calls.hpp>
 #include <arcslip/continuation/special_points/branch_point.hpp>
@@ -14,19 +14,18 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double guesses[] = {0.5, 0.1, 0.9};  // shares of a step: where branch points are looked for
-constexpr int most_kinks = 16;                 // looked for in one step
-constexpr double just_beyond[] = {1e-9, 1e-6,
-                                  1e-3};  // of a step: where the other side of a kink is looked at
-constexpr double beside_step = 0.1;       // of a step: a branch point so near lies on it
-constexpr double beyond_step = 1e-4;      // and so far beyond its ends, for rounding
-// Of a monitor's change over a step, and of the largest dp/ds as for the type of a branch point: less is
-// zero.
+constexpr double guesses[] = {0.5, 0.1, 0.9};         // shares of a step: initial guesses of branch points
+constexpr int most_kinks = 16;                        // in one step
+constexpr double just_beyond[] = {1e-9, 1e-6, 1e-3};  // of a step: distances to the far side of a kink
+constexpr double beside_step = 0.1;                   // of a step: a branch point this close lies on it
+constexpr double beyond_step = 1e-4;                  // tolerance beyond its ends, for rounding
+// Of a monitor's change over a step, and of the largest dp/ds for the type of a branch point: smaller values
+// count as zero.
 constexpr double zero_share = 1e-6;
 
 }  // namespace
 
-// The branch point x as an event of the step. Nothing where it does not lie on the step.
+// The branch point x as an event of the step. Nothing if it does not lie on the step.
 std::optional<LocatedEvent> EventLocator::crossing_event(const Place& from, const Place& to, const Vector& x,
                                                          BranchPoint&& branches) {
   const double length = to.arclength - from.arclength;
@@ -55,7 +54,7 @@ std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const 
     std::optional<BranchPointLocation> crossing;
     try {
       crossing = locate_branch_point(problem_, p_, free_, beside, options_.linear_solver, options_.newton);
-    } catch (const std::exception&) {  // what the corrector takes for a place that cannot be evaluated
+    } catch (const std::exception&) {  // a point that cannot be evaluated, for the corrector
     }
     if (!crossing) continue;
     auto branches = describe_branch_point(*problem_, free_, *crossing, to.v - from.v);
@@ -138,15 +137,15 @@ LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Corner& corn
   return found;
 }
 
-// The branch shortly beyond a kink, with its tangent there: linearized ahead, where the other piece is, and,
-// farther off than the kink itself is known, corrected along that tangent.
+// A point of the branch just beyond a kink, with its tangent: linearized ahead on the other piece, and
+// corrected along that tangent, farther away than the error of the kink.
 bool EventLocator::look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards,
                                Place& beyond) {
   Corrector& probe = this->probe();
   beyond = kink;
   beyond.v = kink.v + way * kink.tangent;
   if (!probe.linearize(beyond.v, probe.border_row(kink.tangent)) || !settle(probe, beyond)) {
-    const Vector row = Vector::Unit(beyond.v.size(), beyond.v.size() - 1);  // at a right angle to it
+    const Vector row = Vector::Unit(beyond.v.size(), beyond.v.size() - 1);  // orthogonal to it
     if (!probe.linearize(beyond.v, row) || !settle(probe, beyond)) return false;
   }
   const bool against =

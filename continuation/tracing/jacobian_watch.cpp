@@ -6,9 +6,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr long seldom = 8;
+constexpr long seldom = 8;  // checks at the 1st, 8th, 64th ... occasion
 constexpr double standstill =
-    1e-3;  // of the longest step: so short, a branch with a wrong Jacobian gets no further
+    1e-3;  // of the longest step: a branch with a wrong Jacobian ends at shorter steps
 constexpr long many_rejections = 20;  // which are also more than a quarter of the points
 
 bool is_due(long times) {
@@ -28,7 +28,7 @@ void JacobianWatch::look_at(const Vector& v) {
   s_.jacobian_doubt = found.message;
   s_.jacobian_error = found.relative;
   s_.branch.warnings.push_back(found.message + " (at " + text(v[n]) +
-                               "): tangents and events are as wrong, and the branch may end early");
+                               "): tangents and events are equally wrong, and the branch may end early");
 }
 
 void JacobianWatch::look_at_some() {

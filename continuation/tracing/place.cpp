@@ -7,11 +7,11 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double finest_kink = 1e-12;  // of the way to look for a kink: where it is to be found
-constexpr double least_slope = 0.1;    // of a tangent against the first one, to predict along it
-constexpr double farther = 8;          // where a prediction has not come to the end of the piece
+constexpr double finest_kink = 1e-12;  // of the search interval: accuracy of the kink
+constexpr double least_slope = 0.1;    // of a tangent relative to the first one, to predict along it
+constexpr double farther = 8;          // factor after a prediction short of the end of the piece
 constexpr double first_margin = 1e-2, least_margin = 1e-12, largest_margin = 0.5;
-constexpr double wider = 10;  // a margin, where the end was passed
+constexpr double wider = 10;  // margin after passing the end
 constexpr int most_kink_corrections = 60;
 
 }  // namespace
@@ -28,8 +28,8 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
   const double finest = finest_kink * length;
   // Along from.tangent: of `kink`, which is in the piece of `from`, and of what is not.
   double lower = 0, upper = length, ahead = length;
-  // Of the way to where the piece is predicted to end: left, so that it is not passed. The error of a
-  // prediction shrinks with the square of the way, and the next prediction tells it.
+  // Share of the distance to the predicted end of the piece that is kept, so that it is not passed. The error
+  // of a prediction is quadratic in the distance, and is known from the next prediction.
   double margin = first_margin, predicted = 0, way = 0;
   bool factors_fit = false;
   kink = from;
@@ -38,7 +38,7 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
     const double along = row.dot(kink.tangent);
     if (along > least_slope)
       v = kink.v + (x - lower) / along * kink.tangent;
-    else  // the branch turns away: across its own tangent there is no prediction
+    else  // the branch turns away: no prediction normal to its tangent
       v = kink.v + (x - lower) * from.tangent;
   };
   const auto inside_at = [&] {

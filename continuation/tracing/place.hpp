@@ -1,6 +1,6 @@
 #pragma once
-// A place on a branch: a solution with its tangent, oriented, and what the monitors say there. The tracer
-// keeps the last two; events are located between two of them.
+// A point of a branch during tracing: a solution with its oriented tangent and the values of the monitors.
+// The tracer keeps the last two; events are located between them.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -20,7 +20,7 @@ struct Place {
   int orientation = 1;  // sign of det [J F_p; t^T]: the same on both sides of a kink
   std::uint64_t piece = 0;
   std::vector<double> monitors, quantities;  // as many as monitors
-  std::uint64_t part = 0;                    // which of several smooth ones the quantities are
+  std::uint64_t part = 0;                    // combined Monitor::part of the quantities
 
   void reverse() {
     tangent = -tangent;
@@ -28,39 +28,39 @@ struct Place {
   }
 };
 
-/// A kink, as it is seen from both sides of it: where the piece before it ends, and where that beyond begins.
+/// A kink, seen from both sides: the end of the piece before it, and the start of the piece beyond.
 struct Corner {
   Place before, beyond;
 };
 
-/// Tangent, orientation and piece at the solution place.v of the last correction, on the side of its border
-/// row: row . t > 0. False where the tangent is not finite, or the piece not told.
+/// Sets tangent, orientation and piece at the solution place.v of the last correction, with row . t > 0 for
+/// its border row. False if the tangent is not finite or the piece cannot be determined.
 bool settle(Corrector& at, Place& place);
 
-/// Whether the corrector's place, v, is still in the smooth piece, or part, that is followed.
+/// Whether the corrector's point v is still in the current smooth piece, or part.
 using Inside = std::function<bool(const Vector& v)>;
 
-/// Where the smooth piece of `from` ends along its tangent, within [0, length]: the kink, seen from this
-/// side. The end of the piece is bisected on the tangent, which costs residuals alone, and corrected onto the
-/// branch, again from there: what is left of the way shrinks with its square. `last` is the correction that
-/// led there. False where there is no tangent on the way. is_inside: none, or what ends in place of the
-/// piece.
+/// The end of the smooth piece of `from` along its tangent, within [0, length]: the kink, seen from this
+/// side. The end of the piece is bisected on the tangent, which costs only residuals, and corrected onto
+/// the branch; this is repeated from there, and the remaining distance converges quadratically. last: the
+/// last correction. False if a tangent on the way does not exist. is_inside: none, or a criterion in place
+/// of the piece.
 bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last,
                  const Inside& is_inside = {});
 
-/// What monitors and observers see of a place. The corrector's factors are those of its last linearization.
+/// A place as passed to monitors and observers. The factors are those of the corrector's last linearization.
 Accepted accepted(Corrector& at, const Place& place);
 
-/// Fills place.monitors, place.quantities and place.part.
+/// Sets place.monitors, place.quantities and place.part.
 void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place);
 
-/// What the branch keeps of a place.
+/// A place as stored in the branch.
 Point point(const Place& place, const Correction& correction);
 
 /// |b - a| in scales.
 double distance(const Corrector& in, const Vector& a, const Vector& b);
 
-/// Of two unit vectors with this product, rad.
+/// The angle between two unit vectors with this inner product, rad.
 inline double angle_between(double cosine) {
   return std::acos(std::clamp(cosine, -1.0, 1.0));
 }

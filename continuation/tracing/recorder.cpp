@@ -9,10 +9,10 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double visible_corner = 0.05;  // rad: a kink of less is not seen in a curve
+constexpr double visible_corner = 0.05;  // rad: smaller kinks are invisible in a plotted curve
 
-// The events of a section in the order of arclength, with the branch point in it: the first terminal one ends
-// the branch.
+// The events of a section in order of arclength, with its branch point: the first terminal one ends the
+// branch.
 std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found,
                                         std::optional<LocatedEvent>& crossing) {
   if (crossing && !crossing->event.monitor.empty()) {
@@ -40,8 +40,7 @@ void Recorder::warn_of_undefined(const Place& place) {
     const std::string start = "the monitor \"" + monitors_[m].name + "\" is not a number at ";
     auto& all = s_.branch.warnings;
     if (std::none_of(all.begin(), all.end(), [&](const std::string& w) { return w.starts_with(start); }))
-      all.push_back(start + text(place.v[place.v.size() - 1]) +
-                    ": its zeros beside such points are not seen");
+      all.push_back(start + text(place.v[place.v.size() - 1]) + ": zeros near such points are missed");
   }
 }
 
@@ -62,8 +61,8 @@ bool Recorder::events_of(Trial& trial) {
       trial.crossing));
 }
 
-// To a kink, from the beginning of a section, and across. A corner that is to be seen is a point of the
-// branch.
+// Moves to a kink, from the start of a section, and across it. A visible corner becomes a point of
+// the branch.
 bool Recorder::pass(const Place& from, const Corner& corner) {
   const Place& kink = corner.before;
   bool go_on = report(events_.between(from, kink));
@@ -94,7 +93,7 @@ bool Recorder::report(std::vector<LocatedEvent>&& all) {
   return go_on;
 }
 
-// In the order of arclength: an event may have waited for a few points until it was certain.
+// In order of arclength: an event may have been pending for a few points.
 const Event* Recorder::add(Event&& event) {
   const double s = event.point.arclength;
   const auto after = std::upper_bound(s_.branch.points.begin(), s_.branch.points.end(), s,
@@ -105,7 +104,7 @@ const Event* Recorder::add(Event&& event) {
   return &*s_.branch.events.insert(place, std::move(event));
 }
 
-// For the user's eyes, the evaluator moves the last correction further, onto the point itself.
+// For the observer, the evaluator moves by the last correction onto the point itself.
 bool Recorder::show_last_point() {
   if (!observer_) return true;
   main_.move_to(s_.here.v);

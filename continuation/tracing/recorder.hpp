@@ -1,5 +1,5 @@
 #pragma once
-// What becomes of an accepted step: its points and events, in the branch and for the observer. Not installed.
+// Records an accepted step: its points and events, in the branch and for the observer. Not installed.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/options.hpp>
@@ -29,7 +29,7 @@ class Recorder {
   /// A point of the branch.
   void keep(const Place& place, const Correction& correction);
 
-  /// Where a monitor is not a number, its zeros go by unseen: a warning of the branch, once for each monitor.
+  /// Where a monitor is NaN, its zeros are missed: a warning of the branch, once for each monitor.
   void warn_of_undefined(const Place& place);
 
   /// The events of a step from the last point, section by section, with those of its corners, and the branch

@@ -6,16 +6,16 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double pair_safety = 8, extreme_safety = 2;  // times the bend of a slope that is told
-constexpr double unresolved_share = 1.0 / 50;  // of the step that was first found unresolved: not shorter
-constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below are not looked at
-constexpr double middle_share = 0.7;           // of the largest error of the curve, in the middle of a step
+constexpr double pair_safety = 8, extreme_safety = 2;  // times the measured bend of a slope
+constexpr double unresolved_share = 1.0 / 50;          // of the step first found unresolved: minimum
+constexpr double quantity_rounding = 1e-9;  // relative changes of a quantity below this are ignored
+constexpr double middle_share = 0.7;  // of the maximum error of the curve: its value in the middle of a step
 constexpr double smallest_relevant_curve = 1e-6;  // |u| in scales: below, the curve's error is absolute
 constexpr double unknown_curve_error = 1 / 0.3;   // where the problem cannot be evaluated in the middle
 
-// Whether a slope that is a and b at the ends of a step, and between them a parabola `bend` s (1 - s) off the
-// straight line, has no more zeros than these tell, though it bends some times as much, to either side: none
-// between slopes of one sign, where bend <= (sqrt|a| + sqrt|b|)^2, and one where it is monotonic,
+// Whether a slope with values a and b at the ends of a step, and a deviation bend s (1 - s) from the straight
+// line between them, has no more zeros than a and b imply, even with a safety factor on bend of either sign:
+// none between slopes of one sign, if bend <= (sqrt|a| + sqrt|b|)^2, and one if it is monotonic,
 // bend <= |a| + |b|.
 bool is_told(double a, double b, double bend) {
   const double sum = std::abs(a) + std::abs(b);
@@ -39,7 +39,7 @@ void Resolution::measure_curve(Trial& trial) {
   trial.curve_error = largest;
 }
 
-// Of one: at its middle, where it is largest but for what the fourth derivative changes within it.
+// The error of one cubic: in its middle, where it is largest up to the variation of the fourth derivative.
 double Resolution::curve_error(const Place& from, Trial& trial, const Place& to) {
   const double size = std::max({main_.norm_u(from.v), main_.norm_u(to.v), smallest_relevant_curve});
   const double allowed = middle_share * options_.step.curve_tolerance * size;
@@ -67,8 +67,8 @@ bool Resolution::tells_quantities(Trial& trial) {
   return all;
 }
 
-// The same of one section. How much the slope bends between its ends is told by the change of the quantity,
-// and by the slope before.
+// The same for one section. The bend of the slope between its ends follows from the change of the quantity,
+// and from the preceding slope.
 bool Resolution::tells(const Place& from, const Place& to, Trial& trial) const {
   const double length = to.arclength - from.arclength;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
@@ -98,8 +98,8 @@ bool Resolution::tells(const Place& from, const Place& to, Trial& trial) const {
   return true;
 }
 
-// Of the curve of a quantity q over p from its chord in a step, relative: to q along q or to p along p,
-// whichever is less, as on logarithmic axes. Of three points at ds/2 the middle one is off the chord by a
+// Deviation of the curve of a quantity q over p from its chord in a step, relative to q along q or to p along
+// p, whichever is less, as on logarithmic axes. The middle of three points at ds/2 is off the chord by a
 // parallelogram of the slopes at the ends.
 double Resolution::chord_departure(const Place& from, const Place& to, std::size_t m, double length) const {
   const Eigen::Index n = to.v.size() - 1;

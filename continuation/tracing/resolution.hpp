@@ -1,5 +1,5 @@
 #pragma once
-// Whether a step tells what lies along it: the curve, its kinks, and the extremes of monitored quantities.
+// Whether a step resolves the curve along it, its kinks, and the extrema of monitored quantities.
 // Sections 8.4 and 8.5 of the theory. Not installed.
 
 #include <arcslip/continuation/events/monitor.hpp>
@@ -23,22 +23,22 @@ class Resolution {
         s_(state),
         main_(corrector) {}
 
-  /// Fills curve_error and other_piece_between: of the cubics along the smooth pieces, over that allowed, the
-  /// largest; and whether there is more between than these.
+  /// Fills curve_error, the largest error of the cubics along the smooth pieces relative to the tolerance,
+  /// and other_piece_between.
   void measure_curve(Trial& trial);
 
-  /// Whether kinks lie in the step that were not found, two between ends on one piece or one that is hard to
-  /// come to: then it is shortened, though not without end, as the cubic may touch another piece where the
-  /// branch does not.
+  /// Whether the step contains kinks that were not found, two between ends on one piece or one that is hard
+  /// to locate: then it is shortened, down to a limit, as the cubic may touch another piece where the branch
+  /// does not.
   bool hides_a_piece(const Trial& trial);
 
-  /// Whether each monitored quantity has no more extremes in the step than its slopes at the ends of its
-  /// sections tell. Beside a kink a slope may bend however short the step: in one stretch the step is
-  /// shortened no further than to a part of the first one. Fills chord_error and unresolved.
+  /// Whether each monitored quantity has no more extrema in the step than implied by its slopes at the ends
+  /// of the sections. Next to a kink a slope may bend however short the step: within one stretch of the
+  /// branch the step is shortened to a fixed fraction of the first one at most. Fills chord_error and
+  /// unresolved.
   bool tells_quantities(Trial& trial);
 
-  /// Whether steps have been shortened enough in the stretch of the branch where they do not tell what is
-  /// asked for.
+  /// Whether steps have been shortened enough in an unresolved stretch of the branch.
   bool stretch_is_short(double share) const;
   void begin_stretch(double length);
 

@@ -13,7 +13,7 @@
 namespace arcslip::continuation {
 namespace {
 
-// Distances are measured in them: a wrong one is no place to find out that a branch goes nowhere.
+// Distances are measured in scales: invalid ones are rejected here, not found by a failing branch.
 void check_scales(const Problem& problem) {
   const Vector scales = problem.scales();
   if (scales.size() != problem.size())
@@ -72,7 +72,7 @@ void check_start(const Problem& problem, const Start& start, const Options& opti
                                 ", must be +1 or -1");
   const double p = start.p[start.free];
   if (!start.u.allFinite() || !std::isfinite(p))
-    throw std::invalid_argument("the start has numbers that are not finite");
+    throw std::invalid_argument("the start has non-finite values");
   if (p < options.lower || p > options.upper)
     throw std::invalid_argument("the start is at " + text(p) + ", outside the window [" +
                                 text(options.lower) + ", " + text(options.upper) + "]");
@@ -91,9 +91,9 @@ void check_state(const Problem& problem, const State& state, std::size_t monitor
   if (state.here.v.size() != n + 1 ||
       state.p.size() != static_cast<Eigen::Index>(problem.parameters().size()) ||
       state.courses.size() != monitors)
-    throw std::invalid_argument("the state is of " + std::to_string(state.here.v.size() - 1) + " unknowns, " +
+    throw std::invalid_argument("the state has " + std::to_string(state.here.v.size() - 1) + " unknowns, " +
                                 std::to_string(state.p.size()) + " parameters and " +
-                                std::to_string(state.courses.size()) + " monitors, the problem of " +
+                                std::to_string(state.courses.size()) + " monitors, the problem has " +
                                 std::to_string(n) + ", " + std::to_string(problem.parameters().size()) +
                                 " and " + std::to_string(monitors));
   check_scales(problem);
@@ -135,7 +135,7 @@ class ScaledProblem final : public Problem {
 std::shared_ptr<const Problem> scaled_to_window(std::shared_ptr<const Problem> problem, int free,
                                                 double lower, double upper) {
   const auto index = static_cast<std::size_t>(free);
-  if (!problem || free < 0 || index >= problem->parameters().size()) return problem;  // refused elsewhere
+  if (!problem || free < 0 || index >= problem->parameters().size()) return problem;  // rejected elsewhere
   const Parameter& parameter = problem->parameters()[index];
   if (parameter.scale != 0) return problem;
   const double width = std::min(upper, parameter.upper) - std::max(lower, parameter.lower);

@@ -14,8 +14,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* format = "arcslip-state-1";
 
-// One list of the fields of each struct serves writing and reading: `fields` calls visit(name, field) for
-// each.
+// Each struct has one list of fields for both writing and reading: `fields` calls visit(name, field)
+// for each.
 template <class Visit>
 void fields(Visit&& visit, auto& x);
 
@@ -44,7 +44,7 @@ class Writer {
     } else if constexpr (std::is_enum_v<T>) {
       return static_cast<int>(x);
     } else if constexpr (std::is_same_v<T, double>) {
-      // JSON has no such numbers, but monitors do: the logarithm of an amplitude at rest.
+      // JSON has no infinities or NaN, but monitors do: the logarithm of a zero amplitude.
       if (std::isnan(x)) return "nan";
       if (std::isinf(x)) return x > 0 ? "inf" : "-inf";
       return x;
@@ -150,12 +150,12 @@ void fields(Visit&& visit, auto& x) {
   } else if constexpr (is<T, Branch>) {
     visit("points", x.points), visit("events", x.events), visit("stop", x.stop), visit("counts", x.counts);
     visit("linear_solver", x.linear_solver);
-    if (visit.holds("warnings")) visit("warnings", x.warnings);  // states of earlier versions have none
+    if (visit.holds("warnings")) visit("warnings", x.warnings);  // absent in states of earlier versions
   } else if constexpr (is<T, Place>) {
     visit("v", x.v), visit("tangent", x.tangent), visit("arclength", x.arclength);
     visit("orientation", x.orientation), visit("piece", x.piece), visit("monitors", x.monitors);
     visit("quantities", x.quantities);
-    if (visit.holds("part")) visit("part", x.part);  // states of earlier versions have none
+    if (visit.holds("part")) visit("part", x.part);  // absent in states of earlier versions
   } else if constexpr (is<T, LocatedEvent>) {
     visit("event", x.event), visit("place", x.place), visit("quantity", x.quantity);
     visit("rounding", x.rounding);
@@ -176,7 +176,7 @@ void fields(Visit&& visit, auto& x) {
     visit("step", x.step), visit("last_step", x.last_step), visit("rejections", x.rejections);
     visit("trouble_end", x.trouble_end), visit("unresolved_end", x.unresolved_end);
     visit("unresolved_step", x.unresolved_step), visit("turn", x.turn), visit("courses", x.courses);
-    if (visit.holds("factors")) {  // nor have they these
+    if (visit.holds("factors")) {  // absent there, too
       visit("longest", x.longest), visit("slow", x.slow), visit("jacobian_doubt", x.jacobian_doubt);
       visit("jacobian_error", x.jacobian_error), visit("factors_fit", x.factors_fit);
       visit("factors", x.factors);
@@ -190,7 +190,7 @@ void fields(Visit&& visit, auto& x) {
 std::string to_json(const State& state) {
   Json json{{"format", format}};
   fields(Writer(json), state);
-  // A message may hold words of the problem in any encoding.
+  // A message may quote the problem in any encoding.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

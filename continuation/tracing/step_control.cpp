@@ -6,12 +6,12 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, at most
+constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, limits
 constexpr double largest_extrapolation = 2.5;    // in last steps, for the cubic predictor
-constexpr double unresolved_rejection = 0.5;     // of the step where a quantity is not told by its slopes
-constexpr double curve_safety = 0.9;             // of the step that the curve's error allows
+constexpr double unresolved_rejection = 0.5;     // of the step if the slopes do not determine a quantity
+constexpr double curve_safety = 0.9;             // of the step allowed by the curve's error
 
-// Of the step, where the curve's error is `error` times that allowed: it falls with the fourth power.
+// Factor of the step for a curve error of `error` times the tolerance: the error is of fourth order.
 double curve_factor(double error) {
   return std::clamp(curve_safety / std::sqrt(std::sqrt(error)), shrinkage, growth);
 }
@@ -52,8 +52,8 @@ void StepControl::predict(Vector& v) const {
   v = s_.here.v + s_.step * s_.here.tangent;
 }
 
-// Of the curve's error in steps of one length, from the last step to this one: where it grows, as towards a
-// resonance, it is expected to go on so (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
+// Growth of the curve's error at equal step length, from the last step to this one: growth, as towards a
+// resonance, is expected to continue (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
 double StepControl::error_growth(const Trial& trial) const {
   if (!(s_.curve_error > 0) || !trial.corners.empty()) return 1;
   const double length = (trial.end.arclength - s_.here.arclength) / s_.last_step;

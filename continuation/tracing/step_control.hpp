@@ -1,5 +1,5 @@
 #pragma once
-// How long the steps of a trace are, and where they lead: section 8.4 of the theory. Not installed.
+// Step size control and prediction: section 8.4 of the theory. Not installed.
 
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
@@ -21,13 +21,13 @@ class StepControl {
   /// A step cut to what the options allow.
   double limited(double ds) const;
 
-  /// By the cubic or the secant of the last two points, or, after a kink, at the start or far out, the
-  /// tangent.
+  /// By the cubic or the secant of the last two points, or by the tangent after a kink, at the start or far
+  /// out.
   void predict(Vector& v) const;
 
   /// The step after an accepted one.
   double after(const Trial& trial) const;
-  /// The share of a step that is tried next where its corrector converged, but it does not tell the branch.
+  /// Factor of the step after a rejection with a converged corrector.
   double share_after_unresolved(const Trial& trial) const;
 
  private:

@@ -15,28 +15,27 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double rejection = 0.25;             // of the step after a rejection
-constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
+constexpr int rejections_before_a_corner = 2;  // in one section of the branch
 constexpr double parameter_overrun = 1.5;      // of the largest |dp| of a step
-constexpr double parameter_rounding = 1e-9;    // relative changes of p below tell no direction
-// A turn that keeps so much of itself over so much shorter a step is a kink.
+constexpr double parameter_rounding = 1e-9;    // relative changes of p below this give no direction
+// A turn of which this share remains in a step shortened by this factor is a kink.
 constexpr double kink_turn = 0.7, kink_step = 0.25;
-constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: no shorter step tells two branches apart
-constexpr double pair_share =
-    1e-3;  // of the first step in which a mode may pass zero and come back: not shorter
-constexpr double endless_tail =
-    1e-12;  // of the parameter's scale: so near to a bound a branch that does not reach it ends
-constexpr double tail_before = 1e-9;     // and its last point was so near
-constexpr double been_away = 3;          // roundings of the way from the start: nearer, it has not come back
-constexpr double singular_bound = 1e-6;  // relative to p: so near to a singular bound a branch has reached it
+constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: shorter steps cannot separate two branches
+constexpr double pair_share = 1e-3;  // of the first step in which a mode may cross zero and return: minimum
+constexpr double endless_tail = 1e-12;  // of the parameter's scale: end this close to an unreached bound
+constexpr double tail_before = 1e-9;    // with its last point this close
+constexpr double been_away = 3;  // roundings of the distance from the start: closer, it has not returned
+constexpr double singular_bound = 1e-6;  // relative to p: a singular bound this close is reached
 
-// Both tangents point one way in p, and p went the other way: another branch, or two folds in one step.
+// Both tangents point the same way in p, but p changed the other way: another branch, or two folds in
+// one step.
 bool went_back(const Place& from, const Place& to) {
   const Eigen::Index n = to.v.size() - 1;
   const double a = from.tangent[n], b = to.tangent[n], dp = to.v[n] - from.v[n];
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(from.v[n]);
 }
 
-// Where pieces of F meet at it, or a branch point that is not simple.
+// If pieces of F meet there, or the branch point is not simple.
 LocatedEvent unlocated_branch_point(const std::vector<Monitor>& monitors, const Place& from,
                                     const Place& to) {
   LocatedEvent found;
@@ -144,14 +143,15 @@ bool Tracer::Impl::may_try() {
   if (options_.go_on && !options_.go_on()) return end(StopReason::user, 1, 1, "stopped by the caller");
   if (!jacobian_.gets_on())
     return end(StopReason::wrong_jacobian, s_.jacobian_error, largest_jacobian_error,
-               "the branch gets no further: " + s_.jacobian_doubt);
+               "the branch cannot be continued: " + s_.jacobian_doubt);
   const double smallest = control_.smallest();
   if (!(s_.step < smallest)) return true;
   if (!trial_.evaluated)
     return end(StopReason::not_evaluated, s_.step, smallest,
-               "the problem could not be evaluated ahead, however short the step" + because(trial_.failure));
+               "the problem could not be evaluated at the next point, even with the smallest step" +
+                   because(trial_.failure));
   return end(StopReason::step_too_small, s_.step, smallest,
-             "the step fell below its smallest size after rejections" + jacobian_.doubt(s_.here.v) +
+             "the step size fell below its minimum after rejections" + jacobian_.doubt(s_.here.v) +
                  doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver));
 }
 
@@ -185,22 +185,22 @@ bool Tracer::Impl::passes_corner_instead() {
   return false;
 }
 
-// Whether a turn of the tangent that is too large is a kink: the piece changes, and the turn does not shrink
-// with the step. A turn is first met with a long step and rejected; it is the same one as long as its place
-// is not passed.
+// Whether too large a turn of the tangent is a kink: the piece changes, and the turn does not decrease with
+// the step. A turn is first met with a long step and rejected; it counts as the same one until its arclength
+// is passed.
 bool Tracer::Impl::is_kink() {
   if (trial_.end.piece == s_.here.piece) return false;
   const State::Turn now{trial_.turn, s_.step, s_.here.arclength + 2 * s_.step};
   if (s_.here.arclength > s_.turn.end) s_.turn = now;
   if (s_.step > kink_step * s_.turn.step) return false;
   if (trial_.turn >= kink_turn * s_.turn.angle) return true;
-  s_.turn = now;  // it shrank, but may stay from here on
+  s_.turn = now;  // it decreased, but may persist from here on
   return false;
 }
 
-// The branch point in the step, if there is one. What comes of the step where there is more than is found: a
-// change of orientation is a jump to a branch near by, unless branches cross here, or it stays however short
-// the step; and several modes that pass zero are several branch points, unless they do at one place.
+// Locates the branch point in the step, if any, and rejects the step otherwise: a change of orientation is a
+// jump to a nearby branch, unless branches cross here or it persists with the smallest step; and several
+// modes that cross zero are several branch points, unless they do so at the same point.
 std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
   Place& to = trial_.end;
   const bool turned = to.orientation != s_.here.orientation;
@@ -229,16 +229,16 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
   const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
   if (!doubt.empty() && to.piece == s_.here.piece) {
     end(StopReason::step_too_small, s_.step, inseparable,
-        "the direction of the branch changes however short the step" + doubt);
+        "the orientation of the branch changes even with the smallest step" + doubt);
     return Outcome::ended;
   }
   crossing = unlocated_branch_point(monitors_, s_.here, to);
   return {};
 }
 
-// The monitors at the solution of the last correction. Its factors, and so the tangent, are those of a place
-// within the corrector's tolerance, which near a sharp peak is enough to turn the sign of a monitor: a change
-// of sign is believed from the linearization at the solution itself.
+// The monitors at the solution of the last correction. Its factors, and thus the tangent, belong to a point
+// within the corrector's tolerance, which near a sharp peak can change the sign of a monitor: a sign change
+// is accepted only with the linearization at the solution itself.
 bool Tracer::Impl::measure() {
   Place& place = trial_.end;
   evaluate(monitors_, main_, place);
@@ -249,7 +249,7 @@ bool Tracer::Impl::measure() {
   return true;
 }
 
-// Into sections along which each quantity is one smooth one, where it is the largest of several.
+// Divides the step into sections with constant Monitor::part.
 void Tracer::Impl::divide() {
   std::vector<Corner> all;
   std::size_t k = 0;
@@ -289,7 +289,7 @@ Tracer::Impl::Outcome Tracer::Impl::end_at_bound(const Exit& exit) {
   const Place& from = trial_.last_section(s_.here);
   Place& place = trial_.end;
   auto& crossing = trial_.crossing;
-  // A branch point on the way changes the sign.
+  // A branch point within the step changes the sign.
   const bool crossed = crossing && from.arclength + exit.share * (place.arclength - from.arclength) >
                                        crossing->place.arclength;
   const int orientation = crossed ? place.orientation : s_.here.orientation;
@@ -319,7 +319,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::come_home() {
   const double rounding = rounding_of_home(main_, s_.start, options_.newton.rounding_level);
   if (!trial_.kink &&
       may_come_home(main_, s_.start, s_.here, place, trial_.length, options_.step.largest_angle, v_)) {
-    // The branch that passes so near is that of the start if it has the same solution in the start's plane.
+    // The nearby branch is that of the start if it has the same solution in the start's plane.
     v_ += main_.dot(s_.start.v - v_, s_.start.tangent) * s_.start.tangent;
     main_.border_row(s_.start.tangent, row_);
     const bool converged = main_.correct(v_, row_, false).converged;
@@ -327,7 +327,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::come_home() {
     if (converged && miss <= rounding) {
       place = s_.start;
       place.arclength = s_.here.arclength + distance(main_, s_.here.v, place.v);
-      if (accept()) end(StopReason::closed, miss, rounding, "came back to the start: the branch is closed");
+      if (accept()) end(StopReason::closed, miss, rounding, "returned to the start: the branch is closed");
       return Outcome::ended;
     }
     main_.border_row(place.tangent, row_);
@@ -341,7 +341,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::come_home() {
     place.arclength = at.arclength;
     trial_.corners.resize(k);
     if (accept())
-      end(StopReason::closed, miss, rounding, "came back to the start, a kink: the branch is closed");
+      end(StopReason::closed, miss, rounding, "returned to the start, a kink: the branch is closed");
     return Outcome::ended;
   }
   return {};
@@ -365,7 +365,7 @@ bool Tracer::Impl::accept() {
   return true;
 }
 
-// The branch ends at a terminal event: what was found beyond it, while it was not certain, is dropped.
+// Ends the branch at a terminal event: points and events beyond it, found while it was pending, are dropped.
 bool Tracer::Impl::end_at(const Place& terminal) {
   auto& points = s_.branch.points;
   auto& events = s_.branch.events;
@@ -382,7 +382,7 @@ bool Tracer::Impl::end_at(const Place& terminal) {
 void Tracer::Impl::end_in_tail(double bound) {
   end(StopReason::boundary, s_.here.v[n_], bound,
       "came within " + text(std::abs(bound - s_.here.v[n_])) + " of the end of the window at " + text(bound) +
-          ", which it does not reach: it goes to infinity along it, |u| = " + text(main_.norm_u(s_.here.v)) +
+          " without reaching it: the branch goes to infinity, |u| = " + text(main_.norm_u(s_.here.v)) +
           " in scales");
 }
 

@@ -4,8 +4,8 @@
 //   Branch branch = trace(problem, {.u = u0, .p = p0, .free = 0}, {.lower = -1, .upper = 1},
 //   {fold_monitor()});
 //
-// Each accepted point is linearized once. Those factors give its tangent, serve its monitors, and correct the
-// next point by chord steps while these contract.
+// Each accepted point is linearized once. The factors give its tangent, serve its monitors, and correct the
+// next point by chord steps as long as these contract.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -18,27 +18,27 @@
 
 namespace arcslip::continuation {
 
-/// Where a branch begins: u need only be near a solution at the parameters p.
+/// The start of a branch: an approximate solution u at the parameters p.
 struct Start {
   Vector u;           // n
   Vector p;           // all parameters
   int free = 0;       // index of the free one
-  int direction = 1;  // +1: towards larger values of the free parameter, -1: smaller; no other number
-  Vector tangent{};   // n + 1, or none: the way to go, in place of `direction`; the solution is then sought
-                      // across it, and not at p[free]
+  int direction = 1;  // +1: towards larger values of the free parameter, -1: towards smaller ones
+  Vector tangent{};   // n + 1, or none: the initial direction, in place of `direction`; the solution is then
+                      // sought in the plane normal to it, and not at p[free]
 };
 
 /// Called at each accepted point and, with the event, at each event, as soon as it is certain. Returns false
-/// to stop. What it throws is thrown on, by step() and trace().
+/// to stop. Exceptions are passed on by step() and trace().
 using Observer = std::function<bool(const Accepted&, const Event*)>;
 
 class Tracer {
  public:
-  /// Throws std::invalid_argument where options, sizes or the start do not fit.
+  /// Throws std::invalid_argument for invalid options, sizes or start.
   Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
          std::vector<Monitor> monitors = {}, Observer observer = {});
 
-  /// Goes on from where a trace of the same problem with the same options and monitors was saved.
+  /// Resumes a saved trace of the same problem with the same options and monitors.
   Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
          std::vector<Monitor> monitors = {}, Observer observer = {});
 
@@ -46,10 +46,10 @@ class Tracer {
   Tracer& operator=(Tracer&&) noexcept;
   ~Tracer();
 
-  /// One more point (the first call corrects the start). False once the branch has ended: see branch().stop.
+  /// Adds a point (the first call corrects the start). False if the branch has ended: see branch().stop.
   bool step();
 
-  /// Where the trace stands. This one goes on as if it had not been saved.
+  /// The current state. Saving does not affect this trace.
   State save() const;
 
   const Branch& branch() const;
@@ -60,7 +60,7 @@ class Tracer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Steps until the branch ends.
+/// Traces the branch until it ends.
 Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
              std::vector<Monitor> monitors = {}, Observer observer = {});
 

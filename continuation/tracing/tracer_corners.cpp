@@ -1,4 +1,4 @@
-// Steps across a kink at which the branch turns by any angle: section 8.5 of the theory.
+// Steps across a kink with an arbitrary turn of the branch: section 8.5 of the theory.
 
 #include <arcslip/continuation/tracing/tracer_impl.hpp>
 
@@ -13,9 +13,9 @@ constexpr int most_corners = 3;  // one after the other
 
 }  // namespace
 
-// Where the branch turns by any angle at a kink just ahead: goes to the kink, looks beyond it, and steps
-// along the tangent there, whose direction the sign of the determinant tells. Where that step fails, the
-// piece beyond the kink may end at once, as where two elements begin to slip together: then on to its end.
+// If the branch turns by any angle at a kink just ahead: moves to the kink, looks beyond it, and steps along
+// the tangent there, oriented by the sign of the determinant. If that step fails, the piece beyond the kink
+// may be very short, as where two elements start to slip together: then continues to its end.
 bool Tracer::Impl::corner() {
   trial_.begin();
   v_ = s_.here.v + s_.step * s_.here.tangent;

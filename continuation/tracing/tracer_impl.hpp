@@ -74,7 +74,7 @@ class Tracer::Impl {
   int n_;
   Corrector main_;
   EventLocator events_;
-  std::unique_ptr<ModeCounter> modes_;  // where branch points are wanted
+  std::unique_ptr<ModeCounter> modes_;  // if branch points are monitored
   StepControl control_;
   Resolution resolution_;
   JacobianWatch jacobian_;

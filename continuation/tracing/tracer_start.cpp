@@ -1,4 +1,4 @@
-// How a trace begins: from a start, or from where another one was saved.
+// Start of a trace: from a start point, or from a saved state.
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/continuation/special_points/inner_problem.hpp>
@@ -13,9 +13,10 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double first_share_of_window = 0.01;  // |dp| of a step where the user names none
+constexpr double first_share_of_window = 0.01;  // |dp| of a step by default
 constexpr const char* remedy =
-    ": on a fold or a branch point, p tells no way to go, and a start needs a tangent (Start::tangent)";
+    ": at a fold or a branch point p does not determine the direction, and a start needs a tangent "
+    "(Start::tangent)";
 
 // The window cut to the parameter's bounds, and the largest |dp| of a step.
 Options within(const Parameter& free, Options options) {
@@ -121,7 +122,7 @@ State Tracer::Impl::save() const {
   return state;
 }
 
-// To go on a message that the linearization at the start is singular.
+// Appended to the message that the linearization at the start is singular.
 std::string Tracer::Impl::singular_start(bool has_tangent) const {
   const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
   return !doubt.empty() || has_tangent ? doubt : remedy;

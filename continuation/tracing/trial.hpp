@@ -1,5 +1,5 @@
 #pragma once
-// A step that is tried, until it is accepted or rejected. Not installed.
+// An attempted step, until it is accepted or rejected. Not installed.
 
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
@@ -22,11 +22,11 @@ struct Trial {
   bool kink = false;                     // it crosses a kink that is no corner of it
   std::vector<Corner> corners;           // on the way, in order
   std::optional<LocatedEvent> crossing;  // the branch point on the way
-  double curve_error = 0;                // of the cubics along it, over that allowed
-  bool other_piece_between = false;      // of which its sections tell nothing
-  double chord_error = 0;                // of the monitored quantities, over that allowed
+  double curve_error = 0;                // of the cubics along it, relative to the tolerance
+  bool other_piece_between = false;      // unnoticed by its sections
+  double chord_error = 0;                // of the monitored quantities, relative to the tolerance
   Rejection rejection;                   // why it was rejected
-  std::size_t unresolved = 0;            // the monitor whose quantity was the reason
+  std::size_t unresolved = 0;            // the monitor of the unresolved quantity
   bool evaluated = true;                 // false: the reason is that the problem could not be evaluated
   std::string failure;                   // in its words
 

@@ -18,7 +18,7 @@ constexpr scene::Field all_fields[] = {
 class CubicSpring final : public SampledLaw {
  public:
   std::string_view name() const override { return "cubic_spring"; }
-  std::string_view help() const override { return "a spring that hardens, or softens, with the cube"; }
+  std::string_view help() const override { return "a cubic spring, hardening or softening"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
 
   bool antisymmetric() const override { return true; }

@@ -22,12 +22,12 @@ constexpr scene::Field all_fields[] = {
      .lower = 0,
      .upper = infinity,
      .lower_open = true,
-     .help = "of the spring in contact"},
+     .help = "stiffness in contact"},
     {.name = "gap",
      .unit = "m",
      .lower = 0,
      .upper = infinity,
-     .help = "displacement at which contact begins"},
+     .help = "displacement at the onset of contact"},
 };
 
 class GapElement final : public Element {
@@ -196,7 +196,7 @@ class GapCorners final : public Corners {
 class GapSpring final : public PlainLaw {
  public:
   std::string_view name() const override { return "gap_spring"; }
-  std::string_view help() const override { return "a one-sided spring behind a gap"; }
+  std::string_view help() const override { return "a unilateral spring with a gap"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
 
   bool antisymmetric() const override { return false; }

@@ -38,7 +38,9 @@ double limit(Fields fields) {
 class Jenkins final : public PlainLaw {
  public:
   std::string_view name() const override { return "jenkins"; }
-  std::string_view help() const override { return "a spring in series with a slider: macroslip"; }
+  std::string_view help() const override {
+    return "a spring in series with a Coulomb slider (Jenkins element): macroslip";
+  }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
 
   bool antisymmetric() const override { return true; }

@@ -33,7 +33,7 @@ std::string stiffness_apart(const Model& model, const continuation::Vector& p) {
   else
     text << "more than 1e308";
   text << " times " << name(softest) << " = " << p[softest]
-       << " N/m, farther apart than double precision can follow; make " << name(stiffest) << " smaller";
+       << " N/m, too large a ratio for double precision; make " << name(stiffest) << " smaller";
   return text.str();
 }
 

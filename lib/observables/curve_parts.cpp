@@ -139,18 +139,17 @@ void CurveParts::finish(ResponseBranch& part, const SpecialCurve& curve, bool is
   const std::string end = part.stop.message;
   if (part.status != Status::failed) part.stop = begin;
   part.status = Status::failed;
-  part.stop.message = "at its beginning, " + begin.message + "; at its end, " + end;
+  part.stop.message = "at its start, " + begin.message + "; at its end, " + end;
 }
 
 Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points, Status& status) const {
   const std::string where = way_.name + " = " + text(end.over);
   if (has_points && end.vanishes) {
     status = Status::complete;
-    return {
-        reasons::fold, end.over, end.over,
-        (peaks_ ? "the peak meets a minimum of the amplitude over the frequency, and there is none beyond "
-                : "the fold meets another at a corner of the response, and there is none beyond ") +
-            where};
+    return {reasons::fold, end.over, end.over,
+            (peaks_ ? "the peak meets a minimum of the amplitude over the frequency, and vanishes beyond "
+                    : "the fold meets another at a corner of the response, and vanishes beyond ") +
+                where};
   }
   if (!end.unbounded.empty()) {
     status = Status::complete;
@@ -159,7 +158,7 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
   }
   if (end.closed) {
     status = Status::complete;
-    return {reasons::closed, end.over, end.over, "the curve is closed: it came back to " + where};
+    return {reasons::closed, end.over, end.over, "the curve is closed: it returned to " + where};
   }
   if (end.left_window) {
     status = Status::complete;
@@ -170,22 +169,22 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
   if (has_points && end.goes_on) {
     status = Status::complete;
     return {reasons::corner, end.over, end.over,
-            "the " + what_ + " comes to a corner of the response at " + where +
-                ", from which another curve goes on"};
+            "the " + what_ + " reaches a corner of the response at " + where +
+                ", from which another curve continues"};
   }
   status = status_of(end.stop.reason);
   Stop stop{reason_of(end.stop.reason), end.stop.value, end.stop.limit, end.stop.message};
   if (end.stop.reason == StopReason::boundary) {
     stop.limit = begin == way_.to ? way_.from : way_.to;
     stop.message = (stop.value != begin  ? "reached the end of the range at "
-                    : begin == way_.from ? "came back to the beginning of the range at "
-                                         : "came back to the end of the range at ") +
+                    : begin == way_.from ? "returned to the start of the range at "
+                                         : "returned to the end of the range at ") +
                    way_.name + " = " + text(stop.value);
   } else if (!has_points) {
-    stop.message = "no curve was begun from the " + what_ + " at " + where + ": " + stop.message;
+    stop.message = "no curve was started from the " + what_ + " at " + where + ": " + stop.message;
   } else if (end.stop.reason == StopReason::step_too_small) {
-    stop.message = "the curve could not be followed beyond " + where + ": probably the " + what_ +
-                   " sits there at a corner of the response, where a phase of friction begins or ends";
+    stop.message = "the curve could not be continued beyond " + where + ": probably the " + what_ +
+                   " is at a corner of the response there, where a phase of friction starts or ends";
   } else {
     stop.message += ", near " + where;
   }

@@ -120,7 +120,7 @@ class Curves {
     if (response.failure.empty() || !failure_.empty()) return;
     failed_at_ = over;
     failure_ = "the response at " + way_.name + " = " + text(over) +
-               " could not be followed through the window, and curves may be missing: " + response.failure;
+               " could not be continued through the window, and curves may be missing: " + response.failure;
   }
 
   void follow(const SpecialPoint& start, double share) {

@@ -48,18 +48,19 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
   const Vector p = hbm::parameters_at(*problem, omega);
   problem = problem_with(hbm::linear_response(*problem, p).norm());
   if (const auto dof = model::drifting_dof(*model, p))
-    return {problem,
-            {},
-            "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
-                "\", and friction leaves it free to drift; add a spring between it and the ground or what is "
-                "held, or excite odd harmonics only, with an odd \"period\" of the harmonics"};
+    return {
+        problem,
+        {},
+        "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
+            "\", and friction leaves it free to drift; add a spring between it and the ground or a supported "
+            "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics"};
   const auto u = hbm::steady_state(problem, p, go_on);
   if (!u) {
     const std::string apart = model::stiffness_apart(*model, p);
     return {problem,
             {},
-            "Newton's method failed from rest and from the response without elements, and so did branches of "
-            "growing excitation and of growing forces of the elements" +
+            "Newton's method failed from rest and from the linear response, and so did continuation in the "
+            "excitation level and in the forces of the elements" +
                 (apart.empty() ? "" : "; " + apart)};
   }
   return {problem_with(u->norm()), u, {}};

@@ -120,7 +120,7 @@ class Sweep {
         for (const auto& event : result.events) highest = std::max(highest, event.point.omega);
         result.stop.message = "turned back at " + with_unit(highest) +
                               " and left the window at its lower end, " + with_unit(branch.stop.value) +
-                              ": no response above was traced";
+                              ": no response above that frequency was traced";
       }
     } else if (!growth.message.empty()) {
       result.stop.message += "; " + growth.message;

@@ -53,10 +53,10 @@ History history(const scene::Scene& scene, const ResponseBranch& branch, const R
                 std::span<const double> angles) {
   const auto model = std::make_shared<const model::Model>(model::build(scene_at(scene, branch, point)));
   const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
-  if (point.unbounded) throw std::invalid_argument("no history of an unbounded response");
+  if (point.unbounded) throw std::invalid_argument("an unbounded response has no history");
   if (static_cast<int>(point.unknowns.size()) != problem.size())
     throw std::invalid_argument("a point with " + std::to_string(point.unknowns.size()) +
-                                " unknowns is none of this scene, which has " +
+                                " unknowns does not belong to this scene, which has " +
                                 std::to_string(problem.size()));
   const Vector p = hbm::parameters_at(problem, point.omega), u = as_vector(point.unknowns);
   const auto at = problem.hbm_evaluator();
@@ -104,7 +104,7 @@ const ResponsePoint* point_at_frequency(const ResponseBranch& branch, double ome
 
 ForceDifference force_difference(std::span<const double> force, std::span<const double> reference) {
   if (force.size() != reference.size() || force.empty())
-    throw std::invalid_argument("forces to compare have " + std::to_string(force.size()) + " and " +
+    throw std::invalid_argument("the forces to compare have " + std::to_string(force.size()) + " and " +
                                 std::to_string(reference.size()) + " values");
   double largest = 0, largest_reference = 0, apart = 0, square = 0, square_reference = 0;
   for (std::size_t i = 0; i < force.size(); ++i) {

@@ -157,7 +157,7 @@ class Traces {
       if (event.kind == event_kinds::fold && way_.direction() * (event.point.over - farthest) > 0)
         farthest = event.point.over;
     result.stop.message = "turned back at " + way_.name + " = " + text(farthest) +
-                          " and left the range where it began, at " + text(way_.from);
+                          " and left the range at its start, " + text(way_.from);
   }
 
   OverParameter way_;

@@ -17,7 +17,7 @@ double value(const Point& point) {
   return point.*member;
 }
 
-// Has no value where the amplitude is unbounded.
+// no_value where the amplitude is unbounded.
 template <double Point::*member>
 double bounded(const Point& point) {
   return point.unbounded ? no_value : point.*member;
@@ -128,79 +128,85 @@ using F = ForceComponents;
 using P = PhaseParts;
 
 constexpr ResponseQuantity of_response[] = {
-    {"omega", "rad/s", "of the excitation", value<&Point::omega>},
-    {"frequency", frequency_unit, "of the excitation", value<&Point::omega>},
+    {"omega", "rad/s", "excitation frequency", value<&Point::omega>},
+    {"frequency", frequency_unit, "excitation frequency", value<&Point::omega>},
     {"amplitude", "m",
-     "largest absolute displacement of the response over the period; null where it is unbounded, with all "
-     "that "
+     "largest absolute displacement of the response over the period; null where unbounded, as is all that "
      "depends on it",
      bounded<&Point::amplitude>},
-    {"unbounded", "", "only where it is true: the amplitude grows without bound", is_unbounded, is_unbounded},
-    {"phase", "rad", "lag of the response's fundamental behind the force", bounded<&Point::phase>},
+    {"unbounded", "", "only if true: the amplitude grows without bound", is_unbounded, is_unbounded},
+    {"phase", "rad", "phase lag of the response's fundamental behind the force", bounded<&Point::phase>},
     {"truncation_estimate", "m",
-     "what the neglected harmonics would add: to the amplitude at this frequency (or value of the "
-     "parameter), at "
-     "an event to the amplitude of the event, which may move",
+     "estimated effect of the neglected harmonics on the amplitude at this frequency (or parameter value); "
+     "at an event, on the amplitude of the event, which may move",
      bounded<&Point::truncation_estimate>},
     {"truncation_flagged", "", "the estimate may be too low",
      [](const Point& point) { return point.truncation_flagged; }},
-    {"energy_friction", "J", "dissipated in a period by the elements", bounded<&Point::energy_friction>},
-    {"energy_viscous", "J", "dissipated in a period by dampers", bounded<&Point::energy_viscous>},
+    {"energy_friction", "J", "dissipated per period by the elements", bounded<&Point::energy_friction>},
+    {"energy_viscous", "J", "dissipated per period by the dampers", bounded<&Point::energy_viscous>},
     {"energy_total", "J", "their sum",
      [](const Point& point) { return point.unbounded ? no_value : point.energy_total(); }},
-    {"energy_input", "J", "work of the excitation in a period, which equals it",
+    {"energy_input", "J", "work of the excitation per period; equals `energy_total`",
      bounded<&Point::energy_input>},
     {"friction_percent", "%", "share of friction in `energy_total`",
      [](const Point& point) { return point.unbounded ? no_value : point.friction_percent(); }},
-    {"stick_percent", "%", "share of the period in stick, where there is exactly one friction element",
+    {"stick_percent", "%", "share of the period in stick, if there is exactly one friction element",
      stick_of_one, has_one_friction_element, one_friction_part},
     {"force_per_displacement.in_phase.total", "N/m",
-     "F_p/x: forces of the fundamental along the motion, per unit displacement of the response",
+     "F_p/x: fundamental of the forces along the motion, in phase with it, per unit displacement of the "
+     "response",
      total_force<&P::in_phase>, is_bounded},
-    {"force_per_displacement.in_phase.inertia", "N/m", "part of it", force<&F::inertia>, is_bounded},
-    {"force_per_displacement.in_phase.spring", "N/m", "part of it", force<&F::spring>, is_bounded},
-    {"force_per_displacement.in_phase.contact", "N/m", "part of it, of the friction elements",
+    {"force_per_displacement.in_phase.inertia", "N/m", "contribution of the inertia", force<&F::inertia>,
+     is_bounded},
+    {"force_per_displacement.in_phase.spring", "N/m", "contribution of the linear springs", force<&F::spring>,
+     is_bounded},
+    {"force_per_displacement.in_phase.contact", "N/m", "contribution of the friction elements",
      force<&F::contact, &P::in_phase>, is_bounded},
-    {"force_per_displacement.in_phase.nonlinear_spring", "N/m", "part of it, where there is such a spring",
-     force<&F::nonlinear_spring, &P::in_phase>, has_nonlinear_spring, any_nonlinear_spring},
-    {"force_per_displacement.in_phase.excitation", "N/m", "what the excitation has in phase; equals `total`",
+    {"force_per_displacement.in_phase.nonlinear_spring", "N/m",
+     "contribution of the nonlinear springs, if any", force<&F::nonlinear_spring, &P::in_phase>,
+     has_nonlinear_spring, any_nonlinear_spring},
+    {"force_per_displacement.in_phase.excitation", "N/m", "in-phase part of the excitation; equals `total`",
      force<&F::excitation, &P::in_phase>, is_bounded},
-    {"force_per_displacement.out_of_phase.total", "N/m", "F_o/x: the same, a quarter period ahead",
-     total_force<&P::out_of_phase>, is_bounded},
-    {"force_per_displacement.out_of_phase.viscous", "N/m", "part of it", force<&F::viscous>, is_bounded},
-    {"force_per_displacement.out_of_phase.contact", "N/m", "part of it, of the friction elements",
+    {"force_per_displacement.out_of_phase.total", "N/m",
+     "F_o/x: likewise, a quarter period ahead of the motion", total_force<&P::out_of_phase>, is_bounded},
+    {"force_per_displacement.out_of_phase.viscous", "N/m", "contribution of the dampers", force<&F::viscous>,
+     is_bounded},
+    {"force_per_displacement.out_of_phase.contact", "N/m", "contribution of the friction elements",
      force<&F::contact, &P::out_of_phase>, is_bounded},
     {"force_per_displacement.out_of_phase.nonlinear_spring", "N/m",
-     "part of it, where there is such a spring", force<&F::nonlinear_spring, &P::out_of_phase>,
+     "contribution of the nonlinear springs, if any", force<&F::nonlinear_spring, &P::out_of_phase>,
      has_nonlinear_spring, any_nonlinear_spring},
-    {"force_per_displacement.out_of_phase.excitation", "N/m", "what the excitation has ahead; equals `total`",
-     force<&F::excitation, &P::out_of_phase>, is_bounded},
-    {"maxima.velocity", "m/s", "at events, and on curves of peaks and folds: the largest of the response",
+    {"force_per_displacement.out_of_phase.excitation", "N/m",
+     "out-of-phase part of the excitation; equals `total`", force<&F::excitation, &P::out_of_phase>,
+     is_bounded},
+    {"maxima.velocity", "m/s",
+     "at events, and on curves of peaks and folds: largest absolute velocity of the response",
      largest<&MotionMaxima::velocity>, has_maxima},
-    {"maxima.acceleration", "m/s²", "likewise", largest<&MotionMaxima::acceleration>, has_maxima},
+    {"maxima.acceleration", "m/s²", "likewise, acceleration", largest<&MotionMaxima::acceleration>,
+     has_maxima},
     {"maxima.in_phase", "N/m",
-     "likewise, for one mass with one friction element alone: the F_p/x of Al Sayed et al. (2011) by maxima "
+     "likewise, only for one mass with one friction element: F_p/x of Al Sayed et al. (2011), from maxima "
      "over the period",
      largest_force<&P::in_phase>, has_force_maxima, one_mass_and_friction_part},
-    {"maxima.out_of_phase", "N/m", "likewise, their F_o/x", largest_force<&P::out_of_phase>, has_force_maxima,
+    {"maxima.out_of_phase", "N/m", "likewise, F_o/x", largest_force<&P::out_of_phase>, has_force_maxima,
      one_mass_and_friction_part},
 };
 
 constexpr ElementQuantity of_element[] = {
     {"stick_percent", "%", "friction elements: share of the period in stick",
      element<&Element::stick_percent>, is_friction, is_friction_part},
-    {"slip_angles", "rad", "friction elements: where slip begins", angles<&Element::slip_angles>, is_friction,
-     is_friction_part},
-    {"reversal_angles", "rad", "friction elements: where slip ends", angles<&Element::reversal_angles>,
+    {"slip_angles", "rad", "friction elements: onset of each slip phase", angles<&Element::slip_angles>,
      is_friction, is_friction_part},
-    {"energy", "J", "dissipated in a period", element<&Element::energy>},
+    {"reversal_angles", "rad", "friction elements: end of each slip phase", angles<&Element::reversal_angles>,
+     is_friction, is_friction_part},
+    {"energy", "J", "dissipated per period", element<&Element::energy>},
     {"theta_0", "rad",
      "friction elements with one stick and one slip phase in each half period: largest displacement of the "
      "element",
      element<&Element::theta_0>, is_friction, is_friction_part},
-    {"theta_star", "rad", "likewise: the slip onset after it", element<&Element::theta_star>, is_friction,
+    {"theta_star", "rad", "likewise: the next slip onset", element<&Element::theta_star>, is_friction,
      is_friction_part},
-    {"in_phase", "N", "fundamental of the force, in phase with that of the element's displacement",
+    {"in_phase", "N", "fundamental of the force, in phase with the fundamental of the element's displacement",
      fundamental<&P::in_phase>},
     {"out_of_phase", "N", "likewise, a quarter period ahead", fundamental<&P::out_of_phase>},
     {"equivalent_stiffness", "N/m", "`in_phase` over the displacement",
@@ -208,18 +214,19 @@ constexpr ElementQuantity of_element[] = {
     {"equivalent_damping", "N s/m", "`out_of_phase` over the velocity",
      element<&Element::equivalent_damping>},
     {"maxima.force", "N",
-     "friction elements, where the response has maxima: of the force as a series of the harmonics kept",
+     "friction elements, where the response has `maxima`: maximum of the truncated Fourier series of the "
+     "force",
      largest_of<&ForceMaxima::force>, has_element_maxima, is_friction_part},
-    {"maxima.cosine", "N", "likewise, of its cosine terms", largest_of<&ForceMaxima::cosine>,
+    {"maxima.cosine", "N", "likewise, of the cosine terms", largest_of<&ForceMaxima::cosine>,
      has_element_maxima, is_friction_part},
-    {"maxima.sine", "N", "likewise, of its sine terms", largest_of<&ForceMaxima::sine>, has_element_maxima,
+    {"maxima.sine", "N", "likewise, of the sine terms", largest_of<&ForceMaxima::sine>, has_element_maxima,
      is_friction_part},
 };
 
 constexpr Quantity<NamedResponse> of_named_response[] = {
     {"amplitude", "m", "largest absolute displacement over the period",
      [](const NamedResponse& response) { return response.amplitude; }},
-    {"phase", "rad", "lag of the fundamental behind the force",
+    {"phase", "rad", "phase lag of the fundamental behind the force",
      [](const NamedResponse& response) { return response.phase; }},
 };
 

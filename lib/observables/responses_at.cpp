@@ -39,7 +39,7 @@ void add_others(const std::shared_ptr<const model::Model>& model, double omega, 
   if (stop.reason != continuation::StopReason::boundary || stop.value != window.upper)
     found.doubt =
         "other responses may be missing, since the branch from a quarter to four times the frequency "
-        "could not be followed: " +
+        "could not be continued: " +
         stop.message;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const auto &a = points[i - 1], &b = points[i];
@@ -48,7 +48,7 @@ void add_others(const std::shared_ptr<const model::Model>& model, double omega, 
     const auto u = hbm::response_near(*swept.problem, p, a.u + share * (b.u - a.u));
     const auto is_same = [&](const Vector& other) { return (*u - other).norm() <= same * other.norm(); };
     if (!u)
-      found.doubt = "another response, where a branch passes the frequency, could not be corrected";
+      found.doubt = "another response, where a branch crosses the frequency, could not be corrected";
     else if (std::none_of(found.u.begin(), found.u.end(), is_same))
       found.u.push_back(*u);
   }

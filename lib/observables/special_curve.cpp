@@ -79,7 +79,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     const auto corner = to_corner(at);
     if (!corner) {
       end.stop.reason = StopReason::start_failed;
-      end.stop.message = "it is a corner of the response, but none where an element begins to slip";
+      end.stop.message = "it is a corner of the response, but not an onset of slip";
       return std::move(result_);
     }
     at = *corner;

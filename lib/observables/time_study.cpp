@@ -155,7 +155,7 @@ class InTime {
         message = error.what();
       }
       if (!may_differ) {
-        end(Status::failed, reason, 0, 0, message + "; take the method newmark");
+        end(Status::failed, reason, 0, 0, message + "; use the method newmark");
         return false;
       }
     }
@@ -189,7 +189,7 @@ class InTime {
     const time::Flow flow = [&](const State& start) {
       if (go_on(progress_.points + 1)) return integrator.flow(start);
       time::PeriodMap none;
-      none.message = "stopped as asked";
+      none.message = "stopped by the caller";
       return none;
     };
     time::ShootingOptions options;
@@ -209,9 +209,9 @@ class InTime {
     }
     motion_.periods = progress_.points + settings_.recorded;
     motion_.change = found.correction;
-    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped as asked");
+    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     record(integrator.periods(found.start, settings_.recorded, true));
-    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped as asked");
+    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     if (!found.converged())
       return end(Status::failed, reasons::no_periodic_motion, found.correction, settings_.tolerance,
                  found.message);
@@ -242,11 +242,11 @@ class InTime {
     record(std::move(found.motion));
     std::ostringstream text;
     text.precision(3);
-    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped as asked");
+    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     switch (found.reason) {
       case time::TransientEnd::steady:
-        text << "steady after " << found.periods << " periods: the state changes by " << found.change
-             << " of its size in a period";
+        text << "steady after " << found.periods << " periods: relative change of the state per period "
+             << found.change;
         return end(Status::complete, reasons::steady, found.change, settings_.tolerance, text.str());
       case time::TransientEnd::failed:
         return end(Status::failed, failure, 0, 0, message);
@@ -256,10 +256,10 @@ class InTime {
     }
     if (settings_.tolerance == 0)
       return end(Status::complete, reasons::periods, settings_.periods, settings_.periods,
-                 "integrated over as many periods as were asked for");
+                 "integrated over the requested number of periods");
     text << "after " << settings_.periods << " periods (the limit) the state still changes by "
          << found.change
-         << " of its size in a period: allow more periods, or find the periodic motion by shooting";
+         << " of its size per period: allow more periods, or find the periodic motion by shooting";
     end(Status::stopped, reasons::period_limit, found.change, settings_.tolerance, text.str());
   }
 

@@ -44,7 +44,7 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
   std::ostringstream text;
   text.precision(6);
   if (evaluator->move_to(u, p, continuation::Needs::residual) != continuation::Evaluated::ok) {
-    result.message = "the response exceeds what can be computed";
+    result.message = "the response overflowed";
     return result;
   }
   const double viscous =
@@ -84,9 +84,9 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
   const bool damped = viscous > negligible * result.input * amplitude;
   result.unbounded = !damped && !restoring && result.dissipation <= result.input * (1 + negligible);
   if (result.unbounded) {
-    text << "the resonance is unbounded: nothing damps it viscously, and friction takes out "
+    text << "the resonance is unbounded: it has no viscous damping, and friction dissipates "
          << result.dissipation << " N of the " << result.input
-         << " N that the excitation puts in (work per period over pi and amplitude)";
+         << " N supplied by the excitation (work per period over pi and amplitude)";
   } else {
     text << "beyond " << amplitude << " m the response is bounded by "
          << (damped      ? "viscous damping"
@@ -97,8 +97,8 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
   return result;
 }
 
-// A response that grows on its branch grows with all elastic forces that grow no faster than it does; the
-// pole of the response without elements is moved by those that grow as fast.
+// A response that grows along its branch includes all elastic forces that grow no faster than itself; the
+// pole of the response without elements is shifted by those that grow as fast.
 constexpr double faster = 1.5, as_fast = 1;
 
 }  // namespace

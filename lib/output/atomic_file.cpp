@@ -29,25 +29,25 @@ const char* advice(int error) {
     case EACCES:
     case EPERM:
     case EROFS:
-      return "choose a folder in which you may write";
+      return "choose a writable folder";
     case ENOENT:
-      return "make the folder first, or check its name";
+      return "create the folder first, or check its name";
     case ENOTDIR:
-      return "a part of this path is a file where a folder is needed";
+      return "a part of this path is a file, not a folder";
     case EISDIR:
-      return "it is a folder; give the name of a file";
+      return "it is a folder; choose a file name";
     case ENAMETOOLONG:
       return "choose a shorter name";
     case EBADF:
       return "it is closed";
     case EPIPE:
-      return "the reader has gone";
+      return "the reader closed it";
     case EINTR:
       return "nobody read it when the run was interrupted";
     case ELOOP:
-      return "its links lead in a circle; give the name of a file";
+      return "circular symbolic links; choose another file name";
     default:
-      return "check the disk, or write to another place";
+      return "check the disk, or choose another path";
   }
 }
 

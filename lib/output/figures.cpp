@@ -75,19 +75,19 @@ int remove_images(const std::string& base, const std::vector<std::string>& image
 std::string problem_of(const ProcessResult& result, const std::string& folder, const std::string& script,
                        std::chrono::milliseconds time) {
   if (result.end == ProcessEnd::not_found) {
-    return "figures need gnuplot (Debian package gnuplot-nox); the data and the script are there: "
+    return "figures need gnuplot (Debian package gnuplot-nox); the data and the script were written: "
            "after installing it, run gnuplot -d " +
            script + " in " + folder;
   }
   std::string problem =
       "gnuplot could not draw the figures (exit code " + std::to_string(result.exit_code) + ")";
   if (result.end == ProcessEnd::out_of_time) {
-    problem =
-        "gnuplot has not drawn the figures in " + std::to_string(time.count() / 1000) + " s and was ended";
+    problem = "gnuplot has not drawn the figures in " + std::to_string(time.count() / 1000) +
+              " s and was terminated";
   } else if (result.signal != 0) {
     problem = "gnuplot was ended by signal " + std::to_string(result.signal);
   } else if (result.exit_code == 0) {
-    problem = "gnuplot left a figure incomplete, or it could not be put in its place (is the disk full?)";
+    problem = "gnuplot left a figure incomplete, or it could not be renamed (is the disk full?)";
   }
   problem += "; to see why, run gnuplot -d " + script + " in " + folder;
   std::string said = result.text;
@@ -138,16 +138,16 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
   write_file(result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, images); });
   const auto problem = [&](const std::string& what) {
     result.problem = what + (removed > 0 && result.images.empty()
-                                 ? "; those of an earlier run are removed, since they show other data"
+                                 ? "; those of an earlier run were removed, since they show other data"
                                  : "");
   };
   if (images.empty()) {
-    problem("there is no point to draw, so there is no figure");
+    problem("no figure was drawn: there are no points");
     return result;
   }
   const std::string interrupted =
-      "interrupted before the figures were drawn; the data and the script are "
-      "there: run gnuplot -d " +
+      "interrupted before the figures were drawn; the data and the script were "
+      "written: run gnuplot -d " +
       stem + ".gp in " + folder;
   if (scene::is_asked(stop)) {
     problem(interrupted);

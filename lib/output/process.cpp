@@ -56,7 +56,7 @@ class Pipe {
  public:
   Pipe() {
     if (::pipe2(ends_.data(), O_CLOEXEC) != 0) {
-      throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+      throw std::system_error(errno, std::generic_category(), "cannot create a pipe");
     }
   }
   Pipe(const Pipe&) = delete;

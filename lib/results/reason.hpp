@@ -1,12 +1,12 @@
 #pragma once
-// How a computation ended, and why, as a constant that has a code and an explanation.
+// Status of a computation and the reason why it ended: a constant with a code and an explanation.
 
 #include <ostream>
 #include <string_view>
 
 namespace arcslip::results {
 
-/// Why a computation ended: a constant, equal to another where their codes are. Without a code: none.
+/// Why a computation ended. Two reasons are equal if their codes are; an empty code means no reason.
 struct Reason {
   std::string_view code{};  // as results write it: "boundary"
   std::string_view help{};  // one line of Markdown
@@ -15,7 +15,7 @@ struct Reason {
   friend std::ostream& operator<<(std::ostream& to, const Reason& reason) { return to << reason.code; }
 };
 
-/// How it ended: with all that was asked for, right as far as it goes, or without what was asked for.
+/// complete: all of the result; stopped: a correct part of it; failed: no result.
 enum class Status { complete, stopped, failed };
 
 /// "complete", "stopped" or "failed".
@@ -25,7 +25,7 @@ constexpr const char* name(Status status) {
 
 namespace reasons {
 
-inline constexpr Reason user{"user", "the user stopped it; what was computed until then is kept"};
+inline constexpr Reason user{"user", "the user stopped it; the results so far are kept"};
 
 }  // namespace reasons
 

@@ -54,7 +54,7 @@ void Faults::raise() const {
   std::vector<Fault> faults = kept_;
   if (count_ > kept_.size()) {
     faults.push_back(
-        {"", "and " + std::to_string(count_ - kept_.size()) + " faults more, which are not listed"});
+        {"", "and " + std::to_string(count_ - kept_.size()) + " more faults, which are not listed"});
   }
   throw SceneError(std::move(faults));
 }

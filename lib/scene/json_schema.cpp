@@ -177,11 +177,12 @@ Node part_of(const PartType& type, bool with_type) {
     }
   }
   if (&type == &force_type()) {
-    properties.push_back({"harmonic", of({{"type", node("integer")},
-                                          {"minimum", node(0)},
-                                          {"maximum", node(largest_order)},
-                                          {"default", node(Part{}.harmonic)},
-                                          {"description", node("of the force; 0: it is constant")}})});
+    properties.push_back(
+        {"harmonic", of({{"type", node("integer")},
+                         {"minimum", node(0)},
+                         {"maximum", node(largest_order)},
+                         {"default", node(Part{}.harmonic)},
+                         {"description", node("harmonic of the force; 0: constant force")}})});
   }
   for (const Field& field : type.fields({})) {
     properties.push_back({std::string(field.name), number_of(field)});

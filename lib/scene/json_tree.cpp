@@ -153,7 +153,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   Node* place(Node&& node) {
     if (++count_ > largest_count) {
       fail(source_.place() + ": found more than " + std::to_string(largest_count) +
-           " values, a scene must have at most so many");
+           " values, must be at most that many");
     }
     if (count_ % between_questions == 0 && is_asked(stop_)) {
       throw Interrupted("interrupted while the scene was read");

@@ -4,7 +4,7 @@
 //
 //   struct Window { std::string over; double from = 0, to = 0, lower = 0, upper = 0; };
 //   KeysOf<Window> keys;
-//   keys.add(range_over(&Window::over, &Window::from, &Window::to, "the parameter that is varied"));
+//   keys.add(range_over(&Window::over, &Window::from, &Window::to, "the parameter to vary"));
 //   keys.add(window(&Window::lower, &Window::upper, "where peaks are looked for"));
 
 #include <arcslip/scene/read_parts.hpp>
@@ -74,8 +74,8 @@ KeyGroup<S> frequency_range(double S::*from, double S::*to) {
 template <class S>
 KeyGroup<S> range_over(std::string S::*over, double S::*from, double S::*to) {
   return {{{"over", KeyType::parameter, "", "a parameter \"part.field\" or a tie", "", true,
-            "the parameter that is varied"},
-           {"from", KeyType::value, "parameter", "what the parameter may be", "", true,
+            "the parameter to vary"},
+           {"from", KeyType::value, "parameter", "within the parameter's bounds", "", true,
             "first value of the parameter"},
            {"to", KeyType::value, "parameter", "above \"from\"", "", true, "last value of the parameter"}},
           [=](const Reading& reading, S& s) {
@@ -97,7 +97,7 @@ KeyGroup<S> range_over(std::string S::*over, double S::*from, double S::*to) {
 template <class S>
 KeyGroup<S> window(double S::*lower, double S::*upper) {
   return {{{"frequency", KeyType::window, "frequency", "[lower, upper], 0 < lower < upper", "", true,
-            "the window of frequencies"}},
+            "the frequency window"}},
           [=](const Reading& reading, S& s) { std::tie(s.*lower, s.*upper) = read_window(reading); },
           [=](const S& s, const Scene&, Node::Object& to_file) {
             to_file.push_back({"frequency", node(std::vector{s.*lower, s.*upper})});
@@ -142,7 +142,7 @@ KeyGroup<S> whole(const std::string& name, int S::*value, int lower, int upper, 
           }};
 }
 
-/// A text that may be absent. what: "a string, the name of an algorithm of NLopt".
+/// A text that may be absent. what: "a string, the name of an NLopt algorithm".
 template <class S>
 KeyGroup<S> text(const std::string& name, std::string S::*value, const std::string& what,
                  std::string otherwise, std::string help) {

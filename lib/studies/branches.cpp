@@ -26,9 +26,9 @@ struct Tables {
                [](const ResponseEvent& event) { return event.kind; });
     events.add({"nonsmooth"}, "", "at a kink of the branch",
                [](const ResponseEvent& event) { return event.nonsmooth; });
-    events.add({"located"}, "", "false: the nearest point in its place",
+    events.add({"located"}, "", "false: replaced by the nearest point",
                [](const ResponseEvent& event) { return event.located; });
-    events.add({"after"}, "", "index of the point before it",
+    events.add({"after"}, "", "index of the preceding point",
                [](const ResponseEvent& event) { return event.after; });
     events.add(responses(scene, {over, true, coefficients}),
                [](const ResponseEvent& event) { return &event.point; });

@@ -64,7 +64,7 @@ void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::
 results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked& asked) {
   results::TableOf<ResponsePoint> table;
   if (!asked.over.empty())
-    table.add({asked.over}, parameter_unit(scene, asked.over), "the parameter, here",
+    table.add({asked.over}, parameter_unit(scene, asked.over), "the continuation parameter",
               [](const ResponsePoint& response) { return response.over; });
   add(
       observables::response_quantities(), scene, scene, asked, {},
@@ -86,7 +86,7 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
           },
           table);
   if (asked.coefficients)
-    table.add({"coefficients"}, "m", "a_n, b_n of the response for each of its harmonics",
+    table.add({"coefficients"}, "m", "Fourier coefficients a_n, b_n of the response, for each harmonic",
               [](const ResponsePoint& response) { return response.coefficients; });
   return table;
 }
@@ -136,7 +136,7 @@ results::Object solver(const observables::SolverSummary& summary) {
 std::string doubt_of(const observables::ResponseBranch& branch) {
   return branch.doubt.empty()
              ? ""
-             : "followed in its rounding, which takes digits of what it tells: " + branch.doubt;
+             : "dominated by rounding errors, so that its results lose digits: " + branch.doubt;
 }
 
 }  // namespace arcslip::studies

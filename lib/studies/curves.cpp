@@ -20,7 +20,7 @@ scene::file::KeysOf<CurveRange> keys() {
 const scene::StudyType& peaks() {
   static const StudyOf<CurveRange, observables::ResponseBranch> type(
       branch_kind<observables::resonance_peaks, BranchKind::peaks>(
-          "peaks", "resonance peaks over a parameter, with the least and the greatest", keys()));
+          "peaks", "resonance peaks over a parameter, with their minima and maxima", keys()));
   return type;
 }
 

@@ -27,7 +27,7 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
       return list && at.i < list->size() ? std::optional((*list)[at.i]) : std::nullopt;
     });
   };
-  add({"time"}, "s", "from the beginning of the recorded periods", [](const auto& of) { return &of.time; });
+  add({"time"}, "s", "from the start of the recorded periods", [](const auto& of) { return &of.time; });
   add({"displacement"}, "m", "of the response", [](const auto& of) { return &of.displacement; });
   add({"velocity"}, "m/s", "of the response", [](const auto& of) { return &of.velocity; });
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
@@ -41,7 +41,7 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
     of_element("displacement", "m", "of the element", &time::ElementHistory::displacement);
     of_element("force", "N", "against the motion", &time::ElementHistory::force);
     if (observables::is_friction_part(scene.elements[e]))
-      of_element("slider", "m", "friction elements: where the slider is", &time::ElementHistory::slider);
+      of_element("slider", "m", "friction elements: position of the slider", &time::ElementHistory::slider);
   }
   return table;
 }

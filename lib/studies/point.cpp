@@ -20,8 +20,9 @@ constexpr int most_steps = 10'000'000;
 
 scene::file::KeysOf<PointSettings> keys() {
   scene::file::KeysOf<PointSettings> keys;
-  keys.add(scene::file::one_frequency(&PointSettings::frequency, "the frequency of the excitation"));
-  keys.add(scene::file::whole("steps", &PointSettings::steps, 1, most_steps, "instants of the history"));
+  keys.add(scene::file::one_frequency(&PointSettings::frequency, "the excitation frequency"));
+  keys.add(
+      scene::file::whole("steps", &PointSettings::steps, 1, most_steps, "number of instants of the history"));
   return keys;
 }
 
@@ -36,7 +37,7 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
   results::TableOf<Instant> table;
   table.add({"time"}, "s", "of the period",
             [](const Instant& at) { return at.history->angle[at.i] / at.history->base_frequency; });
-  table.add({"angle"}, "rad", "base frequency times it",
+  table.add({"angle"}, "rad", "base frequency times the time",
             [](const Instant& at) { return at.history->angle[at.i]; });
   table.add({"displacement"}, "m", "of the response",
             [](const Instant& at) { return at.history->displacement[at.i]; });
@@ -51,7 +52,7 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
     add(e, "displacement", "m", "of the element", &ElementHistory::displacement);
     add(e, "velocity", "m/s", "of the element", &ElementHistory::velocity);
     add(e, "force", "N", "of the law, against the motion", &ElementHistory::force);
-    add(e, "series", "N", "the same by the harmonics kept", &ElementHistory::series);
+    add(e, "series", "N", "the same as the truncated Fourier series", &ElementHistory::series);
   }
   return table;
 }
@@ -121,7 +122,7 @@ observables::Motion motion_of(const PointResponse& response) {
 const scene::StudyType& point() {
   static const StudyOf<PointSettings, PointResponse> type(
       {.name = "point",
-       .help = "the responses at one frequency, with all that is known of them and their loops",
+       .help = "the responses at one frequency, with all of their quantities and hysteresis loops",
        .keys = keys(),
        .compute =
            [](const Case& at, const PointSettings& settings, const results::ProgressCallback& progress) {

@@ -38,17 +38,18 @@ void check_history(const Reading& reading, TimeSettings& time) {
 scene::file::KeysOf<TimeSettings> keys() {
   using namespace scene::file;
   KeysOf<TimeSettings> keys;
-  keys.add(one_frequency(&TimeSettings::frequency, "the frequency of the excitation"));
-  keys.add(
-      word("method", &TimeSettings::method, method_words(),
-           "shooting (the periodic motion, exact where the scene is piecewise linear), newmark-shooting, "
-           "or period by period from rest: newmark, event-driven"));
+  keys.add(one_frequency(&TimeSettings::frequency, "the excitation frequency"));
+  keys.add(word("method", &TimeSettings::method, method_words(),
+                "shooting (the periodic motion, exact for piecewise linear scenes), newmark-shooting, or a "
+                "transient from rest: newmark, event-driven"));
   keys.add(whole("steps", &TimeSettings::steps, 1, most_steps, "steps per period of the motion"));
-  keys.add(whole("periods", &TimeSettings::periods, 1, most_periods, "periods of a transient at most"));
-  keys.add(whole("recorded", &TimeSettings::recorded, 1, most_periods, "periods with history, at the end"));
+  keys.add(
+      whole("periods", &TimeSettings::periods, 1, most_periods, "maximum number of periods of a transient"));
+  keys.add(
+      whole("recorded", &TimeSettings::recorded, 1, most_periods, "number of periods recorded, at the end"));
   keys.add(number(&TimeSettings::tolerance, {.name = "tolerance", .unit = "-", .lower = 0, .upper = 1},
-                  "of the state: change over a period that is steady, or last correction of shooting; 0: no "
-                  "transient ends before its periods"));
+                  "relative tolerance of the state: its change over a period in steady state, or the last "
+                  "correction of shooting; 0: a transient runs for all of its periods"));
   keys.check(check_history);
   return keys;
 }
@@ -58,7 +59,8 @@ scene::file::KeysOf<TimeSettings> keys() {
 const scene::StudyType& time() {
   static const StudyOf<TimeSettings, Motion> type(
       {.name = "time",
-       .help = "motions in time at one frequency: steady, or from rest, with their loops",
+       .help =
+           "time integration at one frequency: steady state or transient from rest, with hysteresis loops",
        .keys = keys(),
        .compute =
            [](const Case& at, const TimeSettings& settings, const results::ProgressCallback& progress) {

@@ -10,7 +10,7 @@ using observables::ParameterRange;
 scene::file::KeysOf<ParameterRange> keys() {
   scene::file::KeysOf<ParameterRange> keys;
   keys.add(scene::file::range_over(&ParameterRange::over, &ParameterRange::from, &ParameterRange::to));
-  keys.add(scene::file::one_frequency(&ParameterRange::frequency, "the frequency"));
+  keys.add(scene::file::one_frequency(&ParameterRange::frequency, "the excitation frequency"));
   return keys;
 }
 
@@ -19,7 +19,7 @@ scene::file::KeysOf<ParameterRange> keys() {
 const scene::StudyType& trace() {
   static const StudyOf<ParameterRange, observables::ResponseBranch> type(
       branch_kind<observables::parameter_response, BranchKind::over_parameter>(
-          "trace", "responses over a parameter at a fixed frequency, with their extremes and folds", keys()));
+          "trace", "responses over a parameter at a fixed frequency, with their extrema and folds", keys()));
   return type;
 }
 

@@ -24,9 +24,7 @@ std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
     auto automata = element.law->automata(element.fields);
     if (!automata || !element.law->symmetric_step())
       throw NotPiecewiseLinear(
-          "an exact integration between events needs laws that are piecewise linear with symmetric "
-          "stiffness: "
-          "the element \"" +
+          "event-driven integration requires piecewise linear laws with symmetric stiffness: the element \"" +
           element.name + "\" is not");
     for (auto& automaton : *automata) {
       const int k = automaton.memory;
@@ -239,7 +237,7 @@ std::string March::message() const {
       text << "the motion is no longer finite at " << t_ << " s";
       break;
     case EndReason::stopped:
-      text << "stopped as asked, at " << t_ << " s";
+      text << "stopped by the caller at " << t_ << " s";
       break;
   }
   return text.str();

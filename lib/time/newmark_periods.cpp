@@ -107,13 +107,14 @@ std::pair<results::Reason, std::string> failure_of(Solved solved, double time) {
       break;
     case Solved::no:
       return {reasons::no_convergence,
-              "Newton's method found no balance of forces" + at.str() + ": take more steps per period"};
+              "Newton's method did not converge" + at.str() + ": use more steps per period"};
     case Solved::singular:
-      return {reasons::singular,
-              "nothing holds the structure" + at.str() +
-                  ": a degree of freedom without mass needs a spring or damper besides elements that slip"};
+      return {
+          reasons::singular,
+          "the equations are singular" + at.str() +
+              ": a degree of freedom without mass needs a spring or damper in addition to slipping elements"};
     case Solved::not_finite:
-      return {reasons::not_finite, "the motion grew beyond all numbers" + at.str()};
+      return {reasons::not_finite, "the motion overflowed" + at.str()};
   }
   return {};
 }
@@ -138,7 +139,7 @@ PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, b
   std::tie(result.failure, result.message) = failure_of(solved, newmark.time());
   if (stopped) {
     result.failure = reasons::user;
-    result.message = "stopped as asked";
+    result.message = "stopped by the caller";
   }
   return result;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Why an integration in time ended before its end.
+// Reasons why a time integration stopped early.
 
 #include <arcslip/results/reason.hpp>
 
@@ -9,13 +9,12 @@ using results::Reason;
 using results::reasons::user;
 
 inline constexpr Reason no_convergence{
-    "no_convergence", "Newton's method found no balance of forces in a step: take more steps per period"};
+    "no_convergence", "Newton's method did not converge in a step: use more steps per period"};
 inline constexpr Reason singular{"singular",
-                                 "nothing holds the structure in a step: a degree of freedom without mass "
-                                 "needs a spring or damper besides elements that slip"};
-inline constexpr Reason not_finite{"not_finite", "the motion grew beyond all numbers"};
+                                 "the equations of a step are singular: a degree of freedom without mass "
+                                 "needs a spring or damper in addition to slipping elements"};
+inline constexpr Reason not_finite{"not_finite", "the motion overflowed"};
 inline constexpr Reason event_limit{
-    "event_limit",
-    "more slips begin and end, or the motion has more pieces, than the integration between events allows"};
+    "event_limit", "event-driven integration reached its limit of slip events or of pieces of the motion"};
 
 }  // namespace arcslip::time::reasons

@@ -128,8 +128,8 @@ class Shooting {
         text << "no periodic motion after " << result_.iterations << " Newton steps and " << result_.maps
              << " periods: relative correction " << result_.correction << " (tolerance " << options_.tolerance
              << "), defect " << result_.defect
-             << ". An undamped resonance has none; a start from harmonic balance, or over several periods, "
-                "may find one.";
+             << ". An undamped resonance has none; a start from harmonic balance, or after more periods of "
+                "integration, may find one.";
         break;
       case ShootingEnd::flow_failed:
         text << "the integration over a period failed: " << result_.map.message;

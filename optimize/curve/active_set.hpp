@@ -1,5 +1,5 @@
 #pragma once
-// How the active set of an optimum changes (optimality.hpp). Not installed.
+// Changes of the active set of an optimum (optimality.hpp). Not installed.
 
 #include <arcslip/optimize/search/optimality.hpp>
 
@@ -8,24 +8,25 @@
 
 namespace arcslip::optimize {
 
-/// What may become active, or cease to be, along a curve with this active set: the bounds of all parameters
-/// and, where there are several, the active peaks. Other peaks join.
+/// The inequalities that may become active or inactive along a curve with this active set: the bounds of all
+/// parameters and, if there are several, the active peaks. Other peaks may join.
 std::vector<Inequality> inequalities(const ActiveSet& active);
 
-/// Exchanges what is violated by more than rounding: a peak above the active ones joins, one of negative
-/// weight leaves, a parameter beyond its bound is held, one that pulls inwards is let go. False: nothing is.
+/// Exchanges an inequality violated by more than rounding: a peak above the active ones joins, one with
+/// negative weight leaves, a parameter beyond its bound is fixed, one with a negative multiplier is released.
+/// False: no violation.
 bool exchange(ActiveSet& active, const OptimalityEvaluator& at);
 
 struct Exchanged {
   ActiveSet active;
   std::vector<double> weights;  // of its peaks
-  Inequality watched;           // its slack is 0 here and has to grow along the curve
+  Inequality watched;           // its slack is 0 here and must increase along the curve
 };
 
-/// Where the slack of `what` has come to zero: the active set with it, if it was not active, or without. As
-/// many inequalities as conditions, the design's parameters + 1, are active at most; where they are, another
-/// one leaves, the first whose multiplier vanishes as that of `what` grows, and is the one to be watched.
-/// nullopt: none does.
+/// The next active set after the slack of `what` has reached zero: with `what` added if it was inactive,
+/// otherwise removed. At most as many inequalities are active as there are conditions, the design parameters
+/// + 1; beyond that the one whose multiplier vanishes first as that of `what` increases leaves, and is
+/// watched. nullopt: none vanishes.
 std::optional<Exchanged> exchanged(const ActiveSet& active, const Inequality& what,
                                    const OptimalityEvaluator& at);
 

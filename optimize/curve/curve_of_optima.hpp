@@ -1,5 +1,5 @@
 #pragma once
-// How a curve of optima is followed: piece by piece, and from one to the next. Not installed.
+// Continuation of a curve of optima, piece by piece, with the transitions between pieces. Not installed.
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
@@ -37,58 +37,60 @@ class CurveOfOptima {
   static constexpr double between_responses = 0.5;  // of y and sigma
 
   static OptimumProblem with_along(OptimumProblem problem, const DesignVariable& along);
-  // Pieces that lead nowhere: the active set may change to and fro, and peaks be lost and found, at one
-  // place.
+  // Limit of pieces without progress: the active set may cycle, and peaks be lost and found, at one point.
   void guard();
   std::size_t size() const { return problem_.over.size(); }
   const ScaledParameter& sigma() const { return scaled_.back(); }
   std::string place(double s) const { return text(along_.name, " = ", sigma().value(s)); }
   bool end(observables::Status status, const results::Reason& reason, std::string message);
   bool end_interrupted();
-  // The first optimum, by search, and its active set.
+  // Finds the first optimum by a search, and its active set.
   bool begin();
   bool hold_flat(std::vector<double>& design);
   OptimalitySetting setting() { return {peaks_, scaled_, reference_}; }
   std::shared_ptr<const OptimalityData> data() { return setting().of(here_.active); }
-  // The active set and the solution of its equations at the first optimum: what is violated is exchanged.
+  // Determines the active set and solves its equations at the first optimum, exchanging
+  // violated inequalities.
   bool settle(const std::vector<double>& design);
   static const OptimalityEvaluator& evaluator(const continuation::Accepted& now);
   OptimumPoint point(const OptimalityEvaluator& at);
-  // From where it stands to the end of the active set, of the range, or until a response is due.
+  // Continues from the current point to the end of the active set or of the range, or until a response
+  // is due.
   void piece();
-  // The equations at the end of a piece: with the peaks that were followed, or, where trials have led those
-  // astray, with those of a new response.
+  // The equations at the end of a piece: with the tracked peaks, or, if trials have lost these, with those of
+  // a new response.
   std::unique_ptr<OptimalityEvaluator> at_last_point();
   void stop_with(const continuation::Stop& stop);
-  // Where the active peaks cease to depend on a parameter the curve ends, and at its end a trace may turn
-  // round and come back on itself.
+  // The curve ends where the active peaks no longer depend on a parameter; at its end a trace may turn back
+  // onto itself.
   static void end_at_u_turn(continuation::Branch& branch);
-  // Points and events in the order of the curve. The first point of a piece is where the last one ended.
+  // Adds points and events in the order of the curve. A piece starts at the end of the last one.
   void keep(const continuation::Branch& branch, const std::map<double, Seen>& seen);
   double distance(const OptimumPoint& a, const OptimumPoint& b) const;
   double way_since_response(const OptimumPoint& at);
-  // The active set that goes on where this one ends. which: of may_change; its size: another peak joins.
+  // The active set that continues the curve. which: index in may_change; its size: another peak joins.
   void change(std::size_t which, const std::vector<Inequality>& may_change, const OptimalityEvaluator& at);
   // A turn in s from one piece to the next. before: dsigma of the last tangent.
   void note_turn(double before, const OptimumPoint& at);
-  // The way in which the inequality that has changed holds more and more.
+  // The direction in which the slack of the changed inequality increases.
   void orient(const Inequality& watched);
   void end_flat(const std::string& parameter);
   // A free parameter on which no active peak depends.
   std::optional<std::size_t> without_influence();
-  // The response where the curve stands.
+  // Traces the response at the current point.
   void verify();
   void set_safe();
-  // To where the last response was.
+  // Returns to the point of the last response.
   void go_back();
-  // An active peak cannot be followed farther: what it is in a response a little beyond.
+  // An active peak cannot be tracked further: identifies it in a response slightly beyond.
   void lost(const continuation::Stop& stop);
-  // From a little beyond the end of a piece, with the peaks as they are there. way: -1 where s turns, to a
-  // piece with peaks of other kinds. False: there is no such optimum; here_ is then as it was.
+  // Continues from slightly beyond the end of a piece, with the peaks there. way: -1 if s turns, to a piece
+  // with peaks of other kinds. False: no such optimum; here_ is then unchanged.
   bool goes_on(const Standing& last, double by, int way);
-  // The active peaks in the response at here_.z, and what has no influence there.
+  // Identifies the active peaks in the response at here_.z, and the parameters without influence.
   bool find_beyond(const Standing& last, double by);
-  // The tangent that goes on, by its orientation. False: there is none, or it leads back on the same piece.
+  // The tangent of the continued curve, by its orientation. False: none, or it leads back onto the
+  // same piece.
   bool direct(const Standing& last, const OptimalityEvaluator& at);
   static bool same_kinds(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at);
   void changed(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at);

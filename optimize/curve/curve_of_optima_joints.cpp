@@ -30,8 +30,8 @@ void CurveOfOptima::guard() {
     idle_ = 0;
   } else if (++idle_ == most_idle) {
     end(Status::stopped, reasons::no_progress,
-        text("at ", place(here_.sigma), " ", most_idle,
-             " pieces of the curve came one after the other within ", progress, " of the logarithms"));
+        text("at ", place(here_.sigma), " ", most_idle, " consecutive pieces of the curve lie within ",
+             progress, " of each other in the logarithms"));
   } else if (!watch_.go_on()) {
     end_interrupted();
   }
@@ -56,7 +56,7 @@ void CurveOfOptima::change(std::size_t which, const std::vector<Inequality>& may
   const auto next_set = exchanged(here_.active, what, at);
   if (!next_set) {
     end(Status::stopped, reasons::no_exchange,
-        "at " + place(here_.sigma) + ": no set of active peaks and bounds goes on from here");
+        "at " + place(here_.sigma) + ": no set of active peaks and bounds continues the curve");
     return;
   }
   here_.active = next_set->active;
@@ -96,7 +96,7 @@ void CurveOfOptima::orient(const Inequality& watched) {
     if (const auto flat = without_influence()) return end_flat(problem_.over[*flat].name);
     end(Status::stopped, reasons::no_exchange,
         "at " + place(here_.sigma) +
-            ": the active peaks and bounds change, and there is no single optimum beyond");
+            ": the active peaks and bounds change, and beyond this point the optimum is not unique");
     return;
   }
   if (slack[1] < slack[0]) here_.turn_back();
@@ -105,8 +105,8 @@ void CurveOfOptima::orient(const Inequality& watched) {
 
 void CurveOfOptima::end_flat(const std::string& parameter) {
   end(Status::stopped, reasons::flat,
-      text("at ", place(here_.sigma), ": from there on the highest peak does not depend on ", parameter,
-           ", of which a range of values is as good: no single optimum is left"));
+      text("at ", place(here_.sigma), ": beyond this point the highest peak does not depend on ", parameter,
+           ", and the optimum is not unique"));
 }
 
 std::optional<std::size_t> CurveOfOptima::without_influence() {
@@ -138,14 +138,14 @@ void CurveOfOptima::verify() {
           end(Status::stopped, reasons::unbounded, "at " + place(here_.sigma) + ": " + state.message));
     end(Status::stopped, reasons::other_peak,
         text("at ", place(here_.sigma), " the response has a peak of ", state.amplitude(),
-             " m above that of ", level, " m which was followed, and it came up in between"));
+             " m, higher than the tracked one of ", level, " m; it appeared since the last response"));
     return;
   }
   const auto found = find_again(peaks_.state(), here_.peaks, same_level);
   if (found.empty())
     return static_cast<void>(
         end(Status::stopped, reasons::lost_peak,
-            "at " + place(here_.sigma) + " a new response does not have the peaks that were followed"));
+            "at " + place(here_.sigma) + " a newly traced response does not have the tracked peaks"));
   here_.active.peaks = found;
   set_safe();
 }
@@ -170,7 +170,7 @@ void CurveOfOptima::go_back() {
   const auto found = find_again(peaks_.state(), here_.peaks, same_level);
   if (found.empty())
     end(Status::stopped, reasons::lost_peak,
-        "at " + place(here_.sigma) + " a new response does not have the peaks that were followed");
+        "at " + place(here_.sigma) + " a newly traced response does not have the tracked peaks");
   else
     here_.active.peaks = found;
 }
@@ -192,7 +192,8 @@ void CurveOfOptima::lost(const continuation::Stop& stop) {
   here_ = last;
   if (!flat_.empty()) return end_flat(flat_);
   end(Status::stopped, reasons::lost_peak,
-      where + "the active peaks cannot be followed, and no optimum near by goes on beyond: " + stop.message);
+      where +
+          "the active peaks cannot be continued, and no nearby optimum continues the curve: " + stop.message);
 }
 
 bool CurveOfOptima::goes_on(const Standing& last, double by, int way) {

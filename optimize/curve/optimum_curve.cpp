@@ -66,10 +66,10 @@ CurveOfOptima::CurveOfOptima(const scene::Scene& scene, const OptimumProblem& pr
              [this] { return watch_.go_on_within(); }) {
   scaled_ = space_.scales();
   curve_.along = along.name;
-  if (!(options.points >= 1)) throw OptionsError(text("points = ", options.points, ": at least 1"));
-  if (!(options.seconds >= 0)) throw OptionsError(text("seconds = ", options.seconds, ": at least 0"));
+  if (!(options.points >= 1)) throw OptionsError(text("points is ", options.points, ", must be >= 1"));
+  if (!(options.seconds >= 0)) throw OptionsError(text("seconds is ", options.seconds, ", must be >= 0"));
   if (!(options.step > 0 && options.step <= 1))
-    throw OptionsError(text("step = ", options.step, ": above 0, and at most 1"));
+    throw OptionsError(text("step is ", options.step, ", must be > 0 and <= 1"));
 }
 
 OptimumCurve CurveOfOptima::run() {
@@ -83,7 +83,7 @@ OptimumCurve CurveOfOptima::run() {
     end_interrupted();
   } catch (const std::exception& thrown) {
     end(Status::failed, reasons::objective_failed,
-        text("it threw \"", thrown.what(), "\" at ", place(here_.sigma)));
+        text("an evaluation threw \"", thrown.what(), "\" at ", place(here_.sigma)));
   }
   finish();
   return std::move(curve_);
@@ -91,11 +91,11 @@ OptimumCurve CurveOfOptima::run() {
 
 OptimumProblem CurveOfOptima::with_along(OptimumProblem problem, const DesignVariable& along) {
   if (!problem.cases.empty() || !problem.scatter.empty())
-    throw OptionsError("an optimum over several cases is not followed over \"" + along.name +
-                       "\"; leave the cases out, or ask for single values of it");
+    throw OptionsError("an optimum over several cases cannot be continued over \"" + along.name +
+                       "\"; omit the cases, or optimize at single values of it");
   if (!problem.limits.empty() || !problem.linear_limits.empty())
-    throw OptionsError("an optimum with limits is not followed over \"" + along.name +
-                       "\"; leave the limits out, or ask for single values of it");
+    throw OptionsError("an optimum with limits cannot be continued over \"" + along.name +
+                       "\"; omit the limits, or optimize at single values of it");
   problem.over.push_back(along);
   return problem;
 }
@@ -147,7 +147,7 @@ bool CurveOfOptima::begin() {
   if (!hold_flat(design))
     return end(Status::failed, reasons::flat,
                text(where, "the amplitude does not depend on ", flat_,
-                    " there, but does between there and its bounds: which value to follow is not told"));
+                    " there, but does elsewhere within its bounds: the optimum to continue is not unique"));
   return settle(design);
 }
 
@@ -181,7 +181,7 @@ bool CurveOfOptima::settle(const std::vector<double>& design) {
   return end(Status::failed, reasons::no_exchange,
              text("at ", along_.name, " = ", along_.lower,
                   ": the optimum was found, but no set of equally high peaks satisfies its equations; it may "
-                  "sit at a kink, or a parameter may have no influence"));
+                  "be at a kink, or a parameter may have no influence"));
 }
 
 const OptimalityEvaluator& CurveOfOptima::evaluator(const Accepted& now) {
@@ -280,7 +280,7 @@ void CurveOfOptima::piece() {
   const auto end_of_piece = at_last_point();
   if (!end_of_piece) {
     end(Status::stopped, reasons::lost_peak,
-        "at " + place(here_.sigma) + " a new response does not have the peaks that were followed");
+        "at " + place(here_.sigma) + " a newly traced response does not have the tracked peaks");
     return;
   }
   const OptimalityEvaluator& at = *end_of_piece;
@@ -296,10 +296,10 @@ void CurveOfOptima::piece() {
       verify();
       if (ended_ || rewound_) return;
       if (last.parameter >= options.upper)
-        end(Status::complete, reasons::boundary, "the optimum was followed up to " + place(last.parameter));
+        end(Status::complete, reasons::boundary, "the optimum was continued to " + place(last.parameter));
       else
         end(Status::stopped, reasons::turned_back,
-            "the curve of optima turned back, and left the range at " + place(last.parameter));
+            "the curve of optima turned back and left the range at " + place(last.parameter));
       return;
     case StopReason::event:
       change(last_change(branch, may_change.size()), may_change, at);
@@ -346,7 +346,7 @@ void CurveOfOptima::end_at_u_turn(continuation::Branch& branch) {
         after + 1 >= branch.points.size() ||
         branch.points[after].tangent.dot(branch.points[after + 1].tangent) > u_turn)
       continue;
-    branch.stop = {StopReason::step_too_small, 0, 0, "the curve turns round and comes back on itself"};
+    branch.stop = {StopReason::step_too_small, 0, 0, "the curve turns back onto itself"};
     branch.points.resize(after + 1);
     branch.events.erase(branch.events.begin() + static_cast<std::ptrdiff_t>(i), branch.events.end());
     return;

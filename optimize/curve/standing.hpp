@@ -1,6 +1,6 @@
 #pragma once
-// Where a curve of optima stands: an active set, the unknowns of its equations (optimality.hpp), the
-// direction, and what the active peaks are known by in another response. Not installed.
+// The current point of a curve of optima: an active set, the unknowns of its equations (optimality.hpp), the
+// direction, and the identification of the active peaks in another response. Not installed.
 
 #include <arcslip/optimize/search/optimality.hpp>
 
@@ -25,7 +25,7 @@ struct Standing {
   std::vector<double> design{};  // with s last
   std::vector<KnownPeak> peaks{};
 
-  /// Takes design and peaks.
+  /// Sets design and peaks.
   void take(const OptimalityEvaluator& at);
   /// The unit tangent with row . t > 0, and its orientation. False: it is not unique.
   bool take_tangent(const OptimalityEvaluator& at, const Vector& row);
@@ -36,13 +36,13 @@ struct Standing {
   bool correct(OptimalityEvaluator& at);
 };
 
-/// The peaks of a response that are those wanted, at the same or a neighbouring design, in their order:
-/// nearest in frequency, of an amplitude that differs by `tolerance` at most, relative. Empty: one is
-/// missing.
+/// The peaks of a response that match the wanted ones, at the same or a neighbouring design, in their
+/// order: nearest in frequency, with a relative difference in amplitude of at most `tolerance`. Empty: one
+/// is missing.
 std::vector<std::size_t> find_again(const PeakState& state, const std::vector<KnownPeak>& wanted,
                                     double tolerance);
 
-/// The equations but for the active set.
+/// The equations without the active set.
 struct OptimalitySetting {
   PeakAmplitude& peaks;
   const std::vector<ScaledParameter>& scaled;
@@ -51,12 +51,12 @@ struct OptimalitySetting {
   std::shared_ptr<const OptimalityData> of(const ActiveSet& active) const;
   std::size_t size() const { return scaled.size() - 1; }  // parameters of the design
 
-  /// z and weights at the design where the peaks are, which nearly solves the equations.
+  /// z and weights at the design of the peaks, an approximate solution of the equations.
   Vector estimate(const ActiveSet& active, Vector& weights) const;
 
-  /// A parameter without influence on the active peaks that have a weight, such as the load of a damper that
-  /// sticks, is put to the bound up to which it has none, and held there: its index and its value before.
-  /// `flat`: one that has no such bound.
+  /// Moves a parameter without influence on the active peaks with nonzero weight, such as the load of a
+  /// sticking damper, to the bound up to which it has none, and fixes it there; returns its index and its
+  /// previous value. flat: a parameter without such a bound.
   struct Moved {
     std::vector<std::pair<std::size_t, double>> moved;
     std::optional<std::size_t> flat;
@@ -64,7 +64,7 @@ struct OptimalitySetting {
   Moved hold_flat(ActiveSet& active, std::vector<double>& design) const;
 };
 
-constexpr double same_level = 1e-6;     // of ln A, of one peak in two responses at the same place
+constexpr double same_level = 1e-6;     // of ln A, of one peak in two responses at the same point
 constexpr double no_influence = 1e-12;  // of d ln A / dy: less is rounding
 
 }  // namespace arcslip::optimize

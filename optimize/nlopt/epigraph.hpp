@@ -1,6 +1,6 @@
 #pragma once
-// min over y of sum_g max_k f_gk(y) as min sum_g exp(t_g) subject to ln f_gk(y) <= t_g: the levels t_g become
-// the last variables. One group: min t_1. Not installed.
+// Epigraph form: min over y of sum_g max_k f_gk(y) as min sum_g exp(t_g) subject to ln f_gk(y) <= t_g, with
+// the levels t_g as additional variables at the end. One group: min t_1. Not installed.
 
 #include <arcslip/optimize/nlopt/minimize.hpp>
 
@@ -13,9 +13,9 @@
 
 namespace arcslip::optimize {
 
-/// Adds levels to the variables of a problem and to its start, and makes ln sum_g exp(t_g) the objective.
-/// visit: told of every y at which the objective is asked for. The constraints ln f_gk(y) - t_g <= 0 are the
-/// caller's.
+/// Adds levels to the variables of a problem and to its start, and sets ln sum_g exp(t_g) as the objective.
+/// visit: called with every y at which the objective is evaluated. The caller adds the constraints
+/// ln f_gk(y) - t_g <= 0.
 inline void add_levels(Problem& problem, std::vector<double>& start, std::span<const double> levels,
                        double lower, double upper, std::function<void(std::span<const double>)> visit) {
   const std::size_t n = start.size();

@@ -113,8 +113,8 @@ void check(const Problem& problem, const std::vector<double>& start, const Algor
     std::string able;
     for (const Algorithm& a : algorithms())
       if (a.takes_constraints) able += (able.empty() ? "" : ", ") + a.name;
-    throw OptionsError(text(chosen.name, " takes no constraints, but there are ", problem.constraints.size(),
-                            "; these take them: ", able));
+    throw OptionsError(text(chosen.name, " does not support constraints, but there are ",
+                            problem.constraints.size(), "; algorithms that do: ", able));
   }
   for (const Constraint& c : problem.constraints) {
     if (!c.function) throw OptionsError("constraint \"" + c.name + "\" has no function");

@@ -1,5 +1,5 @@
 #pragma once
-// Why a minimisation ended.
+// Why a minimization ended.
 
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/results/reason.hpp>
@@ -8,26 +8,25 @@
 
 namespace arcslip::optimize {
 
-/// Converged (the result is a minimum to the tolerances that were asked for):
-///   converged         the algorithm's own test of a minimum holds.
+/// Converged (the result is a minimum within the tolerances):
+///   converged         the algorithm reports convergence.
 ///   converged_value   |df| <= f_relative |f| or |df| <= f_absolute over a step.
 ///   converged_step    |dx| <= x_relative |x| or |dx_i| <= x_absolute over a step.
 ///   target            f(x) <= target at an x that satisfies the constraints.
 /// Stopped (the result is the best so far):
-///   evaluation_limit  the objective was called as often as allowed.
-///   time_limit        the time is over; looked at after each call, so that one slow call can pass it.
-///   user              the progress callback returned false.
-///   rounding          rounding errors leave no progress. The result is often as good as rounding allows.
-///                     Causes: tolerances below rounding, a gradient that does not belong to the objective.
+///   evaluation_limit  the limit of evaluations was reached.
+///   time_limit        the time limit was reached; checked after each call, so that a slow call may exceed
+///   it. user              the progress callback returned false. rounding          rounding errors prevent
+///   further progress. The result is often accurate to rounding.
+///                     Causes: tolerances below rounding, a wrong gradient.
 /// Failed (the result is the best so far, if there is one):
 ///   objective_failed  the objective, a constraint or the progress callback threw; the message has what().
-///   not_finite        the objective is NaN or -infinity anywhere or +infinity at the start, or a constraint
-///   or an
-///                     entry of a gradient is not finite. An entry that was never written counts as NaN.
-///   invalid_arguments NLopt refused the problem; the message says why.
-///   out_of_memory     NLopt could not allocate.
-///   failed            the algorithm gave up without saying why. Causes: degenerate constraints, wrong
-///   gradients.
+///   not_finite        the objective is NaN or -infinity, or +infinity at the start, or a constraint or an
+///                     entry of a gradient is not finite. An entry that was not written counts as NaN.
+///   invalid_arguments NLopt rejected the problem; the message says why.
+///   out_of_memory     NLopt ran out of memory.
+///   failed            the algorithm failed without giving a reason. Causes: degenerate constraints,
+///                     wrong gradients.
 enum class Reason {
   converged,
   converged_value,
@@ -50,11 +49,10 @@ std::string_view name(Reason reason);
 /// True for the first group.
 bool is_converged(Reason reason);
 
-/// The reason that stands for a return code of NLopt (its enum nlopt_result); `failed` where it is none of
-/// them.
+/// The reason for a return code of NLopt (its enum nlopt_result); `failed` for unknown codes.
 Reason reason_of(int nlopt_result);
 
-/// With the code name(reason).
+/// The reason with the code name(reason).
 results::Reason reason_of(Reason reason);
 
 namespace reasons {
@@ -62,24 +60,22 @@ namespace reasons {
 using results::Reason;
 using results::reasons::user;
 
-inline constexpr Reason converged{"converged", "the algorithm's own test of a minimum holds"};
+inline constexpr Reason converged{"converged", "the algorithm reports convergence"};
 inline constexpr Reason converged_value{"converged_value",
-                                        "the amplitude no longer changes by more than its tolerance"};
+                                        "the change of the amplitude fell below its tolerance"};
 inline constexpr Reason converged_step{"converged_step",
-                                       "the parameters no longer change by more than their tolerance"};
-inline constexpr Reason target{"target", "the amplitude is as low as was asked for"};
-inline constexpr Reason rounding{"rounding", "rounding leaves no more progress"};
-inline constexpr Reason evaluation_limit{"evaluation_limit", "it looked at as many designs as allowed"};
-inline constexpr Reason time_limit{
-    "time_limit", "the time was over before all of it was done, and the message says in which phase"};
+                                       "the change of the parameters fell below its tolerance"};
+inline constexpr Reason target{"target", "the target amplitude was reached"};
+inline constexpr Reason rounding{"rounding", "rounding errors prevent further progress"};
+inline constexpr Reason evaluation_limit{"evaluation_limit", "the limit of evaluations was reached"};
+inline constexpr Reason time_limit{"time_limit", "the time limit was reached; the message names the phase"};
 inline constexpr Reason objective_failed{"objective_failed",
-                                         "something threw, and the message has its words"};
-inline constexpr Reason not_finite{"not_finite",
-                                   "the amplitude, a limit or a derivative is no finite number"};
-inline constexpr Reason invalid_arguments{
-    "invalid_arguments", "the algorithm does not take the problem, and the message says why"};
-inline constexpr Reason out_of_memory{"out_of_memory", "the algorithm has not enough memory"};
-inline constexpr Reason failed{"failed", "the algorithm gave up without saying why"};
+                                         "an exception was thrown; the message quotes it"};
+inline constexpr Reason not_finite{"not_finite", "the amplitude, a limit or a derivative is not finite"};
+inline constexpr Reason invalid_arguments{"invalid_arguments",
+                                          "NLopt rejected the problem; the message says why"};
+inline constexpr Reason out_of_memory{"out_of_memory", "NLopt ran out of memory"};
+inline constexpr Reason failed{"failed", "the algorithm failed without giving a reason"};
 
 }  // namespace reasons
 

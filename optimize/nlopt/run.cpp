@@ -31,7 +31,7 @@ std::string what(const std::exception_ptr& thrown) {
   } catch (const std::exception& e) {
     return e.what();
   } catch (...) {
-    return "something that is no std::exception";
+    return "something other than a std::exception";
   }
 }
 
@@ -201,7 +201,7 @@ std::string Run::cause(const Result& r, const char* nlopt_message) const {
     case Reason::user:
       return "the progress callback stopped the run";
     case Reason::rounding:
-      return "rounding errors left no progress";
+      return "rounding errors prevented further progress";
     case Reason::objective_failed:
       return blamed_name() + " threw \"" + what(thrown_) + "\"";
     case Reason::not_finite:
@@ -210,7 +210,7 @@ std::string Run::cause(const Result& r, const char* nlopt_message) const {
     case Reason::invalid_arguments:
       return "NLopt refused to run " + algorithm + said;
     case Reason::out_of_memory:
-      return algorithm + " found no memory";
+      return algorithm + " ran out of memory";
     case Reason::failed:
       return algorithm + " gave up" + said;
   }

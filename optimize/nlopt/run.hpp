@@ -1,5 +1,5 @@
 #pragma once
-// One run of NLopt, seen from the user's side. Not installed.
+// A run of NLopt. Not installed.
 
 #include <arcslip/optimize/nlopt/minimize.hpp>
 
@@ -10,8 +10,8 @@
 
 namespace arcslip::optimize {
 
-/// Stands between NLopt and the user's functions: calls them, keeps the best point, enforces the limits and
-/// knows why the run ended. objective() and constraint() are called from C and let no exception out.
+/// Wraps the user's functions for NLopt: calls them, keeps the best point, enforces the limits and records
+/// why the run ended. objective() and constraint() are called from C and let no exception escape.
 class Run {
  public:
   Run(const Problem& problem, const Options& options, nlopt_opt handle);
@@ -19,7 +19,7 @@ class Run {
   double objective(std::span<const double> x, std::span<double> gradient) noexcept;
   double constraint(std::size_t k, std::span<const double> x, std::span<double> gradient) noexcept;
 
-  /// Of a run that NLopt ended with this code and this message (which may be null).
+  /// The result of a run that NLopt ended with this code and this message (may be null).
   Result result(int nlopt_result, const char* nlopt_message) const;
 
  private:
@@ -42,8 +42,8 @@ class Run {
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   long evaluations_ = 0;
 
-  std::vector<double> x_;       // where the last call was
-  std::vector<double> values_;  // of the objective and of each constraint at x_; NaN: not called there yet
+  std::vector<double> x_;       // of the last call
+  std::vector<double> values_;  // of the objective and each constraint at x_; NaN: not called yet
   std::vector<double> best_x_;
   double best_value_ = std::numeric_limits<double>::infinity();
   double best_excess_ = std::numeric_limits<double>::infinity();
@@ -52,8 +52,8 @@ class Run {
   std::optional<Reason> interrupted_;
   std::size_t blamed_ = 0;  // number of the function that failed
   std::exception_ptr thrown_;
-  double odd_ = 0;                        // the number that is not finite,
-  std::optional<std::size_t> odd_entry_;  // and its place, if it stands in a gradient
+  double odd_ = 0;                        // the non-finite value,
+  std::optional<std::size_t> odd_entry_;  // and its index, if in a gradient
 };
 
 }  // namespace arcslip::optimize

@@ -1,5 +1,5 @@
 #pragma once
-// Newton's method on the equations of one peak, from design to design. Not installed.
+// Tracking of one peak from design to design, by Newton's method on its equations. Not installed.
 
 #include <arcslip/continuation/problem/problem.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
@@ -12,31 +12,31 @@ namespace arcslip::optimize {
 
 using continuation::Vector;
 
-/// All parameters, of which those in `over` are the design's.
+/// All parameters; `over` are the design parameters.
 struct DesignPoint {
   std::vector<int> over;
   Vector p;
 };
 
-/// Follows the solution x(p) of equations E(x, p) = 0.
+/// Tracks the solution x(p) of equations E(x, p) = 0.
 class Follower {
  public:
   /// base: all parameters of the equations.
   Follower(std::shared_ptr<const continuation::Problem> equations, std::vector<int> over, const Vector& base);
 
-  /// Newton's method at a design, from x. False where it fails; x is then as it was.
+  /// Newton's method at a design, from x. False if it fails; x is then unchanged.
   bool correct(Vector& x, std::span<const double> design);
 
   /// Factors of E_x at a solution, for tangent(). False: singular.
   bool linearize(const Vector& x, std::span<const double> design);
 
-  /// Whether the factors are those of this solution.
+  /// Whether the factors belong to this solution.
   bool is_at(const Vector& x, std::span<const double> design) const;
 
-  /// dx/dp_k of design parameter k where correct() or linearize() was last.
+  /// dx/dp_k of design parameter k at the last correct() or linearize().
   Vector tangent(std::size_t k);
 
-  /// The evaluator of the equations, where the last correction began.
+  /// The evaluator of the equations, at the start of the last correction.
   continuation::Evaluator& at();
   const continuation::LinearSolver& factors() const { return corrector_.factors(); }
   const Vector& parameters() const { return point_->p; }

@@ -3,21 +3,21 @@
 //
 //   A_max(p) = max over the window of A(omega, p) = max over its peaks of A
 //
-// Its peaks are found by one frequency response and then followed from design to design by continuation: a
-// tangent, and Newton's method on the equations of the peak, in as many steps as they need.
+// Its peaks are found from one frequency response and then tracked from design to design by continuation:
+// tangent prediction and Newton's method on the equations of the peak, in as many steps as needed.
 //
 //   resonance   dA/ds = 0 along the response (continuation/special_points/stationary.hpp)
-//   corner      at which an element begins to slip (hbm/corner.hpp), with slopes of opposite sign on its
-//               sides
-//   lower_end, upper_end   the response at the ends of the window; of several extremes of the motion that are
-//                          nearly as high there, one for each, since A has a kink where two are equal
-//   kink        at another kink, such as where two extremes of the motion are equally high
+//   corner      onset of slip of an element (hbm/corner.hpp), with slopes of opposite sign on both sides
+//   lower_end, upper_end   the response at the ends of the window; if several extrema of the motion are
+//   nearly
+//                          equally high there, one for each, since A has a kink where two are equal
+//   kink        another kink, such as two equally high extrema of the motion
 //
-// The response is traced anew where a peak cannot be followed, because it vanishes, splits, leaves the window
-// or comes to a corner; at every design where there is a kink; where a parameter has changed by a factor of e
-// since the last response; and where a peak is expected to have come up, by its slopes there. Peaks below
-// a share of the highest (Watched) are not watched: what grows above the others otherwise than expected is
-// seen at the next response, as at the end of a search.
+// The response is traced anew if a peak cannot be tracked, because it vanishes, splits, leaves the window or
+// reaches a corner; at every design with a kink; if a parameter has changed by a factor of e since the last
+// response; and if the slopes at the last response predict a new peak. Peaks below a share of the highest
+// (Watched) are not watched: an unexpected new peak is detected at the next response, such as that at the end
+// of a search.
 
 #include <arcslip/observables/curve_section.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
@@ -44,52 +44,52 @@ const char* name(PeakKind kind);
 struct Peak {
   PeakKind kind = PeakKind::resonance;
   continuation::Vector x;               // unknowns and omega (rad/s)
-  std::optional<hbm::Corner> corner{};  // where it sits at one
+  std::optional<hbm::Corner> corner{};  // if it is one
   double amplitude = 0;                 // m
   continuation::Vector gradient{};      // dA/dp of the design parameters, m over their units
-  continuation::Matrix along{};         // of a kink: dx/dp, by responses beside it; else empty
+  continuation::Matrix along{};         // of a kink: dx/dp, from neighbouring responses; else empty
   double slope = 0;                     // of an end of the window: dA/domega, m s/rad
-  std::optional<double> instant{};      // of which extreme: its angle; none: of the largest
-  bool is_further = false;              // one of several extremes at one end of the window, not the first
-  std::uint64_t piece = 0;              // of the equations of motion there; 0 at a corner, between two
+  std::optional<double> instant{};      // angle of the extremum; none: the largest
+  bool is_further = false;              // not the first of several extrema at one end of the window
+  std::uint64_t piece = 0;              // of the equations of motion there; 0 at a corner
 
   double omega() const { return x[x.size() - 1]; }
-  /// Of an end of the window: the response rises inwards, so that there is a higher peak within.
+  /// For an end of the window: the response increases inwards, so that there is a higher peak inside.
   bool rises_inwards() const {
     return (kind == PeakKind::lower_end && slope > 0) || (kind == PeakKind::upper_end && slope < 0);
   }
 };
 
-/// Of the highest amplitude: limits on observables hold at peaks that are at least so high.
+/// Share of the highest amplitude above which limits on observables apply to a peak.
 inline constexpr double watched_share = 0.75;
 
-/// Of the highest amplitude: lower peaks are not watched. Kinks cannot be followed at all.
+/// Share of the highest amplitude below which peaks are not watched. Kinks cannot be tracked at all.
 struct Watched {
   double peaks = watched_share, kinks = 0.9;
 };
 
-/// Where there are limits on observables. A peak is watched before it is as high as those at which they hold:
-/// so they come in where they are not yet exceeded.
+/// With limits on observables. A peak is watched before they apply to it, so that they enter before they
+/// are exceeded.
 inline constexpr Watched watched_for_limits{0.6, watched_share};
 
 /// The peaks at one design.
 struct PeakState {
-  std::vector<double> design;      // values of the parameters
-  std::vector<Peak> peaks;         // those that are watched, in the order of the response
-  std::size_t highest = 0;         // which of them
-  bool unbounded = false;          // a resonance grows without bound: A_max is infinite
-  bool complete = true;            // false: the response ends within the window; the peaks are those before
-  bool traced = true;              // by a response; false: by following, and others may have come up
-  std::string message;             // of an unbounded or incomplete response
-  continuation::Vector upper_end;  // unknowns at the upper end of the window, where the response was traced
+  std::vector<double> design;  // values of the parameters
+  std::vector<Peak> peaks;     // the watched ones, in the order of the response
+  std::size_t highest = 0;     // index of the highest
+  bool unbounded = false;      // a resonance grows without bound: A_max is infinite
+  bool complete = true;  // false: the response ends within the window, and the peaks are those up to there
+  bool traced = true;    // by a response; false: by tracking, and new peaks may have appeared
+  std::string message;   // of an unbounded or incomplete response
+  continuation::Vector upper_end;  // unknowns at the upper end of the window, if the response was traced
 
-  /// A_max; infinity where it is unbounded, NaN where there is no response.
+  /// A_max; infinity if unbounded, NaN without a response.
   double amplitude() const;
 };
 
 struct PeakWork {
   int responses = 0;        // traced
-  int followed = 0;         // designs reached by following
+  int followed = 0;         // designs reached by tracking
   long factorizations = 0;  // of both
 };
 
@@ -98,21 +98,21 @@ class Follower;
 
 class PeakAmplitude {
  public:
-  /// over: indices of parameters of the model. go_on: asked at each step of each response; where it says
-  /// false at() and trace() throw Interrupted, and this is of no more use.
+  /// over: indices of parameters of the model. go_on: called at each step of each response; if it returns
+  /// false, at() and trace() throw Interrupted, and this object must not be used any more.
   PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
                 const observables::FrequencyWindow& window, observables::GoOn go_on = {},
                 Watched watched = {});
   ~PeakAmplitude();
 
-  /// At a design, by following the peaks of the last one. The reference holds until the next call.
+  /// The peaks at a design, by tracking those of the last one. The reference is valid until the next call.
   const PeakState& at(std::span<const double> design);
 
-  /// At a design, by following alone. False where one of the peaks `needed` cannot be followed; the state is
-  /// then as it was. Others that cannot be become kinks, and stay where they are.
+  /// The peaks at a design, by tracking only. False if one of the peaks `needed` cannot be tracked; the state
+  /// is then unchanged. Others that cannot be tracked become kinks, and stay where they are.
   bool follow_to(std::span<const double> design, std::span<const std::size_t> needed);
 
-  /// At a design, by a frequency response; with the steps of a curve by that which a study of it computes.
+  /// The peaks at a design, by a frequency response; Steps::curve: with the steps of a study.
   const PeakState& trace(std::span<const double> design,
                          observables::Steps steps = observables::Steps::events);
 
@@ -123,28 +123,28 @@ class PeakAmplitude {
   /// All observables at a peak of the state.
   observables::ResponsePoint observe(const Peak& peak) { return observe(peak.x, state_.design); }
 
-  /// All observables at the highest peak of a state that this had, and the problem of that time.
+  /// All observables at the highest peak of an earlier state, with its problem.
   observables::ResponsePoint observe(const PeakState& state,
                                      const std::shared_ptr<const hbm::HbmProblem>& problem) const;
 
-  /// What is taken from the observables.
+  /// A function of the observables.
   using Observable = std::function<double(const observables::ResponsePoint&)>;
 
-  /// Its derivative by design parameter k, as a peak of the state follows its equations: a central difference
-  /// along the tangent. NaN where a kink is not in the responses beside it.
+  /// Its derivative with respect to design parameter k at a peak of the state: a central difference along the
+  /// tangent. NaN if a kink is missing in the neighbouring responses.
   double change(std::size_t peak, std::size_t k, const Observable& observable);
 
-  /// d2A/dp_j dp_k of a peak of the state, symmetric (sensitivity.hpp). Empty at a kink, or where the
-  /// equations of the peak are singular.
+  /// d2A/dp_j dp_k of a peak of the state, symmetric (sensitivity.hpp). Empty at a kink, or if the equations
+  /// of the peak are singular.
   continuation::Matrix hessian(std::size_t peak);
 
-  /// dx/dp_k = d(u, omega)/dp_k of a peak of the state, a column for each design parameter. Empty as
-  /// hessian().
+  /// dx/dp_k = d(u, omega)/dp_k of a peak of the state, one column for each design parameter. Empty
+  /// like hessian().
   continuation::Matrix tangents(std::size_t peak);
 
-  /// The model with a design's values.
+  /// The model at a design.
   std::shared_ptr<const model::Model> model_at(std::span<const double> design) const;
-  /// Of the last response, in its scale.
+  /// The problem of the last response, in its scale.
   const std::shared_ptr<const hbm::HbmProblem>& problem() const { return problem_; }
   /// All parameters at a design; the frequency is not set.
   continuation::Vector parameters(std::span<const double> design) const;
@@ -174,12 +174,12 @@ class PeakAmplitude {
   Watched watched_;
   PeakState state_;
   std::vector<double> traced_;    // the design of the last response
-  std::vector<LowerPeak> lower_;  // the peaks there that are not watched
+  std::vector<LowerPeak> lower_;  // the unwatched peaks there
   PeakWork work_;
   std::shared_ptr<const hbm::HbmProblem> problem_;
   std::unique_ptr<observables::Sensitivity> sensitivity_;
   std::unique_ptr<observables::CurveSection> section_;
-  std::vector<std::unique_ptr<Follower>> followers_;  // of the peaks, made when one is followed
+  std::vector<std::unique_ptr<Follower>> followers_;  // of the peaks, created when one is tracked
 };
 
 }  // namespace arcslip::optimize

@@ -1,5 +1,5 @@
 #pragma once
-// The unknowns of the equations of a peak, by its kind. Not installed.
+// The unknowns of the equations of a peak, for each kind. Not installed.
 
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
@@ -17,7 +17,7 @@ inline Vector unknowns(const Peak& peak) {
   return peak.kind == PeakKind::corner ? hbm::with_angles(peak.x, *peak.corner) : peak.x;
 }
 
-/// x of a peak, and its corner.
+/// Sets x and the corner of a peak.
 inline void set_unknowns(Peak& peak, const Vector& all) {
   const Eigen::Index size = std::min(all.size(), peak.x.size());
   peak.x.head(size) = all.head(size);

@@ -1,10 +1,10 @@
 #pragma once
-// The largest amplitudes A_c of several cases at one design p, and the one number that is made of them:
+// The largest amplitudes A_c of several load cases at a design p, and the criterion V over the cases:
 //
 //   worst   V = max_c w_c A_c
-//   mean    V = sum_c w_c A_c,  where the weights are divided by their sum
+//   mean    V = sum_c w_c A_c,  with weights normalized to sum 1
 //
-// Both are a sum over groups of cases of the highest in the group: one group, or a group for each case.
+// Both are a sum over groups of cases of the maximum in the group: one group, or one group for each case.
 
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 #include <arcslip/optimize/search/design.hpp>
@@ -21,14 +21,14 @@ class Cases {
  public:
   explicit Cases(Criterion criterion) : criterion_(criterion) {}
 
-  /// weight: above 0. All are over the same parameters.
+  /// weight: above 0. All cases have the same design parameters.
   void add(std::unique_ptr<PeakAmplitude> peaks, double weight);
 
-  /// Moves all cases to a design, by following their peaks or by a response each.
+  /// Moves all cases to a design, by tracking their peaks or by a new response for each.
   void at(std::span<const double> design);
   void trace(std::span<const double> design, observables::Steps steps = observables::Steps::events);
   bool stand_at(std::span<const double> design) const;
-  /// Whether they came there by responses.
+  /// Whether all were moved by new responses.
   bool are_traced() const;
 
   std::size_t size() const { return all_.size(); }
@@ -38,15 +38,15 @@ class Cases {
   std::size_t group(std::size_t c) const { return criterion_ == Criterion::mean ? c : 0; }
   std::size_t groups() const { return criterion_ == Criterion::mean ? size() : 1; }
 
-  /// w_c A_c; infinity where it is unbounded, NaN where there is no response.
+  /// w_c A_c; infinity if unbounded, NaN without a response.
   double height(std::size_t c) const { return weight(c) * state(c).amplitude(); }
-  /// The case of the greatest w_c A_c, among all or in a group.
+  /// The case with the largest w_c A_c, of all cases or of a group.
   std::size_t highest() const;
   std::size_t highest_of(std::size_t group) const;
 
-  /// V; infinity where a case is unbounded, NaN where one has no response.
+  /// V; infinity if a case is unbounded, NaN if one has no response.
   double value() const;
-  /// dV/dp_k, m over the unit of p_k, where V is finite; at a kink that of a highest peak of each group.
+  /// dV/dp_k, m over the unit of p_k, for finite V; at a kink that of a highest peak of each group.
   Vector gradient() const;
 
   PeakWork work() const;

@@ -1,5 +1,6 @@
 #pragma once
-// How sure, and how sharp, an optimum is: of V, the amplitude or what is made of several (cases.hpp).
+// Optimality certificate: first-order conditions, curvature and tolerance ranges of the optimum of V, the
+// amplitude or the criterion over several cases (cases.hpp).
 
 #include <arcslip/optimize/search/cases.hpp>
 
@@ -13,46 +14,45 @@
 
 namespace arcslip::optimize {
 
-/// The values of one parameter, with the others as at the optimum, for which V <= (1 + share) V_opt and all
-/// limits hold.
+/// Tolerance range: the values of one parameter, with the others fixed at the optimum, for which
+/// V <= (1 + share) V_opt and all limits hold.
 struct ToleranceRange {
   double share = 0;
   double lower = 0, upper = 0;
-  bool lower_is_bound = false, upper_is_bound = false;  // the bound of the search comes first
-  bool lower_is_limit = false, upper_is_limit = false;  // a limit of the search comes first
+  bool lower_is_bound = false, upper_is_bound = false;  // the range ends at a bound of the search
+  bool lower_is_limit = false, upper_is_limit = false;  // the range ends at a limit of the search
 };
 
 struct CertifiedPeak {
   PeakKind kind = PeakKind::resonance;
   double omega = 0, amplitude = 0;  // rad/s, m
   bool active = false;              // as high as the highest, within 1e-6; mean: of its case
-  double weight = 0;                // its multiplier: those of the active peaks add up to 1
+  double weight = 0;                // Lagrange multiplier; those of the active peaks add up to 1
   std::size_t in_case = 0;          // of Optimum::cases
 };
 
-/// A response on another branch than that of the peaks.
+/// A response on a branch other than that of the peaks.
 struct OtherResponse {
   std::string found_by;             // "sweep downwards", "deflation"
   double omega = 0, amplitude = 0;  // rad/s, m
   std::size_t in_case = 0;          // of Optimum::cases
 };
 
-/// Variables y in place of the parameters p: ln p, or p over its larger bound where the bounds touch zero or
-/// have both signs.
+/// Scaled variables y of the parameters p: ln p, or p over its larger bound if the bounds include zero.
 
 /// A limit c(p) <= 0 that is active, within 1e-6: c = (observable - bound)/|bound| or its negative, or the
-/// same of a linear limit; without |bound| where that is 0.
+/// same for a linear limit; without |bound| if that is 0.
 struct ActiveLimit {
   std::string limit;        // the observable, or "a linear limit"
   std::size_t in_case = 0;  // of Optimum::cases; a linear limit holds in all
   Vector gradient{};        // dc / dy
   double slack = 0;         // -c
-  double multiplier = 0;    // where the limit is loosened by x of its bound, ln V falls by about x times this
+  double multiplier = 0;    // relaxing the limit by x of its bound lowers ln V by about x times this
   bool by_height = false;   // it is exceeded at a peak that is just low enough not to be watched; where that
                             // peak might be higher by x, relative, ln V would fall by x times the multiplier
 };
 
-/// What a minimum may leave of its conditions (Karush, Kuhn & Tucker): a search is complete only below both.
+/// Tolerances of the Karush-Kuhn-Tucker conditions: a search is complete only below both.
 inline constexpr double most_stationarity = 1e-5;
 inline constexpr double most_complementarity = 5e-7;
 
@@ -70,16 +70,16 @@ struct Certificate {
   std::vector<std::vector<ToleranceRange>> ranges;  // of each parameter: shares 0.01 and 0.05
   std::vector<double> lower_design;   // where V is lowest among the designs seen on the way to their ends, if
                                       // that is lower than V_opt and all limits hold there
-  std::vector<CertifiedPeak> peaks;   // that are watched
-  std::vector<ActiveLimit> limits;    // that are active
+  std::vector<CertifiedPeak> peaks;   // the watched ones
+  std::vector<ActiveLimit> limits;    // the active ones
   std::vector<int> at_bound;          // of each parameter: -1 lower, 1 upper, 0 inside
   std::vector<OtherResponse> others;  // found on other branches, at the optimum's design
   bool others_lower = true;  // none of them is higher than the highest of its case (worst: of all, weighted)
 };
 
-/// At the design where the cases stand, which is the optimum; they move elsewhere meanwhile. go_on: asked
-/// between parts; false ends the certificate where it is. limits: those that are active there. margin: the
-/// largest c(p) of all limits where the cases stand; none: there are no limits.
+/// Certifies the current design of the cases as the optimum; the cases move to other designs meanwhile.
+/// go_on: called between the parts; false ends the certificate early. limits: the active ones. margin: the
+/// largest c(p) of all limits at the current design; none: no limits.
 Certificate certify(Cases& cases, std::span<const double> lower, std::span<const double> upper,
                     std::vector<ActiveLimit> limits = {}, const std::function<double()>& margin = {},
                     const std::function<bool()>& go_on = {});

@@ -1,5 +1,5 @@
 #pragma once
-// What is chosen in a design, between which limits, and what it is to serve.
+// Design parameters, limits and load cases of an optimization.
 
 #include <arcslip/scene/scene.hpp>
 
@@ -12,18 +12,17 @@
 
 namespace arcslip::optimize {
 
-/// A parameter of a design, and the values it may take.
+/// A design parameter with its bounds.
 struct DesignVariable {
   std::string name;
   double lower = 0, upper = 0;
   friend bool operator==(const DesignVariable&, const DesignVariable&) = default;
 };
 
-/// at_least <= observable <= at_most, at each resonance peak that is watched, those of at least three
-/// quarters of the highest. Observables: the numbers of observables/quantities.hpp that each response has, as
-/// "frequency" (in the scene's unit) and "energy_friction" (J per period); for an element NAME
-/// "NAME.equivalent_stiffness" and "NAME.equivalent_damping", with friction "NAME.stick_percent",
-/// "NAME.energy".
+/// at_least <= observable <= at_most, at each resonance peak of at least three quarters of the highest.
+/// Observables: the quantities of every response (observables/quantities.hpp), such as "frequency" (in the
+/// scene's unit) and "energy_friction" (J per period); for an element NAME "NAME.equivalent_stiffness" and
+/// "NAME.equivalent_damping", with friction "NAME.stick_percent" and "NAME.energy".
 struct ObservableLimit {
   std::string observable;
   double at_least = -std::numeric_limits<double>::infinity();
@@ -31,7 +30,7 @@ struct ObservableLimit {
   friend bool operator==(const ObservableLimit&, const ObservableLimit&) = default;
 };
 
-/// at_least <= sum of weight * parameter <= at_most; the parameters are those of a design.
+/// at_least <= sum of weight * parameter <= at_most, over design parameters.
 struct LinearLimit {
   std::vector<std::pair<std::string, double>> weights;
   double at_least = -std::numeric_limits<double>::infinity();
@@ -39,8 +38,7 @@ struct LinearLimit {
   friend bool operator==(const LinearLimit&, const LinearLimit&) = default;
 };
 
-/// One of several circumstances that a design is to serve: a level of the excitation, a sample of what
-/// scatters, a place where the amplitude is read.
+/// A load case of the design: an excitation level, a sample of uncertain parameters, a response location.
 struct DesignCase {
   std::vector<std::pair<std::string, double>> set;  // parameters and their values
   double weight = 1;                                // of its amplitude, > 0
@@ -48,10 +46,10 @@ struct DesignCase {
   friend bool operator==(const DesignCase&, const DesignCase&) = default;
 };
 
-/// What is to be least: the largest weighted amplitude of all cases, or their weighted mean.
+/// The criterion to minimize: the largest weighted amplitude of all cases, or their weighted mean.
 enum class Criterion { worst, mean };
 
-/// "worst", as a scene file writes it.
+/// "worst", as in a scene file.
 std::string_view name(Criterion criterion);
 
 }  // namespace arcslip::optimize

@@ -30,7 +30,7 @@ DesignSpace::DesignSpace(const scene::Scene& scene, const OptimumProblem& proble
         continuation::text("bounds of \"", v.name, "\" are [", v.lower, ", ", v.upper, "]");
     if (std::find(names_.begin(), names_.end(), v.name) != names_.end())
       throw OptionsError("parameter \"" + v.name + "\" is named twice");
-    if (v.name == "frequency") throw OptionsError("the frequency is no design parameter");
+    if (v.name == "frequency") throw OptionsError("the frequency cannot be a design parameter");
     scene::Scene with = scene;
     scene::set(with, v.name, scene::value(scene, v.name));  // unknown, or tied
     if (!(std::isfinite(v.lower) && std::isfinite(v.upper))) throw OptionsError(bounds + ": must be finite");
@@ -50,7 +50,8 @@ DesignSpace::DesignSpace(const scene::Scene& scene, const OptimumProblem& proble
     for (const auto& [name, weight] : limit.weights) {
       const auto at = std::find(names_.begin(), names_.end(), name);
       if (at == names_.end())
-        throw OptionsError("a linear limit names \"" + name + "\", which the search is not over: " + names());
+        throw OptionsError("a linear limit names \"" + name +
+                           "\", which is not one of the design parameters: " + names());
       weights[static_cast<std::size_t>(at - names_.begin())] += weight;
     }
     const auto add = [&](double sign, double bound) {

@@ -1,6 +1,6 @@
 #pragma once
-// The parameters that a search is over, and the variables y that NLopt sees in their place
-// (scaled_parameter.hpp). Not installed.
+// The design parameters of a search, and the scaled variables y seen by NLopt (scaled_parameter.hpp).
+// Not installed.
 
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/optimize/search/scaled_parameter.hpp>
@@ -12,7 +12,7 @@
 
 namespace arcslip::optimize {
 
-inline constexpr double limit_tolerance = 1e-8;  // of limits, relative: what exceeds them by less keeps them
+inline constexpr double limit_tolerance = 1e-8;  // of limits, relative
 
 class DesignSpace {
  public:
@@ -26,29 +26,29 @@ class DesignSpace {
 
   const std::vector<ScaledParameter>& scales() const { return scales_; }
 
-  /// The model's own values, moved onto the bounds where they are outside, which is noted.
+  /// The model's own values, projected onto the bounds, with a note if they were outside.
   std::vector<double> start(std::vector<std::string>& notes) const;
 
-  /// Further places to begin at, along the diagonal of the bounds.
+  /// Further starts, along the diagonal of the bounds.
   int attempts() const;
   std::vector<double> attempt(int k) const;
 
-  /// Designs that fill the box of the variables evenly, each further one where there is most room.
+  /// A low-discrepancy sequence of designs in the box of the variables.
   int samples() const;
   std::vector<double> sample(int k) const;
 
-  /// The largest difference of a variable, of its range.
+  /// The largest difference of a variable, relative to its range.
   double distance(std::span<const double> a, std::span<const double> b) const;
 
   std::vector<double> scaled(std::span<const double> design) const;  // y
   std::vector<double> design(std::span<const double> y) const;
   double slope(std::size_t k, double value) const;  // dp_k/dy_k
 
-  /// What a limit's name stands for.
+  /// The quantity named by a limit.
   PeakAmplitude::Observable observable(const std::string& name) const;
 
-  /// The linear limits as constraints, and the largest of their values, which is above 0 where one is
-  /// exceeded; -infinity: there are none.
+  /// The linear limits as constraints, and the largest of their values, above 0 if one is exceeded; -infinity
+  /// without linear limits.
   void add_linear(Problem& problem) const;
   double margin(std::span<const double> design) const;
   std::vector<ActiveLimit> active(std::span<const double> design) const;

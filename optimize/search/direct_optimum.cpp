@@ -48,9 +48,9 @@ std::string least_minimum(const scene::Scene& scene, const OptimumProblem& probl
 DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem,
                              const observables::ProgressCallback& progress) {
   if (problem.over.size() != 1)
-    throw OptionsError(text("the direct way is over one parameter, not ", problem.over.size()));
+    throw OptionsError(text("the direct method requires one design parameter, not ", problem.over.size()));
   if (!problem.cases.empty() || !problem.scatter.empty())
-    throw OptionsError("the direct way takes no cases, and nothing that scatters");
+    throw OptionsError("the direct method supports neither cases nor scatter");
   const DesignSpace space(scene, problem);
   const observables::CurveRange range{problem.over[0].name, problem.over[0].lower, problem.over[0].upper,
                                       problem.frequency_from, problem.frequency_to};
@@ -59,9 +59,8 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
       std::any_of(scene.elements.begin(), scene.elements.end(), observables::is_friction_part);
   if (slides && scene.harmonics.friction == scene::Friction::sampled) {
     result.message =
-        "curves of peaks are followed with exact friction only: sampled, a response has a kink wherever a "
-        "sample "
-        "changes between stick and slip";
+        "curves of peaks are continued with exact friction only: with sampled friction a response has a kink "
+        "wherever a sample changes between stick and slip";
     return result;
   }
   bool stopped = false;

@@ -1,10 +1,11 @@
 #pragma once
-// What is to be least, and the limits, as a problem of NLopt. Not installed.
+// The criterion and the limits as a problem of NLopt. Not installed.
 //
 //   smooth     objective ln V/V_0 (cases.hpp), with the gradient of a highest peak
 //   epigraph   levels t_g for groups g of cases, constraints ln w_c A_ck/V_0 <= t_g for the peaks k
 //
-// and for both a constraint for each limit on an observable at each peak of each case, and linear limits.
+// In both forms with a constraint for each limit on an observable at each peak of each case, and
+// linear limits.
 
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 #include <arcslip/optimize/search/cases.hpp>
@@ -18,10 +19,10 @@
 
 namespace arcslip::optimize {
 
-// Which peak each of several constraints is about. Not installed.
+// Assignment of peaks to constraints. Not installed.
 //
-// A constraint keeps its peak while peaks are followed. Of a new response it takes the nearest one, if one is
-// near; peaks that are left over go to constraints that have none.
+// A constraint keeps its peak while peaks are tracked. In a new response it takes the nearest peak, if one is
+// near; remaining peaks go to constraints without one.
 
 class ConstraintPeaks {
  public:
@@ -29,7 +30,7 @@ class ConstraintPeaks {
 
   std::size_t size() const { return all_.size(); }
 
-  /// Of constraint k. responses: how many were traced so far. nullopt: there is none for it.
+  /// The peak of constraint k. responses: number traced so far. nullopt: none.
   std::optional<std::size_t> peak(std::size_t k, const PeakState& state, int responses);
 
  private:
@@ -41,7 +42,7 @@ class ConstraintPeaks {
   void assign(const PeakState& state);
 
   std::vector<Constrained> all_;
-  int responses_ = -1;  // when they were given their peaks
+  int responses_ = -1;  // at the last assignment
 };
 
 class Formulation {
@@ -49,21 +50,22 @@ class Formulation {
   /// Throws OptionsError for an unknown observable and reversed limits. Refers to its arguments.
   Formulation(const OptimumProblem& problem, const DesignSpace& space, Cases& cases);
 
-  /// For a run from where the cases stand, all finite. reference: V_0. move: takes the cases to y's design.
-  /// y: the start; levels are added to it. Refers to this object.
+  /// The problem for a run from the current design of the cases, all finite. reference: V_0. move: moves the
+  /// cases to the design of y. y: the start; levels are added to it. Refers to this object.
   Problem problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
                   std::function<void(std::span<const double> y)> move);
 
-  /// Whether it would be an epigraph where the cases stand, and whether the last one was.
+  /// Whether the epigraph form applies at the current design of the cases, and whether the last problem
+  /// used it.
   bool wants_epigraph(const Algorithm& algorithm) const;
   bool epigraph() const { return epigraph_; }
 
-  /// The largest value of the limits on observables and of the linear ones where the cases stand, relative;
-  /// -infinity where there are none.
+  /// The largest relative value of the limits on observables and of the linear limits at the current design;
+  /// -infinity without limits.
   double margin();
-  /// By how much the worst of the limits is exceeded there; 0 where all hold.
+  /// The largest violation of the limits there; 0 if all hold.
   double excess();
-  /// Those that are active there, without those at a kink.
+  /// The active limits there, without those at a kink.
   std::vector<ActiveLimit> active();
 
  private:

@@ -1,22 +1,22 @@
 #pragma once
-// The optimum as equations in one more parameter s. Not installed.
+// Optimality conditions of the design as equations with a further parameter s. Not installed.
 //
-// Of peaks A_i(p, s) those of the active set are equally high, and parameters of the design p may be held at
-// their bounds. With y = ln p (p over its larger bound where the bounds touch zero or have both signs), sigma
-// the same of s, and f_i = ln A_i, the unknowns z = (y_k of the free parameters, lambda_2 .. lambda_a, tau)
-// and lambda_1 = 1 - lambda_2 - ... - lambda_a satisfy
+// The peaks A_i(p, s) of the active set are equally high, and design parameters p may be fixed at their
+// bounds. With y = ln p (p over its larger bound if the bounds include zero), sigma likewise for s, and f_i =
+// ln A_i, the unknowns z = (y_k of the free parameters, lambda_2 .. lambda_a, tau) and lambda_1 = 1 -
+// lambda_2 - ... - lambda_a satisfy
 //
 //   sum_i lambda_i df_i/dy_k = 0   for each free parameter,
 //   f_i - tau = 0                  for each active peak,
 //
-// as many as unknowns: the conditions of Karush, Kuhn and Tucker for min tau, f_i <= tau. The point is a
-// minimum if lambda_i >= 0, if nu_k = -side sum_i lambda_i df_i/dy_k >= 0 for each parameter held at its side
-// (-1 lower, 1 upper), and if sum_i lambda_i d2f_i/dy2 is positive definite on what the active gradients
-// leave free.
+// as many equations as unknowns: the Karush-Kuhn-Tucker conditions of min tau, f_i <= tau. The point is a
+// minimum if lambda_i >= 0, if nu_k = -side sum_i lambda_i df_i/dy_k >= 0 for each parameter fixed at its
+// side (-1 lower, 1 upper), and if sum_i lambda_i d2f_i/dy2 is positive definite on the null space of the
+// active constraint gradients.
 //
-// The peaks are held by followers, each with the equations of its own kind, so that the unknowns are few and
-// resonances, corners and ends of the window are alike; the Jacobian is that of the second derivatives
-// (observables/sensitivity.hpp), hence exact.
+// Each peak is tracked by a follower with the equations of its kind, so that the unknowns are few and
+// resonances, corners and ends of the window are treated alike; the Jacobian is exact, from second
+// derivatives (observables/sensitivity.hpp).
 
 #include <arcslip/continuation/problem/problem.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
@@ -44,7 +44,7 @@ struct Inequality {
   friend bool operator==(const Inequality&, const Inequality&) = default;
 };
 
-/// What the equations are about. The peaks are over the design's parameters and s, which is the last.
+/// The data of the equations. The parameters of the peaks are those of the design and, last, s.
 struct OptimalityData {
   PeakAmplitude& peaks;
   std::vector<ScaledParameter> scaled;  // of all
@@ -56,28 +56,28 @@ class OptimalityEvaluator final : public continuation::Evaluator {
  public:
   explicit OptimalityEvaluator(std::shared_ptr<const OptimalityData> data);
 
-  /// p: sigma. outside_domain where an active peak cannot be followed.
+  /// p: sigma. outside_domain if an active peak cannot be tracked.
   continuation::Evaluated move_to(continuation::In z, continuation::In p, continuation::Needs needs) override;
   const continuation::Vector& residual() const override { return E_; }
   const continuation::Jacobian& jacobian() const override { return jacobian_; }
   void parameter_derivative(int, continuation::Out dE) const override { dE = E_sigma_; }
   std::uint64_t piece() const override { return piece_; }
 
-  // At the last place.
+  // At the last point.
   const std::vector<double>& design() const { return design_; }  // p and s
   const std::vector<Peak>& active_peaks() const { return peaks_; }
   const continuation::Vector& weights() const { return lambda_; }
   double level() const { return tau_; }
 
-  /// >= 0 where it holds: the multiplier of an inequality that is active, the distance from one that is not.
+  /// >= 0 if it holds: the multiplier of an active inequality, the distance from an inactive one.
   double slack(const Inequality& of) const;
-  /// The highest peak beside the active ones, that is followed: its index, or none.
+  /// The index of the highest tracked peak that is not active, or none.
   std::optional<std::size_t> highest_other() const { return other_; }
-  /// Its distance below tau; 1 where there is none.
+  /// Its distance below tau; 1 without such a peak.
   double distance_of_others() const { return other_ ? tau_ - levels_[*other_] : 1; }
-  /// d tau / dsigma of the optimum: the others follow (envelope theorem).
+  /// d tau / dsigma of the optimum, by the envelope theorem.
   double slope_along() const { return gradients_.row(gradients_.rows() - 1).dot(lambda_); }
-  /// df_i/dy of any peak that is followed; of the design's parameters alone.
+  /// df_i/dy of any tracked peak, for the design parameters only.
   continuation::Vector gradient(std::size_t peak) const;
   /// Whether the second-order condition holds, by the last Jacobian.
   bool is_minimum() const;

@@ -65,13 +65,13 @@ Optimum Search::run() {
       more = false;
       result_.status = Status::failed;
       result_.stop.reason = reasons::objective_failed;
-      result_.stop.message = text("it threw \"", thrown.what(), "\"", after());
+      result_.stop.message = text("the objective threw \"", thrown.what(), "\"", after());
     }
   }
   describe();
   if (result_.status != Status::complete && !result_.design.empty() && std::isfinite(result_.amplitude)) {
     result_.stop.message +=
-        text("; the least amplitude is ", result_.amplitude, " m at ", space().text(result_.design));
+        text("; the lowest amplitude is ", result_.amplitude, " m at ", space().text(result_.design));
     if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
   }
   result_.evaluations = std::move(trials_.evaluations());
@@ -114,7 +114,7 @@ void Search::search() {
 }
 
 void Search::begin() {
-  trials_.begin("the first design");
+  trials_.begin("the initial design");
   const Start start = find_start(trials_, start_, result_.notes);
   ended_ = !start.found;
   if (start.found) {
@@ -181,9 +181,9 @@ void Search::minimize_once() {
       found.reason == Reason::evaluation_limit && static_cast<int>(count()) < options_.evaluations;
   if (by != Ends::no || short_run) {
     found.reason = by == Ends::vanishes || by == Ends::settles ? Reason::converged : Reason::rounding;
-    found.cause = by == Ends::vanishes  ? text("no entry of d ln A / d ln p is above ", small_gradient)
-                  : by == Ends::settles ? text("d ln A / d ln p left is ", candidate_.left.stationarity)
-                                        : text(algorithm_.name, " made no more progress");
+    found.cause = by == Ends::vanishes  ? text("converged, residual gradient below ", small_gradient)
+                  : by == Ends::settles ? text("converged, residual gradient ", candidate_.left.stationarity)
+                                        : text(algorithm_.name, " made no further progress");
   }
   result_.stop = {};
   result_.stop.reason = reason_of(found.reason);
@@ -279,11 +279,9 @@ bool Search::verify() {
       formulation.epigraph() ? responses > round_responses_ : formulation.wants_epigraph(algorithm_);
   if (!higher && !beyond) return changed && gained && !ended_;
   came_up_ = true;
-  note(text("at ", space().text(start_), " a peak ",
-            higher ? text("of ", now, " m came up beside those that were followed, the highest of which has ",
-                          seen, " m")
-                   : text("at which a limit is exceeded by ", exceeded,
-                          " came up beside those that were followed")));
+  note(text("at ", space().text(start_), " a new peak ",
+            higher ? text("of ", now, " m appeared, higher than the highest tracked peak of ", seen, " m")
+                   : text("appeared at which a limit is exceeded by ", exceeded)));
   trials_.call_best();
   if (++times_came_up_ > 1) retreat();
   return !ended_;
@@ -324,8 +322,8 @@ void Search::stop_at_higher_peak() {
   result_.status = Status::stopped;
   result_.stop.reason = reasons::other_peak;
   result_.stop.message = text(
-      "the response at the best design had a higher peak than was followed, or one "
-      "at which a limit is exceeded, in ",
+      "the response at the best design had a peak higher than the tracked ones, or one at which a limit is "
+      "exceeded, in ",
       most_rounds, " rounds and ", count(), " evaluations");
   ended_ = true;
 }
@@ -356,7 +354,7 @@ bool Search::release() {
   }
   if (!from) return false;
   if (!cases().stand_at(*from)) cases().trace(*from);
-  note("at " + stuck + " a friction element sticks; the search went on with it slipping, from " +
+  note("at " + stuck + " a friction element sticks; the search continued with it slipping, from " +
        space().text(*from));
   start_ = *from;
   return true;
@@ -368,7 +366,7 @@ bool Search::add_worst_scatter() {
   start_ = best().design;
   if (!cases().stand_at(start_)) cases().trace(start_);
   ++result_.scatter_rounds;
-  trials_.begin("the search for the worst of what scatters");
+  trials_.begin("the worst-case search");
   const std::vector<Scenario> worse = trials_.worse_scatter();
   if (interrupted() || worse.empty()) return false;
   for (const Scenario& each : worse) trials_.add(each);
@@ -377,8 +375,8 @@ bool Search::add_worst_scatter() {
   trials_.evaluate(start_);
   result_.status = Status::stopped;
   result_.stop.reason = reasons::scatter_limit;
-  result_.stop.message = text("the worst of what scatters was higher still after ", result_.scatter_rounds,
-                              " rounds and ", count(), " evaluations");
+  result_.stop.message = text("the worst case of the uncertain parameters still increased after ",
+                              result_.scatter_rounds, " rounds and ", count(), " evaluations");
   return false;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The variable y in place of a parameter: ln p where both bounds have one sign and are not zero, else p over
-// the larger bound. Not installed.
+// The scaled variable y of a parameter: ln p if both bounds have the same sign and are not zero, otherwise p
+// over the larger bound. Not installed.
 
 #include <algorithm>
 #include <cmath>

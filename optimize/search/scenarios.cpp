@@ -31,8 +31,9 @@ void check(const DesignCase& each, const scene::Scene& scene, const OptimumProbl
     throw OptionsError(text("the weight of a case is ", each.weight, ", must be above 0"));
   for (const auto& [name, value] : each.set) {
     if (contains(problem.over, name))
-      throw OptionsError("a case sets \"" + name + "\", which the search is over");
-    if (contains(problem.scatter, name)) throw OptionsError("a case sets \"" + name + "\", which scatters");
+      throw OptionsError("a case sets \"" + name + "\", which is a design parameter");
+    if (contains(problem.scatter, name))
+      throw OptionsError("a case sets \"" + name + "\", which is in the scatter");
   }
   if (!each.response) return;
   bool some = false;
@@ -58,9 +59,8 @@ Scenarios::Scenarios(const scene::Scene& scene, const OptimumProblem& problem, c
   if (problem.scatter.empty()) return;
   for (const DesignVariable& variable : problem.scatter)
     if (contains(problem.over, variable.name))
-      throw OptionsError("\"" + variable.name + "\" scatters, and the search is over it");
-  if (problem.criterion == Criterion::mean)
-    throw OptionsError("what scatters counts with its worst, and goes with the criterion worst only");
+      throw OptionsError("\"" + variable.name + "\" is both a design parameter and in the scatter");
+  if (problem.criterion == Criterion::mean) throw OptionsError("scatter requires the criterion worst");
   box_.emplace(scene, OptimumProblem{problem.scatter, problem.frequency_from, problem.frequency_to});
 }
 
@@ -172,7 +172,7 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
     if (look(peaks.at(start)) == 0) return;  // without excitation there is no way up from here
     const Result found = minimize(problem, box_->scaled(start), options);
     if (found.reason != Reason::user && found.reason != Reason::rounding && !is_converged(found.reason))
-      throw std::runtime_error("the worst of what scatters was not found: " + found.message);
+      throw std::runtime_error("the worst case of the uncertain parameters was not found: " + found.message);
   };
   for (const std::vector<double>& start : known) search(start);
   search(centre());

@@ -1,5 +1,5 @@
 #pragma once
-// The cases of a problem, and the values in them of what scatters: its scenarios. Not installed.
+// Scenarios: the cases of a problem with values of the uncertain parameters. Not installed.
 
 #include <arcslip/optimize/search/design_space.hpp>
 
@@ -13,9 +13,9 @@
 
 namespace arcslip::optimize {
 
-/// A case, and what scatters in it.
+/// A case with values of the uncertain parameters.
 struct Scenario {
-  std::size_t of = 0;  // of the problem's cases
+  std::size_t of = 0;  // index of the problem's case
   std::vector<double> scatter{};
 };
 
@@ -24,8 +24,8 @@ class Scenarios {
   /// Throws as optimum() does. Refers to its arguments.
   Scenarios(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space);
 
-  /// To begin with: every case at the corners of the box of what scatters, or, above three parameters, at its
-  /// centre and at the ends of each parameter.
+  /// The initial scenarios: every case at the corners of the box of the scatter, or, above three parameters,
+  /// at its centre and at the ends of each parameter.
   std::vector<Scenario> first() const;
 
   /// Number of the problem's cases, at least 1.
@@ -34,20 +34,20 @@ class Scenarios {
   std::unique_ptr<PeakAmplitude> peaks(const Scenario& scenario, observables::GoOn go_on) const;
   CaseResult result(const Scenario& scenario) const;
 
-  /// "in case 2 with k.value = 3: ", or nothing where there is one case and nothing scatters.
+  /// "in case 2 with k.value = 3: ", or nothing for one case without scatter.
   std::string text(const Scenario& scenario) const;
 
   bool scatter() const { return box_.has_value(); }
 
   struct Worst {
     std::vector<double> scatter;
-    double amplitude = 0;  // m; infinity where it is unbounded
+    double amplitude = 0;  // m; infinity if unbounded
   };
 
-  /// The highest amplitude in the box of a case, with the parameters of a model: local searches, from each of
-  /// `known` and from the centre. Where none is above `level`, one more from the highest of the corners, at
-  /// most 64 of them. go_on: asked after each evaluation; false ends them. within: asked all the time; false
-  /// throws Interrupted. Throws std::runtime_error where one fails.
+  /// The highest amplitude in the box of a case, by local searches from each of `known` and from the centre.
+  /// If none exceeds `level`, by another one from the highest of up to 64 corners. go_on: called after each
+  /// evaluation; false ends the searches. within: called throughout; false throws Interrupted. Throws
+  /// std::runtime_error if a search fails.
   Worst worst(std::shared_ptr<const model::Model> model, const std::vector<std::vector<double>>& known,
               double level, const std::function<bool()>& go_on, const observables::GoOn& within) const;
 

@@ -1,6 +1,6 @@
 #pragma once
 // The search of optimum(): rounds of an algorithm, each followed by new responses at its best design, until
-// the conditions of a minimum hold there. Not installed.
+// the first-order conditions of a minimum hold there. Not installed.
 
 #include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
@@ -26,8 +26,8 @@ class Search {
   Optimum run();
 
  private:
-  /// Why a run of an algorithm was ended from here: the gradient vanishes; the conditions of a minimum hold;
-  /// it calls for designs that are known again and again, or, with limits, for many without a gain.
+  /// Why the search ended a run of an algorithm: the gradient vanishes; the conditions of a minimum hold; it
+  /// repeats known designs, or, with limits, makes no progress over many evaluations.
   enum class Ends { no, vanishes, settles, idles };
 
   Cases& cases() { return trials_.cases(); }
@@ -43,59 +43,60 @@ class Search {
   void minimize_once();
   Ends ends(bool smooth);
   std::string sentence(const Result& found);
-  // At the best design so far: a flat place that is worse is none.
+  // At the best design so far: worse stationary points do not count.
   bool gradient_vanishes();
-  // Of limits and epigraphs: keeps the design that is nearest to a minimum by its conditions, among those as
-  // good as the best but for what the tolerance of a limit gains. Whether it is one.
+  // With limits and epigraphs: keeps the design with the smallest residual of the conditions of a minimum,
+  // among those as good as the best up to the tolerance of the limits. Returns whether the conditions hold.
   bool is_settled();
   void take_candidate();
-  // The responses at the best design. True where the search is to go on: with a higher peak than was seen, or
-  // because others came up and went during a round that was not in vain.
+  // Traces the responses at the best design. True if the search is to continue: with a new higher peak, or
+  // because peaks appeared and vanished during a round with progress.
   bool verify();
   void retreat();
-  // Round after round a response at the best design has a peak that is lost on the way to it.
+  // In round after round the response at the best design has a peak that tracking loses.
   void stop_at_higher_peak();
-  // Goes on with the dampers slipping that stick at the optimum; after that, once for each gain. A global
-  // search looks for such designs itself.
+  // Continues with dampers slipping that stick at the optimum, once for each improvement. A global search
+  // finds such designs itself.
   bool release();
-  // True where the search is to go on with it, from the design found.
+  // True if the search is to continue with it, from the design found.
   bool add_worst_scatter();
 
-  // How it goes on (search_continued.cpp).
+  // Continuation of the search (search_continued.cpp).
 
-  // True where the search is to go on, from another start or by another algorithm. Certifies the optimum
-  // where it is not.
+  // True if the search is to continue, from another start or by another algorithm. Otherwise certifies
+  // the optimum.
   bool goes_on();
   Balance balance_here();
   bool stand_at_best();
-  // What an algorithm calls converged may be no minimum: one that came from outside the limits may have gone
-  // to a lower design there, and its best is then only the last that kept them. Others go on from it.
+  // An algorithm may report convergence at no minimum: coming from outside the limits it may have moved to
+  // a lower infeasible design, and its best is then only the last feasible one. Other algorithms continue
+  // from it.
   bool refine(const Balance& left);
-  // Where the amplitude would fall farther, but a little beyond it is much higher, or a peak is there at
-  // which a limit is exceeded by much: no conditions hold there. Or it has risen, as beside an end of the
-  // window where two extremes of the motion are equally high, or a limit is exceeded, as where the peak comes
-  // to a corner: it is a minimum perhaps, but of gradients that are not all known. Empty: none of these.
+  // A discontinuity: the gradient predicts a decrease, but slightly beyond the amplitude jumps up, or a new
+  // peak exceeds a limit by much: no conditions hold there. Or a kink: the amplitude rises, as at an end of
+  // the window with two equally high extrema of the motion, or a limit is exceeded, as where the peak reaches
+  // a corner: it may be a minimum, but not all gradients are known. Empty: neither.
   std::string jump(const Balance& left);
-  // Other starts, once, where the search came to no design that keeps the limits.
+  // Other starts, once, if the search reached no feasible design.
   bool find_feasible();
-  // With limits a minimum is often one of several. From the lowest of designs over all the bounds, too, also
-  // by LN_COBYLA, and by other algorithms from where it began.
+  // With limits there are often several local minima: further searches from the lowest of sampled designs,
+  // also by LN_COBYLA, and by other algorithms from the start.
   bool look_elsewhere();
-  // A lower design on the way to the end of a tolerance range.
+  // A lower design found while computing a tolerance range.
   bool passed_lower();
   void go_from(const std::vector<double>& design);
-  // The lowest of some designs over all the bounds that keep the limits, and are apart, also in amplitude:
-  // where nothing slips at the peak, all searches are the same.
+  // The lowest feasible ones of designs sampled over the bounds that are apart, also in amplitude: where
+  // nothing slips at the peak, all searches are the same.
   std::vector<std::vector<double>> lowest_elsewhere();
-  // What is known of the best design. A certificate of another one is dropped.
+  // Sets the result of the best design. A certificate of another one is dropped.
   void describe();
 
   const scene::Scene& scene_;
   const OptimumProblem& problem_;
   const OptimumOptions& options_;
   const bool limited_;
-  const Algorithm asked_;  // for
-  Algorithm algorithm_;    // at work
+  const Algorithm asked_;  // requested
+  Algorithm algorithm_;    // current
   Watch watch_;
   Trials trials_;
   Optimum result_;
@@ -104,24 +105,24 @@ class Search {
   int round_responses_ = 0;                                       // traced before the round
   double round_value_ = std::numeric_limits<double>::infinity();  // least before it
   double round_excess_ = std::numeric_limits<double>::infinity();
-  double stuck_value_ = std::numeric_limits<double>::infinity();  // least one from which stuck dampers were
+  double stuck_value_ = std::numeric_limits<double>::infinity();  // lowest one from which stuck dampers were
                                                                   // released
   int times_came_up_ = 0;
   bool came_up_ = false;           // a higher peak, in the last response
-  bool looked_elsewhere_ = false;  // for a design that keeps the limits
+  bool looked_elsewhere_ = false;  // for a feasible design
   struct Candidate {
     std::vector<double> design;
     Balance left;
   } candidate_;             // of this round, for a minimum
   std::size_t known_ = 0;   // evaluations at the last call of an algorithm
-  int idle_ = 0;            // calls since there was another
-  std::size_t gained_ = 0;  // evaluations at the last gain of this run, and what it came to
+  int idle_ = 0;            // calls since the last new evaluation
+  std::size_t gained_ = 0;  // evaluations at the last improvement of this run, and its values
   double gained_value_ = 0, gained_excess_ = 0;
-  double refined_ = 0;           // V that no other algorithm made a minimum of
+  double refined_ = 0;           // V at the last refinement
   std::size_t refinements_ = 0;  // by other algorithms
-  int restarts_ = 0;             // from lower designs beside a minimum
+  int restarts_ = 0;             // from lower designs next to a minimum
   bool was_elsewhere_ = false;
-  // V of a minimum by its conditions from which the search went elsewhere, and its end.
+  // V of a minimum from which further searches were started, and its result.
   std::optional<std::pair<double, std::pair<observables::Status, observables::Stop>>> stood_{};
   PeakWork work_elsewhere_{};
   bool ended_ = false;

@@ -50,7 +50,7 @@ bool Search::goes_on() {
     if (interrupted()) return false;
     result_.status = Status::stopped;
     result_.stop.reason = reasons::infeasible;
-    result_.stop.message = "no design that keeps within the limits was found: " + result_.stop.message;
+    result_.stop.message = "no feasible design was found: " + result_.stop.message;
     return false;
   }
   if (result_.stop.reason == reasons::flat) return false;
@@ -85,8 +85,8 @@ void Search::go_from(const std::vector<double>& design) {
 bool Search::refine(const Balance& left) {
   if (refinements_ < ladder.size() && best().value != refined_) {
     const std::size_t next = refinements_;
-    note(text(algorithm_.name, " ended at ", space().text(best().design), ", where d ln A / d ln p is ",
-              left.stationarity, "; ", ladder[next], " went on from there"));
+    note(text(algorithm_.name, " ended at ", space().text(best().design), " with residual gradient ",
+              left.stationarity, "; ", ladder[next], " continued from there"));
     go_from(best().design);
     refinements_ = next + 1;
     algorithm_ = algorithm(ladder[next]);
@@ -97,7 +97,7 @@ bool Search::refine(const Balance& left) {
   if (interrupted()) return false;
   result_.status = Status::stopped;
   result_.stop.reason = reasons::not_stationary;
-  result_.stop.message = text("no algorithm came to a minimum: d ln A / d ln p left is ", left.stationarity,
+  result_.stop.message = text("no algorithm reached a minimum: residual gradient ", left.stationarity,
                               " (at most ", most_stationarity, "), complementarity ", left.complementarity,
                               " (at most ", most_complementarity, ")", after()) +
                          jump(left);
@@ -114,18 +114,18 @@ std::string Search::jump(const Balance& left) {
   if (cases().value() > (1 + jumps) * best().value)
     return there + text("the amplitude jumps to ", cases().value(), " m");
   if (const double exceeded = trials_.formulation().excess(); exceeded > limit_jumps)
-    return there + text("a peak comes up at which a limit is exceeded by ", exceeded);
+    return there + text("a peak appears at which a limit is exceeded by ", exceeded);
   else if (exceeded > limit_bends)
     return there +
-           text("a limit is exceeded by ", exceeded, " against its gradient, since another one holds there");
+           text("a limit is exceeded by ", exceeded, " against its gradient, which is a different one there");
   if (cases().value() > best().value)
-    return there + "the amplitude has risen against its gradient, since another one holds there";
+    return there + "the amplitude rises against its gradient, which is a different one there";
   return "";
 }
 
 bool Search::find_feasible() {
   if (std::exchange(looked_elsewhere_, true)) return false;
-  trials_.begin("the search for a design within the limits");
+  trials_.begin("the search for a feasible design");
   const std::string exceeds = space().text(best().design);
   for (int k = 0; k < space().attempts() + space().samples() && best().excess > 0; ++k) {
     if (!watch_.go_on()) return false;
@@ -134,7 +134,7 @@ bool Search::find_feasible() {
   }
   if (best().excess > 0) return false;
   go_from(best().design);
-  note("the search came to " + exceeds + ", where a limit is exceeded, and went on from " +
+  note("the search reached " + exceeds + ", where a limit is exceeded, and continued from " +
        space().text(start_) + ", where none is");
   return true;
 }
@@ -195,9 +195,9 @@ bool Search::look_elsewhere() {
   if (lower.empty() || watch_.stopped()) return false;
   trials_.evaluate(lower, true);
   if (!std::isfinite(cases().value())) return false;
-  note("the search came to " + space().text(here) +
-       (within ? ", and went on from the lower " : ", where a limit is exceeded, and went on from ") +
-       space().text(lower) + " elsewhere");
+  note("the search reached " + space().text(here) +
+       (within ? ", and continued from the lower " : ", where a limit is exceeded, and continued from ") +
+       space().text(lower) + " found elsewhere");
   stood_ = {best().value, {result_.status, result_.stop}};
   go_from(lower);  // a limit that is active may be exceeded there, by rounding
   return true;
@@ -242,11 +242,11 @@ bool Search::passed_lower() {
   if (restarts_++ == most_restarts) {
     result_.status = Status::stopped;
     result_.stop.reason = reasons::lower_beside;
-    result_.stop.message = text("there was a lower design beside each of ", most_restarts, " minima");
+    result_.stop.message = text("next to each of ", most_restarts, " minima there was a lower design");
     return false;
   }
   go_from(lower);
-  note("the search came to a minimum at " + left + ", and went on from the lower " + space().text(lower));
+  note("the search reached a minimum at " + left + ", and continued from the lower " + space().text(lower));
   return true;
 }
 

@@ -33,7 +33,7 @@ Fault fault(Trials& trials) {
   }
   for (std::size_t g = 0; g < cases.groups(); ++g)
     if (!is_flat(cases, cases.highest_of(g))) return {};
-  return {reasons::flat, "no friction element slips there, so that the amplitude stays as it is"};
+  return {reasons::flat, "no friction element slips there, so that the amplitude is constant"};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Where a search begins. Not installed.
+// Start of a search. Not installed.
 
 #include <arcslip/optimize/search/cases.hpp>
 #include <arcslip/optimize/search/trials.hpp>
@@ -12,8 +12,8 @@
 
 namespace arcslip::optimize {
 
-/// What is wrong with a design as a start. Reason unbounded, no_response or flat (no parameter moves the
-/// amplitude, since no friction element slips); none: nothing.
+/// Why a design is no valid start: unbounded, no_response or flat (no parameter affects the amplitude, since
+/// no friction element slips); without a reason: it is valid.
 struct Fault {
   results::Reason reason;
   std::string message;
@@ -21,28 +21,27 @@ struct Fault {
 
 struct Start {
   bool found = false;
-  std::vector<double> design;  // where the cases stand then
-  Fault fault;                 // of the design that was asked for
+  std::vector<double> design;  // then the current design of the cases
+  Fault fault;                 // of the requested design
 };
 
-/// A design at which V is finite and the parameters change it: the one given, or one on the diagonal of the
-/// bounds, which is noted. None is found within an interruption.
+/// A design with finite V that depends on the parameters: the given one, or one on the diagonal of the
+/// bounds, with a note. None after an interruption.
 Start find_start(Trials& trials, const std::vector<double>& given, std::vector<std::string>& notes);
 
 // Dampers that stick. Not installed.
 //
-// An element that sticks at the highest peak is a spring there: its slip limit p = mu F_n moves nothing, and
-// no gradient tells a search that it is too large. Yet the peak gets lower as the element begins to slip: at
-// a motion of amplitude X it dissipates D = 4 p (X - p/k_d) per period once p < k_d X, which grows from
-// nothing as dD/dp = -4 X, while its stiffness falls by the power 3/2 of k_d X - p only. D is largest at
-// p = k_d X/2. So a search that ended there may go on, unless another peak rises instead.
+// An element that sticks at the highest peak is a spring there: its slip limit p = mu F_n has no influence,
+// and no gradient shows that it is too large. Yet the peak decreases as the element starts to slip: in a
+// motion of amplitude X it dissipates D = 4 p (X - p/k_d) per period once p < k_d X, which grows from zero
+// with slope dD/dp = -4 X, while its stiffness decreases only with the power 3/2 of k_d X - p. D is largest
+// at p = k_d X/2. So a search that ended there can continue, unless another peak rises.
 
 inline constexpr double most_dissipation = 0.5;  // of k_d X
 
-/// The design where the cases stand, with each parameter that moves none of the highest peaks, and is the
-/// friction coefficient or the normal load of an element that sticks at one, lowered to where
-/// p = share k_d X, or to its lower bound. over: the design's parameters in the model. nullopt: there is
-/// none.
+/// The current design of the cases, with each parameter without influence on the highest peaks that is the
+/// friction coefficient or the normal load of an element sticking at one of them lowered to p = share k_d X,
+/// or to its lower bound. over: the design parameters in the model. nullopt: no such parameter.
 std::optional<std::vector<double>> released(const Cases& cases, std::span<const int> over,
                                             std::span<const double> lower, double share = most_dissipation);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The designs that a search tries: what V (cases.hpp) is at each, which is the best so far, who is told, and
-// whether to go on. Not installed.
+// The design evaluations of a search: V (cases.hpp) at each, the best so far, progress and interruption.
+// Not installed.
 
 #include <arcslip/optimize/search/cases.hpp>
 #include <arcslip/optimize/search/formulation.hpp>
@@ -14,13 +14,14 @@
 
 namespace arcslip::optimize {
 
-/// Of the designs that exceed the limits least, that of least V.
+/// The design with the smallest violation of the limits, and of these the lowest V.
 struct Best {
   std::vector<double> design;
   double value = 0;                                         // V, m
   double excess = std::numeric_limits<double>::infinity();  // of the limits, relative; 0 where all hold
 
-  /// As each case was there: so the best design is known even where a search is interrupted at another.
+  /// The state of each case there, so that the best design is available even if a search is interrupted at
+  /// another one.
   struct Seen {
     PeakState state;
     std::shared_ptr<const hbm::HbmProblem> problem;
@@ -30,36 +31,35 @@ struct Best {
 
 class Trials {
  public:
-  /// With the scenarios to begin with. far_apart: so lie the designs of a global search, that no best one may
-  /// owe that to a peak that was not seen: its responses are traced. Throws as optimum() does. Refers to its
-  /// arguments. What takes the cases to a design throws Interrupted where the watch ends it.
+  /// Starts with the initial scenarios. far_apart: for a global search, whose distant designs may miss a new
+  /// peak: the responses of a new best design are traced. Throws as optimum() does. Refers to its arguments.
+  /// Functions that move the cases throw Interrupted if the watch ends them.
   Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
          Watch& watch, bool far_apart);
 
-  /// Adds a case; what was best without it is no longer.
+  /// Adds a case and resets the best design.
   void add(const Scenario& scenario);
 
-  /// Takes the cases to a design, unless they stand there; trace: by responses, in any case.
+  /// Moves the cases to a design, unless they are there; trace: always by new responses.
   void evaluate(std::span<const double> design, bool trace = false);
-  /// From here on by responses in any case, those that studies of them compute.
+  /// From now on always by new responses, with the steps of a study.
   void trace_all() { trace_all_ = true; }
-  /// The same for the variables of a search. Throws std::runtime_error where a case has no response.
+  /// The same for the variables of a search. Throws std::runtime_error if a case has no response.
   void move_to(std::span<const double> y);
 
-  /// The cases' highest amplitudes over what scatters at the design where they stand, where one is higher
-  /// than V: as cases to be added.
+  /// The worst scatter of the cases at the current design with an amplitude above V, as cases to add.
   std::vector<Scenario> worse_scatter();
 
   const Best& best() const { return best_; }
-  /// Where the cases stand, when rounding has made another design look better, or new responses have another
-  /// V there, or a peak at which a limit is exceeded.
+  /// Makes the current design the best: after rounding has favoured another one, or new responses have
+  /// changed V there, or show a peak at which a limit is exceeded.
   void call_best();
-  /// The best design of those of which responses are known, when a search has come to no such one from where
-  /// new responses had called it.
+  /// Returns to the best design with traced responses, if a search from a design set by call_best() found no
+  /// better one.
   void recall_best();
 
   Watch& watch() { return watch_; }
-  /// Another phase, which is told.
+  /// Starts another phase, and reports it.
   void begin(const char* phase);
 
   const DesignSpace& space() const { return space_; }
@@ -69,9 +69,9 @@ class Trials {
   Cases& cases() { return cases_; }
   Formulation& formulation() { return formulation_; }
   std::vector<Evaluation>& evaluations() { return evaluations_; }
-  /// By how much a limit was exceeded in each of them; infinity where there was no response.
+  /// The violation of the limits in each of them; infinity without a response.
   const std::vector<double>& excesses() const { return excesses_; }
-  /// Others of the same search, which are told of as well.
+  /// Others of the same search, reported as well.
   std::vector<Evaluation>& elsewhere() { return elsewhere_; }
 
  private:

@@ -43,7 +43,7 @@ observables::Stop Watch::why() const {
     stop.limit = limit_;
     stop.message = text("the limit of ", limit_, " s was reached at ", stopped_at_, " s in ", stopped_phase_);
   } else if (stopped()) {
-    stop.message = text("it was interrupted in ", stopped_phase_);
+    stop.message = text("interrupted in ", stopped_phase_);
   }
   return stop;
 }

@@ -1,7 +1,6 @@
 #pragma once
-// Whether a search is to go on, and if not, why. One watch is handed to all phases of a search, and by them
-// down to each step of each trace, so that nothing that can take longer than a second goes unasked. Not
-// installed.
+// Interruption and time limit of a search. One watch is passed to all phases of a search, and by them down to
+// each step of each trace, so that anything longer than a second can be interrupted. Not installed.
 
 #include <arcslip/observables/response.hpp>
 
@@ -13,26 +12,26 @@ namespace arcslip::optimize {
 
 class Watch {
  public:
-  /// seconds: a limit; 0: none. ask: whether the user goes on; none: always.
+  /// seconds: time limit; 0: none. ask: whether to continue; none: always.
   Watch(double seconds, std::function<bool()> ask) : limit_(seconds), ask_(std::move(ask)) {}
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  /// Between evaluations: false from the limit on, or from when the user has said so.
+  /// Between evaluations: false after the time limit, or once the user has requested a stop.
   bool go_on();
 
-  /// Within one: false half a second after go_on(), so that a quick one under way comes to its end, and a
-  /// result has the first design even where the limit is short.
+  /// Within an evaluation: false half a second after go_on(), so that a quick evaluation completes, and a
+  /// result has the first design even with a short limit.
   bool go_on_within();
 
-  /// As if the user had said so.
+  /// Stops as if requested by the user.
   void stop();
 
   bool stopped() const { return !reason_.code.empty(); }
-  /// What stops it, with the phase; without a reason: nothing.
+  /// Why it stops, with the phase; without a reason: it does not.
   observables::Stop why() const;
 
-  /// What is done, in words for people: "the search".
+  /// The current phase in messages: "the search".
   void begin(const char* phase) { phase_ = phase; }
   const char* phase() const { return phase_; }
 

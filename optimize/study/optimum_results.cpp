@@ -74,15 +74,15 @@ TableOf<Evaluation> course(const scene::Scene& scene, const OptimumProblem& prob
 
 TableOf<CaseResult> cases(const scene::Scene& scene, const OptimumProblem& problem) {
   TableOf<CaseResult> table;
-  table.add({"set"}, "", "what the case sets",
+  table.add({"set"}, "", "parameters set by the case",
             [&scene](const CaseResult& at) { return studies::named(scene, at.set); });
   if (!problem.scatter.empty()) {
-    table.add({"scatter"}, "", "values of what scatters",
+    table.add({"scatter"}, "", "values of the uncertain parameters",
               [&scene](const CaseResult& at) { return studies::named(scene, at.scatter); });
     table.add({"of"}, "", "which of the study's cases it belongs to, from 1",
               [](const CaseResult& at) { return at.of + 1; });
   }
-  table.add({"response"}, "", "where the amplitude is read, where the case has a place of its own",
+  table.add({"response"}, "", "the response of the case, if it has its own",
             [&scene, &problem](const CaseResult& at) {
               return at.of < problem.cases.size() && problem.cases[at.of].response
                          ? std::optional(place_of(scene, *problem.cases[at.of].response))
@@ -217,12 +217,12 @@ std::string doubt(const OptimumResult& result) {
 TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumProblem& problem,
                              const std::string& along) {
   TableOf<OptimumPoint> table;
-  table.add({along}, studies::parameter_unit(scene, along), "the parameter, here",
+  table.add({along}, studies::parameter_unit(scene, along), "the continuation parameter",
             [](const OptimumPoint& at) { return at.along; });
   add_design(
       scene, problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
   table.add({"amplitude"}, "m", "A_max", [](const OptimumPoint& at) { return at.amplitude; });
-  table.add({"peaks"}, "", "those that are active", [&scene](const OptimumPoint& at) {
+  table.add({"peaks"}, "", "the active peaks", [&scene](const OptimumPoint& at) {
     Value::List peaks;
     for (const OptimumPeak& peak : at.peaks)
       peaks.emplace_back(Object{{"kind", name(peak.kind)},
@@ -258,7 +258,7 @@ TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumProblem& pr
   table.add({"omega"}, "rad/s", "of the peak that changes",
             [of_peak](const OptimumEvent& event) { return of_peak(event, event.omega); });
   table.add({"nonsmooth"}, "", "at another event", [](const OptimumEvent& event) { return event.nonsmooth; });
-  table.add({"after"}, "", "index of the point before it",
+  table.add({"after"}, "", "index of the preceding point",
             [](const OptimumEvent& event) { return event.after; });
   table.add(points(scene, problem, along), [](const OptimumEvent& event) { return &event.point; }, {"point"});
   return table;

@@ -1,6 +1,6 @@
 #pragma once
 // Optima and curves of optima as results, formats "arcslip-optimum-1" and "arcslip-optimum-curves-1": tables
-// of the designs that were looked at and of the cases; of the points of a curve and its events.
+// of the design evaluations and of the cases; of the points of a curve and its events.
 
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -10,7 +10,7 @@
 
 namespace arcslip::optimize {
 
-/// docs/results.md tells all that there is. The optima, and the curves, of one study.
+/// The optima, and the curves, of one study; see docs/results.md for all fields.
 studies::Described<OptimumResult> described_optima(const scene::Scene& scene, const OptimumProblem& problem);
 studies::Described<OptimumCurveResult> described_curves(const scene::Scene& scene,
                                                         const OptimumProblem& problem,

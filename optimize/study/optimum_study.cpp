@@ -79,7 +79,7 @@ class Teller {
     told_.item = item;
     told_.share_done = std::numeric_limits<double>::quiet_NaN();
     told_.counted = "evaluations";
-    told_.phase = "the first design";
+    told_.phase = "the initial design";
   }
 
   void begin(const char* phase) { told_.phase = phase; }
@@ -131,7 +131,7 @@ void add_curves(OptimumResult& result, const scene::Scene& with, bool limited, b
     result.curves = curves_of_cases(with, result.problem, result.optimum, ask);
   }
   if (!result.has_cases() && result.problem.over.size() == 1 && !limited) {
-    begin("the direct way");
+    begin("the direct method");
     result.direct = direct_optimum(with, result.problem, ask);
   }
   begin("the responses at the optimum");

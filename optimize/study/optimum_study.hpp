@@ -1,5 +1,6 @@
 #pragma once
-// Studies of kind "optimum": the search, the direct way beside it, and the responses around the optimum.
+// Studies of kind "optimum": the search, the direct method for comparison, and the responses near
+// the optimum.
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/optimize/curve/optimum_curve.hpp>
@@ -14,75 +15,75 @@
 
 namespace arcslip::optimize {
 
-/// Of the search. Algorithms are called by NLopt's own names.
+/// Settings of the search. Algorithms have their NLopt names.
 struct SearchSettings {
   std::string algorithm{};  // empty: default_algorithm
-  std::string local{};      // what AUGLAG and MLSL search with; empty: none
-  int evaluations = 1000;   // designs that are looked at, at most
+  std::string local{};      // local algorithm of AUGLAG and MLSL; empty: none
+  int evaluations = 1000;   // maximum number of design evaluations
   double seconds = 0;       // 0: no limit
-  int population = 0;       // of the stochastic algorithms; 0: their own choice
-  int seed = 1;             // of the stochastic algorithms: the same seed gives the same run
+  int population = 0;       // of stochastic algorithms; 0: their default
+  int seed = 1;             // of stochastic algorithms: the same seed gives the same run
   friend bool operator==(const SearchSettings&, const SearchSettings&) = default;
 };
 
-/// Of a study.
+/// Settings of a study.
 struct OptimumSettings {
   OptimumProblem problem{};
   SearchSettings search{};
-  std::optional<DesignVariable> along{};  // the optimum is followed over this one, from lower to upper
+  std::optional<DesignVariable> along{};  // the optimum is continued over this parameter, from lower to upper
   friend bool operator==(const OptimumSettings&, const OptimumSettings&) = default;
 };
 
-/// A curve of optima as a study gives it.
+/// A curve of optima as a result of a study.
 struct OptimumCurveResult {
-  std::string study, kind;                          // told by who runs the study
-  std::vector<std::pair<std::string, double>> set;  // what for_each gave
+  std::string study, kind;                          // set by the caller
+  std::vector<std::pair<std::string, double>> set;  // parameters set by for_each
   OptimumProblem problem;
   OptimumCurve curve;
 };
 
-/// What figures show of a case.
+/// Curves of a case for figures.
 struct CaseCurves {
   std::size_t of = 0;                                    // of Optimum::cases
-  std::vector<observables::ResponseBranch> peaks{};      // over the bounds, where the design is one parameter
+  std::vector<observables::ResponseBranch> peaks{};      // over the bounds, with one design parameter
   std::vector<observables::ResponseBranch> responses{};  // over the frequency, at the optimum
 };
 
 struct OptimumResult {
-  std::string study, kind;  // told by who runs the study
+  std::string study, kind;  // set by the caller
   observables::Status status = observables::Status::failed;
   observables::Stop stop;
-  std::vector<std::pair<std::string, double>> set;  // what for_each gave
+  std::vector<std::pair<std::string, double>> set;  // parameters set by for_each
   OptimumProblem problem;
   Optimum optimum;
-  DirectOptimum direct;  // over one parameter, where there is no limit and one case
-  /// Over the frequency, where there is one case: at half, once and twice the optimum, or only once where
-  /// there are several results.
+  DirectOptimum direct;  // with one parameter, one case and no limits
+  /// Over the frequency, for a single case: at half, once and twice the optimum, or only once for
+  /// several results.
   std::vector<observables::ResponseBranch> responses{};
-  std::vector<CaseCurves> curves{};  // of the highest dozen of several cases, in their order
+  std::vector<CaseCurves> curves{};  // of the twelve highest of several cases, in their order
 
-  /// Whether the problem says so, by cases or by what scatters.
+  /// Whether the problem has cases or scatter.
   bool has_cases() const { return optimize::has_cases(problem); }
 
-  /// Relative difference of the two ways in parameter and amplitude; NaN where there is only one.
+  /// Relative difference between both methods in parameter and amplitude; NaN with only one method.
   double difference_of_design() const;
   double difference_of_amplitude() const;
 };
 
-/// The scene in a case of a problem, with what scatters in it.
+/// The scene in a case of a problem, with the values of its uncertain parameters.
 scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of);
 
-/// Cases that are the same, as where an option has taken from them what told them apart, become one: with the
-/// largest of their weights (worst) or the sum of them (mean).
+/// Merges identical cases, as after an option has overridden the parameter in which they differ, with the
+/// largest of their weights (worst) or their sum (mean).
 OptimumProblem with_distinct_cases(OptimumProblem problem);
 
-/// The search, over distinct cases, and what is shown beside it, of a scene as it is. alone: with responses
-/// at half and twice the optimum. progress: asked all the time, in all phases (`phase`), with the number of
-/// evaluations (`points`) and the least amplitude (`best`) so far; false stops. Throws as optimum() does.
+/// The search, over distinct cases, with the curves for its figures. alone: with responses at half and twice
+/// the optimum. progress: called throughout, in all phases (`phase`), with the number of evaluations
+/// (`points`) and the lowest amplitude (`best`) so far; false stops. Throws as optimum() does.
 OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
                             const observables::ProgressCallback& progress = {}, bool alone = true);
 
-/// The same of settings with "along": the optimum as a curve. Throws as optimum_curve() does.
+/// The same for settings with "along": the curve of optima. Throws as optimum_curve() does.
 OptimumCurveResult optimum_curve_study(const scene::Scene& scene, const OptimumSettings& settings,
                                        const observables::ProgressCallback& progress = {});
 

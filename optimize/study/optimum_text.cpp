@@ -48,7 +48,7 @@ void write_cases(std::ostream& out, const scene::Scene& scene, const OptimumResu
         << (cases[c].weight == 1 ? "" : ", weight " + number(cases[c].weight, "%.4g"))
         << (cases[c].active && !mean ? ", active" : "") << '\n';
   if (cases.size() > most_cases)
-    out << "    and " << cases.size() - most_cases << " cases more, which --json and --csv tell\n";
+    out << "    and " << cases.size() - most_cases << " more cases, listed by --json and --csv\n";
 }
 
 // The ends of a curve and its events.
@@ -116,11 +116,11 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const Optim
   for (const ActiveLimit& limit : certificate.limits)
     if (limit.by_height)
       out << "  the limit on " << limit.limit << " is exceeded at a peak that is "
-          << number(100 * watched_share) << " % of the highest: above that it would hold there\n";
+          << number(100 * watched_share) << " % of the highest: it applies to peaks above that share\n";
     else
       out << "  "
           << (limit.limit.starts_with("a linear") ? "the limit on a sum" : "the limit on " + limit.limit)
-          << " is active: loosened by 1 %, it lowers the amplitude by about "
+          << " is active: relaxing it by 1 % lowers the amplitude by about "
           << number(limit.multiplier, "%.2g") << " %\n";
   int active = 0;
   for (const auto& peak : certificate.peaks) {
@@ -128,15 +128,14 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const Optim
     const bool lower = peak.kind == PeakKind::lower_end;
     if (peak.active && (lower || peak.kind == PeakKind::upper_end))
       out << "  the amplitude is largest at the " << (lower ? "lower" : "upper")
-          << " end of the window: a wider one may hold a higher peak\n";
+          << " end of the window: a wider window may contain a higher peak\n";
   }
   const bool mean = result.problem.criterion == Criterion::mean && result.optimum.cases.size() > 1;
-  out << "  " << active << (active == 1 ? " peak is" : " peaks are")
-      << (mean ? " the highest of the cases" : " the highest")
-      << "; d ln A / d ln p left: " << number(certificate.stationarity, "%.1e") << '\n';
+  out << "  " << active << (active == 1 ? " active peak" : " active peaks") << (mean ? " of the cases" : "")
+      << ", residual gradient " << number(certificate.stationarity, "%.1e") << '\n';
   for (const auto& other : certificate.others) {
-    out << "  another response, by " << other.found_by << ": " << number(other.amplitude, "%.8e") << " m at "
-        << number(studies::in_scene_unit(scene, other.omega)) << ' '
+    out << "  another response, found by " << other.found_by << ": " << number(other.amplitude, "%.8e")
+        << " m at " << number(studies::in_scene_unit(scene, other.omega)) << ' '
         << scene::unit_name(scene.frequency_unit);
     if (result.has_cases())
       out << " with " << case_text(scene, result.problem, result.optimum.cases[other.in_case]);
@@ -168,7 +167,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
         << place(scene, found.point, found.point.elements.size()) << '\n';
   }
   write_sums(out, result);
-  if (!found.feasible) out << "  a constraint is not met there\n";
+  if (!found.feasible) out << "  a constraint is violated there\n";
   out << "  " << found.algorithm << ", " << found.evaluations.size() << " evaluations, "
       << found.work.responses << " responses traced, " << number(found.seconds, "%.3f")
       << " s: " << result.stop.message << '\n';

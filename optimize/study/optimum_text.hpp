@@ -1,5 +1,5 @@
 #pragma once
-// Optima for people.
+// Text output of optima.
 
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
@@ -9,21 +9,21 @@
 
 namespace arcslip::optimize {
 
-/// What was set, the design with its amplitude, its cases and limits, the work, and what the certificate
-/// says; of a curve, its ends and its events. Lines.
+/// Lines with the parameters set, the design with its amplitude, cases and limits, the work, and the
+/// certificate; for a curve, its ends and its events.
 std::string text_of(const scene::Scene& scene, const OptimumResult& result);
 std::string text_of(const scene::Scene& scene, const OptimumCurveResult& result);
 
-// What tells a case from the others.
+// Labels of cases.
 
-/// "force.cosine = 1 N, k.value = 3 N/m, response at blade 2", with what scatters; "the scene as it is" where
-/// it changes nothing.
+/// "force.cosine = 1 N, k.value = 3 N/m, response at blade 2", including scatter; "the scene as it is" if it
+/// changes nothing.
 std::string case_text(const scene::Scene& scene, const OptimumProblem& problem, const CaseResult& of);
 
-/// The same for a figure whose key has the names: "1 N, 3 N/m, blade 2"; "as it is".
+/// The same for a figure with the names in its key: "1 N, 3 N/m, blade 2"; "as it is".
 std::string case_label(const scene::Scene& scene, const OptimumProblem& problem, const CaseResult& of);
 
-/// Where the response is read: "blade 2", "blade 1 - blade 2".
+/// The response location: "blade 2", "blade 1 - blade 2".
 std::string direction_text(const scene::Scene& scene, const scene::Direction& direction);
 
 }  // namespace arcslip::optimize

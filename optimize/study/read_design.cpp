@@ -191,8 +191,7 @@ void read_cases(const Reading& reading, OptimumProblem& problem) {
   Faults& faults = reading.faults;
   constexpr std::string_view wanted =
       "a list of at least one object with the keys \"set\", \"weight\", \"response\", or an object with a "
-      "list "
-      "of values for each of its parameters";
+      "list of values for each of its parameters";
   if (place.node == nullptr) {
     return;
   }
@@ -243,10 +242,11 @@ void check_criterion(const Reading& reading, const OptimumProblem& problem) {
     return;
   }
   if (!problem.scatter.empty()) {
-    reading.faults.add(place.pointer,
-                       "found \"mean\" beside \"scatter\", of which the worst counts; must be \"worst\"");
+    reading.faults.add(
+        place.pointer,
+        "found \"mean\" together with \"scatter\", which takes the worst case; must be \"worst\"");
   } else if (!reading.keys.has("cases")) {
-    reading.faults.add(place.pointer, "found \"mean\" without \"cases\", of which it is; must be \"worst\"");
+    reading.faults.add(place.pointer, "found \"mean\" without \"cases\"; must be \"worst\"");
   }
 }
 

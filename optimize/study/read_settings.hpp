@@ -1,5 +1,5 @@
 #pragma once
-// Reading what a study of kind "optimum" varies, within which limits, and what it is to serve. Not installed.
+// Reads the design parameters, limits and load cases of a study of kind "optimum". Not installed.
 
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/scene/study_keys.hpp>
@@ -8,22 +8,22 @@
 
 namespace arcslip::optimize {
 
-/// The parameters of a design in "over", and as many pairs in "bounds".
+/// "over" and "bounds": the design parameters, with a pair of bounds for each.
 void read_design(const scene::file::Reading& reading, OptimumProblem& problem);
 
-/// "constraints": limits on observables and on sums of parameters of the design.
+/// "constraints": limits on observables and on linear combinations of design parameters.
 void read_constraints(const scene::file::Reading& reading, OptimumProblem& problem);
 
-/// "cases": values of parameters, whose product is the cases, or a list of cases.
+/// "cases": a list of cases, or lists of parameter values with all their combinations.
 void read_cases(const scene::file::Reading& reading, OptimumProblem& problem);
 
 /// "scatter": pairs [lower, upper] by the names of parameters.
 void read_scatter(const scene::file::Reading& reading, OptimumProblem& problem);
 
-/// Whether what counts of the cases agrees with them, and with what scatters.
+/// Checks the criterion against the cases and the scatter.
 void check_criterion(const scene::file::Reading& reading, const OptimumProblem& problem);
 
-/// The parameters of the design, of its cases, and those that scatter.
+/// The parameters of the design, of its cases and of the scatter.
 std::vector<scene::Taken> taken(const OptimumProblem& problem);
 
 }  // namespace arcslip::optimize

@@ -105,12 +105,12 @@ std::vector<BadInput> make() {
        [] { return scene_with(structure("1", "100"), ""); }},
       // studies over a parameter
       bare("peaks without a study", {"peaks", "bare.json"},
-           "the scene has no study of kind peaks, so not all is known: give --over, --from, --to and "
+           "the scene has no study of kind peaks: give --over, --from, --to and "
            "--frequency, or add such a study to the scene"),
       bare("trace without a study, half told", {"trace", "bare.json", "--over", "k.value", "--to", "200"},
-           "the scene has no study of kind trace, so not all is known: give --from and --frequency"),
+           "the scene has no study of kind trace: give --from and --frequency"),
       peaks("--over another parameter than the study's", {"--over", "m.value"},
-            "the scene has no study of kind peaks over m.value, so not all is known: give --from and --to"),
+            "the scene has no study of kind peaks over m.value: give --from and --to"),
       peaks("--over an unknown parameter", {"--over", "damper.normal_lod"},
             "--over damper.normal_lod: unknown parameter \"damper.normal_lod\""),
       peaks("--over the frequency", {"--over", "frequency", "--from", "1", "--to", "2"},
@@ -119,7 +119,7 @@ std::vector<BadInput> make() {
       peaks("--over a tied field", {"--over", "damper.stiffness", "--from", "1", "--to", "2"},
             "--over damper.stiffness: found \"damper.stiffness\", which is tied; must be its tie \"both\""),
       peaks("--set of the parameter that is varied", {"--set", "damper.normal_load=3"},
-            "--set damper.normal_load=3: the study is over this parameter; give --from and --to"),
+            "--set damper.normal_load=3: the study varies this parameter; give --from and --to"),
       peaks("--from below the parameter's bound", {"--from", "-1"},
             "--from -1: found -1, must be at least 0 N"),
       peaks("--from above the study's last load", {"--from", "600"},
@@ -141,16 +141,14 @@ std::vector<BadInput> make() {
       {"a range of frequencies where no study has one",
        {"run", "bad.json", "--from", "18"},
        1,
-       "--from and --to of run are those of frequency responses, of which the scene has none",
+       "with run, --from and --to apply to frequency responses, but the scene has none",
        "bad.json",
        peaks_scene},
       // motions in time
       bare("optimize without a study", {"optimize", "bare.json", "--frequency", "18", "22"},
-           "the scene has no study of kind optimum, so not all is known: give --over with bounds"),
+           "the scene has no study of kind optimum: give --over with bounds"),
       bare("time without a frequency", {"time", "bare.json"},
-           "the scene has no study of kind time, so not all is known: give --frequency, or add such a study "
-           "to "
-           "the scene"),
+           "the scene has no study of kind time: give --frequency, or add such a study to the scene"),
       line("time at two frequencies", {"time", "scene.json", "--frequency", "18", "22"},
            "argument was not expected: 22"),
       line("time by an unknown method", {"time", "scene.json", "--frequency", "20", "--method", "euler"},
@@ -159,11 +157,11 @@ std::vector<BadInput> make() {
       line("time without steps", {"time", "scene.json", "--frequency", "20", "--steps", "0"},
            "--steps 0: found 0, must be an integer from 1 to 10000000"),
       line("an empty value of a number", {"frf", "scene.json", "--from", ""},
-           "--from needs a value that is not empty"),
+           "--from needs a nonempty value"),
       line("an empty value of a whole number", {"time", "scene.json", "--frequency", "20", "--steps", ""},
-           "--steps needs a value that is not empty"),
+           "--steps needs a nonempty value"),
       line("an empty end of a window", {"peaks", "scene.json", "--frequency", "18", ""},
-           "--frequency needs a value that is not empty"),
+           "--frequency needs a nonempty value"),
       line("a design over nothing", {"optimize", "scene.json", "--over", ""},
            "--over needs the name of a parameter, such as --over damper.normal_load=0.1:100"),
       line("--coefficients where they change nothing", {"optimize", "scene.json", "--coefficients"},
@@ -189,9 +187,7 @@ std::vector<BadInput> make() {
        {"frf", "bad.json"},
        1,
        "the lists of for_each in the study \"frf\" have 1000 x 1000 x 1000 = 1000000000 combinations, must "
-       "be at "
-       "most "
-       "100000: give fewer values, or allow more with --combinations N",
+       "be at most 100000: give fewer values, or allow more with --combinations N",
        "bad.json",
        [] {
          std::string values = "1";
@@ -213,17 +209,17 @@ std::vector<BadInput> make() {
       line("a scene that is not there", {"run", "nothing.json"}, "nothing.json: No such file or directory"),
       line("a folder as the scene", {"run", "."}, ". is a directory, must be a scene file"),
       line("results into a folder that is not there", {"frf", "scene.json", "--json", "nowhere/frf.json"},
-           "cannot write nowhere/frf.json: No such file or directory (make the folder first, or check its "
+           "cannot write nowhere/frf.json: No such file or directory (create the folder first, or check its "
            "name)"),
       line("results into a folder", {"frf", "scene.json", "--csv", "."}, "Is a directory (it is a folder"),
-      line("results into the scene itself", {"frf", "scene.json", "--json", "./scene.json"},
-           "./scene.json is the scene itself"),
+      line("results into the scene file itself", {"frf", "scene.json", "--json", "./scene.json"},
+           "./scene.json is the scene file itself"),
       line("JSON and CSV into one place", {"frf", "scene.json", "--json", "-", "--csv", "-"},
            "--json and --csv both go to standard output"),
       line("an output folder that is a file", {"run", "scene.json", "--out", "scene.json"},
-           "cannot make the folder scene.json"),
+           "cannot create the folder scene.json"),
       line("an output folder that cannot be made", {"run", "scene.json", "--out", "/proc/arcslip"},
-           "cannot make the folder /proc/arcslip"),
+           "cannot create the folder /proc/arcslip"),
       line("a file where no file can be made", {"frf", "scene.json", "--json", "/proc/frf.json"},
            "cannot write /proc/frf.json"),
       line(
@@ -236,7 +232,7 @@ std::vector<BadInput> make() {
            "unknown verb \"\\u001b[31mfry\\u009b\""),
       line("results into two files that are one",
            {"frf", "scene.json", "--json", "a.json", "--csv", "./a.json"},
-           "--json and --csv both go to ./a.json: give one of them another place"),
+           "--json and --csv both go to ./a.json: choose another path for one of them"),
       printed_on("/dev/full", "a full disk below standard output",
                  {"frf", "scene.json", "--set", "damper.normal_load=3", "--json", "-"},
                  "cannot write standard output: No space left on device"),

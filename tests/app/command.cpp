@@ -334,7 +334,8 @@ TEST_CASE("help and version stand on standard output") {
 }
 
 TEST_CASE(
-    "a complete branch in its rounding is told on standard error, also with --quiet, and in the results") {
+    "a complete branch dominated by rounding is reported on standard error, also with --quiet, and in the "
+    "results") {
   const Workplace place;
   for (const std::string quiet : {"", "--quiet"}) {
     std::vector<std::string> arguments{"frf",         "scene.json",
@@ -349,8 +350,8 @@ TEST_CASE(
     CAPTURE(ended.err);
     CHECK(ended.exit_code == 0);
     const std::string why = "damper.stiffness = 1.789e+18 N/m is 1e+14 times k.value = 1.789e+04 N/m";
-    CHECK(ended.err.find("arcslip: branch 1 complete, but followed in its rounding, "
-                         "which takes digits of what it tells: " +
+    CHECK(ended.err.find("arcslip: branch 1 complete, but dominated by rounding errors, "
+                         "so that its results lose digits: " +
                          why) != std::string::npos);
     const Json branch = Json::parse(place.read("a.json"))["branches"][0];
     CHECK(branch["status"] == "complete");

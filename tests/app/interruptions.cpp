@@ -5,7 +5,7 @@
 namespace app_test {
 
 const std::vector<Interruption>& interruptions() {
-  static const std::string partial = "what is computed so far will be written";
+  static const std::string partial = "the results so far will be written";
   static const std::vector<std::string> results{
       "results",        "results/frf.csv",  "results/frf.dat",        "results/frf.events.csv",
       "results/frf.gp", "results/frf.json", "results/frf.scene.json", "results/frf.summary.csv"};

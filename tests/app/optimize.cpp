@@ -58,7 +58,7 @@ TEST_CASE("optimize prints what an engineer asks for") {
   CHECK(ended.exit_code == 0);
   for (const char* part :
        {"damper.normal_load = 3.08", " N\n", "A_max = 8.84", "damper sticks 49.6",
-        "within 1 % for damper.normal_load from 2.8", "within 5 %", "1 peak is the highest",
+        "within 1 % for damper.normal_load from 2.8", "within 5 %", "1 active peak, residual gradient ",
         "the curve of peaks has its minimum at damper.normal_load = 3.08"})
     CHECK(ended.out.find(part) != std::string::npos);
 }
@@ -151,7 +151,7 @@ TEST_CASE("what is asked wrongly of optimize is answered with what is allowed, a
       {{"--over", "damper.normal_load=5:5"},
        "--over damper.normal_load: found 5, must be above the lower bound"},
       {{"--over", "damper.normal_load=5"}, "found the range \"5\", must be two finite numbers, lower:upper"},
-      {{"--over", "k.value"}, "its bounds are not known; give them as --over k.value=lower:upper"},
+      {{"--over", "k.value"}, "no bounds given; give them as --over k.value=lower:upper"},
       {{"--over", "damper.normal_load=-1:5"}, "--over damper.normal_load: found -1"},
       {{"--over", "damper.load=1:5"}, "--over damper.load: unknown parameter \"damper.load\""},
       {{"--over", "damper.normal_load=1:5", "--over", "damper.normal_load=2:3"}, "again, must be named once"},
@@ -164,8 +164,7 @@ TEST_CASE("what is asked wrongly of optimize is answered with what is allowed, a
       {{"--seconds", "soon"}, "--seconds soon: must be a number, at least 0 s"},
       {{"--criterion", "wrost"}, "--criterion wrost: found \"wrost\", must be one of \"worst\", \"mean\""},
       {{"--criterion", "mean"}, "--criterion mean: found \"mean\" without \"cases\""},
-      {{"--along", "force.cosine"},
-       "--along force.cosine: its range is not known; give it as --along force.cosine="},
+      {{"--along", "force.cosine"}, "--along force.cosine: no range given; give it as --along force.cosine="},
       {{"--along", "force.cosine=8"},
        "--along force.cosine=8: found the range \"8\", must be two finite numbers"},
       {{"--along", "force.cosine=8:1"},
@@ -174,7 +173,8 @@ TEST_CASE("what is asked wrongly of optimize is answered with what is allowed, a
       {{"--along", "damper.normal_load=1:8"},
        "--along damper.normal_load: found \"damper.normal_load\", which the study is \"over\""},
       {{"--along", "force.cosine=1:8", "--set", "force.cosine=2"},
-       "--set force.cosine=2: the study goes along this parameter; give --along for its range"},
+       "--set force.cosine=2: the study continues the optimum over this parameter; give --along for its "
+       "range"},
   };
   for (const auto& [arguments, expected] : rows) {
     const Workplace place;

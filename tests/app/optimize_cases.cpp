@@ -296,7 +296,7 @@ TEST_CASE("a limit on a sum of parameters is met, and told, with what it costs")
   // without the limit it is 3.09 N
   CHECK(out.find("damper.normal_load = 2.5 N\n") != std::string::npos);
   CHECK(out.find("2 damper.normal_load = 5, at most 5\n") != std::string::npos);
-  CHECK(out.find("the limit on a sum is active: loosened by 1 %, it lowers the amplitude by about ") !=
+  CHECK(out.find("the limit on a sum is active: relaxing it by 1 % lowers the amplitude by about ") !=
         std::string::npos);
   REQUIRE(found["certificate"]["limits"].size() == 1);
   const auto amplitude = [&](double limit) {

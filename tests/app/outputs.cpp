@@ -183,7 +183,7 @@ TEST_CASE("one signal ends the wait for a pipe's reader or writer, with a senten
     const Ended ended = writing.wait();
     CHECK(ended.exit_code == 3);
     CHECK(ended.err.find("cannot write pipe: Interrupted system call (nobody read it") != std::string::npos);
-    CHECK(ended.err.find("arcslip: interrupted while results were written; not written: pipe\n") !=
+    CHECK(ended.err.find("arcslip: interrupted while writing results; not written: pipe\n") !=
           std::string::npos);
     CHECK(ended.out.find("peak") != std::string::npos);
     fs::remove(place / "a.csv");
@@ -221,7 +221,7 @@ TEST_CASE("no two outputs go to one file, by whatever names") {
   refused({"--out", "results", "--csv", "other/two.csv"},
           "the results of the study \"two\" and --csv both go to other/two.csv");
   fs::create_symlink("../tiny.json", place / "results/one.csv");
-  refused({"--out", "results"}, "results/one.csv is the scene itself");
+  refused({"--out", "results"}, "results/one.csv is the scene file itself");
   fs::remove(place / "results/one.csv");
   const std::string stdout_file = place / "all.txt";
   place.write("all.txt", "");
@@ -268,7 +268,7 @@ TEST_CASE("figures of an earlier run do not stand beside other data where gnuplo
   CHECK(ended.exit_code == 0);
   CHECK(ended.err.find("gnuplot could not draw the figures (exit code 3)") != std::string::npos);
   CHECK(ended.err.find("\nno \\u001b[31mred") != std::string::npos);
-  CHECK(ended.err.find("those of an earlier run are removed") != std::string::npos);
+  CHECK(ended.err.find("those of an earlier run were removed") != std::string::npos);
   std::vector<std::string> left;
   for (const std::string& file : place.files())
     if (file.starts_with("results/") && !file.ends_with(".json") && !file.ends_with(".csv") &&
@@ -292,9 +292,8 @@ TEST_CASE("a signal while figures are drawn ends gnuplot and is told, with exit 
     const Ended ended = program.wait();
     CHECK(ended.exit_code == 3);
     CHECK(ended.err.find("arcslip: interrupted before the figures were drawn") != std::string::npos);
-    CHECK(ended.err.find("the study \"two\" was not begun: what it would write is left as it was") !=
-          std::string::npos);
-    CHECK(ended.err.find("arcslip: interrupted while results were written; not written: the figures of "
+    CHECK(ended.err.find("the study \"two\" was not started: its files are unchanged") != std::string::npos);
+    CHECK(ended.err.find("arcslip: interrupted while writing results; not written: the figures of "
                          "results/one\n") != std::string::npos);
     CHECK(place.read("results/two.csv") == "of an earlier run\n");
     CHECK(::kill(gnuplot, 0) != 0);

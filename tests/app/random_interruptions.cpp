@@ -133,7 +133,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a signal that comes before any study is begun leaves all as it was, and says so") {
+TEST_CASE("a signal before any study is started leaves all files unchanged, and says so") {
   constexpr int moments = 50, most_rounds = 20;
   for (const RandomInterruption& row : random_interruptions()) {
     CAPTURE(row.arguments);
@@ -151,16 +151,16 @@ TEST_CASE("a signal that comes before any study is begun leaves all as it was, a
       std::this_thread::sleep_for(Seconds(2 * duration * (i % moments) / moments));
       run.program->send(SIGTERM);
       const Ended ended = run.program->wait();
-      met = ended.err.find("was not begun") != std::string::npos &&
-            ended.err.find("what is computed so far") == std::string::npos;
+      met = ended.err.find("was not started") != std::string::npos &&
+            ended.err.find("the results so far") == std::string::npos;
       if (!met) {
         continue;
       }
       CAPTURE(ended.err);
       CHECK(ended.exit_code == 3);
-      CHECK(ended.err.find("was not begun: what it would write is left as it was") != std::string::npos);
-      CHECK(ended.err.find("interrupted before a study was begun: nothing is computed, and nothing is "
-                           "written") != std::string::npos);
+      CHECK(ended.err.find("was not started: its files are unchanged") != std::string::npos);
+      CHECK(ended.err.find("interrupted before any study was started: nothing was computed or written") !=
+            std::string::npos);
       CHECK(ended.out.empty());
       CHECK(run.place.files() == run.before);
       for (const std::string& file : row.files) {

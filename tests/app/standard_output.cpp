@@ -39,7 +39,7 @@ TEST_CASE("two runs at once into one folder: the second one is told, and the fir
   const Ended second =
       run(place, {"frf", "scene.json", "--set", "damper.normal_load=3", "--harmonics", "7", "--out", "out"});
   CHECK(second.exit_code == 1);
-  CHECK(second.err.find("another run writes into the folder out: wait for its end") != std::string::npos);
+  CHECK(second.err.find("another run is writing to the folder out: wait until it ends") != std::string::npos);
   CHECK(place.files() == std::vector<std::string>{"out", "out/keep", "scene.json"});
   ::close(folder);
   CHECK(run(place, {"frf", "scene.json", "--set", "damper.normal_load=3", "--harmonics", "7", "--out", "out"})

@@ -89,7 +89,7 @@ TEST_CASE("time takes Newmark's steps where a spring is cubic") {
       run(place, {"time", "duffing.json", "--frequency", "0.9", "--method", "event-driven"});
   CHECK(impossible.exit_code == 3);
   CHECK(impossible.err.find("arcslip: motion 1 failed: ") == 0);
-  CHECK(impossible.err.find("take the method newmark") != std::string::npos);
+  CHECK(impossible.err.find("use the method newmark") != std::string::npos);
 }
 
 TEST_CASE("a transient that is not steady at its limit says so, with exit code 3 and its history") {

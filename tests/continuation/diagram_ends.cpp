@@ -9,7 +9,7 @@ TEST_CASE("a diagram that would have too many branches says so and names what is
       trace_diagram(pitchfork(), at(0, -0.93), window(-1, 1), {.depth = 1, .branches = 1});
   CHECK(!diagram.complete);
   CHECK(diagram.branches.size() == 1);
-  CHECK(diagram.message == "reached the largest number of branches, 1");
+  CHECK(diagram.message == "reached the maximum number of branches, 1");
   CHECK(!all_traced(diagram.branch_points.at(0)));
 }
 

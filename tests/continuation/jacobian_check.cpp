@@ -46,9 +46,9 @@ TEST_CASE("the worst entry of a wrong Jacobian is named, in u and in the paramet
   CHECK(in_u.given == Approx(-std::cos(0.4)));
   CHECK(in_u.difference == Approx(std::cos(0.4)).epsilon(1e-9));
   CHECK(in_u.message ==
-        "the Jacobian is wrong: dF[1]/du[1] is given as -0.921061, differences of F say 0.921061");
+        "the Jacobian is wrong: dF[1]/du[1] is given as -0.921061, finite differences give 0.921061");
   const JacobianError in_a = check(0, 2, 2);
-  CHECK(in_a.message == "the Jacobian is wrong: dF[0]/d(a) is given as 0.392, differences of F say 0.196");
+  CHECK(in_a.message == "the Jacobian is wrong: dF[0]/d(a) is given as 0.392, finite differences give 0.196");
 }
 
 TEST_CASE("differences across a kink accuse nobody") {

@@ -123,7 +123,7 @@ TEST_CASE(
   CHECK_THROWS_WITH(locate_branch_point(line(), Vector{{0.0}}, 0, Vector{{0.0}}),
                     "the guess has 1 entries, needs 1 unknowns and a parameter");
   CHECK_THROWS_WITH(check_jacobian(*line(), Vector{{0.0, 1.0}}, Vector{{0.0}}),
-                    "a place of 2 unknowns and 1 parameters, the problem has 1 and 1");
+                    "the point has 2 unknowns and 1 parameters, the problem has 1 and 1");
 }
 
 TEST_CASE("a direction that is neither +1 nor -1 is refused") {

@@ -52,7 +52,7 @@ TEST_CASE("a start that does not fit the problem is refused with both numbers") 
   CHECK_THROWS_WITH(begin(Vector::Zero(3), Vector::Zero(1)), "the start has 3 unknowns, the problem 2");
   CHECK_THROWS_WITH(begin(Vector::Zero(2), Vector::Zero(2)), "the start has 2 parameters, the problem 1");
   CHECK_THROWS_WITH(begin(Vector::Constant(2, std::nan("")), Vector::Zero(1)),
-                    "the start has numbers that are not finite");
+                    "the start has non-finite values");
   CHECK_THROWS_WITH(begin(Vector::Zero(2), Vector::Constant(1, 3)),
                     "the start is at 3, outside the window [0, 1]");
 }

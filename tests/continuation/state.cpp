@@ -80,7 +80,7 @@ TEST_CASE("what is not a state is refused, and a state of another problem too") 
   Tracer tracer(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1));
   tracer.step();
   CHECK_THROWS_WITH(Tracer(chan(20), tracer.save(), window(0, 5)),
-                    "the state is of 1 unknowns, 2 parameters and 0 monitors, the problem of 20, 1 and 0");
+                    "the state has 1 unknowns, 2 parameters and 0 monitors, the problem has 20, 1 and 0");
 }
 
 TEST_CASE("a monitor that is infinite at a point, as decibels at rest are, leaves a state that can be read") {

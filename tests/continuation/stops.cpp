@@ -71,7 +71,7 @@ TEST_CASE("wrong_jacobian: a Jacobian that becomes wrong ends the branch and kee
   CHECK(branch.stop.value > branch.stop.limit);
   CHECK(branch.points.size() > 10);
   CHECK(branch.stop.message.find(
-            "the Jacobian is wrong: dF[0]/du[0] is given as -0.4, differences of F say 1") !=
+            "the Jacobian is wrong: dF[0]/du[0] is given as -0.4, finite differences give 1") !=
         std::string::npos);
 }
 
@@ -152,7 +152,8 @@ TEST_CASE("not_evaluated: what a residual throws ends the branch, which keeps it
   CHECK(branch.stop.reason == StopReason::not_evaluated);
   CHECK(branch.points.size() > 10);
   CHECK(branch.stop.message ==
-        "the problem could not be evaluated ahead, however short the step: no material beyond 0.5");
+        "the problem could not be evaluated at the next point, even with the smallest step: no material "
+        "beyond 0.5");
   const Branch nothing = trace(problem, at(0.7, 0.7), window(0, 2));
   CHECK(nothing.stop.message == "the problem could not be evaluated at the start: no material beyond 0.5");
 }

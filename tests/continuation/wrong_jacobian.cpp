@@ -98,7 +98,7 @@ TEST_CASE("a Hopf point of a Jacobian that is wrong by 0.1 % comes with a warnin
   REQUIRE(branch.events.size() == 1);
   CHECK(std::abs(branch.events[0].point.parameter - 2) > 5e-4);
   REQUIRE(branch.warnings.size() == 1);
-  CHECK(branch.warnings[0].find("dF[1]/du[1] is given as -1.001, differences of F say -1 (at 1)") !=
+  CHECK(branch.warnings[0].find("dF[1]/du[1] is given as -1.001, finite differences give -1 (at 1)") !=
         std::string::npos);
 }
 

@@ -274,7 +274,7 @@ TEST_CASE("cases that make no sense are told") {
   CHECK(error_of({{}, -1}) == "the weight of a case is -1, must be above 0");
   CHECK(error_of({{}, HUGE_VAL}) == "the weight of a case is inf, must be above 0");
   CHECK(error_of({{{"damper.normal_load", 3}}}) ==
-        "a case sets \"damper.normal_load\", which the search is over");
+        "a case sets \"damper.normal_load\", which is a design parameter");
   CHECK(error_of({{{"damper.normal_laod", 3}}}).find("damper.normal_load") != std::string::npos);
   CHECK(error_of({{{"damper.stiffness", -1}}}).find("damper.stiffness") != std::string::npos);
   CHECK(error_of({{}, 1, scene::Direction{}}) == "the response of a case is at no degree of freedom");
@@ -283,7 +283,7 @@ TEST_CASE("cases that make no sense are told") {
         "the response of a case is at degree of freedom 1 of 1");
   auto direct = over_load_in({{}});
   CHECK_THROWS_WITH(optimize::direct_optimum(s, direct),
-                    "the direct way takes no cases, and nothing that scatters");
+                    "the direct method supports neither cases nor scatter");
 }
 
 TEST_CASE("the optimum of one combination depends on no other, to the last bit") {

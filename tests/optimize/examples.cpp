@@ -349,7 +349,7 @@ TEST_CASE("beside a minimum, a lower design on the way to the end of its toleran
   const auto found = optimize::optimum(s, over_damper);
   REQUIRE(found.status == observables::Status::complete);
   CHECK(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
-    return note.find("went on from the lower damper.normal_load") != std::string::npos;
+    return note.find("continued from the lower damper.normal_load") != std::string::npos;
   }));
   const auto global = optimize::optimum(
       s, over_damper, {.algorithm = "GN_DIRECT_L", .evaluations = 100, .certificate = false});

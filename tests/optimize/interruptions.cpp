@@ -54,11 +54,12 @@ TEST_CASE("every phase of a search asks at every step of a response, and a stop 
       CHECK(after == 0);  // never asked again
       CHECK(result.status == observables::Status::stopped);
       CHECK(result.stop.reason == optimize::reasons::user);
-      CHECK(contains(result.stop.message, "it was interrupted in " + phase));
+      CHECK(contains(result.stop.message, "interrupted in " + phase));
     }
   }
-  CHECK(phases == std::set<std::string>{"the first design", "the search", "the verification",
-                                        "the certificate", "the direct way", "the responses at the optimum"});
+  CHECK(phases == std::set<std::string>{"the initial design", "the search", "the verification",
+                                        "the certificate", "the direct method",
+                                        "the responses at the optimum"});
 }
 
 TEST_CASE(
@@ -81,7 +82,7 @@ TEST_CASE(
   });
   CHECK(fewer == 0);
   CHECK(rise < 1e-7);  // as much as the tolerance of a limit gains
-  CHECK(phases == std::vector<std::string>{"the first design", "the search", "the verification",
+  CHECK(phases == std::vector<std::string>{"the initial design", "the search", "the verification",
                                            "the search elsewhere", "the certificate",
                                            "the responses at the optimum"});
   CHECK(evaluations == static_cast<long>(result.optimum.evaluations.size()));
@@ -100,7 +101,7 @@ TEST_CASE("a search over cases asks in its curves, and is not complete without t
   });
   CHECK(result.status == observables::Status::stopped);
   CHECK(result.optimum.status == observables::Status::complete);
-  CHECK(contains(result.stop.message, "it was interrupted in the curves of the cases; of the search: "));
+  CHECK(contains(result.stop.message, "interrupted in the curves of the cases; of the search: "));
 }
 
 TEST_CASE("a search that is interrupted far from its best design tells the best, as it was seen there") {

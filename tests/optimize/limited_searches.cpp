@@ -63,7 +63,7 @@ TEST_CASE("where the best design is beside others with one more peak, beyond a l
   REQUIRE(found.feasible);
   CHECK(random_limits::excess(search, found.design) <= 1e-6);
   CHECK(found.stop.reason == optimize::reasons::not_stationary);
-  const std::string beyond = "a peak comes up at which a limit is exceeded by 0.00380";
+  const std::string beyond = "a peak appears at which a limit is exceeded by 0.00380";
   CHECK(found.stop.message.find(beyond) != std::string::npos);
 }
 

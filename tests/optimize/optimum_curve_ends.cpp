@@ -101,18 +101,18 @@ TEST_CASE("what the progress callback throws ends the curve with what there is")
   const OptimumCurve curve = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
   CHECK(curve.status == observables::Status::failed);
   CHECK(curve.stop.reason == reasons::objective_failed);
-  CHECK(contains(curve.stop.message, "it threw \"enough\""));
+  CHECK(contains(curve.stop.message, "an evaluation threw \"enough\""));
   CHECK(curve.points.size() == 4);
 }
 
-TEST_CASE("what cannot be followed is refused before anything is computed") {
+TEST_CASE("what cannot be continued is refused before anything is computed") {
   const DesignVariable force{"force.cosine", 1, 2};
   CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosin", 1, 2}), "force.cosine"));
   CHECK(contains(error_of(paper(1, 0), paper_load, {"damper.normal_load", 1, 2}), "named twice"));
   CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosine", 2, 1}), "must be below"));
   OptimumProblem limited = paper_load;
   limited.limits.push_back({"energy_friction", -HUGE_VAL, 1e-3});
-  CHECK(contains(error_of(paper(1, 0), limited, force), "with limits is not followed"));
+  CHECK(contains(error_of(paper(1, 0), limited, force), "with limits cannot be continued"));
   OptimumCurveOptions options;
   options.step = 0;
   CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
@@ -124,7 +124,7 @@ TEST_CASE("what cannot be followed is refused before anything is computed") {
   CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
   OptimumProblem cases = paper_load;
   cases.cases.push_back({{{"damper.stiffness", 3000}}});
-  CHECK(contains(error_of(paper(1, 0), cases, force), "over several cases is not followed"));
+  CHECK(contains(error_of(paper(1, 0), cases, force), "over several cases cannot be continued"));
 }
 
 TEST_CASE("a peak without weight beside one that does not depend on the design holds no optimum") {

@@ -161,7 +161,7 @@ TEST_CASE("an exception at the start leaves no value, and says so") {
   CHECK(std::isinf(r.value));
   CHECK_FALSE(r.feasible);
   CHECK(r.message ==
-        "the objective threw \"something that is no std::exception\" after 1 evaluation; no evaluation "
+        "the objective threw \"something other than a std::exception\" after 1 evaluation; no evaluation "
         "succeeded");
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("rounding errors end a run that asks for more than there is") {
   options.tolerances = {.x_relative = 0, .f_relative = 0};
   const Result r = minimize(friction_damper(0.8, 50), {3}, options);
   CHECK(std::string(name(r.reason)) == "rounding");
-  CHECK(contains(r.message, "rounding errors left no progress after "));
+  CHECK(contains(r.message, "rounding errors prevented further progress after "));
   CHECK(r.value == Approx(std::numbers::pi));
 }
 
@@ -293,7 +293,7 @@ TEST_CASE("bad input is answered with its numbers") {
        "the start has 3 variables, but there are 2 lower and 2 upper bounds"},
       {error_of(rosenbrock(), {0, std::nan("")}), "the start has variable 1 = not a number"},
       {error_of(hock_schittkowski_71(), y, {.algorithm = "LN_BOBYQA"}),
-       "LN_BOBYQA takes no constraints, but there are 2; these take them: "},
+       "LN_BOBYQA does not support constraints, but there are 2; algorithms that do: "},
       {error_of(negative, y), "tolerance of constraint \"product\" is -1, must be finite and >= 0"},
       {error_of(nameless, y), "constraint \"square\" has no function"},
       {error_of(rosenbrock(), x, {.tolerances = {.x_relative = -1e-3}}),

@@ -114,7 +114,8 @@ TEST_CASE("a corner that is not looked at first is found: four parameters that s
   const Optimum one = optimize::optimum(closed_form(), problem, {.scatter_rounds = 1});
   CHECK(one.status == observables::Status::stopped);
   CHECK(one.stop.reason == optimize::reasons::scatter_limit);
-  CHECK(one.stop.message.find("the worst of what scatters was higher still after 1 rounds") == 0);
+  CHECK(one.stop.message.find("the worst case of the uncertain parameters still increased after 1 rounds") ==
+        0);
   CHECK_FALSE(one.certificate);
   // Its amplitude is the worst at its own design all the same.
   const double p = one.design[0];
@@ -205,16 +206,16 @@ TEST_CASE("what scatters and makes no sense is told") {
     return std::string("no error");
   };
   CHECK(error_of(with({{"damper.normal_load", 1, 2}})) ==
-        "\"damper.normal_load\" scatters, and the search is over it");
+        "\"damper.normal_load\" is both a design parameter and in the scatter");
   CHECK(error_of(with({{"k.value", 2, 1}})) ==
         "bounds of \"k.value\" are [2, 1]: the lower must be below the upper");
   CHECK(error_of(with({{"k.valeu", 1, 2}})).find("k.value") != std::string::npos);
   auto mean = with({{"k.value", 1, 2}});
   mean.criterion = optimize::Criterion::mean;
-  CHECK(error_of(mean) == "what scatters counts with its worst, and goes with the criterion worst only");
+  CHECK(error_of(mean) == "scatter requires the criterion worst");
   auto both = with({{"k.value", 1, 2}});
   both.cases = {{{{"k.value", 1}}}};
-  CHECK(error_of(both) == "a case sets \"k.value\", which scatters");
+  CHECK(error_of(both) == "a case sets \"k.value\", which is in the scatter");
   CHECK_THROWS_AS(optimize::direct_optimum(closed_form(), with({{"k.value", 1, 2}})), optimize::OptionsError);
 }
 

@@ -179,7 +179,7 @@ void print_random_interruptions() {
 The commands below, each with a scene of the examples, are sent SIGINT or SIGTERM at moments that are spread evenly over
 the time they take, some of them with `--quiet`. The files are there before. Each time the command ends by itself and
 within one second of work, with 0 or with 3 and a sentence on standard error; each file is what it was or whole; and no
-other file is left. Where no study was begun, every file is what it was.
+other file is left. Where no study was started, every file is unchanged.
 
 )";
   print_head({"command", "files"});
@@ -227,8 +227,7 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("signals at random moments, of SIGINT and SIGTERM", app_test::random_moments,
       app_test::random_interruptions().size(), "a signal at any moment",
       "14 100: 930 of each command below \"Interruptions\", and of the first four 890 to 1000 more. All "
-      "files "
-      "whole, none silent, none left over");
+      "files whole, none silent, none left over");
   row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, beside "
       "searches by LN_COBYLA and LD_MMA from the lowest of forty other designs over the bounds",
       limited_searches::number, 1, "random searches with limits",
@@ -237,11 +236,10 @@ Random cases, the same on every machine but for the moments of signals. The test
       "LN_COBYLA alone. 613 complete, none above the other ways by more than 7e-8 and 82 below them by more "
       "than 1e-6, all limits kept in responses of their own; 150 for which no way has a design within the "
       "limits; 16 stopped where no conditions of a minimum hold, at a jump, or a kink of the amplitude or of "
-      "a "
-      "limit, none above the other ways by more than 3e-7; one stopped at its evaluations, 0.8 % above them "
-      "(seed 625). 14 were cut after one to five minutes, 7 have no limit, 199 were not run. Complete is a "
-      "local "
-      "minimum: before, four ended complete above the other ways, by up to 6 % (seeds 209, 546, 885, 906)");
+      "a limit, none above the other ways by more than 3e-7; one stopped at its evaluations, 0.8 % above "
+      "them (seed 625). 14 were cut after one to five minutes, 7 have no limit, 199 were not run. Complete "
+      "is a local minimum: before, four ended complete above the other ways, by up to 6 % (seeds 209, 546, "
+      "885, 906)");
   row("random structures of 1 to 6 masses with friction, some with cubic springs, in all units, names, "
       "orders and directions",
       structures::number, 1, "structures:",

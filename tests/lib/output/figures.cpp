@@ -176,7 +176,7 @@ TEST_CASE("branches without a point give data and a reason, and no figure") {
   branch.points.clear();
   const auto figures =
       drawn(support::scene(), BranchKind::responses, std::vector{branch}, folder.path(), "frf");
-  CHECK(figures.problem == "there is no point to draw, so there is no figure");
+  CHECK(figures.problem == "no figure was drawn: there are no points");
   CHECK(figures.images.empty());
   CHECK(folder.files() == 2);
 }
@@ -253,7 +253,7 @@ TEST_CASE("images of an earlier run are removed where the new ones cannot be dra
   for (const char* image : {"frf_amplitude.svg", "frf_stick.png", "frf_stick_other.svg", "frf_mine.svg"})
     output::write_file(folder / image, [](std::ostream& out) { out << "</svg>"; });
   const auto figures = drawn(support::scene(), BranchKind::responses, branches, folder.path(), "frf");
-  CHECK(figures.problem.find("; those of an earlier run are removed") != std::string::npos);
+  CHECK(figures.problem.find("; those of an earlier run were removed") != std::string::npos);
   CHECK(folder.files() == 3);
   CHECK(support::fs::exists(folder / "frf_mine.svg"));
 }

@@ -89,9 +89,9 @@ void add_bad_designs(std::vector<BadScene>& rows) {
   add("misspelt criterion", R"("cases": [{}], "criterion": "wrost")", "criterion",
       "found \"wrost\", must be one of \"worst\", \"mean\"; did you mean \"worst\"?");
   add("mean of no cases", R"("criterion": "mean")", "criterion",
-      "found \"mean\" without \"cases\", of which it is; must be \"worst\"");
+      "found \"mean\" without \"cases\"; must be \"worst\"");
   add("mean of what scatters", R"("criterion": "mean", "cases": [{}], "scatter": {"m.value": [1, 2]})",
-      "criterion", "found \"mean\" beside \"scatter\", of which the worst counts; must be \"worst\"");
+      "criterion", "found \"mean\" together with \"scatter\", which takes the worst case; must be \"worst\"");
   add("scatter that is a list", R"("scatter": [1, 2])", "scatter", "found a list, must be an object");
   add("scatter of one value", R"("scatter": {"m.value": 1})", "scatter/m.value",
       "found 1 (a number), must be a pair [lower, upper], each at least 0 kg");
@@ -100,7 +100,7 @@ void add_bad_designs(std::vector<BadScene>& rows) {
   add("scatter of a parameter of the design", R"("scatter": {"k.value": [1, 2]})", "scatter/k.value",
       "found \"k.value\", which the study is \"over\"; must be another parameter");
   add("scatter of what cases set", R"("cases": {"m.value": [1, 2]}, "scatter": {"m.value": [1, 2]})",
-      "scatter/m.value", "found \"m.value\", to which \"cases\" give values; must be another parameter");
+      "scatter/m.value", "found \"m.value\", which \"cases\" set; must be another parameter");
   add("scatter of an unknown parameter", R"("scatter": {"m.valu": [1, 2]})", "scatter/m.valu",
       "did you mean \"m.value\"?");
 
@@ -114,18 +114,18 @@ void add_bad_designs(std::vector<BadScene>& rows) {
       R"("cases": [{}], "constraints": [{"observable": "frequency", "at_most": 2}], "along": "f.sine")" +
           range,
       "along",
-      "found \"along\" beside \"constraints\", \"cases\", with which no optimum is followed; must stand "
-      "without");
+      "found \"along\" together with \"constraints\", \"cases\", which it does not support; must be given "
+      "alone");
   add("along what scatters", R"("scatter": {"c.value": [1, 2]}, "along": "c.value")" + range, "along",
-      "found \"along\" beside \"scatter\"");
+      "found \"along\" together with \"scatter\"");
   add("along a parameter without its end", R"("along": "f.sine", "from": 1)", "to",
       "found no key \"to\", which is required: must be a finite number (N)");
   add("along a parameter backwards", R"("along": "f.sine", "from": 1, "to": 0)", "to",
       "found 0, must be above \"from\", which is 1 N");
   add("range along nothing", R"("from": 1)", "from",
-      "found the key \"from\" without \"along\", the parameter of which it is a value");
+      "found the key \"from\" without \"along\", whose range it belongs to");
   add("for each of what cases set", R"("cases": {"m.value": [1]}, "for_each": {"m.value": [2]})",
-      "for_each/m.value", "found \"m.value\", to which \"cases\" give values; must be another parameter");
+      "for_each/m.value", "found \"m.value\", which \"cases\" set; must be another parameter");
   add("for each of what scatters", R"("scatter": {"m.value": [1, 2]}, "for_each": {"m.value": [2]})",
       "for_each/m.value", "found \"m.value\", which is in \"scatter\"; must be another parameter");
   add("for each of what the study goes along", R"("along": "f.sine", "for_each": {"f.sine": [2]})" + range,
@@ -141,7 +141,7 @@ void add_bad_designs(std::vector<BadScene>& rows) {
   add("search with a seed that is no number", R"("seed": "x")", "seed",
       "found \"x\" (a string), must be an integer from 0 to 100000000");
   add("local search that is no name", R"("local": {})", "local",
-      "found an object, must be a string, the name of an algorithm of NLopt");
+      "found an object, must be a string, the name of an NLopt algorithm");
   add("misspelt setting of a search", R"("evaluation": 100)", "evaluation", "did you mean \"evaluations\"?");
 }
 

@@ -217,7 +217,7 @@ TEST_CASE("of a hundred thousand faults a thousand are listed and the rest are c
   }
   const auto faults = faults_of(good_scene_with("{\"d.normal_load\": [1, 2]}", sweep + "]}"));
   REQUIRE(faults.size() == 1001);
-  CHECK(faults.back().message == "and 99000 faults more, which are not listed");
+  CHECK(faults.back().message == "and 99000 more faults, which are not listed");
 }
 
 TEST_CASE("more than five million values are refused before the memory is full") {
@@ -227,7 +227,7 @@ TEST_CASE("more than five million values are refused before the memory is full")
   }
   const auto faults = faults_of(text + "]");
   REQUIRE(faults.size() == 1);
-  CHECK(faults[0].message.find("found more than 5000000 values, a scene must have at most so many") !=
+  CHECK(faults[0].message.find("found more than 5000000 values, must be at most that many") !=
         std::string::npos);
 }
 

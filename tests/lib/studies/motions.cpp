@@ -202,5 +202,5 @@ TEST_CASE("the figures of motions are drawn") {
         0);
   const auto none = output::draw_figures(studies::figures_of(made_up_scene(), std::vector<Motion>{}),
                                          folder.path(), "none");
-  CHECK(none.problem == "there is no point to draw, so there is no figure");
+  CHECK(none.problem == "no figure was drawn: there are no points");
 }

@@ -124,7 +124,7 @@ TEST_CASE("a massless degree of freedom with friction in time is that of harmoni
   const Motion refused = motion_in_time(massless(0), at(1.4, TimeMethod::event_driven));
   CHECK(refused.status == Status::failed);
   CHECK(refused.stop.reason == observables::reasons::massless);
-  CHECK(refused.stop.message.find("take the method newmark") != std::string::npos);
+  CHECK(refused.stop.message.find("use the method newmark") != std::string::npos);
   const Motion cubic = motion_in_time(massless(0.7), at(1.4, TimeMethod::event_driven));
   CHECK(cubic.stop.reason == observables::reasons::not_piecewise_linear);
 }
