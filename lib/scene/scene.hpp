@@ -1,5 +1,5 @@
 #pragma once
-// A scene: what a user wrote, checked and resolved, as plain data in the user's own units.
+// A scene, validated and resolved, as plain data in the user's units.
 
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/named_file.hpp>
@@ -36,9 +36,9 @@ using Direction = std::vector<Term>;
 struct Part {
   std::string name;
   const PartType* type = nullptr;
-  std::vector<Direction> directions;  // as the type's slots; one where it has none
+  std::vector<Direction> directions;  // of the type's slots; one if it has none
   std::vector<double> values;
-  int harmonic = 1;    // excitation only: order of the harmonic of the force; 0: constant
+  int harmonic = 1;    // excitation only: harmonic of the force; 0: constant
   Settings options{};  // of the type; empty: its defaults
 
   std::span<const Field> fields() const;
@@ -61,11 +61,10 @@ struct Harmonics {
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
 };
 
-/// Lists of values by the names of parameters; several lists make their product.
+/// Lists of values by parameter name; several lists form their product.
 using ValueLists = std::vector<std::pair<std::string, std::vector<double>>>;
 
-/// What is to be computed, as data: a kind, its own settings, and values of parameters for which it is
-/// computed again.
+/// A study as data: its kind, its settings, and values of parameters for which it is repeated.
 struct Study {
   std::string name;
   const StudyType* type = nullptr;
@@ -74,9 +73,9 @@ struct Study {
   friend bool operator==(const Study&, const Study&) = default;
 };
 
-/// A motion that is observed.
+/// An observed motion.
 struct Response {
-  std::string name{};  // empty where the scene has one alone, which it does not name
+  std::string name{};  // empty for a single unnamed response
   Direction direction{};
   friend bool operator==(const Response&, const Response&) = default;
 };
@@ -88,16 +87,16 @@ struct Scene {
   std::vector<Part> masses, springs, dampers, elements, excitation;
   std::vector<Tie> ties;
   Harmonics harmonics;
-  std::vector<Response> responses{1};  // at least one: the first is that whose amplitude is followed
+  std::vector<Response> responses{1};  // at least one: the first defines the amplitude
   std::vector<Study> studies;
-  Folder folder{};  // of the file that it is from
+  Folder folder{};  // of its file
 
   const Direction& response() const { return responses.front().direction; }
   Direction& response() { return responses.front().direction; }
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// What the other sections hold. Fields: value; value; value; cosine, sine.
+/// The types of the other sections. Fields: value; value; value; cosine, sine.
 const PartType& mass_type();
 const PartType& spring_type();
 const PartType& damper_type();
@@ -105,11 +104,11 @@ const PartType& force_type();
 
 /// One fault of a scene file.
 struct Fault {
-  std::string pointer;  // JSON pointer (RFC 6901) to the place, "" for the file as a whole
-  std::string message;  // what was found, what is allowed, and the nearest known key where there is one
+  std::string pointer;  // JSON pointer (RFC 6901), "" for the file as a whole
+  std::string message;  // what was found, what is allowed, and the nearest known key, if any
 };
 
-/// All faults of a scene, found in one reading. what() lists them, one a line.
+/// All faults of a scene. what() lists them, one per line.
 class SceneError : public std::runtime_error {
  public:
   explicit SceneError(std::vector<Fault> faults);
@@ -124,7 +123,7 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A parameter that is not there, or a value that it may not take.
+/// An unknown parameter, or a value outside its bounds.
 class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
