@@ -14,8 +14,8 @@ namespace arcslip::scene {
 /// meanwhile.
 Scene read_file(const std::string& path, const Catalogue& catalogue, const StopRequest& stop);
 
-/// The scene with these keys of one of its studies, in place of its own or beside them; null: without
-/// that key. Throws SceneError.
+/// The scene with these keys in one of its studies, replacing or extending its own; null: without that key.
+/// Throws SceneError.
 Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::Member>& keys);
 
 }  // namespace arcslip::scene
