@@ -137,37 +137,36 @@ inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 
 /// Reads format "arcslip-scene-1". catalogue: the laws of force and the kinds of studies that it may hold, as
-/// studies::catalogue(). folder: where its relative paths begin. Throws SceneError with every fault found.
+/// studies::catalogue(). folder: base of its relative paths. Throws SceneError with every fault found.
 Scene read(std::istream& in, const Catalogue& catalogue, const std::string& folder = {});
-/// The same from a file, and its folder. Throws FileError where the file cannot be read.
+/// The same from a file, with its folder. Throws FileError if the file cannot be read.
 Scene read_file(const std::string& path, const Catalogue& catalogue);
 
 /// The resolved scene with every default, in the same format: read(write(s)) gives s again.
 std::string write(const Scene& scene);
-/// Checks a scene that was built or changed in code. Throws SceneError with the faults that reading
-/// write(scene) finds.
+/// Validates a scene built or changed in code. Throws SceneError with the faults that reading write(scene)
+/// would find.
 void check(const Scene& scene);
-/// All files that it names.
+/// All files named by the scene.
 std::vector<NamedFile*> files(Scene& scene);
-/// The same scene from another folder: relative paths lead to the same files.
+/// The same scene relative to another folder: paths are adjusted to refer to the same files.
 Scene from_folder(Scene scene, const std::string& folder);
 
-/// Hash of the resolved scene and of what the files hold that it names (FNV-1a, 64 bits, 16 hexadecimal
-/// digits), kept in results.
+/// Hash of the resolved scene and of the content of its named files (FNV-1a, 64 bits, 16 hexadecimal digits),
+/// stored in results.
 std::string hash(const Scene& scene);
 
-/// Names of all parameters: ties, then every "part.field" (a tied field still answers to its own name).
+/// Names of all parameters: ties, then every "part.field" (tied fields can also be read by their own names).
 std::vector<std::string> parameter_names(const Scene& scene);
 /// The fields behind a parameter, one for a "part.field" and one for each member of a tie. Throws
 /// ParameterError.
 std::vector<const Field*> parameter_fields(const Scene& scene, std::string_view parameter);
-/// Value of a parameter. Throws ParameterError, with the nearest known name, where there is none.
+/// Value of a parameter. Throws ParameterError, with the nearest known name, if it is unknown.
 double value(const Scene& scene, std::string_view parameter);
-/// Gives a parameter a value and drops it from the lists of every study, as drop() does. Throws
-/// ParameterError where there is no such parameter, where the value is out of its bounds, and where the field
-/// is tied: its tie is to be set then.
+/// Sets a parameter and drops it from the lists of every study, as drop() does. Throws ParameterError for an
+/// unknown parameter, a value out of bounds, or a tied field, which must be set by its tie.
 void set(Scene& scene, std::string_view parameter, double value);
-/// Takes a parameter from for_each and from the lists that the study's settings hold.
+/// Removes a parameter from for_each and from the lists in the study's settings.
 void drop(Study& study, std::string_view parameter);
 
 /// Factor from the scene's frequency unit to rad/s.
