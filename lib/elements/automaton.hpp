@@ -1,16 +1,16 @@
 #pragma once
-// A piecewise linear law in time: modes, each linear, and the guards that lead from one to another.
+// A piecewise linear law in time as a hybrid automaton: linear modes, and guards for the transitions.
 //
 //   f = f_q q + f_z z + f_0        z: one number of memory, or none
-//   z rests, or follows: z = z_q q + z_0, where f_z is 0. Of a slider, the force along its direction is what
-//   it takes to move it.
-//   a guard  g = q . q + v . q' + z z + c  is at least 0 in its mode, which is left where g falls below 0
+//   z rests, or follows: z = z_q q + z_0, where f_z is 0. For a slider, the force along its direction is the
+//   force that moves it. a guard  g = q . q + v . q' + z z + c  is at least 0 in its mode, which is left when
+//   g falls below 0
 //
-// A row that is left empty is 0. f_q is symmetric. Where a memory that follows comes to rest, what it follows
-// is at rest, z_q q' = 0, as where the guard is on that velocity: the derivatives of a motion take this for
-// granted. Only sliders dissipate.
+// An empty row means 0. f_q is symmetric. When a following memory comes to rest, the displacement it follows
+// must be at rest, z_q q' = 0, as with a guard on that velocity: the derivatives of a motion rely on this.
+// Only sliders dissipate.
 //
-// The first mode is that at the start; where a guard is below 0 there, it is left at once.
+// The first mode is the initial one; it is left at once if a guard is below 0 there.
 
 #include <Eigen/Core>
 
@@ -22,7 +22,7 @@ namespace arcslip::elements {
 struct Guard {
   Eigen::RowVectorXd q, v;
   double z = 0, c = 0;
-  int to = 0;  // the mode beyond
+  int to = 0;  // the next mode
 };
 
 struct Mode {
@@ -64,7 +64,7 @@ struct Automaton {
     return mode;
   }
 
-  int memory;  // which of the law's; -1: none
+  int memory;  // index in the law's memory; -1: none
   std::vector<Mode> modes;
 };
 

@@ -1,10 +1,10 @@
 #pragma once
-// The corners of one element: where one more phase of its contact is about to be born, or two become one. A
-// function h of its motion vanishes there, h < 0 without the phase and h > 0 with it. J jumps by rank one
-// along grad h, or changes there with the root of h.
+// The corners of one element: the onset of a further contact phase, or the merging of two. A function h of
+// its motion vanishes there, h < 0 without the phase and h > 0 with it. J has a rank-one jump along grad h,
+// or changes with the square root of h.
 //
-// h depends on angles theta_i, each told by an equation a_i = 0, as w'(theta) = 0 of a reversal. Where these
-// hold, h does not change with the angles, so that grad h is the partial derivative.
+// h depends on angles theta_i, each defined by an equation a_i = 0, such as w'(theta) = 0 for a reversal.
+// There h is stationary with respect to the angles, so that grad h is the partial derivative.
 
 #include <arcslip/elements/series.hpp>
 
@@ -14,7 +14,7 @@
 namespace arcslip::elements {
 
 struct Corner {
-  int guard = 0;               // which condition it is, by the law's own numbering
+  int guard = 0;               // index of the condition, numbered by the law
   std::vector<double> angles;  // rad
 };
 
@@ -40,11 +40,11 @@ class Corners {
   virtual int angles() const = 0;
   /// At any angles.
   virtual void equations(const Corner& corner, In w, Fields fields, Equations& at) = 0;
-  /// What h is measured by at this motion, in the unit of h.
+  /// The scale of h at this motion, in the unit of h.
   virtual double size(const Corner& corner, In w, Fields fields) = 0;
-  /// From angles nearby to those of w. False: w has no such corner.
+  /// Corrects approximate angles to those of w. False: w has no such corner.
   virtual bool polish(Corner& corner, In w) = 0;
-  /// |h| <= tolerance times its size. Of corners that are images of one another by a symmetry of w, one.
+  /// The corners with |h| <= tolerance times its scale; one of those related by a symmetry of w.
   virtual std::vector<Corner> near(In w, Fields fields, double tolerance) = 0;
 };
 

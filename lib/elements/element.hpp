@@ -1,6 +1,6 @@
 #pragma once
-// A nonlinear element in the frequency domain: coefficients of a displacement in, coefficients of a force and
-// its derivatives out.
+// A nonlinear element in the frequency domain: maps Fourier coefficients of a displacement to those of a
+// force, with derivatives.
 //
 // The force acts against the motion: the equation of motion is M x'' + C x' + K x + f(x) = excitation. The
 // coefficients of f are those of its Fourier series in the layout of harmonics.hpp:
@@ -22,23 +22,23 @@ struct FrictionState {
   std::vector<double> slip_ends;    // rad in [0, 2 pi), ascending: the reversals where slip ends
 };
 
-/// Made for one harmonic set; owns its buffers and allocates nothing in move_to().
+/// For one set of harmonics; owns its buffers. move_to() does not allocate.
 class Element {
  public:
   virtual ~Element() = default;
 
   /// u: harmonics.size() coefficients of each direction, and of each auxiliary unknown after them. fields: as
-  /// listed with the element's type. The Jacobian is made only when asked for.
+  /// listed with the element's type. The Jacobian is computed only on request.
   virtual void move_to(In u, std::span<const double> fields, bool jacobian) = 0;
 
   virtual const Eigen::VectorXd& force() const = 0;            // F(u), as u
   virtual const Eigen::MatrixXd& jacobian() const = 0;         // dF/du
   virtual void field_derivative(int field, Out dF) const = 0;  // dF/d(fields[field]) at the last place
 
-  /// Number of the smooth piece of F that the last place lies on.
+  /// The smooth piece of F at the last point.
   virtual std::uint64_t piece() const { return 0; }
 
-  /// False where the element has no contact. Angles are those of the last place.
+  /// False if the element has no contact. Angles of the last point.
   virtual bool friction(FrictionState&) const { return false; }
 };
 

@@ -75,8 +75,8 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
   return phases_;
 }
 
-// Of several highest and lowest reversals, as a motion of a shorter period than the force's has them, the
-// nearest two: which of them rounding makes the highest tells nothing.
+// Of several highest and lowest reversals, as in a motion with a shorter period than the force, the nearest
+// two: which of them is the highest is decided by rounding only.
 void FrictionPhases::choose_extremes(const std::vector<Reversal>& turns) {
   const double same = same_height * (highest_.x - lowest_.x);
   extremes_ = turns.size();

@@ -2,17 +2,16 @@
 // The Jenkins element (Masing, macroslip): a spring of stiffness k_d in series with a slider of slip limit
 // p = mu F_n. f grows by k_d dx and stays within [-p, p].
 //
-// Exact: for the given x(theta) the instants of slip onset and of reversal are found, and each phase is
-// integrated in closed form. With the sticking phases i from the anchor r_i, where f = s_i p, and the
-// slipping phases j of sign s_j:
+// Exact: the slip onsets and reversals of x(theta) are found, and each phase is integrated in closed form.
+// With the stick phases i from the anchor r_i, where f = s_i p, and the slip phases j of sign s_j:
 //
 //   F = k_d A + p B
 //   A = kappa (G u - sum_i x(r_i) g_i),   B = kappa (sum_i s_i g_i + sum_j s_j l_j)
 //   dF/du = kappa k_d (G - sum_i g_i phi(r_i)^T),   dF/dk_d = A at fixed p,   dF/dp = B
 //
 // G: integral of phi phi^T over all stick, g_i and l_j: of phi over one phase; kappa = 1/pi (mean row 1/(2
-// pi)), or 2/pi over half a period where the motion is antisymmetric. Moving ends of phases do not enter,
-// since f is continuous there; an anchor moves with x(r_i) alone, since x'(r_i) = 0. See
+// pi)), or 2/pi over half a period for antisymmetric motion. The motion of the ends of phases does not enter,
+// since f is continuous there; an anchor depends on x(r_i) only, since x'(r_i) = 0. See
 // docs/theory/03-friction-integrals.md.
 //
 // Without slip (max x - min x <= 2 p/k_d) f is centred: f = k_d (x - (max x + min x)/2), the limit from the
@@ -32,8 +31,8 @@ const PlainLaw& jenkins();
 
 std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics);
 
-/// Where it begins to slip at a reversal of its motion w: stuck since the reversal theta_a, where f = s_a p,
-/// it comes to s p just at the reversal theta_r. Angles theta_a, theta_r;
+/// Onset of slip at a reversal of its motion w: stuck since the reversal theta_a, where f = s_a p, it reaches
+/// s p just at the reversal theta_r. Angles theta_a, theta_r;
 ///
 ///   h = (s k_d (w(theta_r) - w(theta_a)) - (1 - s s_a) p) / 2,  N
 ///

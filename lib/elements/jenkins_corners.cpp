@@ -1,4 +1,4 @@
-// Where a slider begins to slip at a reversal of its motion (jenkins.hpp).
+// Onset of slip of a slider at a reversal of its motion (jenkins.hpp).
 #include <arcslip/elements/jenkins.hpp>
 
 #include <arcslip/elements/friction_phases.hpp>
@@ -14,7 +14,7 @@ namespace {
 constexpr double same_place = 1e-9;  // rad: a reversal at the end of a phase
 constexpr double next_to_be = 1e-3;  // of the range of the motion: reversals next to be the highest or lowest
 
-// The force is anchor_sign p at the first angle, and comes to slip_sign p at the second.
+// The force is anchor_sign p at the first angle, and reaches slip_sign p at the second.
 struct Signs {
   double anchor, slip;
 };

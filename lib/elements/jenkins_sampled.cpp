@@ -9,8 +9,8 @@ namespace {
 
 constexpr double same_height = 1e-12;  // of the range of the motion
 
-// Of several samples that are as high but for rounding, as a motion of a shorter period than the force's has
-// them, the first.
+// The first of several samples that are equally high to rounding, as in a motion with a shorter period than
+// the force.
 int first_of(In x, double height, double same) {
   Eigen::Index s = 0;
   while (std::abs(x[s] - height) > same) ++s;
@@ -22,8 +22,8 @@ std::uint64_t with_sample(std::uint64_t piece, int sample) {
 }
 
 // One march over the span from the sample of largest x, where f = +p, is periodic by construction. The
-// samples that stick follow their anchor, the last sample that slipped. Which samples are the highest and the
-// lowest one is part of the piece, as what slips is: anchors and centre follow them.
+// samples that stick depend on their anchor, the last sample that slipped. The indices of the highest and the
+// lowest sample are part of the piece, like the slipping samples: anchors and centre depend on them.
 class SampledJenkins final : public Element {
  public:
   SampledJenkins(const Harmonics& h, int samples)

@@ -1,5 +1,5 @@
 #pragma once
-// The largest absolute value of a series over the period, without all its reversals.
+// The maximum absolute value of a series over the period, without computing all reversals.
 //
 // 4 N + 16 samples in half a period lie at most pi/4 apart in the phase of the highest harmonic. The parabola
 // through a largest sample and its neighbours then misses the top beside it by less than 0.9 % of the largest

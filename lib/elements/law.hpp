@@ -1,5 +1,5 @@
 #pragma once
-// A law of force: all that Arcslip asks of a nonlinear element. A law is one class in one pair of files.
+// A law of force: the interface of nonlinear elements. A law is one class in one pair of files.
 //
 //   class Hardening final : public elements::PlainLaw { ... };
 //   scene::Catalogue catalogue = studies::catalogue();
@@ -7,11 +7,11 @@
 //   const auto scene = scene::read_file("scene.json", catalogue);
 //
 // A law acts on the displacements q_1 ... q_d along its directions, q_i = d_i . x, with the force f(q), N,
-// against the motion: M x'' + C x' + K x + sum_i d_i f_i = excitation. It may remember: z are the numbers of
-// its memory. Fields are the values of its parameters, in the order of its type's fields.
+// against the motion: M x'' + C x' + K x + sum_i d_i f_i = excitation. It may have internal variables z, its
+// memory. Fields are the values of its parameters, in the order of its type's fields.
 //
-// Laws are immutable, and threads share them. What changes lives in the Element that a law makes for harmonic
-// balance, and in the arguments of step().
+// Laws are immutable and may be shared by threads. Mutable state is in the Element that a law creates for
+// harmonic balance, and in the arguments of step().
 
 #include <arcslip/elements/automaton.hpp>
 #include <arcslip/elements/corners.hpp>
@@ -32,25 +32,25 @@ namespace arcslip::elements {
 using Fields = std::span<const double>;
 using Angles = std::span<const double>;  // rad
 
-/// How an element is to be sampled in time, where its law may be.
+/// How an element is sampled in time, if its law may be.
 struct Sampling {
   bool exact = true;  // by integrals in closed form, where the law has them
   int samples = 512;  // in a period, else
 };
 
-/// What a law is like along one of its directions, at given fields; asked outside of residuals.
+/// Properties of a law along one of its directions, at given fields; not used within residuals.
 struct Traits {
-  double stiffness = 0;            // N/m: the largest |df/dq| over all motions; infinity where there is none
+  double stiffness = 0;            // N/m: the maximum of |df/dq| over all motions; infinity if unbounded
   int stiffness_field = -1;        // the field that is this stiffness; -1: none
-  bool holds_mean = false;         // a constant displacement meets a force that restores it
+  bool holds_mean = false;         // a constant displacement causes a restoring force
   bool several_responses = false;  // periodic responses may coexist
   double far_power = 0;            // the elastic force grows as amplitude^far_power where that is large
   double far_work = 0;             // N: dissipated there in an oscillation, over its amplitude
   double limit = std::numeric_limits<double>::infinity();  // N: the largest force of friction
 };
 
-/// The force of a law without memory at several q at once: a row for each. A law sets all that may differ
-/// from what it finds here, as it left it.
+/// The force of a law without memory at several q at once: a row for each. A law sets everything that may
+/// differ from its previous values here.
 struct SampledForce {
   SampledForce() = default;
   SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields)
@@ -64,11 +64,11 @@ struct SampledForce {
   std::uint64_t piece = 0;  // another number where many samples go over a kink of f together
 };
 
-/// A step in time begins at q and z, with the force f.
+/// The start of a step in time: q, z and the force f.
 struct StepStart {
   In q, z, f;
 };
-/// What is there at its end, or at a state. A law sets whatever may differ from what it finds here.
+/// The end of the step, or a state. A law sets everything that may differ from its previous values here.
 struct StepEnd {
   StepEnd(int directions, int memory)
       : f(Eigen::VectorXd::Zero(directions)),
@@ -88,7 +88,7 @@ struct StepEnd {
   double dissipated = 0;   // in the step, J
   double stick_share = 1;  // of the step, where there is a contact
 
-  SampledForce sample;  // for the law's own use: what it leaves here is there at the next step
+  SampledForce sample;  // for the law's own use, kept for the next step
   Eigen::MatrixXd sample_q;
 };
 
@@ -107,12 +107,11 @@ class Law {
 
   virtual int directions() const { return 1; }
 
-  /// f(-q) = -f(q) for every motion: then a motion whose half periods mirror each other has a force of this
-  /// kind.
+  /// f(-q) = -f(q) for every motion, so that an antisymmetric motion has an antisymmetric force.
   virtual bool antisymmetric() const = 0;
-  /// It sticks and slips, and tells where: Element::friction().
+  /// Whether it sticks and slips: Element::friction().
   virtual bool has_contact() const { return false; }
-  /// It takes energy out of a periodic motion, which counts in the balance.
+  /// Whether it dissipates energy in a periodic motion.
   virtual bool dissipative() const { return has_contact(); }
   virtual Traits traits(Fields fields, int direction) const = 0;
   /// The largest |df/dq| while |q| stays within `reach`, N/m; finite.
@@ -128,53 +127,51 @@ class Law {
   /// Unknowns of the element's own, each with as many coefficients as a displacement, and as many equations:
   /// the rows of its force after those of the directions.
   virtual int auxiliary() const { return 0; }
-  /// Their typical size. Norms of solutions take all unknowns alike: they are best in a unit in which they
-  /// are about as large as displacements.
+  /// Their typical size. Norms of solutions weight all unknowns equally: choose units in which they are about
+  /// as large as displacements.
   virtual double auxiliary_scale(Fields fields) const {
     static_cast<void>(fields);
     return 1;
   }
   virtual std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const = 0;
-  /// Where branches of responses have corners; null: nowhere that is known.
+  /// The corners of branches of responses; null: none known.
   virtual std::unique_ptr<Corners> corners(const Harmonics& harmonics) const {
     static_cast<void>(harmonics);
     return nullptr;
   }
-  /// The force at some angles of the motion u (as Element::move_to has it), by the law itself: angles x
-  /// directions, N.
+  /// The exact force at some angles of the motion u (as in Element::move_to): angles x directions, N.
   virtual Eigen::MatrixXd force_at(const Harmonics& harmonics, In u, Fields fields, Angles angles) const = 0;
 
   // In time.
 
-  /// How many numbers the law remembers.
+  /// Number of internal variables.
   virtual int memory() const { return 0; }
-  /// The memory k is where a slider stands that follows this direction, so that while it rests any place
-  /// would do; -1: none.
+  /// The direction whose slider position memory k is, so that its offset is arbitrary while it rests;
+  /// -1: none.
   virtual int slider_direction(int k) const {
     static_cast<void>(k);
     return -1;
   }
-  /// The memory with which the force at q is f, as near as it can be.
+  /// The memory for which the force at q is f, as closely as possible.
   virtual void memory_at(Fields fields, In q, In f, Out z) const {
     static_cast<void>(fields), static_cast<void>(q), static_cast<void>(f), static_cast<void>(z);
   }
-  /// The force at a state (f, f_q and f_z), and z as it must be there: a slider beyond its limit is drawn
-  /// after.
+  /// The force at a state (f, f_q and f_z), with admissible z: a slider beyond its limit is moved to it.
   virtual void begin(Fields fields, In q, Out z, StepEnd& at) const = 0;
-  /// A step to q + dq, along which each q moves one way.
+  /// A step to q + dq, with each q monotonic.
   virtual void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const = 0;
-  /// f_q is symmetric in every state.
+  /// Whether f_q is symmetric in every state.
   virtual bool symmetric_step() const { return true; }
   /// Elastic energy at q and z, J.
   virtual double stored(Fields fields, In q, In z) const = 0;
-  /// The same in time, piece by piece, where the law is piecewise linear. Several act in parallel.
+  /// The law as automata, if it is piecewise linear. Several act in parallel.
   virtual std::optional<std::vector<Automaton>> automata(Fields fields) const {
     static_cast<void>(fields);
     return {};
   }
 };
 
-/// A law without options is its own type. It outlives all scenes and models that it stands in.
+/// A law without options is its own type. It must outlive all scenes and models that use it.
 class PlainLaw : public LawType, public Law {
  public:
   int directions() const final { return static_cast<int>(direction_count()); }
@@ -183,7 +180,7 @@ class PlainLaw : public LawType, public Law {
   }
 };
 
-/// The law of an element of a scene. Throws std::invalid_argument where its type is no law.
+/// The law of an element of a scene. Throws std::invalid_argument if its type is not a law.
 std::shared_ptr<const Law> law_of(const scene::Part& part);
 
 /// All laws of Arcslip, for the catalogue of a reader.

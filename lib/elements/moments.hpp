@@ -1,10 +1,10 @@
 #pragma once
-// Integrals of products of harmonics, weighted: G = integral of w(theta) phi phi^T over a set of angles.
+// Weighted integrals of products of harmonics: G = integral of w(theta) phi phi^T over a set of angles.
 //
 // With C_k = integral of w cos k theta and S_k likewise with sin, k = 0 .. 2N, G is Toeplitz plus Hankel:
 //   G_cc(n, m) = (C_|n-m| + C_n+m)/2,  G_ss = (C_|n-m| - C_n+m)/2,  G_cs(n, m) = (S_n+m - sgn(n-m)
 //   S_|n-m|)/2.
-// So O(N) integrals make all of G, whatever w is.
+// So O(N) integrals determine G for any w.
 
 #include <arcslip/elements/series.hpp>
 
@@ -21,7 +21,7 @@ class Moments {
   /// Adds the integral over [begin, end] with w = 1. z_sum = exp(i k s), z_half = exp(i k d), k = 0 .. 2N, at
   /// the middle s and the half length d: C_k = 2 sin(k d) cos(k s)/k, which loses no digits on short pieces.
   void add_interval(double length, const std::complex<double>* z_sum, const std::complex<double>* z_half);
-  /// Call after the last add: fills the parts of negative index.
+  /// Call after the last add: sets the entries of negative index.
   void close();
 
   void times(In u, double factor, Out y) const;                     // y += factor G u

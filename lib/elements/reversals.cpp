@@ -10,9 +10,9 @@ constexpr int deepest = 14;
 constexpr int newton_steps = 60;
 constexpr double settled = 3e-9;  // rad
 
-// Newton's method on an increasing or decreasing function in a bracket, halving where it leaves it. The last
-// step is below `settled`; what it leaves over is its square, rounding. values(t) -> {f, f'}. Returns the
-// root and tells at_last(root - t) how far it lies from the last values.
+// Newton's method for a monotonic function in a bracket, with bisection if it leaves the bracket. The last
+// step is below `settled`; the error is its square, at rounding level. values(t) -> {f, f'}. Returns the root
+// and calls at_last(root - t) with its distance from the last evaluation.
 template <class Function, class AtLast>
 double bracketed_newton(Function&& values, double lower, double upper, double guess, bool rising,
                         AtLast&& at_last) {

@@ -1,5 +1,5 @@
 #pragma once
-// The reversals of a motion: all roots of dx/dtheta over one span of the harmonics, none missed.
+// The reversals of a motion: all roots of dx/dtheta over one span of the harmonics, found rigorously.
 //
 // dx/dtheta is sampled, and each interval is decided by a bound of its curvature, |x'''| <= M = sum n^3
 // |X_n|: no root where both ends lie farther than M h^2/8 from zero on the same side; one root where they

@@ -62,8 +62,8 @@ Directions stiff_directions(const model::Model& model) {
   return stiff;
 }
 
-// What the elements' displacements determine of the elongations of stiff parts: single ones, then sums of
-// several.
+// The elongations of stiff parts that are determined by the elements' displacements: single ones, then sums
+// of several.
 Directions stiff_between_elements(const Directions& stiff, const Independent& elements, int dofs) {
   Directions found;
   if (stiff.empty()) return found;

@@ -241,8 +241,8 @@ CornerSlopes CornerSides::slopes(In x, In p) {
   return slopes;
 }
 
-// The border row is grad h: the solution points to growing h, and the sign of the determinant says whether
-// that is the orientation.
+// The border row is grad h: the solution points towards increasing h, and the sign of the determinant shows
+// whether that is the orientation.
 double CornerSides::slope(double side, int& direction) {
   const Eigen::Index n = problem_->size();
   const double none = std::numeric_limits<double>::quiet_NaN();

@@ -1,6 +1,6 @@
 #pragma once
-// The corners of frequency branches, where one of the guards of an element is just touched, h = 0
-// (elements/corners.hpp): on one side, h > 0, its contact has a phase more than on the other.
+// The corners of frequency branches, where a guard of an element vanishes, h = 0 (elements/corners.hpp): on
+// the side h > 0 its contact has one more phase than on the other.
 //
 // Where J jumps across h = 0, by rank one along grad h, a branch has two tangents, and a peak or a fold may
 // sit at the corner while another parameter changes.
@@ -15,7 +15,7 @@
 
 namespace arcslip::hbm {
 
-/// Which corner of which element of the model.
+/// A corner of an element of the model.
 struct Corner : elements::Corner {
   int element = 0;
 };
@@ -23,28 +23,27 @@ struct Corner : elements::Corner {
 /// h at a solution near the corner; the angles become those of the solution. nullopt: it has no such corner.
 std::optional<double> corner_excess(const HbmProblem& problem, Corner& corner, In u, In p);
 
-/// What h is measured by.
+/// The scale of h.
 double corner_size(const HbmProblem& problem, const Corner& corner, In u, In p);
 
 /// dh/du, n.
 void corner_gradient(const HbmProblem& problem, const Corner& corner, In u, In p, Out dh);
-/// The same within the harmonics that the motion u has: a motion of a shorter period than the force's, or
-/// whose half periods mirror each other, comes to the images of a corner together with it, and stays such a
-/// motion on both sides of them.
+/// The same within the harmonics of the motion u: a motion with a shorter period than the force, or an
+/// antisymmetric one, reaches all images of a corner at once, and keeps its symmetry on both sides.
 void corner_direction(const HbmProblem& problem, const Corner& corner, In u, In p, Out d);
 /// dh/dp_k.
 double corner_derivative(const HbmProblem& problem, const Corner& corner, In u, In p, int k);
 
-/// The corners that a solution is next to: |h| <= tolerance times its size.
+/// The corners near a solution: |h| <= tolerance times its scale.
 std::vector<Corner> corners_near(const HbmProblem& problem, In u, In p, double tolerance);
 
 /// x and the angles of a corner: the unknowns of corner_points().
 Vector with_angles(const Vector& x, const Corner& corner);
-/// The corner with the angles that stand at the end of these unknowns.
+/// The corner with the angles at the end of these unknowns.
 Corner at_angles(Corner corner, const Vector& unknowns);
 
-/// F = 0, h = 0 and the equations of the angles as a problem in the unknowns (u, omega, angles) and the same
-/// parameters; p[frequency] is not looked at.
+/// F = 0, h = 0 and the equations of the angles as a problem in the unknowns (u, omega, angles) with the same
+/// parameters; p[frequency] is ignored.
 std::shared_ptr<const continuation::Problem> corner_points(std::shared_ptr<const HbmProblem> problem,
                                                            const Corner& corner);
 
@@ -64,7 +63,7 @@ class CornerSides {
   CornerSides(std::shared_ptr<const HbmProblem> problem, const Corner& corner,
               continuation::Quantity quantity);
 
-  /// x: (u, omega, angles); p[frequency] is not looked at.
+  /// x: (u, omega, angles); p[frequency] is ignored.
   CornerSlopes slopes(In x, In p);
 
  private:

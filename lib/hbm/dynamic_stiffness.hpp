@@ -20,7 +20,7 @@ class DynamicStiffness {
  public:
   DynamicStiffness(const model::Model& model, const Coordinates& coordinates, const Harmonics& harmonics);
 
-  /// False where the linear coordinates resonate by themselves, undamped: the condensed stiffness has a pole.
+  /// False at an undamped resonance of the linear coordinates: a pole of the condensed stiffness.
   bool move_to(In p);
   double base_frequency() const { return parts_.base_frequency(); }  // rad/s, at the last place
 

@@ -1,10 +1,10 @@
 #pragma once
-// From the unknowns of a problem to those of one element, and back.
+// The map between the unknowns of a problem and those of one element.
 //
 //   w_b(theta) = sum over shares of block b:  weight u_coordinate(theta + phase)
 //
-// A phase is that of a motion which travels: a sector of a ring moves as its neighbour a share of the period
-// before or after. Every share adds its part to the residual and the Jacobian by the transposed map.
+// The phase is for travelling waves: a sector of a ring moves like its neighbour, shifted by a share of the
+// period. Every share contributes to the residual and the Jacobian by the transposed map.
 
 #include <arcslip/elements/series.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Masses, dampers, springs and forces in the coordinates y, x = P y (coordinates.hpp), none of them condensed
-// away. In harmonic n of the motion, s = n times the base frequency:
+// Masses, dampers, springs and forces in the coordinates y, x = P y (coordinates.hpp), before condensation.
+// For harmonic n of the motion, with s = n times the base frequency:
 //
 //   Z y = f,   Z = K - s^2 M + i s C
 //
@@ -20,8 +20,8 @@ using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-/// d in y, by its entries that are not zero. What rounding leaves of it in others is taken out: a stiff part
-/// stands in its own row and column, and added to softer ones, it would leave nothing of them.
+/// d in y, by its nonzero entries. Rounding errors in other entries are removed: a stiff part belongs in its
+/// own row and column only, and would swamp softer ones.
 class DirectionInY {
  public:
   DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x);
@@ -61,7 +61,7 @@ struct StructuralMatrices {
   }
 };
 
-/// What the linear parts and the forces do in one harmonic of the motion of all degrees of freedom, x.
+/// Products of the linear parts and the forces with one harmonic of the motion x of all degrees of freedom.
 struct QuadraticForms {
   double mass = 0, damping = 0, stiffness = 0;  // x^H M x, x^H C x, x^H K x
   Complex force;                                // x^H f

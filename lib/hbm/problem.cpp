@@ -134,8 +134,8 @@ namespace {
 
 constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch that closes on itself never ends
 
-// The branch from rest through the excitation factors from -1 to 1. Where all laws are antisymmetric, u at -1
-// is -u at 1: so it may leave rest on either side, or come back through 0, where u need not be zero.
+// The branch from rest over the excitation factors from -1 to 1. If all laws are antisymmetric, u at -1 is -u
+// at 1: so it may leave rest on either side, or return through 0, where u need not be zero.
 std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p,
                            const std::function<bool()>& go_on) {
   const int factor = problem->excitation_factor();
@@ -153,8 +153,8 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   return branch.points.back().parameter * branch.points.back().u;
 }
 
-// The elements come in by a factor, the last parameter, from the response without them at 0 to the scene
-// at 1.
+// Continuation in a factor of the element forces, the last parameter, from the linear response at 0 to the
+// scene at 1.
 class Gradual final : public continuation::Problem {
  public:
   explicit Gradual(std::shared_ptr<const HbmProblem> problem)

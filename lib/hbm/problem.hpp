@@ -4,9 +4,9 @@
 //   R(u, p) = Z(omega) u + sum_e E_e^T F_e(E_e u) - factor f = 0
 //
 // u: the coefficients of the nonlinear coordinates (coordinates.hpp), each in the layout of
-// elements/harmonics.hpp, and then the auxiliary unknowns of laws that have some, whose equations are rows of
-// F_e. p: the model's parameters ("frequency" first, rad/s), and last "excitation_factor",
-// which scales all forces and leads from rest (u = 0 at 0) to the scene (1).
+// elements/harmonics.hpp, followed by the auxiliary unknowns of laws, whose equations are rows of F_e. p: the
+// model's parameters ("frequency" first, rad/s), and last "excitation_factor", which scales all forces, from
+// rest (u = 0 at 0) to the scene (1).
 
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 #include <arcslip/hbm/element_map.hpp>
@@ -28,7 +28,7 @@ class HbmEvaluator final : public continuation::Evaluator {
   void parameter_derivative(int k, continuation::Out dR) const override;
   std::uint64_t piece() const override;
 
-  // What observables need, at the last place.
+  // Data for observables, at the last point.
   const DynamicStiffness& stiffness() const { return stiffness_; }
   double force_factor() const { return force_factor_; }
   std::size_t element_count() const { return parts_.size(); }
@@ -61,7 +61,7 @@ class HbmProblem final : public continuation::Problem {
   /// (rad/s).
   HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
              double frequency);
-  /// With elements sampled in another way than the model's settings say.
+  /// With a sampling of the elements other than in the model's settings.
   HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
              double frequency, const elements::Sampling& sampling);
 
@@ -78,7 +78,7 @@ class HbmProblem final : public continuation::Problem {
   const Coordinates& coordinates() const { return coordinates_; }
   /// Coordinates and auxiliary unknowns, harmonics().size() coefficients each.
   int blocks() const { return blocks_; }
-  /// Where the unknowns of an element stand.
+  /// The position of the unknowns of an element.
   ElementMap map_of(std::size_t element) const;
   double displacement() const { return displacement_; }
   int excitation_factor() const { return static_cast<int>(parameters_.size()) - 1; }
@@ -96,19 +96,19 @@ class HbmProblem final : public continuation::Problem {
 /// Default values of the parameters, at one excitation frequency (rad/s).
 Vector parameters_at(const HbmProblem& problem, double omega);
 
-// A periodic response at given parameters, from nothing.
+// A periodic response at given parameters, without an initial guess.
 
 /// The response of the structure without its elements, Z^-1 f, at the parameters p (with force_factor 1). Not
 /// finite at an undamped resonance.
 Vector linear_response(const HbmProblem& problem, const Vector& p);
 
-/// Newton's method from a guess. Empty where it fails.
+/// Newton's method from a guess. Empty if it fails.
 std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess);
 
-/// Newton's method from rest (all sliders stuck), from the response without elements, and, where neither
-/// converges, a branch in the excitation factor from rest at 0 to 1 or -1, where the response is that of 1
-/// reversed, or at last one on which the elements come in by a factor, as where a stop without a gap has a
-/// kink at rest. Empty where that fails too, or go_on, asked along these branches, says false.
+/// Newton's method from rest (all sliders stuck) and from the linear response; if neither converges,
+/// continuation in the excitation factor from rest at 0 to 1 or -1, where the response is that at 1 reversed;
+/// and at last continuation in a factor of the element forces, as for a stop without a gap, which has a kink
+/// at rest. Empty if that fails, too, or if go_on, called along these branches, returns false.
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
                                    const std::function<bool()>& go_on = {});
 

@@ -1,7 +1,7 @@
 #pragma once
-// The model of a scene: which part acts where, with every number replaced by the index of its parameter.
-// Immutable. The parameter vector p holds the values, so that other values need no other model; the model
-// keeps the defaults.
+// The model of a scene: the parts and where they act, with every number replaced by the index of its
+// parameter. Immutable. The values are in the parameter vector p, so that a change of values needs no new
+// model; the model keeps the defaults.
 
 #include <arcslip/continuation/problem/problem.hpp>
 #include <arcslip/elements/law.hpp>
@@ -53,15 +53,15 @@ struct Model {
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<NonlinearPart> elements;
   std::vector<Force> forces;
-  Eigen::VectorXd response;                // the direction whose amplitude is followed
-  std::vector<Direction> named_responses;  // those that the scene names
+  Eigen::VectorXd response;                // the direction of the amplitude
+  std::vector<Direction> named_responses;  // of the scene
   elements::Harmonics harmonics;  // odd only, where no even one is excited and all laws are antisymmetric
   bool antisymmetric = true;      // all laws are
   scene::Harmonics settings;
   int force_harmonic = 1;  // lowest of the excitation: the fundamental
 };
 
-/// From a checked scene.
+/// From a validated scene.
 Model build(const scene::Scene& scene);
 
 /// Index of a parameter; a tied field leads to its tie. Throws scene::ParameterError.
@@ -76,9 +76,9 @@ void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum);
 /// sum of p * d d^T.
 Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuation::Vector& p, int dofs);
 
-/// Where the mean position is an unknown: a degree of freedom whose mean nothing holds, no spring and no law,
+/// With a mean among the unknowns: a degree of freedom whose mean position is supported by no spring or law,
 /// directly or through others. Friction forces do not depend on it, so that it would be arbitrary or drift.
-/// Empty where there is none.
+/// Empty if there is none.
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p);
 
 }  // namespace arcslip::model

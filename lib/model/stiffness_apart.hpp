@@ -1,12 +1,12 @@
 #pragma once
-// Why a scene whose stiffnesses lie too many decades apart was not solved, in its own words.
+// Diagnosis of scenes with too large a ratio of stiffnesses.
 
 #include <arcslip/model/model.hpp>
 
 namespace arcslip::model {
 
-/// The stiffest part beside the softest, springs and contacts, where one is more than 1e12 times the other: a
-/// sentence with their names and values. Empty otherwise.
+/// A sentence with the names and values of the stiffest and the softest part, springs and contacts, if their
+/// ratio exceeds 1e12. Empty otherwise.
 std::string stiffness_apart(const Model& model, const continuation::Vector& p);
 
 }  // namespace arcslip::model

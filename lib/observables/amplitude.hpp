@@ -3,8 +3,8 @@
 // sample.
 //
 // With the extreme at theta_hat, x'(theta_hat) = 0, so that dA/dx_coefficients = sign phi(theta_hat)
-// (envelope theorem), wherever the largest reversal is unique. Of several that are as high but for rounding,
-// as a motion of a shorter period than the force's has them, the first stands for all.
+// (envelope theorem), if the largest reversal is unique. Of several that are equal to rounding, as in a
+// motion with a shorter period than the force, the first is taken.
 
 #include <arcslip/elements/reversals.hpp>
 
@@ -16,7 +16,7 @@ struct Extreme {
   double amplitude = 0;      // |x(theta)|, m
   double theta = 0;          // rad
   double sign = 1;           // of x there
-  std::size_t reversal = 0;  // which one it is, in the order of theta
+  std::size_t reversal = 0;  // its index, in the order of theta
 };
 
 class Amplitude {
@@ -27,7 +27,7 @@ class Amplitude {
   Extreme of(elements::In x);
   /// All reversals, in the order of theta.
   std::vector<Extreme> all(elements::In x);
-  /// That nearest to an angle, around the period; the largest where there is none.
+  /// The reversal nearest to an angle, modulo the period; the largest if there is none.
   Extreme near(elements::In x, double theta);
 
  private:

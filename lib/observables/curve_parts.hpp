@@ -1,5 +1,5 @@
 #pragma once
-// What is reported of a curve of special points: its parts, why each ends, and which of its events count.
+// Results of a curve of special points: its parts, their stops, and their events.
 
 #include <arcslip/observables/over_parameter.hpp>
 #include <arcslip/observables/response.hpp>
@@ -14,18 +14,18 @@ namespace arcslip::observables {
 
 class CurveParts {
  public:
-  /// peaks: of them; else of folds.
+  /// peaks: true for curves of peaks, false for curves of folds.
   CurveParts(bool peaks, scene::FrequencyUnit unit, OverParameter way);
 
-  /// A curve of peaks turns where a peak meets a minimum of the amplitude over the frequency, which the curve
-  /// follows from there to the next turn: that part is left out. A curve of folds is one part.
+  /// A curve of peaks turns where a peak meets a minimum of the amplitude over the frequency; the part on
+  /// minima, up to the next turn, is left out. A curve of folds is one part.
   std::vector<ResponseBranch> of(const SpecialCurve& curve) const;
 
   /// Arclengths at which a curve turns back in the parameter, ascending.
   static std::vector<double> turns(const SpecialCurve& curve);
 
   ResponseBranch failed(double over, const std::string& message) const;
-  /// Before all curves were found, where the response at `over` was looked at.
+  /// A result stopped before all curves were found, while searching the response at `over`.
   ResponseBranch stopped(double over) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A point of a curve of special points, seen as a point of the branch over the excitation frequency that
-// passes through it: what observables need, and how the amplitude changes along the curve.
+// A point of a curve of special points as a point of the branch over the excitation frequency through it, for
+// its observables and the slope of the amplitude along the curve.
 
 #include <arcslip/continuation/problem/linear_solver.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
@@ -16,7 +16,7 @@ class CurveSection {
  public:
   CurveSection(std::shared_ptr<const hbm::HbmProblem> problem, int over);
 
-  /// Everything at a point of the curve; `over` is told. truncation_estimate is 0 and flagged where the
+  /// All observables at a point of the curve, including `over`. truncation_estimate is 0 and flagged if the
   /// branch has no tangent.
   ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::extremum);
 
@@ -42,8 +42,8 @@ class CurveSection {
   continuation::Vector u_, p_, scales_, tangent_;
 };
 
-/// The amplitude as the quantity whose stationary points are followed. instant: where it has an angle, the
-/// extreme of the motion nearest to that in place of the largest.
+/// The amplitude as the quantity whose stationary points are continued. instant: if set, the extremum of the
+/// motion nearest to this angle in place of the largest.
 continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                           std::shared_ptr<const std::optional<double>> instant = {});
 

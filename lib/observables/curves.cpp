@@ -36,10 +36,9 @@ std::string text(double value) {
   return s.str();
 }
 
-// The curves of one kind over one parameter. They begin at the special points of responses
-// at some values of the parameter: first both ends of its range, then beside the places where a curve has
-// ended within it, and wherever the range is not looked at from near. Each curve is followed once, from the
-// first response that shows it.
+// The curves of one kind over one parameter. They are started from the special points of responses at some
+// values of the parameter: first both ends of its range, then next to each end of a curve within it, and
+// wherever no response is near. Each curve is traced once, from the first response that shows it.
 class Curves {
  public:
   Curves(bool peaks, const scene::Scene& scene, const CurveRange& range, const ProgressCallback& report)
@@ -94,7 +93,7 @@ class Curves {
 
   std::string what() const { return peaks_ ? "resonance peak" : "fold"; }
 
-  // Tells, and asks: between points, too, with the numbers of the last one.
+  // Reports progress and checks for a stop, also between points, with the numbers of the last one.
   bool go_on() {
     if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
     return !stopped_;
@@ -150,7 +149,7 @@ class Curves {
     return end.stop.reason == StopReason::user && end.unbounded.empty();
   }
 
-  // From a corner that is special on one side of it only.
+  // From a corner that is special in one direction only.
   static bool goes_the_same_way(const SpecialCurve& a, const SpecialCurve& b) {
     if (a.points.size() < 2 || b.points.size() < 2) return b.points.size() < 2;
     const auto way = [](const SpecialCurve& curve) {
@@ -186,7 +185,7 @@ class Curves {
     to_look_at_.push_back(way_.share(end.over) + just_beyond * end.direction * way_.direction());
   }
 
-  // A curve that failed is covered by one that came from its other side through all of it.
+  // A failed curve is covered by one traced through all of it from the other side.
   void drop_parts_of(const SpecialCurveTracer& tracer, const SpecialCurve& curve) {
     std::erase_if(found_, [&](const Found& earlier) {
       const auto& points = earlier.curve.points;
@@ -198,7 +197,7 @@ class Curves {
     });
   }
 
-  // Where several elements begin to slip at once, a curve may not be followed across, but from both sides.
+  // Where several elements start to slip at once, a curve may have to be traced from both sides.
   void see_which_meet() {
     std::vector<SpecialCurveEnd*> ends;
     for (Found& found : found_) {

@@ -11,44 +11,43 @@
 
 namespace arcslip::observables {
 
-/// A parameter `over`, its values, and a frequency in the scene's unit.
+/// A parameter `over`, its range, and a frequency in the scene's unit.
 struct ParameterRange {
   std::string over;
   double from = 0, to = 0, frequency = 0;
   friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
 };
 
-/// A parameter `over`, its values, and a window of frequencies in the scene's unit.
+/// A parameter `over`, its range, and a frequency window in the scene's unit.
 struct CurveRange {
   std::string over;
   double from = 0, to = 0, frequency_from = 0, frequency_to = 0;
   friend bool operator==(const CurveRange&, const CurveRange&) = default;
 };
 
-/// The branches over a parameter at one frequency, one for each response found at range.from: where a spring
-/// is cubic there may be several. Events: "fold" in that parameter, "maximum" and "minimum" of the amplitude.
-/// Throws scene::ParameterError where there is no such parameter or it may not take those values.
+/// The branches over a parameter at one frequency, one for each response found at range.from; with a cubic
+/// spring there may be several. Events: "fold" in that parameter, "maximum" and "minimum" of the amplitude.
+/// Throws scene::ParameterError for an unknown parameter or a range beyond its bounds.
 std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const ParameterRange& range,
                                                const ProgressCallback& progress = {});
 
-/// The curves of resonance peaks, dA/ds = 0 along the frequency, over range.over. They are
-/// those of the peaks in the frequency window at both ends of the range, at seven values between, and beside
-/// each place where a curve ends within the range; each is there once. One that both is born and vanishes
-/// between two neighbouring ones of these values, an eighth of the range apart, may be missing. A curve that
-/// is there at range.from begins there, another at range.to, another where it is born. It ends at an end of
-/// the range, where the peak leaves the window, where it grows without bound ("unbounded"), where it meets a
-/// minimum of the amplitude ("fold"), or where it has come back to its beginning ("closed"); where the curve
-/// beyond comes to a peak again, that is another branch. Events: "minimum" and "maximum" of the peak
-/// amplitude over the parameter, "fold", where the curve turns in it, and "corner", where the peak comes to a
-/// corner of the response, at which an element begins to slip, or leaves it. Where a response cannot be
-/// followed through the window, a branch without points says so.
+/// The curves of resonance peaks, dA/ds = 0 along the frequency, over range.over. They are started from the
+/// peaks in the frequency window at both ends of the range, at seven values in between, and next to each end
+/// of a curve within the range; each curve is reported once. A curve that appears and vanishes between two
+/// neighbouring values, an eighth of the range apart, may be missed. A curve starts at range.from if it
+/// exists there, otherwise at range.to or where it appears. It ends at an end of the range, where the peak
+/// leaves the window, where it grows without bound ("unbounded"), where it meets a minimum of the amplitude
+/// ("fold"), or where it returns to its start ("closed"); if the curve beyond reaches a peak again, that is
+/// another branch. Events: "minimum" and "maximum" of the peak amplitude over the parameter, "fold", where
+/// the curve turns in it, and "corner", where the peak reaches or leaves a corner of the response, at which
+/// an element starts to slip. If a response cannot be continued through the window, a branch without points
+/// reports it.
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
                                             const ProgressCallback& progress = {});
 
-/// The curves of folds in frequency over range.over, found in the same way; one curve goes
-/// through two folds where these meet in a cusp. Events: "cusp", "fold", where the curve turns in the
-/// parameter, "turn", where it turns in the frequency (folds in the parameter at fixed frequency begin or end
-/// there), and "corner" as on peaks.
+/// The curves of folds in frequency over range.over, found in the same way; two folds that meet in a cusp are
+/// on one curve. Events: "cusp", "fold", where the curve turns in the parameter, "turn", where it turns in
+/// the frequency (folds in the parameter at fixed frequency start or end there), and "corner" as for peaks.
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRange& range,
                                         const ProgressCallback& progress = {});
 

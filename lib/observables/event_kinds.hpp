@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of events of branches and curves, which are the names of the monitors that find them.
+// The kinds of events of branches and curves: the names of their monitors.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
@@ -12,6 +12,6 @@ inline constexpr const char* minimum = "minimum";  // of the amplitude over a pa
 inline constexpr const char* maximum = "maximum";
 inline constexpr const char* cusp = continuation::cusp_event;
 inline constexpr const char* turn = "turn";      // of a curve of folds in the frequency
-inline constexpr const char* corner = "corner";  // a curve comes to a corner of the response, or leaves it
+inline constexpr const char* corner = "corner";  // a curve reaches or leaves a corner of the response
 
 }  // namespace arcslip::observables::event_kinds

@@ -6,17 +6,17 @@
 //
 //   (in_phase + i out_of_phase) = F conj(Q)/|Q|,   k_eq = in_phase/|Q|,   c_eq = out_of_phase/(n omega |Q|)
 //
-// so that out_of_phase |Q| pi n is what the fundamental takes out in a period.
+// so that the fundamental dissipates out_of_phase |Q| pi n per period.
 //
 // For the whole structure, with the motion x of all degrees of freedom and X that of the response, the
-// equation of motion is multiplied by x^H/|X|^2: generalised forces along the motion's own shape x/X, per
+// equation of motion is multiplied by x^H/|X|^2: generalized forces along the shape x/X of the motion, per
 // unit displacement of the response, N/m,
 //
 //   (x^H K x - (n omega)^2 x^H M x + i n omega x^H C x + sum_e conj(Q_e) F_e)/|X|^2 = x^H f/|X|^2 .
 //
 // One mass: k - m omega^2 + F_p/X + i (c omega + F_o/X) = f_0/X exp(i phase), the F_p/x and F_o/x of Al Sayed
-// et al. (2011, Eqs. 18 to 24) taken of the fundamental, for which their Eqs. 26 and 27 hold. Their own
-// definition by maxima over the period is MotionMaxima.
+// et al. (2011, Eqs. 18 to 24) for the fundamental, for which their Eqs. 26 and 27 hold. For their own
+// definition by maxima over the period see MotionMaxima.
 
 #include <arcslip/elements/largest_value.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -34,8 +34,8 @@ void set_fundamental(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at
 /// Sets theta_0 and theta_star from the angles of slip. motion: of the element, harmonics.size().
 void set_contact_angles(const elements::Harmonics& harmonics, elements::In motion, ElementResponse& element);
 
-/// The maxima of motion and forces. They take longer than all else at a point: not made unless asked for.
-/// Owns its buffers.
+/// The maxima of motion and forces, the most expensive observables: computed only on request. Owns
+/// its buffers.
 class Maxima {
  public:
   explicit Maxima(const hbm::HbmProblem& problem);

@@ -19,7 +19,7 @@ using continuation::Vector;
 constexpr double beyond_display =
     1e6;  // |u| in scales: where it is asked whether the response is bounded at all
 
-// One branch over the window [from, to], and what has to be known to go on beyond an unbounded peak.
+// One branch over the window [from, to], with the data to continue beyond an unbounded peak.
 class Sweep {
  public:
   Sweep(const scene::Scene& scene, const FrequencyRange& range, const ProgressCallback& progress)
@@ -85,7 +85,7 @@ class Sweep {
     return result;
   }
 
-  // Tells, and asks: between points, too, with the numbers of the last one.
+  // Reports progress and checks for a stop, also between points, with the numbers of the last one.
   bool go_on() {
     if (!stopped_ && progress_ && !progress_(told_)) stopped_ = true;
     return !stopped_;
@@ -127,7 +127,7 @@ class Sweep {
     }
   }
 
-  // The peak at infinity, and where the branch is to be taken up on the other side of the pole.
+  // The peak at infinity, and the frequency at which the branch is resumed beyond the pole.
   void end_unbounded(ResponseBranch& result, const Unboundedness& growth,
                      const std::vector<std::pair<double, double>>& course) {
     const double omega = course.back().first;

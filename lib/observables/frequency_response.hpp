@@ -19,8 +19,8 @@ struct FrequencyRange {
   friend bool operator==(const FrequencyRange&, const FrequencyRange&) = default;
 };
 
-/// One branch, or several where an unbounded resonance cuts it. A branch that ends early is kept, with its
-/// reason.
+/// One branch, or several if an unbounded resonance divides it. A branch that ends early is reported with
+/// its reason.
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
                                                const ProgressCallback& progress = {});
 

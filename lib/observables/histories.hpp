@@ -15,8 +15,8 @@ struct ElementHistory {
   std::string name;
   std::vector<double> displacement;  // d . x, m
   std::vector<double> velocity;      // m/s
-  std::vector<double> force;         // N, against the motion: the law's own force on that displacement
-  std::vector<double> series;        // N, the same as harmonic balance has it: its harmonics up to N
+  std::vector<double> force;         // N, against the motion: the law's force for this displacement
+  std::vector<double> series;        // N, its Fourier series up to N, as in harmonic balance
   std::vector<double> cosine, sine;  // N, parts of the series (Al Sayed et al. 2011, Eq. 17); the mean is in
                                      // the first
 };
@@ -30,30 +30,30 @@ struct History {
 };
 
 /// The history at a point or an event of a branch of this scene, at the given angles. `force` is that of the
-/// exact law even where the scene samples it. Throws std::invalid_argument where the point is unbounded or
-/// not one of that scene.
+/// exact law even if the scene samples it. Throws std::invalid_argument if the point is unbounded or does not
+/// belong to that scene.
 History history(const scene::Scene& scene, const ResponseBranch& branch, const ResponsePoint& point,
                 std::span<const double> angles);
 
-/// `count` angles from 0 on, at equal intervals of a period; 2 pi is not among them.
+/// `count` equally spaced angles from 0, without 2 pi.
 std::vector<double> even_angles(int count);
 
-/// The same with 2 pi and all the angles where slip begins or ends: a loop drawn through them is closed and
-/// has its corners.
+/// The same with 2 pi and all onsets and ends of slip: a loop drawn through them is closed and has
+/// its corners.
 std::vector<double> loop_angles(const ResponsePoint& point, int count);
 
-/// The point of a branch nearest in frequency to omega (rad/s); null where there is none. On a branch with
-/// folds it is one of several.
+/// The point of a branch nearest in frequency to omega (rad/s); null if there is none. On a branch with folds
+/// there may be several.
 const ResponsePoint* point_at_frequency(const ResponseBranch& branch, double omega);
 
-/// How far a force lies from a reference at the same even angles, relative to the reference's largest value
-/// or, for `rms`, its root mean square.
+/// Deviation of a force from a reference at the same equally spaced angles, relative to the maximum of the
+/// reference or, for `rms`, its root mean square.
 struct ForceDifference {
   double amplitude = 0;  // | max |f| - max |g| | / max |g|
   double maximum = 0;    // max |f - g| / max |g|
   double rms = 0;        // |f - g|_2 / |g|_2
 };
-/// Throws std::invalid_argument where the two have not the same number of values, or none.
+/// Throws std::invalid_argument if the sizes differ or are zero.
 ForceDifference force_difference(std::span<const double> force, std::span<const double> reference);
 
 }  // namespace arcslip::observables

@@ -1,5 +1,5 @@
 #pragma once
-// What a study in time gives: a motion and what an engineer reads off it, as plain data.
+// Results of time studies: a motion and its observables, as plain data.
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/time/motion.hpp>
@@ -13,44 +13,43 @@
 
 namespace arcslip::observables {
 
-/// How a motion in time is found: by shooting on the period, between exact events where the scene is
-/// piecewise linear (no smooth law, no massless degree of freedom) and in Newmark's steps elsewhere, or
-/// always in Newmark's steps; or period by period from rest, in Newmark's steps or between exact events.
+/// Method of a time study: shooting, event-driven if the scene is piecewise linear (no smooth law, no
+/// massless degree of freedom) and otherwise by Newmark's method, or always by Newmark's method; or a
+/// transient from rest, by Newmark's method or event-driven.
 enum class TimeMethod { shooting, newmark_shooting, newmark, event_driven };
 
-/// "newmark-shooting", as a scene file writes it.
+/// "newmark-shooting", as in a scene file.
 std::string_view name(TimeMethod method);
 
-/// What one friction element does over the recorded periods.
+/// Observables of one friction element over the recorded periods.
 struct ElementMotion {
   std::string name;
   double stick_percent = 0;  // share of the time in stick, 0 to 100
   double energy = 0;         // dissipated per period, J
 };
 
-/// complete: a steady motion within the tolerance, or, where that is 0, as many periods as were asked for.
-/// stopped: by the limit of periods before it was steady, or by the user. failed: no periodic motion was
-/// found, or it could not be integrated; the history holds what there is.
+/// complete: a steady motion within the tolerance, or, if that is 0, the requested number of periods.
+/// stopped: at the period limit before it was steady, or by the user. failed: no periodic motion was found,
+/// or the integration failed; the history is the part computed.
 struct Motion {
-  std::string study, kind;  // name and kind of the study that asked for it; empty where nobody said so
+  std::string study, kind;  // name and kind of its study; may be empty
   Status status = Status::complete;
   Stop stop;
-  std::vector<std::pair<std::string, double>> set;         // what for_each gave this motion
+  std::vector<std::pair<std::string, double>> set;         // set by for_each
   std::vector<std::pair<std::string, double>> parameters;  // every other parameter, by its name
   TimeMethod method = TimeMethod::shooting;
   std::string integrator;  // "newmark" or "event-driven"
   double omega = 0;        // of the excitation, rad/s
   int steps = 0;           // per period
-  long periods = 0;        // integrated, those recorded included
-  double change = 0;     // relative, of the state: over the last of these, or the last correction of shooting
-  double amplitude = 0;  // max |x| of the response over the recorded periods, m
+  long periods = 0;        // integrated, including the recorded ones
+  double change = 0;       // of the state, relative: over the last period, or the last shooting correction
+  double amplitude = 0;    // max |x| of the response over the recorded periods, m
   time::EnergyBalance energy;  // per period, the mean of those recorded, J
   std::vector<ElementMotion> elements;
-  std::vector<std::complex<double>>
-      multipliers;             // Floquet, by falling modulus; of periodic motions by shooting
-  std::optional<bool> stable;  // all of them within the unit circle
-  time::History history;       // of the recorded periods; t = 0 at their beginning
-  double seconds = 0;          // that it took
+  std::vector<std::complex<double>> multipliers;  // Floquet, by decreasing modulus; with shooting
+  std::optional<bool> stable;                     // all of them within the unit circle
+  time::History history;                          // of the recorded periods; t = 0 at their start
+  double seconds = 0;                             // computing time
 };
 
 }  // namespace arcslip::observables

@@ -1,5 +1,5 @@
 #pragma once
-// From an accepted solution of harmonic balance to what an engineer reads off it.
+// The observables of an accepted solution of harmonic balance.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -22,8 +22,8 @@ class Observer {
 
   const hbm::HbmProblem& problem() const { return *problem_; }
 
-  /// Everything at one point. held: whose change the truncation estimate is asked for. The maxima, which take
-  /// longer than all else, are there at events and other special points, or where they are asked for.
+  /// All observables at one point. held: the kind of point for the truncation estimate. The maxima, which are
+  /// the most expensive, are computed at events and other special points, or on request.
   ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::parameter) {
     return observe(now, held, held != HeldBy::parameter);
   }
@@ -39,7 +39,7 @@ class Observer {
   /// A at the last call of any of these.
   double last_amplitude() const { return last_amplitude_; }
 
-  /// Which reversal it was.
+  /// Its reversal.
   std::size_t last_reversal() const { return last_reversal_; }
 
   /// dA/ds along the branch.
@@ -52,15 +52,15 @@ class Observer {
   std::shared_ptr<const hbm::HbmProblem> problem_;
   int free_;
   Amplitude amplitude_;
-  Eigen::MatrixXd named_;                   // d^T P, a row for each response that the scene names
-  std::unique_ptr<Truncation> truncation_;  // made at the first observe()
-  std::unique_ptr<Maxima> maxima_;          // when first asked for
+  Eigen::MatrixXd named_;                   // d^T P, a row for each named response
+  std::unique_ptr<Truncation> truncation_;  // created at the first observe()
+  std::unique_ptr<Maxima> maxima_;          // created at the first request
   continuation::Vector x_, dx_, by_parameter_;
   double last_amplitude_ = 0;
   std::size_t last_reversal_ = 0;
 };
 
-/// Peaks: dA/ds falls through zero. There is no pole at folds, as dA/domega has.
+/// Peaks: dA/ds falls through zero. Unlike dA/domega it has no pole at folds.
 continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer);
 
 }  // namespace arcslip::observables

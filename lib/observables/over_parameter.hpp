@@ -1,5 +1,5 @@
 #pragma once
-// A model whose parameter `over` goes from one value to another, and the steps that suit its range.
+// A model with a continuation parameter `over`, its range, and suitable steps.
 
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/model/model.hpp>
@@ -21,11 +21,11 @@ struct OverParameter {
   int direction() const { return from < to ? 1 : -1; }
   bool has_one_sign() const { return lower() > 0 || upper() < 0; }
 
-  /// The window. No step is longer than 1/150 of it, nor, in a range of one sign, than 1/12 of the value: so
-  /// ranges of several decades keep their low end.
+  /// Options with the window. Steps are at most 1/150 of it and, in a range of one sign, 1/12 of the value,
+  /// so that the low end of a range of several decades is resolved.
   continuation::Options options() const;
 
-  /// 0 at `from`, 1 at `to`, by the logarithm in a range of one sign.
+  /// 0 at `from`, 1 at `to`, logarithmic in a range of one sign.
   double share(double value) const;
 
   /// The inverse of it; exactly `from` and `to` at 0 and 1.
@@ -35,7 +35,7 @@ struct OverParameter {
   std::shared_ptr<const model::Model> at(double value) const;
 };
 
-/// Throws scene::ParameterError where the scene has no parameter `over`, or it may not take these values.
+/// Throws scene::ParameterError if the scene has no parameter `over`, or the range exceeds its bounds.
 OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to);
 
 }  // namespace arcslip::observables

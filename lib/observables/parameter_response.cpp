@@ -36,8 +36,7 @@ std::string text(double value) {
   return s.str();
 }
 
-// The branches over one parameter at one frequency, each from another response at its
-// beginning.
+// The branches over one parameter at one frequency, each from a different response at the start of the range.
 class Traces {
  public:
   Traces(const scene::Scene& scene, const ParameterRange& range, const ProgressCallback& report)
@@ -68,14 +67,14 @@ class Traces {
       }
       if (traced.stop.reason == StopReason::user) break;
     }
-    // A branch that came back is whole where others tell what lies beyond.
+    // A branch that turned back is complete if others cover the range beyond.
     for (ResponseBranch& branch : branches)
       if (reached && branch.stop.reason == reasons::boundary) branch.status = Status::complete;
     return branches;
   }
 
  private:
-  // Tells, and asks: between points, too, with the numbers of the last one.
+  // Reports progress and checks for a stop, also between points, with the numbers of the last one.
   bool go_on() {
     if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
     return !stopped_;

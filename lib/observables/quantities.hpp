@@ -1,6 +1,6 @@
 #pragma once
-// Everything that is read off a response, each quantity once: its path, unit, meaning and getter. The keys of
-// JSON, the columns of tables and figures, the limits of the optimiser and docs/results.md come from here.
+// The quantities of a response, each defined once by its path, unit, meaning and getter. The keys of JSON,
+// the columns of tables and figures, the limits of the optimizer and docs/results.md are derived from here.
 
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -14,10 +14,10 @@
 
 namespace arcslip::observables {
 
-/// The unit of a quantity that is given in the scene's unit of frequency; its getter gives rad/s.
+/// The unit of a quantity in the scene's unit of frequency; its getter returns rad/s.
 inline constexpr std::string_view frequency_unit = "scene";
 
-/// What in a scene tells whether there is a quantity.
+/// The part of a scene that decides whether a quantity exists.
 template <class Of>
 struct OriginOf;
 template <>
@@ -33,11 +33,11 @@ struct OriginOf<NamedResponse> {
   using Type = scene::Response;
 };
 
-/// A quantity of a response (Of = ResponsePoint), of one of its elements (Of = ElementResponse) or at one of
-/// the places that the scene names (Of = NamedResponse).
+/// A quantity of a response (Of = ResponsePoint), of one of its elements (Of = ElementResponse) or of a named
+/// response (Of = NamedResponse).
 template <class Of>
 struct Quantity {
-  using Number = double (*)(const Of&);  // no_value where it is not defined
+  using Number = double (*)(const Of&);  // no_value if undefined
   using Flag = bool (*)(const Of&);
   using List = const std::vector<double>& (*)(const Of&);
   using Origin = typename OriginOf<Of>::Type;
@@ -46,8 +46,9 @@ struct Quantity {
   std::string_view unit;     // "m", "J"; "" of a flag
   std::string_view meaning;  // one line of Markdown
   std::variant<Number, Flag, List> get;
-  Flag has = nullptr;                   // whether the response has it at all; null: each has
-  bool (*in)(const Origin&) = nullptr;  // whether any response of the scene, of the element, may; null: any
+  Flag has = nullptr;  // whether the response has it; null: always
+  bool (*in)(const Origin&) =
+      nullptr;  // whether a response of the scene, or element, may have it; null: always
 };
 
 using ResponseQuantity = Quantity<ResponsePoint>;
@@ -60,11 +61,11 @@ std::span<const ResponseQuantity> response_quantities();
 std::span<const ElementQuantity> element_quantities();
 std::span<const Quantity<NamedResponse>> named_response_quantities();
 
-/// The quantity at `path`, which is there.
+/// The quantity with this path, which must exist.
 const ResponseQuantity& response_quantity(std::string_view path);
 const ElementQuantity& element_quantity(std::string_view path);
 
-/// A number of a response; no_value where the response does not have it.
+/// A number of a response; no_value if the response does not have it.
 template <class Of>
 double number(const Quantity<Of>& quantity, const Of& of) {
   return quantity.has && !quantity.has(of) ? no_value : std::get<0>(quantity.get)(of);

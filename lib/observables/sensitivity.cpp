@@ -38,7 +38,7 @@ Sensitivity::Sensitivity(std::shared_ptr<const hbm::HbmProblem> problem)
       F_p_(problem_->size()),
       L_x_(scales_.size()) {
   scales_ << problem_->scales(), problem_->parameters()[model::frequency].scale;
-  // Until there is a tangent, a border row that no symmetry makes orthogonal to it.
+  // A generic border row until there is a tangent, orthogonal to it by no symmetry.
   for (Eigen::Index i = 0; i < scales_.size(); ++i)
     tangent_[i] = (1 + 0.3 * std::sin(7.0 * static_cast<double>(i))) * scales_[i];
 }
@@ -105,7 +105,7 @@ bool Sensitivity::condition_derivatives(Out gradient) {
   return gradient.allFinite();
 }
 
-// Without what the condition itself depends on.
+// Without the unknowns of the condition itself.
 bool Sensitivity::differentiate(std::span<const int> parameters, Out gradient) {
   const Eigen::Index n = u_.size();
   parameters_.assign(parameters.begin(), parameters.end());
@@ -158,7 +158,7 @@ bool Sensitivity::second_derivatives(const continuation::Matrix& tangents,
   return second.allFinite();
 }
 
-// From a corner to a place beside it, where h < 0; w and g are those of that side.
+// Moves from a corner to a nearby point with h < 0; w and g are those of that side.
 bool Sensitivity::side_below() {
   const auto& dh = border_.rows.col(0);
   u_ -= below_corner * hbm::corner_size(*problem_, *corner_, u_, p_) / dh.squaredNorm() * dh;
@@ -169,7 +169,7 @@ bool Sensitivity::side_below() {
   return factorize() && differentiate(parameters, unused);
 }
 
-// L_x . dx/dp_k + L_pk where the evaluator is, for all k.
+// L_x . dx/dp_k + L_pk at the point of the evaluator, for all k.
 void Sensitivity::slopes_of_lagrangian(const continuation::Matrix& tangents, Out slopes) {
   const Eigen::Index n = u_.size();
   const auto w = z_.head(n);

@@ -1,11 +1,11 @@
 #pragma once
-// Curves of special points of the branches over the excitation frequency, over one more parameter: resonance
-// peaks and folds. Found on a branch at one value of the parameter (special_points.hpp), followed from there
-// by continuation of the equations that define them (continuation/special_points/stationary.hpp).
+// Curves of special points of the branches over the excitation frequency, resonance peaks and folds, over a
+// further parameter. Found on a branch at one value of the parameter, they are continued by their defining
+// equations (continuation/special_points/stationary.hpp).
 //
-// A special point may come to a corner of the branches, where a friction element begins to slip at a reversal
-// of its motion, and sit there while the parameter goes on: the slope has opposite signs on the two sides.
-// The curve then follows the corner (hbm/corner.hpp), until the slope vanishes on one of the sides.
+// A special point may reach a corner of the branches, where a friction element starts to slip at a reversal
+// of its motion, and stay there while the parameter changes: the slope has opposite signs on the two sides.
+// The curve then follows the corner (hbm/corner.hpp), until the slope vanishes on one side.
 
 #include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/curve_section.hpp>
@@ -21,7 +21,7 @@
 
 namespace arcslip::observables {
 
-// Special points of one branch over the excitation frequency, peaks or folds: where curves of them begin.
+// Special points of one branch over the excitation frequency, peaks or folds: the starts of their curves.
 
 struct SpecialPoint {
   std::shared_ptr<const hbm::HbmProblem> problem;  // in the scale of the branch it was found on
@@ -32,17 +32,16 @@ struct SpecialPoint {
 
 struct SpecialPoints {
   std::vector<SpecialPoint> points;
-  std::string unbounded;  // why a resonance has no bound, which is no peak that could be followed
+  std::string unbounded;  // why a resonance is unbounded, and so has no peak
   std::string failure;    // why the branch does not cover the window: points may be missing
 };
 
-/// Those in a frequency window where the parameter has the value `over`. kind: the event, event_kinds::peak
-/// or fold.
-/// What is found until go_on says false is right, but not all.
+/// The special points in a frequency window at the value `over` of the parameter. kind: the event,
+/// event_kinds::peak or fold. If go_on returns false, the points found so far.
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
                              const std::string& kind, const GoOn& go_on = {});
 
-/// What is special, as the zero of the slope of a quantity along the branch over the frequency.
+/// The kind of special points, as zeros of the slope of a quantity along the branch over the frequency.
 struct SpecialKind {
   std::string event;  // event_kinds::peak or fold
   continuation::Quantity quantity;
@@ -51,7 +50,7 @@ struct SpecialKind {
 SpecialKind peak_kind(const std::shared_ptr<const hbm::HbmProblem>& problem);
 SpecialKind fold_kind();
 
-/// Where a curve begins or ends, and why.
+/// The start or end of a curve, and its reason.
 struct SpecialCurveEnd {
   continuation::Stop stop;
   continuation::Vector x;    // unknowns and frequency
@@ -60,12 +59,12 @@ struct SpecialCurveEnd {
   bool left_window = false;  // of the frequency
   bool vanishes =
       false;             // at a corner that the branch over the frequency touches from one side, or surpassed
-  bool closed = false;   // there the curve came back to its beginning
-  bool goes_on = false;  // another curve begins or ends there
+  bool closed = false;   // the curve returned to its start
+  bool goes_on = false;  // another curve starts or ends there
   std::string unbounded{};  // why, where the response grows without bound
 };
 
-/// What was recorded of one curve, in the order of arclength.
+/// The record of one curve, in order of arclength.
 struct SpecialCurve {
   struct At {
     double arclength = 0;
@@ -78,14 +77,14 @@ struct SpecialCurve {
     ResponseEvent event;
   };
   std::vector<At> points;
-  std::vector<EventAt> events;  // those of the monitors, and corner where the curve comes to one or leaves it
-  std::vector<double> turns;    // arclengths of the corners where the parameter turns back
-  std::optional<SpecialCurveEnd> begin;  // none: at the end of the range where it was found
+  std::vector<EventAt> events;           // of the monitors, and where the curve reaches or leaves a corner
+  std::vector<double> turns;             // arclengths of the corners where the parameter turns back
+  std::optional<SpecialCurveEnd> begin;  // none: it starts at an end of the range
   SpecialCurveEnd end;
   continuation::Counts counts;
 };
 
-/// One curve from the two halves that were followed from one point of it, in the order of `ahead`.
+/// Joins the two halves of a curve traced from one of its points, in the order of `ahead`.
 SpecialCurve joined(SpecialCurve back, SpecialCurve ahead);
 
 class SpecialCurveTracer {
@@ -93,7 +92,7 @@ class SpecialCurveTracer {
   using Progress = std::function<bool(double over, double omega)>;
 
   /// monitors: of the curve, in addition to that of the frequency window. progress: after each point, with
-  /// its value of the parameter and its frequency; false stops. go_on: asked in between, too.
+  /// its value of the parameter and its frequency; false stops. go_on: called in between, too.
   SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> problem, SpecialKind kind, OverParameter way,
                      const FrequencyWindow& window, std::vector<continuation::Monitor> smooth_monitors,
                      std::vector<continuation::Monitor> corner_monitors,
@@ -107,7 +106,7 @@ class SpecialCurveTracer {
     return passage(curve, curve.points.size(), through) > 0;
   }
 
-  /// A point of a curve, to start from or to look for.
+  /// A point of a curve, to start from or to search for.
   SpecialPoint point_of(const SpecialCurve::At& at) const;
 
  private:
@@ -119,7 +118,7 @@ class SpecialCurveTracer {
   };
 
   continuation::Branch trace(const Place& from);
-  // The point of a curve, among its first `points`, before which it passes through a special point; 0: none.
+  // The first of the `points` of a curve beyond its passage through a special point; 0: none.
   std::size_t passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through) const;
   bool comes_back(std::size_t begin);
   void end_at(std::size_t count, bool closed);

@@ -1,4 +1,5 @@
-// Where a curve of special points comes to a corner of the branches, leaves it, or comes to another one.
+// Transitions of a curve of special points: it reaches a corner of the branches, leaves it, or reaches
+// another one.
 
 #include <arcslip/observables/special_curve.hpp>
 
@@ -46,7 +47,7 @@ std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem&
   return v;
 }
 
-// The corner a little along the parameter, and the slopes on its sides.
+// The corner at a slightly different parameter, and the slopes on its sides.
 std::optional<SpecialCurveTracer::Beside> SpecialCurveTracer::corner_beside(const Place& at,
                                                                             const hbm::Corner& corner,
                                                                             int direction,
@@ -68,8 +69,9 @@ bool SpecialCurveTracer::is_special(const hbm::CornerSlopes& slopes) const {
   return kind_.maximum ? slopes.is_maximum() : slopes.is_extreme();
 }
 
-// The corner beside a place, and which way it is special. On one side of it the slope is near zero; where the
-// corner is special neither before nor behind the place where that changes its sign, the special point ends.
+// The corner near a point, and the direction in which it is special. On one side of it the slope is near
+// zero; if the corner is special neither before nor beyond the sign change of that slope, the special
+// point ends.
 std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Place& at) {
   for (const auto& corner :
        hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), near_corner))
@@ -90,8 +92,8 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Pla
   return {};
 }
 
-// What goes on from a corner where the slope on one side changes its sign: where it vanishes, a smooth curve
-// begins on that side. Where it jumps, another corner crosses this one.
+// The continuation from a corner where the slope on one side changes sign: if it vanishes, a smooth curve
+// starts on that side; if it jumps, another corner crosses this one.
 std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::leave_corner(const Place& at, bool above) {
   hbm::CornerSides sides(problem_, *at.corner, kind_.quantity);
   const auto slopes = sides.slopes(hbm::with_angles(at.x, *at.corner), parameters(at.x, at.over));
@@ -99,8 +101,8 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::leave_corner(const 
   return std::abs(changes) <= zero_slope * std::abs(other) ? from_corner(at, above) : to_crossing_corner(at);
 }
 
-// Where two corners cross, they change places along the frequency, and another slope lies between them than
-// before. The special point goes on at one of them, or, where it is at neither, has met the other one.
+// Two crossing corners exchange their order along the frequency, with a different slope between them. The
+// special point continues at one of them, or, if it is at neither, has met the other one.
 std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_crossing_corner(const Place& at) {
   const auto crossing =
       hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), at_corner);
@@ -115,10 +117,9 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_crossing_corner(
   return {};
 }
 
-// What responses on both sides of a place show: the special point goes on from that of the response beyond
-// it, or, where that has one less, has met its counterpart there. So a curve passes kinks of any kind, such
-// as where a reversal is born while an element slips, beside which slopes change with the root of the
-// distance.
+// Comparison of responses on both sides of a point: the special point continues as that of the response
+// beyond, or, if that has one less, has met its counterpart. So a curve passes kinks of any kind, such as a
+// new reversal while an element slips, near which slopes vary with the square root of the distance.
 std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::seen_beyond(const Place& at) {
   const Eigen::Index n = problem_->size();
   for (const double beside : seen_besides) {
@@ -157,9 +158,9 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::seen_beyond(const P
   return {};
 }
 
-// Whether the displacement has two largest values in the period, at different instants. The largest of two
-// functions of the frequency has a kink upwards where they cross: there is no peak, and one that comes to it
-// ends, surpassed by the other. Extremes that a symmetry of the motion makes equal do not cross.
+// Whether the displacement attains its maximum at two different instants of the period. The maximum of two
+// functions of the frequency has a convex kink where they cross: it is no peak, and a peak that reaches it
+// ends, exceeded by the other. Extrema that are equal by a symmetry of the motion do not cross.
 bool SpecialCurveTracer::is_surpassed(const Place& at) const {
   const auto& harmonics = problem_->harmonics();
   const auto evaluator = problem_->hbm_evaluator();
@@ -180,9 +181,8 @@ bool SpecialCurveTracer::is_surpassed(const Place& at) const {
   });
 }
 
-// The smooth curve that begins where the slope vanishes on one side of a corner. There h is given, not the
-// parameter, which may change with h by any power: with its root where h grows from slip, so that h is no
-// linear function of the way.
+// The smooth curve that starts where the slope vanishes on one side of a corner. There h is prescribed, not
+// the parameter, which may vary with any power of h: with its square root at the onset of slip.
 std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const Place& at, bool above) const {
   const Eigen::Index n = problem_->size();
   const double size = hbm::corner_size(*problem_, *at.corner, at.x.head(n), parameters(at.x, at.over));
@@ -197,8 +197,8 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const P
   return {};
 }
 
-// The special point of the smooth branches where a corner has a given h, no farther off than `reach`,
-// relative: Newton's method for the three, with h moved to its value before each step.
+// The special point of the smooth branches at which a corner has a given h, within the relative distance
+// `reach`: Newton's method for all three conditions, with h moved to its value before each step.
 std::optional<Vector> SpecialCurveTracer::at_depth(const Place& at, double depth, double reach) const {
   const Eigen::Index n = problem_->size();
   continuation::NewtonOptions one_step;

@@ -1,5 +1,5 @@
 #pragma once
-// What all branches of responses have in common: their description, and how they end.
+// Common parts of all branches of responses: their description, and how they end.
 
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/model/model.hpp>
@@ -16,9 +16,9 @@ namespace arcslip::observables {
 /// the frequency.
 ResponseBranch described(const model::Model& model, const std::string& over = {});
 
-/// Whether the amplitude departs from an extreme at an arclength, on both sides, by more than rounding: it
-/// does not where all friction elements that the free parameter acts on stick, or slip, and nothing changes.
-/// course: arclength and amplitude of the points of the branch.
+/// Whether an extremum of the amplitude at an arclength exceeds rounding on both sides: it does not if the
+/// free parameter has no influence, as when all friction elements it acts on stick, or slip. course:
+/// arclength and amplitude of the points of the branch.
 bool departs(const std::vector<std::pair<double, double>>& course, double arclength, double amplitude);
 
 void add(const continuation::Counts& counts, SolverSummary& to);

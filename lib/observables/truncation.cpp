@@ -135,7 +135,7 @@ bool Truncation::resonance_left_out(const continuation::Accepted& now) {
   return reach < highest_natural_frequency(problem_.model(), now.p, motions);
 }
 
-// The step along the tangent that what holds the point leaves.
+// The step along the tangent from the condition of the point.
 Truncation::Step Truncation::step_along(const continuation::Accepted& now, HeldBy held) {
   const double t = tangent_.parameter, d = change_.parameter;
   const double size = std::max(1.0, now.u.norm() / problem_.displacement());
@@ -150,7 +150,7 @@ Truncation::Step Truncation::step_along(const continuation::Accepted& now, HeldB
   return {-2 * d / (t + std::copysign(std::sqrt(root), t)), true};
 }
 
-// d_q' and q'' along the branch, from J d + r and J t beside the point. The equations are at the point again.
+// d_q' and q'' along the branch, from J d + r and J t near the point. Returns the equations to the point.
 std::optional<Truncation::Slopes> Truncation::slopes(const continuation::Accepted& now) {
   wide_.embed(now.u, base_);
   const std::uint64_t piece = wide_.piece();

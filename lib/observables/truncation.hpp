@@ -1,22 +1,22 @@
 #pragma once
-// What the harmonics above N would add to the amplitude, to first order.
+// Estimate of the truncation error: the first-order effect of the harmonics above N on the amplitude.
 //
 // At a solution (u, q) of order N, on a branch over q (the frequency, or another parameter), the equations of
 // 2 N + 9 harmonics (of a motion over several periods of the excitation, 9 of each) have the residual r, in
 // the harmonics neglected and, where the scene samples its friction, in those kept. Their linearization
 // (wide_equations.hpp) with the branch's border row gives the change d to the branch of more harmonics, which
-// is regular at folds; a step c along the tangent t is still free. What holds the point tells c:
+// is regular at folds, up to a step c along the tangent t. The condition of the point determines c:
 //
 //   a value of q       d_q + c t_q + c^2 q''/2 = 0, the root that is next to 0
 //   an extremum        none: dA/ds = 0
 //   a fold             it moves along the branch to where dq/ds is zero again, c = -d_q' / q''
 //   a corner           h = 0 (hbm/corner.hpp) holds for d + c t
 //
-// Derivatives by s are differences along t. The estimate is |dA|, not a bound. It is flagged where it may be
-// far too low: N omega is below the highest natural frequency with all elements at their stiffest, so that a
-// resonance is left out; the sweeps do not converge; the response changes by no small part of its amplitude;
-// dA changes its sign, so that what the first order leaves out is larger; the branch of more harmonics has no
-// point at this q; or what holds the point cannot be differentiated.
+// Derivatives with respect to s are differences along t. The estimate is |dA|, not a bound. It is flagged if
+// it may be far too low: N omega is below the highest natural frequency with all elements at maximum
+// stiffness, so that a resonance is neglected; the sweeps do not converge; the change of the response is not
+// small; dA changes sign, so that higher orders dominate; the branch of more harmonics has no point at this
+// q; or the condition of the point cannot be differentiated.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -32,13 +32,13 @@ struct TruncationEstimate {
   bool flagged = false;
 };
 
-/// What holds a point of a branch in its place.
+/// The condition that defines a point of a branch.
 enum class HeldBy { parameter, extremum, fold, corner };
 HeldBy held_by(const continuation::Event& event);
 
 class Truncation {
  public:
-  /// p: where the natural frequencies are taken. free: the branch's parameter.
+  /// p: parameters of the natural frequencies. free: the branch's parameter.
   Truncation(const hbm::HbmProblem& problem, int free, const continuation::Vector& p);
 
   /// At an accepted point of a branch (of a problem with the same harmonics); extreme: of its response.

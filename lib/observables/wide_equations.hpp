@@ -1,5 +1,5 @@
 #pragma once
-// A solution of order N seen in the equations of more harmonics, and their linearization there.
+// The equations with more harmonics at a solution of order N, and their linearization.
 //
 // With u the harmonics kept, X the neglected ones (zero at the solution) and q the branch's free parameter,
 //
@@ -7,9 +7,9 @@
 //   [ J_Xu J_XX F_X,q ] [ dX ]  = -[ r_X ]
 //   [ b_u  b_X  b_q   ] [ dq ]     [ r_b ]
 //
-// is solved by sweeps over its blocks: dX with the diagonal blocks of J_XX, one for each harmonic, and (du,
-// dq) with factors of the bordered matrix of order N, which the branch has. Two sweeps; how much less the
-// second one changes tells whether they converge.
+// is solved by block sweeps: dX with the diagonal blocks of J_XX, one for each harmonic, and
+// (du, dq) with the factors of the bordered matrix of order N from the branch. Two sweeps; the ratio of their
+// changes shows whether they converge.
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>
@@ -21,7 +21,7 @@ namespace arcslip::observables {
 
 class WideEquations {
  public:
-  /// Friction is exact in them, even where the problem samples it.
+  /// Friction is exact in these equations, even if the problem samples it.
   WideEquations(const hbm::HbmProblem& problem, const elements::Harmonics& wide);
 
   /// Of the sweeps: b is zero in the kept unknowns of `row`, where there is none, and given by the solver.
@@ -43,12 +43,12 @@ class WideEquations {
   const hbm::HbmProblem& problem() const { return problem_; }
   std::uint64_t piece() const { return evaluator_->piece(); }
 
-  /// Makes ready for solve(): the diagonal blocks at the last place. q: index of the free parameter.
+  /// Prepares for solve(): the diagonal blocks at the last point. q: index of the free parameter.
   void factorize(int q);
   /// The bordered matrix of order N at the last place, with a border row in wide unknowns.
   bool factorize_kept(const Border& border, int q, continuation::LinearSolver& solver) const;
 
-  /// At the last place, whose blocks were made here or next to it. Returns the size of the second sweep
+  /// Solves at the last point, with blocks computed there or nearby. Returns the size of the second sweep
   /// relative to the first.
   double solve(const continuation::LinearSolver& kept, const continuation::Vector& r, const Border& border,
                Change& change, double enough = 0);
@@ -57,7 +57,7 @@ class WideEquations {
   void apply(const Change& change, int q, continuation::Vector& y) const;
 
   void embed(continuation::In u, continuation::Vector& wide) const;
-  /// The kept part; its place in `wide` becomes zero.
+  /// The kept part, which is set to zero in `wide`.
   void take_kept(continuation::Vector& wide, continuation::Out kept) const;
 
  private:

@@ -60,7 +60,7 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-/// What a link stands for, so that renaming replaces the file and not the link; it need not be there.
+/// The target of a link, so that renaming replaces the file and not the link; it need not exist.
 std::string resolved(const std::string& link) {
   std::string path = link;
   std::error_code error;
@@ -74,12 +74,12 @@ std::string resolved(const std::string& link) {
   fail(link, ELOOP);
 }
 
-/// Where Linux shows an open file that has no name.
+/// The path of an open unnamed file on Linux.
 std::string unnamed_link(int descriptor) {
   return "/proc/self/fd/" + std::to_string(descriptor);
 }
 
-/// Calls try_name with names that do not exist yet in all likelihood until it answers other than EEXIST.
+/// Calls try_name with probably unused names until the result is not EEXIST.
 template <class TryName>
 std::pair<std::string, int> unused_name(const std::string& folder, const TryName& try_name) {
   for (int attempt = 0; attempt < 1000; ++attempt) {

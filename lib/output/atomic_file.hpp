@@ -1,5 +1,5 @@
 #pragma once
-// Files that appear under their name only when they are whole.
+// Files that appear under their name only when complete.
 
 #include <arcslip/scene/stop_request.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace arcslip::output {
 
-/// A file that cannot be written. what() says which, why, and what to do.
+/// A file that cannot be written. what() names the file, the cause and a remedy.
 class WriteError : public std::runtime_error {
  public:
   WriteError(const std::string& path, int error);
@@ -22,16 +22,16 @@ class WriteError : public std::runtime_error {
   int error_;
 };
 
-/// Writes to a temporary in the folder of `path`; commit() brings it to the disk and gives it its name, in
-/// place of what had it. Destroyed before that, nothing of it remains and an old file of this name is
-/// untouched; where the system has files without a name (Linux), this holds even if the program is killed.
-/// A link is followed, also one to what is not there yet. What is not a regular file (a device, a pipe) is
-/// opened once and written to directly, and waits for its reader: where `stop` is asked for and nothing is
-/// read for a second, it fails with EINTR. Every failure throws WriteError, those of stream() too.
+/// Writes to a temporary file in the folder of `path`; commit() syncs it to disk and renames it, replacing an
+/// existing file. If destroyed before that, nothing remains and an old file of this name is untouched; on
+/// systems with unnamed files (Linux), this holds even if the program is killed. Links are followed, even if
+/// dangling. What is not a regular file (a device, a pipe) is opened once and written to directly, and may
+/// block on its reader: if `stop` is requested and nothing is read for a second, it fails with EINTR. Every
+/// failure throws WriteError, also through stream().
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path, scene::StopRequest stop = {});
-  /// Standard output and standard error, with the same care for errors.
+  /// Standard output and standard error, with the same error handling.
   static AtomicFile standard_output(scene::StopRequest stop = {});
   static AtomicFile standard_error(scene::StopRequest stop = {});
   AtomicFile(AtomicFile&&) noexcept;
@@ -48,20 +48,20 @@ class AtomicFile {
   std::unique_ptr<Target> target_;
 };
 
-/// Writes what `writer` puts into the stream, whole or not at all. Throws WriteError.
+/// Writes the output of `writer` to a file, completely or not at all. Throws WriteError.
 void write_file(const std::string& path, const std::function<void(std::ostream&)>& writer,
                 const scene::StopRequest& stop = {});
 
-/// Throws the WriteError that writing `path` would meet at its beginning (no such folder, no permission).
-/// Leaves no trace, and opens nothing that has a reader.
+/// Throws the WriteError that opening `path` for writing would cause (no such folder, no permission). Leaves
+/// no trace, and opens nothing that has a reader.
 void check_writable(const std::string& path);
 
-/// The file that writing `path` replaces: at the end of its links, with the folder that it is in as the
-/// system names it. Two paths to one file give the same, whether it is there or not.
+/// The file that writing `path` replaces: with links resolved and its folder in canonical form. Two paths to
+/// the same file give the same result, whether it exists or not.
 std::string written_file(const std::string& path);
 
-/// Removes what writers that were killed have left in a folder: temporaries of AtomicFile and of images. Only
-/// for one who knows that nobody else writes into it now.
+/// Removes temporary files of AtomicFile and of images left in a folder by killed writers. No other process
+/// may be writing to the folder.
 void clear_temporaries(const std::string& folder);
 
 }  // namespace arcslip::output

@@ -17,9 +17,9 @@ namespace arcslip::output::detail {
 namespace {
 
 constexpr int poll_milliseconds = 50;
-constexpr std::chrono::milliseconds longest_wait{800};  // once an end is asked for
+constexpr std::chrono::milliseconds longest_wait{800};  // once a stop is requested
 
-/// Whether writes to an open file may have to wait for somebody.
+/// Whether writes to an open file may block.
 bool may_wait(int descriptor) {
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && !S_ISREG(status.st_mode);
@@ -84,7 +84,8 @@ int DescriptorBuffer::sync() {
     auto count = static_cast<std::size_t>(end - begin);
     if (waits_) {
       wait();
-      count = std::min<std::size_t>(count, PIPE_BUF);  // more could wait where nobody asks for an end
+      count =
+          std::min<std::size_t>(count, PIPE_BUF);  // larger writes could block without checking for a stop
     }
     const auto written = ::write(descriptor_, begin, count);
     if (written < 0 && errno != EINTR && errno != EAGAIN) {

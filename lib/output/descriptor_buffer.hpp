@@ -1,5 +1,5 @@
 #pragma once
-// Writing to a file descriptor on whose other side somebody may have to read first.
+// Writing to a file descriptor that may block on a reader.
 
 #include <arcslip/scene/stop_request.hpp>
 
@@ -10,8 +10,7 @@
 
 namespace arcslip::output::detail {
 
-/// Waiting for whoever reads on the other side: as long as it takes, but no longer than a second without
-/// progress once an end is asked for.
+/// Waits for the reader: without limit, but at most a second without progress once a stop is requested.
 class Patience {
  public:
   explicit Patience(scene::StopRequest stop);
@@ -24,13 +23,13 @@ class Patience {
   std::chrono::steady_clock::time_point since_{};
 };
 
-/// Opens what is there and is no regular file, once; a pipe waits for its reader. Throws WriteError.
+/// Opens an existing special file, once; a pipe waits for its reader. Throws WriteError.
 int open_special(const std::string& path, const scene::StopRequest& stop);
 
-/// A buffer that puts its bytes into a file descriptor, or throws WriteError with this path.
+/// A stream buffer that writes to a file descriptor, or throws WriteError with this path.
 class DescriptorBuffer : public std::streambuf {
  public:
-  /// stop: asked while the descriptor waits.
+  /// stop: called while the descriptor blocks.
   DescriptorBuffer(int descriptor, std::string path, scene::StopRequest stop);
 
  protected:

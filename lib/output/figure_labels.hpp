@@ -5,12 +5,12 @@
 
 namespace arcslip::output {
 
-/// A place in a figure; x and y from 0 to 1 over the axes.
+/// A position in a figure; x and y from 0 to 1 over the axes.
 struct Place {
   double x = 0, y = 0;
 };
 
-/// A text that wants to stand near a mark.
+/// A text to be placed near a mark.
 struct LabelWish {
   Place mark;
   std::string text;
@@ -22,16 +22,16 @@ struct LabelMetrics {
   double character_width = 0.0165, line_height = 0.05;  // shares of the axes
 };
 
-/// A label's anchor relative to its mark, in characters and lines, and how the text lies there: -1 it ends at
-/// the anchor, 0 is centred, 1 begins there.
+/// A label's anchor relative to its mark, in characters and lines, and its alignment: -1 right, 0 centred,
+/// 1 left.
 struct LabelOffset {
   double x, y;
   int alignment;
 };
 LabelOffset offset(LabelSide side);
 
-/// Where each label stands so that it covers no other label, no mark and no line (all polylines) and stays
-/// within the axes; none where there is no such side.
+/// A position of each label within the axes that covers no other label, mark or line (all polylines); none if
+/// there is no such position.
 std::vector<LabelSide> place_labels(const std::vector<LabelWish>& wishes,
                                     const std::vector<std::vector<Place>>& lines,
                                     const LabelMetrics& metrics = {});

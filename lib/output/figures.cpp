@@ -25,7 +25,7 @@ std::string folder_prefix(const std::string& folder) {
   return folder + (folder.empty() || folder.back() != '/' ? "/" : "");
 }
 
-/// Whether an image is whole: it ends as its format must.
+/// Whether an image is complete: it has the end marker of its format.
 bool is_whole(const std::string& path, std::string_view ending) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const auto size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
@@ -36,7 +36,7 @@ bool is_whole(const std::string& path, std::string_view ending) {
   return file && tail.find(ending) != std::string::npos;
 }
 
-/// How long gnuplot may take: what it draws in a second is tens of thousands of points.
+/// Time limit of gnuplot, which draws tens of thousands of points per second.
 std::chrono::milliseconds time_for(const FigureData& data, std::size_t figures) {
   std::size_t points = 0;
   for (const FigureLine& line : data.lines) {
@@ -47,7 +47,7 @@ std::chrono::milliseconds time_for(const FigureData& data, std::size_t figures) 
   return least_time + std::chrono::duration_cast<std::chrono::milliseconds>(points * figures * time_of_point);
 }
 
-/// The images, without their folder, that an old script draws; none where there is no script.
+/// The images, without their folder, drawn by an old script; none without a script.
 std::vector<std::string> images_of(const std::string& script) {
   constexpr std::string_view begin = "set output '", end = "'.suffix";
   std::vector<std::string> images;
@@ -63,7 +63,7 @@ std::vector<std::string> images_of(const std::string& script) {
   return images;
 }
 
-/// Old figures must not stand beside new data. Returns how many there were.
+/// Removes old figures, which must not accompany new data. Returns their number.
 int remove_images(const std::string& base, const std::vector<std::string>& images) {
   int count = 0;
   for (const std::string& image : images) {
@@ -154,7 +154,7 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
     return result;
   }
 
-  // gnuplot writes under a temporary name; what is whole gets its own.
+  // gnuplot writes to temporary names; complete images are renamed.
   const std::string suffix = "." + std::to_string(::getpid()) + ".tmp";
   const auto time = time_for(data, images.size());
   const ProcessResult run =

@@ -9,27 +9,27 @@
 
 namespace arcslip::output {
 
-/// A text as gnuplot reads it: in single quotes, where nothing is special but the quote itself.
-/// Characters that XML and terminals do not take are escaped (results/text.hpp).
+/// A text in single quotes for gnuplot. Characters that are invalid in XML or unsafe for a terminal are
+/// escaped (results/text.hpp).
 std::string quoted(const std::string& text);
 
-/// The first `longest` characters (UTF-8) of a text, and " ..." where there are more.
+/// The first `longest` characters (UTF-8) of a text, followed by " ..." if it is longer.
 std::string shortened(const std::string& text, int longest);
 
 /// Colour of a line by its rank, "#0d0887": the map "plasma" without its light end, so that the order of a
-/// family shows, also in grey and to the colour-blind.
+/// family is visible, also in grey and to the colour-blind.
 std::string line_colour(std::size_t line, std::size_t lines);
 
-/// Dash type of a line, so that neighbours differ without colour.
+/// Dash type of a line, different for neighbours, for use without colour.
 std::string line_dash(std::size_t line);
 
-/// What one axis of a figure spans.
+/// The range and scale of an axis.
 struct Axis {
   results::Range range;
   bool logarithmic = false;
 
   bool shows(double value) const;
-  /// Where a value lies, from 0 to 1.
+  /// Position of a value on the axis, from 0 to 1.
   double place(double value) const;
 };
 

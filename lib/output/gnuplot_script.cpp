@@ -37,7 +37,7 @@ void write_record(std::ostream& out, const Record& values) {
   out << '\n';
 }
 
-/// How the marks of a kind look, in the order of mark_kinds.
+/// Styles of the marks, in the order of mark_kinds.
 constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
     "pointtype 7 pointsize 0.8",  "pointtype 4 pointsize 1 linewidth 1.5",
     "pointtype 9 pointsize 1",    "pointtype 11 pointsize 1",
@@ -45,7 +45,7 @@ constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
 
 constexpr double band_opacity = 0.12;
 
-/// How the k-th band of a line looks, from 0: each lies upon those that are wider.
+/// Style of the k-th band of a line, from 0: narrower bands are drawn over wider ones.
 std::string band_style(std::size_t k, const std::string& colour) {
   const double opacity = 1 - std::pow(1 - band_opacity, static_cast<double>(k + 1));
   return "fillcolor rgb '" + colour + "' fillstyle transparent solid " + shortest(opacity) + " noborder";
@@ -56,7 +56,7 @@ bool is_labelled(const std::string& kind) {
   return kind != "fold";
 }
 
-/// The lines over the axes, from 0 to 1, so that no label is put upon one.
+/// The lines in axis coordinates from 0 to 1, to keep labels off them.
 std::vector<std::vector<Place>> places(const FigureData& data, const Figure& figure, const Axes& axes) {
   std::vector<std::vector<Place>> lines;
   for (const FigureLine& line : data.lines) {
@@ -72,7 +72,7 @@ std::vector<std::vector<Place>> places(const FigureData& data, const Figure& fig
   return lines;
 }
 
-/// Labels at the marks, for those that find room.
+/// Labels at the marks, where there is room.
 void write_labels(std::ostream& out, const FigureData& data, const Figure& figure, const Axes& axes) {
   struct Label {
     double x, y;
@@ -104,7 +104,7 @@ void write_labels(std::ostream& out, const FigureData& data, const Figure& figur
   }
 }
 
-/// Bands behind the lines, where the figure is over what they are ranges of.
+/// Bands behind the lines, if the figure is over their parameter.
 void write_bands(std::ostream& out, const FigureData& data, const Figure& figure) {
   out << "unset object\n";
   if (figure.x != 0) {
@@ -147,7 +147,7 @@ bool has_mark(const FigureLine& line, std::string_view kind) {
                      [&](const FigureMark& mark) { return mark.kind == kind; });
 }
 
-/// Whether a figure can show anything of a line, or its marks of a kind.
+/// Whether a line, or its marks of a kind, has anything to draw in a figure.
 bool is_in(const Figure& figure, const Record& values) {
   return std::isfinite(values[figure.x]) && std::isfinite(values[figure.y]);
 }
@@ -163,7 +163,7 @@ bool is_in(const Figure& figure, const FigureLine& line, std::string_view kind) 
                      [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
 }
 
-/// An entry for each band, the narrowest first; lines have the same, so that one line tells them all.
+/// Key entries of the bands, narrowest first, from one line, as all lines have the same.
 void add_bands_to_key(const FigureData& data, std::vector<std::string>& curves) {
   const auto has_bands = [](const FigureLine& line) { return !line.bands.empty(); };
   const auto line = std::find_if(data.lines.begin(), data.lines.end(), has_bands);

@@ -1,5 +1,5 @@
 #pragma once
-// Figures as gnuplot reads them.
+// Figures as gnuplot data and scripts.
 
 #include <arcslip/results/figure.hpp>
 
@@ -9,16 +9,16 @@
 
 namespace arcslip::output {
 
-/// The names of the images of each figure, without .svg and .png: NAME_FIGURE, as far as a file name can hold
-/// it.
+/// The names of the images of each figure, without .svg and .png: NAME_FIGURE, shortened to a valid
+/// file name.
 std::vector<std::string> image_names(const results::FigureData& data, const std::string& name);
 
 /// For each line an indexed block with its points, then one for each kind of its marks, in the order of
-/// results::mark_kinds. No block is empty.
+/// results::mark_kinds. Empty blocks are omitted.
 void write_figure_data(std::ostream& out, const results::FigureData& data);
 
-/// A script that draws NAME.dat as these images, each as SVG and as PNG. It runs by itself ("gnuplot
-/// NAME.gp"); a variable `suffix` set before is put after the names of the images.
+/// A script that draws NAME.dat as these images, each as SVG and PNG. It runs on its own ("gnuplot NAME.gp");
+/// a variable `suffix` set before is appended to the names of the images.
 void write_gnuplot_script(std::ostream& out, const results::FigureData& data, const std::string& name,
                           const std::vector<std::string>& images);
 

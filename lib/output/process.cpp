@@ -19,8 +19,7 @@ namespace {
 constexpr int moment = 20;                   // ms between questions whether to go on
 constexpr std::size_t most_text = 1u << 20;  // bytes of it that are kept
 
-/// What a started program inherits: its folder, its streams, default reactions to signals, and a process
-/// group.
+/// The setup of a child process: its folder, its streams, default signal handlers, and a process group.
 class SpawnSettings {
  public:
   SpawnSettings(const std::string& folder, int output) {
@@ -129,7 +128,7 @@ ProcessResult run_program(const std::string& program, const std::vector<std::str
     } else {
       ::poll(nullptr, 0, moment);
     }
-    // At the end of its text it is about to end; what it started may hold the pipe longer than it lives.
+    // At the end of its output it is about to exit; its children may keep the pipe open longer.
     if (::waitpid(child, &status, WNOHANG) == child) {
       break;
     }

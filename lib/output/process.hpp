@@ -8,30 +8,30 @@
 
 namespace arcslip::output {
 
-/// How a program came to its end.
+/// How a program ended.
 enum class ProcessEnd {
   by_itself,
   not_found,    // no such program in PATH
   out_of_time,  // killed
-  stopped,      // killed, as asked
+  stopped,      // killed on request
 };
 
 struct ProcessResult {
   ProcessEnd end = ProcessEnd::by_itself;
-  int exit_code = 0;  // of the program; -1 where a signal ended it
+  int exit_code = 0;  // of the program; -1 if ended by a signal
   int signal = 0;     // the signal that ended it, 0 for none
-  std::string text;   // what it wrote to standard output and standard error
+  std::string text;   // standard output and standard error
 };
 
-/// Until when a program may run.
+/// Limits of a program.
 struct ProcessLimits {
   scene::StopRequest stop{};
   std::chrono::milliseconds time = std::chrono::hours(24 * 365);
 };
 
-/// Runs a program found in PATH, without a shell, in `folder`, with nothing on standard input, and waits for
-/// its end, or kills it, with all that it started, where a limit says so. It has a process group of its own:
-/// a terminal's Ctrl-C is left to us. Throws std::system_error where the system cannot start any program.
+/// Runs a program from PATH, without a shell, in `folder`, with empty standard input, and waits for it, or
+/// kills it and its children at a limit. It runs in its own process group, so that a terminal's Ctrl-C does
+/// not reach it. Throws std::system_error if the system cannot start programs.
 ProcessResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           const std::string& folder, const ProcessLimits& limits = {});
 

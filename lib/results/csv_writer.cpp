@@ -13,7 +13,7 @@
 namespace arcslip::results {
 namespace {
 
-/// A field, in quotes where RFC 4180 asks for them.
+/// A field, quoted if RFC 4180 requires it.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -21,8 +21,8 @@ std::string field(const std::string& text) {
   return quoted + '"';
 }
 
-/// A name or another text as a field. A spreadsheet takes what begins with =, +, - or @ for a formula: a '
-/// goes before it. What is not to be shown is escaped.
+/// A name or another text as a field. Texts that start with =, +, - or @ are prefixed with ', so that
+/// spreadsheets do not take them for formulas. Unsafe characters are escaped.
 std::string text_field(const std::string& text) {
   const bool is_formula =
       !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
@@ -91,7 +91,7 @@ void CsvWriter::begin(const Header& /*header*/, std::span<const Schema> schemas)
     if (const Table* table = table_of(schema, key_))
       for (const Column& column : table->columns) add(title(column.path, column.unit), columns_);
   }
-  // What one study is over another may set.
+  // The continuation parameter of one study may be set by for_each in another.
   std::erase_if(set_, [&](const std::string& name) {
     return std::find(columns_.begin(), columns_.end(), name) != columns_.end();
   });

@@ -1,11 +1,11 @@
 #pragma once
-// Results as comma-separated values (RFC 4180), a file for each table and one for what is known of each
-// result as a whole, format "arcslip-csv-2".
+// Results as comma-separated values (RFC 4180), a file for each table and a summary file with a row for each
+// result, format "arcslip-csv-2".
 //
-// Columns: "study"; the parameters that tell results of a study apart; the number of the result, from 1, by
-// the noun of its schema; then those of the table: a column's path joined by points, without "elements",
-// and its unit, "damper.stick_percent (%)". No value is an empty cell, a flag true or false, a list or an
-// object its JSON.
+// Columns: "study"; the parameters set by for_each; the number of the result, from 1, titled by the noun of
+// its schema; then those of the table: a column's path joined by dots, without "elements", and its unit,
+// "damper.stick_percent (%)". A missing value is an empty cell, a flag true or false, a list or an object
+// its JSON.
 
 #include <arcslip/results/result.hpp>
 
@@ -16,7 +16,7 @@
 
 namespace arcslip::results {
 
-/// Writes the tables of one key, as they come. Results whose schema has no such table are left out.
+/// Writes the tables of one key as they arrive. Results whose schema has no such table are skipped.
 class CsvWriter : public Sink {
  public:
   CsvWriter(std::ostream& out, std::string table);
@@ -32,14 +32,14 @@ class CsvWriter : public Sink {
   std::string key_;
   std::vector<Schema> schemas_;
   std::vector<std::string> set_, columns_;   // titles
-  std::size_t schema_ = 0;                   // of the result that is open
+  std::size_t schema_ = 0;                   // of the current result
   std::map<std::string, long> count_;        // results so far, by noun
   std::map<std::string, std::string> head_;  // what the result sets, by titles
   std::string first_;                        // cells of each row of the result
 };
 
 /// Writes a row for each result: status, reason and message of its end, and all facts that are numbers, flags
-/// or texts, by the keys that lead to them. Keeps the rows until all are there.
+/// or texts, titled by their paths. Keeps the rows until finish().
 class CsvSummary : public Sink {
  public:
   explicit CsvSummary(std::ostream& out);

@@ -1,5 +1,5 @@
 #pragma once
-// Figures as data: what is drawn over what, before any program draws it.
+// Figures as data, independent of the program that draws them.
 
 #include <array>
 #include <cstddef>
@@ -16,14 +16,14 @@ struct Range {
 
 enum class Scale { linear, logarithmic, percent };
 
-/// A quantity of every point, and how an axis shows it.
+/// A quantity of every point, with its axis.
 struct FigureColumn {
   std::string label;  // "frequency (Hz)"
   Scale scale = Scale::linear;
-  Range range{};  // of the values that the scale can show; lower > upper: there are none
+  Range range{};  // of the values that the scale can show; lower > upper: none
 };
 
-using Record = std::vector<double>;  // a value for each column, NaN where there is none
+using Record = std::vector<double>;  // a value for each column, NaN if missing
 
 /// The kinds of events that are drawn, in the order of the data.
 inline constexpr std::array<std::string_view, 6> mark_kinds = {"peak",    "fold", "maximum",
@@ -35,7 +35,7 @@ struct FigureMark {
   std::string label{};  // empty: that of its line
 };
 
-/// Values of column 0 that are shaded over the height of the figures over it.
+/// A range of column 0 that is shaded in the figures over it.
 struct FigureBand {
   std::string label;  // "within 5 %"
   Range range;
@@ -45,10 +45,10 @@ struct FigureBand {
 struct FigureLine {
   std::string label{};                                // "3 N", or "3 N, 0.1 N s/m"
   std::string heading{};                              // in the data: "damper.normal_load = 3 N, ..."
-  std::vector<std::pair<std::string, double>> set{};  // what they tell
-  std::vector<std::vector<Record>> parts{};           // drawn apart
+  std::vector<std::pair<std::string, double>> set{};  // the parameters
+  std::vector<std::vector<Record>> parts{};           // drawn separately
   std::vector<FigureMark> marks{};
-  bool unbounded = false;           // somewhere, where nothing can be drawn
+  bool unbounded = false;           // somewhere, outside what is drawn
   std::vector<FigureBand> bands{};  // the widest first
 };
 
@@ -59,17 +59,17 @@ struct Figure {
   std::string x_label, y_label;  // "amplitude (m)"
 };
 
-/// What figures of the same lines show.
+/// The data of figures with the same lines.
 struct FigureData {
-  std::string name{};  // tells it from others of the same results; mostly ""
+  std::string name{};  // distinguishes it from others of the same results; usually ""
   std::string title;
-  std::vector<std::string> parameters{};  // that tell the lines apart, by name
+  std::vector<std::string> parameters{};  // that distinguish the lines, by name
   std::vector<FigureColumn> columns{};
   std::vector<FigureLine> lines{};
   std::vector<Figure> figures{};  // none: nothing is drawn
 };
 
-/// Of all finite values of a column that are above a bound; lower > upper where there are none.
+/// The range of all finite values of a column above a bound; lower > upper if there are none.
 Range range_of(const FigureData& data, std::size_t column, double above);
 Range full_range(const FigureData& data, std::size_t column);
 

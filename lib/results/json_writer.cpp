@@ -19,7 +19,7 @@ void append(std::string& out, long number) {
   out += std::to_string(number);
 }
 
-/// With a point or an exponent, so that it is read as a number that is not whole.
+/// With a decimal point or an exponent, so that it is read as a floating-point number.
 void append(std::string& out, double number) {
   if (!std::isfinite(number)) {
     out += "null";
@@ -73,7 +73,7 @@ void append(std::string& out, const Value& value) {
       value.get());
 }
 
-/// Keys within keys: a group is opened where a path enters it, and closed where one leaves it.
+/// Nested keys: an object is opened where a path enters it, and closed where it leaves it.
 class Members {
  public:
   explicit Members(std::string& out) : out_(out) { out_ += '{'; }
@@ -139,7 +139,7 @@ class JsonWriter::TableText {
     for (std::size_t c = 0; c < rows.columns.size() && by_columns_; ++c) add_column(rows.columns[c], c);
   }
 
-  /// All that is there, with its brackets but for the first.
+  /// All rows so far, with all brackets except the first.
   std::string rest() {
     if (!by_columns_) return take() + "]";
     std::string all;

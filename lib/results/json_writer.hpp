@@ -9,13 +9,13 @@
 namespace arcslip::results {
 
 /// Writes one object: {"format", "program", "scene_hash", "title", "frequency_unit", LIST: [R, ...]}, and so
-/// for each list; its format is that of the schemas if all have one, else "arcslip-results-1". The results of
-/// a list come one after the other. Behind a list with one result stands what Schema::beside says of it. With
+/// for each list; its format is that of the schemas if they agree, else "arcslip-results-1". The results of a
+/// list must be consecutive. A list with one result is followed by its Schema::beside. Here
 ///   R = {"study", "kind", facts of the head, "set", a key for each table, "status", "stop", facts of the
 ///   end}
-/// where "study" and "kind" are left out where nobody said them. A table is a list of objects, a row a line,
-/// or an object of lists. Numbers are the shortest that read back exactly; what is not finite is null. Rows
-/// of the first table are written as they come, those of others are kept until the result ends.
+/// without "study" and "kind" if they are empty. A table is a list of objects, one row per line, or an object
+/// of lists. Numbers have the fewest digits that read back exactly; non-finite ones are null. Rows of the
+/// first table are written as they arrive, those of others are kept until the result ends.
 class JsonWriter : public Sink {
  public:
   explicit JsonWriter(std::ostream& out);

@@ -46,7 +46,7 @@ Object object(std::span<const Column> columns, const Rows& rows, std::size_t row
 
 namespace {
 
-// Puts rows of the same columns behind others.
+// Appends rows of the same columns.
 void append(const Rows& more, Rows& all) {
   for (std::size_t c = 0; c < all.columns.size(); ++c) {
     Cells& to = all.columns[c];

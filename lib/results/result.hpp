@@ -1,11 +1,11 @@
 #pragma once
-// Results as data, whatever they are of: tables of columns and rows, what is known beside them, how the
-// computation ended. Who computes describes its results by a Schema and hands them to a Sink; each way to
-// show them is a sink and knows nothing but this file.
+// Results as generic data: tables of columns and rows, further facts, and how the computation ended. A
+// computation describes its results by a Schema and passes them to a Sink; every output format is a sink that
+// depends only on this file.
 //
-//   sink.begin(header, schemas)                   what is to come
+//   sink.begin(header, schemas)                   all schemas
 //     sink.curve(head, 0)                         a branch, a motion, an optimum: of schemas[0]
-//       sink.rows(0, rows) sink.rows(1, rows)     of its tables, in any order, in as many parts as one likes
+//       sink.rows(0, rows) sink.rows(1, rows)     of its tables, in any order and any number of parts
 //     sink.end(end)
 //     sink.curve(head, 0) ...
 //   sink.finish()
@@ -21,13 +21,13 @@
 
 namespace arcslip::results {
 
-/// What the cells of a column hold; the alternatives of Cells::of, in their order.
+/// The type of the cells of a column: the alternatives of Cells::of, in their order.
 enum class Type { number, whole, flag, text, value };
 
 struct Column {
-  std::vector<std::string> path;  // keys within keys: {"elements", "damper", "theta_0"}
+  std::vector<std::string> path;  // nested keys: {"elements", "damper", "theta_0"}
   Type type = Type::number;
-  std::string unit{};  // "N/m"; "" of what has none
+  std::string unit{};  // "N/m"; "" if it has none
   std::string help{};  // one line of Markdown
 };
 
@@ -41,7 +41,7 @@ struct Table {
   bool by_columns = false;             // JSON holds a list for each column, and not an object for each row
 };
 
-/// What people are shown.
+/// A column of the output for people.
 struct Shown {
   std::string title;              // "A_max (m)"
   std::vector<std::string> path;  // of a column, or of a fact of the end
@@ -49,7 +49,7 @@ struct Shown {
   std::string otherwise{};        // a flag whose name stands where there is no value and the flag is true
 };
 
-/// What all results of one study look like.
+/// The structure of all results of a study.
 struct Schema {
   std::string format;  // of a document that holds nothing else: "arcslip-branches-1"
   std::string list;    // key of the list in which a document holds them: "branches"
@@ -58,15 +58,15 @@ struct Schema {
   std::vector<Column> set{};          // of Head::set, in any of them
   std::vector<Shown> shown{};         // to people; none: End::text
   std::string shown_table{};          // whose rows; empty: facts of the end
-  std::vector<std::string> beside{};  // keys of the one result of a document that stand beside its list, too
+  std::vector<std::string> beside{};  // keys of a single result that are also written next to its list
 };
 
-/// The cells of one column, each where the row has it; a number that is not finite is no value.
+/// The cells of one column; absent ones and non-finite numbers are missing values.
 struct Cells {
   std::variant<std::vector<double>, std::vector<long>, std::vector<bool>, std::vector<std::string>,
                std::vector<Value>>
       of;
-  std::vector<bool> absent{};  // rows without the column; empty: there is none
+  std::vector<bool> absent{};  // rows without the column; empty: none
 };
 
 /// Some rows of a table, by columns.
@@ -79,20 +79,20 @@ struct Header {
   std::string program, scene_hash, title, frequency_unit;
 };
 
-/// What is known of a result before it is computed.
+/// Data of a result before it is computed.
 struct Head {
-  std::string study{}, kind{};  // empty where nobody said so
-  Object set{};                 // parameters and their values, which tell it from others of its study
+  std::string study{}, kind{};  // may be empty
+  Object set{};                 // parameters and values that distinguish it from others of its study
   Object facts{};
-  int parent = 0;  // the result that it goes on from, so many before it in its list; 0: none
+  int parent = 0;  // the result it continues, counted backwards in its list; 0: none
 };
 
-/// How it ended, and what is known of it then.
+/// How it ended, with its facts.
 struct End {
   Status status = Status::complete;
   Object stop;  // "reason", "value", "limit", "message"
   Object facts{};
-  std::string doubt{};  // why what is complete has fewer digits than it seems; empty: it has not
+  std::string doubt{};  // why a complete result is less accurate than it seems; empty: it is not
   std::string text{};   // for people, lines
 };
 
@@ -100,14 +100,14 @@ class Sink {
  public:
   virtual ~Sink() = default;
   virtual void begin(const Header& header, std::span<const Schema> schemas) = 0;
-  /// schema: which of those at the beginning.
+  /// schema: index of the schemas of begin().
   virtual void curve(const Head& head, std::size_t schema) = 0;
   virtual void rows(std::size_t table, const Rows& rows) = 0;
   virtual void end(const End& end) = 0;
   virtual void finish() = 0;
 };
 
-/// All of a result.
+/// A complete result.
 struct Result {
   std::size_t schema = 0;
   Head head;
@@ -127,13 +127,13 @@ std::string assignment(const Object& set);
 /// A row as members within members.
 Object object(std::span<const Column> columns, const Rows& rows, std::size_t row);
 
-/// Hands one of them to a sink, as of this schema.
+/// Passes a result to a sink, with this schema.
 void hand(const Result& result, std::size_t schema, Sink& sink);
 
-/// Hands all of it to a sink: those of one list after the other.
+/// Passes all results to a sink, list by list.
 void replay(const Results& results, Sink& sink);
 
-/// A sink that keeps all that it is given.
+/// A sink that stores everything.
 class Collector : public Sink {
  public:
   void begin(const Header& header, std::span<const Schema> schemas) override;

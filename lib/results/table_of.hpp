@@ -1,5 +1,5 @@
 #pragma once
-// A table of items of one kind: what its columns are, and how each is read off an item, in one place.
+// A table of items of one kind: its columns, each with its getter, in one place.
 //
 //   TableOf<Peak> peaks;
 //   peaks.add({"frequency"}, "Hz", "where it is", [](const Peak& peak) { return peak.frequency; });
@@ -53,8 +53,8 @@ class TableOf {
  public:
   using Items = std::span<const Item* const>;
 
-  /// get(item): a number, a flag, a text or what a Value is made of; or std::optional of one, which is empty
-  /// where the item does not have it.
+  /// get(item): a number, a flag, a text or anything a Value is made of; or std::optional of one, empty if
+  /// the item does not have it.
   template <class Get>
   void add(std::vector<std::string> path, std::string unit, std::string help, Get get) {
     using Got = std::decay_t<std::invoke_result_t<Get, const Item&>>;

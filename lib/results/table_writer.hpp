@@ -1,5 +1,5 @@
 #pragma once
-// Results for people: aligned columns, or the lines that a result says of itself.
+// Text output of results: aligned columns, or the text of a result.
 
 #include <arcslip/results/result.hpp>
 
@@ -10,9 +10,9 @@
 
 namespace arcslip::results {
 
-/// Writes End::text of each result or, where its schema says what is shown, a row for each row of that table,
-/// or for the result itself, of all results of a schema that come one after the other; what they set comes
-/// first, how each ended last. What a terminal must not get is escaped.
+/// Writes End::text of each result or, if its schema has shown columns, one table for all consecutive results
+/// of a schema, with a row for each row of the shown table or for each result; set parameters come first, the
+/// status last. Characters unsafe for a terminal are escaped.
 class TableWriter : public Sink {
  public:
   explicit TableWriter(std::ostream& out);
@@ -40,8 +40,7 @@ class TableWriter : public Sink {
 
 void write_table(std::ostream& out, const Results& results);
 
-/// What people are told of results: for each that is not complete, which and why; for each that is, what
-/// makes it doubtful, if anything.
+/// Remarks on results: for each incomplete result, which and why; for each complete one, reasons for doubt.
 class Remarks : public Sink {
  public:
   void begin(const Header& header, std::span<const Schema> schemas) override;

@@ -58,7 +58,7 @@ void add_escape(std::string_view prefix, char32_t code, int digits, std::string&
   }
 }
 
-// A character, whose code is known, as it is or escaped.
+// A character with known code, unchanged or escaped.
 void add_visible(std::string_view character, char32_t code, std::string& out) {
   if (is_shown(code)) {
     out += character;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and texts as the writers write them.
+// Formatting of numbers and texts.
 
 #include <array>
 #include <charconv>
@@ -21,23 +21,21 @@ inline std::string shortest(double value) {
   return text;
 }
 
-/// "damper.normal_load (N)", as a column or an axis is headed, escaped by visible().
+/// "damper.normal_load (N)", the title of a column or an axis, escaped by visible().
 std::string with_unit(std::string_view quantity, std::string_view unit);
 
-/// "3 N", to ten digits; a pure number ("" or "-") stands alone.
+/// "3 N", to ten digits; without a unit for a pure number ("" or "-").
 std::string quantity(double value, std::string_view unit);
 
-/// The text with every character escaped that commands a terminal, changes how its neighbours look, or is
-/// none: control characters (C0, DEL, C1), marks and embeddings of writing direction, separators of lines and
-/// paragraphs, noncharacters (U+FFFE, U+FFFF and their like) and surrogates, as JSON escapes them (\u009b);
-/// bytes that are not UTF-8, as \x9b. What it has made it leaves as it is.
+/// Escapes every character that is unsafe for a terminal or invalid: control characters (C0, DEL, C1),
+/// bidirectional formatting characters, line and paragraph separators, noncharacters (U+FFFE, U+FFFF and so
+/// on) and surrogates, as in JSON (\u009b); bytes that are not UTF-8, as \x9b. Idempotent.
 std::string visible(std::string_view text);
 
-/// The same, but line breaks (\n) stay.
+/// The same, but keeps line breaks (\n).
 std::string visible_lines(std::string_view text);
 
-/// In quotes, as JSON writes a text; a terminal may show it. Bytes that are not UTF-8, and surrogates, become
-/// U+FFFD.
+/// A JSON string with quotes, safe for a terminal. Bytes that are not UTF-8, and surrogates, become U+FFFD.
 std::string json_quoted(std::string_view text);
 
 }  // namespace arcslip::results

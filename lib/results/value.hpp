@@ -1,5 +1,5 @@
 #pragma once
-// A value of any shape: what is known of a result beside its tables, as its certificate or its cost.
+// A value of any shape: facts of a result in addition to its tables, such as a certificate or the cost.
 
 #include <cstddef>
 #include <string>

@@ -79,7 +79,7 @@ void check_structure(const Scene& scene, Faults& faults) {
   mark(scene.dampers, false, acted_on);
   mark(scene.elements, true, acted_on);
   if (std::find(acted_on.begin(), acted_on.end(), true) == acted_on.end()) {
-    return;  // told above
+    return;  // reported above
   }
   for (std::size_t i = 0; i < acted_on.size(); ++i) {
     if (!acted_on[i]) {

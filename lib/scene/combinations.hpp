@@ -9,17 +9,17 @@
 
 namespace arcslip::scene {
 
-/// The values that one combination of the for_each lists gives to parameters.
+/// The parameter values of one combination of the for_each lists.
 using Setting = std::vector<std::pair<std::string, double>>;
 
-/// All combinations of the for_each lists, the last one fastest, each made when it is asked for; one empty
-/// setting where there are none. Refers to the lists.
+/// All combinations of the for_each lists, the last list varying fastest, generated on demand; one empty
+/// combination if there are no lists. Refers to the lists.
 class Combinations {
  public:
   explicit Combinations(const ValueLists& lists) : lists_(lists) {}
-  /// How many there are, which may be more than any integer.
+  /// Their number, which may exceed any integer.
   double count() const;
-  /// No more than an int can count.
+  /// Their number, at most the largest int.
   std::size_t size() const;
   Setting operator[](std::size_t index) const;
 
@@ -27,7 +27,7 @@ class Combinations {
   const ValueLists& lists_;
 };
 
-/// What the command runs without being told to.
+/// The default limit of the command.
 inline constexpr int usual_combinations = 100'000;
 
 }  // namespace arcslip::scene

@@ -159,11 +159,11 @@ std::string bound_fault(const Field& field, double value) {
 
 }  // namespace file
 
-// The known word that a misspelt one most likely meant.
+// The known word most similar to a misspelt one.
 
 namespace {
 
-constexpr std::size_t longest_word = 128;  // beyond it nothing is a slip of the keyboard any more
+constexpr std::size_t longest_word = 128;  // longer words are no typing errors
 
 char lower_case(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

@@ -1,5 +1,5 @@
 #pragma once
-// Collecting the faults of a scene file, and the phrases in which they are told.
+// Collection of the faults of a scene file, and the phrases of their messages.
 
 #include <arcslip/scene/scene.hpp>
 
@@ -16,9 +16,9 @@ class Faults {
  public:
   void add(std::string pointer, std::string message);
   std::size_t count() const { return count_; }
-  /// True where further faults are only counted: their messages need not be made.
+  /// True if further faults are only counted, and need no message.
   bool full() const;
-  /// Throws SceneError where there is any fault.
+  /// Throws SceneError if there is any fault.
   void raise() const;
 
  private:
@@ -30,15 +30,15 @@ class Faults {
 std::string child(std::string_view pointer, std::string_view key);
 std::string child(std::string_view pointer, std::size_t index);
 
-/// A number as short as it can be without loss: 17890, 0.1, 1e+20.
+/// The shortest exact text of a number: 17890, 0.1, 1e+20.
 std::string number_text(double value);
-/// A string as JSON writes it, with its quotes.
+/// A JSON string with its quotes.
 std::string quoted(std::string_view text);
-/// The same, cut to a length that fits a message.
+/// The same, shortened to fit a message.
 std::string shown(std::string_view text);
-/// `"a", "b", "c"`, cut after a dozen.
+/// `"a", "b", "c"`, at most twelve.
 std::string listed(std::span<const std::string> words);
-/// ` did you mean "word"?` with a leading `;`, or "" where no known word is near.
+/// `; did you mean "word"?`, or "" if no known word is similar.
 std::string hint(std::string_view word, std::span<const std::string> known);
 
 bool within(const Field& field, double value);

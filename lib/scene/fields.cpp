@@ -1,5 +1,5 @@
-// What masses, springs, dampers and forces hold: names, units, bounds and defaults. Those of the elements
-// stand with their laws.
+// The fields of masses, springs, dampers and forces: names, units, bounds and defaults. Those of the elements
+// are defined with their laws.
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-// A JSON text as an ordered tree that keeps duplicate keys, so that every fault of a file can be told.
+// A JSON text as an ordered tree that keeps duplicate keys, so that every fault of a file can be reported.
 
 #include <arcslip/scene/stop_request.hpp>
 
@@ -13,12 +13,12 @@ namespace arcslip::scene::file {
 
 struct Member;
 
-/// A number that is too large for a double, as it was written.
+/// A number too large for a double, as written.
 struct Oversized {
   std::string digits;
 };
 
-/// One JSON value. Nesting is at most scene::largest_depth in a tree that was read.
+/// One JSON value. The nesting of a tree read from a file is at most scene::largest_depth.
 struct Node {
   using List = std::vector<Node>;
   using Object = std::vector<Member>;  // in the order of the file, duplicates kept
@@ -35,12 +35,12 @@ struct Member {
   Node value;
 };
 
-/// Reads one JSON text. Throws SceneError with one fault, which tells the line and the column, where it is
-/// not JSON or exceeds largest_depth or largest_count; Interrupted where `stop` is asked for.
+/// Reads one JSON text. Throws SceneError with one fault, including line and column, if it is not JSON or
+/// exceeds largest_depth or largest_count; Interrupted if `stop` is requested.
 Node read_tree(std::string_view text, const StopRequest& stop = {});
 
-/// The text of a tree, indented by two, with what fits on one line on one line. Numbers are as short as they
-/// can be without loss.
+/// The text of a tree, indented by two, compact where it fits on one line. Numbers have the shortest
+/// exact text.
 std::string print_tree(const Node& root);
 
 /// A value in words: `"abc" (a string)`, `3 (a number)`, `a list`.

@@ -7,7 +7,7 @@
 
 namespace arcslip::scene {
 
-/// What the value of a key is.
+/// The type of a key's value.
 enum class KeyType {
   number,
   whole,
@@ -16,23 +16,23 @@ enum class KeyType {
   frequency,   // in the scene's unit
   window,      // [lower, upper] of frequencies
   parameter,   // the name of one
-  value,       // of the parameter that the key "over" names
+  value,       // of the parameter named by the key "over"
   parameters,  // a list of names
-  followed,    // the name of a parameter over a range
+  followed,    // the name of a continuation parameter with a range
   other        // lists and objects
 };
 
-/// The keys beside one of this type without which it says nothing: "bounds", pairs [lower, upper] of
-/// parameters; "from" and "to" of one that is followed.
+/// The further keys that a key of this type requires: "bounds", pairs [lower, upper] of parameters; "from"
+/// and "to" of a continuation parameter.
 std::vector<std::string> keys_beside(KeyType type);
 
-/// One key, as a scene file, an option of a command, a page of documentation and a JSON Schema have it.
+/// One key, for scene files, command line options, the documentation and the JSON Schema.
 struct Key {
   std::string name;
   KeyType type = KeyType::other;
   std::string unit;     // "s", "-"; "frequency", "parameter": that of the scene's frequencies, of a parameter
   std::string allowed;  // "an integer from 1 to 10000000"
-  std::string otherwise;  // the default, as JSON; "": the key is required, or what it says is not there
+  std::string otherwise;  // the default, as JSON; "": the key is required, or has no default
   bool required = false;
   std::string help;
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();

@@ -1,6 +1,5 @@
 #pragma once
-// Files that a scene names: tables, matrices. They are read with the scene, and its hash covers what they
-// hold.
+// Files named by a scene: tables, matrices. They are read with the scene, and its hash covers their content.
 
 #include <arcslip/scene/stop_request.hpp>
 
@@ -10,16 +9,16 @@
 
 namespace arcslip::scene {
 
-/// Where a scene is from: its relative paths begin here. Scenes that differ in it alone are equal.
+/// The folder of a scene, to which its paths are relative. Scenes that differ only in it are equal.
 struct Folder {
   std::string path{};  // empty: the current directory
   friend bool operator==(const Folder&, const Folder&) { return true; }
 };
 
-/// A file that a scene names. Its text is shared by all copies.
+/// A file named by a scene. Its text is shared by all copies.
 struct NamedFile {
-  std::string path{};  // as the scene has it: absolute, or relative to the scene's folder
-  std::shared_ptr<const std::string> text{};  // what it held when the scene was read; null: there is none
+  std::string path{};                         // as in the scene: absolute, or relative to the scene's folder
+  std::shared_ptr<const std::string> text{};  // content when the scene was read; null: none
   friend bool operator==(const NamedFile& a, const NamedFile& b) {
     return a.path == b.path && (a.text == b.text || (a.text && b.text && *a.text == *b.text));
   }
@@ -27,7 +26,7 @@ struct NamedFile {
 
 namespace file {
 
-/// What a reader needs for the files that it comes to.
+/// Context for reading named files.
 struct FileSource {
   Folder folder{};
   StopRequest stop{};

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of a scene are: masses, springs, dampers, forces, and laws of force.
+// Types of the parts of a scene: masses, springs, dampers, forces, and laws of force.
 
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/json_tree.hpp>
@@ -20,27 +20,27 @@ namespace file {
 struct Reading;
 }
 
-/// What a section of the scene may hold. Those of "elements" are laws of force; they stand in a Catalogue.
+/// The type of a part of a section. Those of "elements" are laws of force, listed in a Catalogue.
 class PartType {
  public:
   virtual ~PartType() = default;
-  virtual std::string_view name() const = 0;            // as a scene file writes it
+  virtual std::string_view name() const = 0;            // in a scene file
   virtual std::string_view help() const { return {}; }  // one line
 
-  /// Names of its directions, each an object with "at", "between" or "direction" in a scene file. Empty: it
-  /// has one, which stands in the part itself.
+  /// Names of its directions, each an object with "at", "between" or "direction" in a scene file. Empty: a
+  /// single direction, given in the part itself.
   virtual std::span<const std::string_view> slots() const { return {}; }
   std::size_t direction_count() const { return slots().empty() ? 1 : slots().size(); }
 
-  /// What is settled with the part and is no parameter: choices, tables in files. It may decide which fields
-  /// there are. file::KeyedPart (study_keys.hpp) has all four of these.
+  /// Fixed options of the part, which are not parameters: choices, tables in files. They may decide which
+  /// fields it has. file::KeyedPart (study_keys.hpp) implements all four functions.
   virtual std::vector<Key> options() const { return {}; }
   virtual Settings read_options(const file::Reading&) const { return {}; }
-  /// Files that these options name.
+  /// Files named by these options.
   virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
   virtual void write_options(const Settings&, const Scene&, file::Node::Object&) const {}
 
-  /// The scalar fields with these options, in the order of Part::values. They live as long as the options.
+  /// The scalar fields with these options, in the order of Part::values. Valid as long as the options.
   virtual std::span<const Field> fields(const Settings& options) const = 0;
 };
 

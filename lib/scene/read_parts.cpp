@@ -65,7 +65,7 @@ Settings read_options(const PartType& type, const Place& place, const Dofs& dofs
   if (type.options().empty()) {
     return {};
   }
-  Faults others;  // told with the keys of the part, which these options decide
+  Faults others;  // reported with the keys of the part, which these options decide
   const Names none;
   return type.read_options(
       {Keys(place, {}, others), any_number, Parameters({}, true, none), dofs, faults, source});
@@ -97,7 +97,7 @@ Part read_part(const Place& place, const PartType* section_type, std::span<const
   Part part;
   part.type = section_type;
   if (section_type == nullptr && place.node->get<Node::Object>() != nullptr) {
-    Faults duplicates;  // told below, once the type tells which keys are allowed
+    Faults duplicates;  // reported below, once the allowed keys are known from the type
     part.type = read_type(Keys(place, {}, duplicates), types, faults);
   }
   if (part.type != nullptr) {
@@ -224,7 +224,7 @@ namespace {
 
 constexpr std::string_view members_wanted = "a list of at least one parameter \"part.field\"";
 
-// The members of one tie. `used` tells which fields are tied already, and where.
+// The members of one tie. used: the fields already tied, and where.
 std::vector<std::string> read_members(const Place& place, const Names& names,
                                       std::unordered_map<std::string, std::string>& used, Faults& faults) {
   std::vector<std::string> members;
@@ -267,7 +267,7 @@ std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults) {
   std::unordered_map<std::string, int> seen;
   for (const Member& member : *place.node->get<Node::Object>()) {
     if (seen[member.key]++ > 0) {
-      continue;  // told as a duplicate key
+      continue;  // reported as a duplicate key
     }
     const Place item{&member.value, child(place.pointer, member.key)};
     names.add(member.key, item.pointer, faults);

@@ -14,32 +14,31 @@
 
 namespace arcslip::scene::file {
 
-/// The degrees of freedom. Where their list is at fault, an unknown name may be one of those that could not
-/// be read and is not told.
+/// The degrees of freedom. If their list has faults, an unknown name may be one that could not be read, and
+/// is not reported.
 struct Dofs {
   std::vector<std::string> names;
   std::unordered_map<std::string, int> index;
   bool complete = true;
 };
 
-/// Why a name is not allowed, as the end of a message; empty where it is.
+/// Why a name is not allowed, as the end of a message; empty if it is.
 std::string objection(const std::string& name);
 
-/// The names of parts and ties, which share one namespace, and what is known of the parts' fields. What
-/// follows from a fault that is already told (a part without a type, a part without a name) is not told
-/// again.
+/// The names of parts and ties, which share one namespace, and the known fields of the parts. Consequences of
+/// a fault that is already reported (a part without a type, a part without a name) are not reported again.
 class Names {
  public:
-  /// Tells a fault where the name is not allowed or taken.
+  /// Reports a fault if the name is not allowed or taken.
   bool add(const std::string& name, const std::string& pointer, Faults& faults);
   void set_fields(const std::string& part, std::span<const Field> fields);
   void set_unknown(const std::string& part);  // what fields it has
   void set_incomplete() { complete_ = false; }
 
-  /// The field of "part.field" or, with a hint among all such names, a fault. Nothing without a fault where
-  /// the name may belong to a part that could not be read.
+  /// The field of "part.field", or a fault with a hint. Nothing, without a fault, if the name may belong to a
+  /// part that could not be read.
   const Field* field(std::string_view parameter, const std::string& pointer, Faults& faults) const;
-  /// True where the parameter may belong to a part that could not be read.
+  /// Whether the parameter may belong to a part that could not be read.
   bool may_exist(std::string_view parameter) const;
   /// Every "part.field", in the order of the file.
   const std::vector<std::string>& fields() const { return fields_; }
@@ -52,9 +51,9 @@ class Names {
 };
 
 Dofs read_dofs(const Place& place, Faults& faults);
-/// The direction of an object that holds one of "at", "between" and "direction".
+/// The direction of an object with one of "at", "between" and "direction".
 std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults);
-/// A section with parts of one type or, where `type` is null, of any of `types`.
+/// A section with parts of one type or, if `type` is null, of any of `types`.
 std::vector<Part> read_parts(const Place& place, const PartType* type, std::span<const PartType* const> types,
                              const Dofs& dofs, const FileSource& source, Names& names, Faults& faults);
 

@@ -45,7 +45,7 @@ std::vector<std::string> study_keys(const StudyType& type) {
   return names;
 }
 
-// Says of a key of other kinds which ones these are.
+// Explains to which kinds a key of other kinds belongs.
 std::string kinds_with(std::string_view key, const Catalogue& catalogue) {
   std::vector<std::string> kinds;
   for (const StudyType* type : catalogue.studies) {
@@ -57,7 +57,7 @@ std::string kinds_with(std::string_view key, const Catalogue& catalogue) {
   return kinds.empty() ? "" : "which belongs to studies of kind " + listed(kinds);
 }
 
-// Null where a fault is told.
+// Null after a fault.
 const StudyType* read_kind(const Place& study, const Catalogue& catalogue, Faults& faults) {
   const std::vector<std::string> known = names_of(catalogue);
   Faults told_later;
@@ -99,7 +99,7 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Pa
     if (item.node->get<Node::Object>() != nullptr) {
       study.type = read_kind(item, catalogue, faults);
       if (study.type == nullptr) {
-        continue;  // without its kind nobody knows what else it may hold
+        continue;  // without its kind its other keys are unknown
       }
     }
     const Keys keys(

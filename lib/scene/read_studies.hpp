@@ -1,5 +1,5 @@
 #pragma once
-// Reading what refers to parameters by their names: ties and studies.
+// Reading of ties and studies, which refer to parameters by name.
 
 #include <arcslip/scene/study_parameters.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace arcslip::scene::file {
 
-/// Reads "ties". Whether the tied fields have one common value is left to check_ties().
+/// Reads "ties". check_ties() checks that tied fields have the same value.
 std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults);
 /// Reads "studies", of the kinds of the catalogue. all: the ties that were read, and the names of parts.
 std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Parameters& all,

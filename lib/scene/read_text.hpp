@@ -1,5 +1,5 @@
 #pragma once
-// The bytes of a scene, before anything is made of them.
+// Reading of the bytes of a scene.
 
 #include <arcslip/scene/stop_request.hpp>
 
@@ -9,12 +9,11 @@
 
 namespace arcslip::scene::file {
 
-/// All bytes of a stream. Throws SceneError where there are more than largest_size, FileError where the
-/// stream fails.
+/// All bytes of a stream. Throws SceneError above largest_size, FileError if the stream fails.
 std::string read_text(std::istream& in);
 
-/// All bytes of a file, or of a pipe, which is opened once; while nobody writes into it, `stop` is asked.
-/// Throws the same, FileError where it cannot be opened, and Interrupted. noun: what it is, for messages.
+/// All bytes of a file, or of a pipe, which is opened once; `stop` is called while waiting for its writer.
+/// Throws the same, FileError if it cannot be opened, and Interrupted. noun: the kind of file, for messages.
 std::string read_text(const std::string& path, const StopRequest& stop, const std::string& noun = "scene");
 
 }  // namespace arcslip::scene::file

@@ -61,7 +61,7 @@ std::vector<const Member*> members(const Place& place, Faults& faults) {
   }
   std::unordered_set<std::string_view> seen;
   for (const Member& member : *place.node->get<Node::Object>()) {
-    if (seen.insert(member.key).second) {  // the second is told as a duplicate key
+    if (seen.insert(member.key).second) {  // the second is reported as a duplicate key
       all.push_back(&member);
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Reading single values and the keys of one object, with a fault for whatever is not as it must be.
+// Reading of single values and of the keys of an object, with a fault for everything invalid.
 
 #include <arcslip/scene/faults.hpp>
 #include <arcslip/scene/json_tree.hpp>
@@ -15,26 +15,26 @@
 
 namespace arcslip::scene::file {
 
-/// A value and the pointer to where it stands, or to where it should stand when `node` is null.
+/// A value and its JSON pointer; `node` is null if the value is missing.
 struct Place {
   const Node* node = nullptr;
   std::string pointer;
 };
 
-/// Says of a key that is not allowed where it belongs, "which is of studies of kind "frf"", or "".
+/// Explains a key that is not allowed: "which belongs to studies of kind "frf"", or "".
 using Elsewhere = std::function<std::string(std::string_view)>;
 
-/// The keys of an object. Wrong type, duplicate keys and unknown keys are told at once; an empty list of
-/// allowed keys allows every key. Of duplicates the first counts.
+/// The keys of an object. A wrong type, duplicate keys and unknown keys are reported at once; an empty list
+/// of allowed keys allows every key. Of duplicates the first counts.
 class Keys {
  public:
   Keys(const Place& place, std::vector<std::string> allowed, Faults& faults, const Elsewhere& elsewhere = {});
   bool is_object() const { return object_ != nullptr; }
   bool has(std::string_view key) const { return find(key).node != nullptr; }
   const std::string& pointer() const { return pointer_; }
-  /// The value of a key that may be absent.
+  /// The value of an optional key.
   Place find(std::string_view key) const;
-  /// The value of a key that must be there; `what` says what it must be. A fault where it is absent.
+  /// The value of a required key; what: the expected value. A fault if it is absent.
   Place require(std::string_view key, const std::string& what, Faults& faults) const;
 
  private:
@@ -42,13 +42,13 @@ class Keys {
   std::string pointer_;
 };
 
-/// What allows every finite number.
+/// A field that allows every finite number.
 inline constexpr Field any_number{.name = "value",
                                   .unit = "-",
                                   .lower = -std::numeric_limits<double>::infinity(),
                                   .upper = std::numeric_limits<double>::infinity()};
 
-/// Each of these tells a fault and returns nothing where the value is absent or not as it must be.
+/// These report a fault and return nothing if the value is absent or invalid.
 std::optional<double> read_number(const Place& place, const Field& bounds, Faults& faults);
 /// `why` follows the bounds in a message.
 std::optional<int> read_integer(const Place& place, int lower, int upper, Faults& faults,
@@ -56,8 +56,7 @@ std::optional<int> read_integer(const Place& place, int lower, int upper, Faults
 std::optional<std::string> read_string(const Place& place, std::string_view what, Faults& faults);
 const Node::List* read_list(const Place& place, std::string_view what, Faults& faults);
 
-/// The members of an object whose keys are names, each once: duplicates are told. None where there is no
-/// object.
+/// The members of an object whose keys are names; duplicates are reported. None if there is no object.
 std::vector<const Member*> members(const Place& place, Faults& faults);
 
 /// "found 3 (a number), must be a string".

@@ -1,5 +1,5 @@
 #pragma once
-// A scene: what a user wrote, checked and resolved, as plain data in the user's own units.
+// A scene, validated and resolved, as plain data in the user's units.
 
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/named_file.hpp>
@@ -36,9 +36,9 @@ using Direction = std::vector<Term>;
 struct Part {
   std::string name;
   const PartType* type = nullptr;
-  std::vector<Direction> directions;  // as the type's slots; one where it has none
+  std::vector<Direction> directions;  // of the type's slots; one if it has none
   std::vector<double> values;
-  int harmonic = 1;    // excitation only: order of the harmonic of the force; 0: constant
+  int harmonic = 1;    // excitation only: harmonic of the force; 0: constant
   Settings options{};  // of the type; empty: its defaults
 
   std::span<const Field> fields() const;
@@ -61,11 +61,10 @@ struct Harmonics {
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
 };
 
-/// Lists of values by the names of parameters; several lists make their product.
+/// Lists of values by parameter name; several lists form their product.
 using ValueLists = std::vector<std::pair<std::string, std::vector<double>>>;
 
-/// What is to be computed, as data: a kind, its own settings, and values of parameters for which it is
-/// computed again.
+/// A study as data: its kind, its settings, and values of parameters for which it is repeated.
 struct Study {
   std::string name;
   const StudyType* type = nullptr;
@@ -74,9 +73,9 @@ struct Study {
   friend bool operator==(const Study&, const Study&) = default;
 };
 
-/// A motion that is observed.
+/// An observed motion.
 struct Response {
-  std::string name{};  // empty where the scene has one alone, which it does not name
+  std::string name{};  // empty for a single unnamed response
   Direction direction{};
   friend bool operator==(const Response&, const Response&) = default;
 };
@@ -88,16 +87,16 @@ struct Scene {
   std::vector<Part> masses, springs, dampers, elements, excitation;
   std::vector<Tie> ties;
   Harmonics harmonics;
-  std::vector<Response> responses{1};  // at least one: the first is that whose amplitude is followed
+  std::vector<Response> responses{1};  // at least one: the first defines the amplitude
   std::vector<Study> studies;
-  Folder folder{};  // of the file that it is from
+  Folder folder{};  // of its file
 
   const Direction& response() const { return responses.front().direction; }
   Direction& response() { return responses.front().direction; }
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// What the other sections hold. Fields: value; value; value; cosine, sine.
+/// The types of the other sections. Fields: value; value; value; cosine, sine.
 const PartType& mass_type();
 const PartType& spring_type();
 const PartType& damper_type();
@@ -105,11 +104,11 @@ const PartType& force_type();
 
 /// One fault of a scene file.
 struct Fault {
-  std::string pointer;  // JSON pointer (RFC 6901) to the place, "" for the file as a whole
-  std::string message;  // what was found, what is allowed, and the nearest known key where there is one
+  std::string pointer;  // JSON pointer (RFC 6901), "" for the file as a whole
+  std::string message;  // what was found, what is allowed, and the nearest known key, if any
 };
 
-/// All faults of a scene, found in one reading. what() lists them, one a line.
+/// All faults of a scene. what() lists them, one per line.
 class SceneError : public std::runtime_error {
  public:
   explicit SceneError(std::vector<Fault> faults);
@@ -124,7 +123,7 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A parameter that is not there, or a value that it may not take.
+/// An unknown parameter, or a value outside its bounds.
 class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -138,37 +137,36 @@ inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 
 /// Reads format "arcslip-scene-1". catalogue: the laws of force and the kinds of studies that it may hold, as
-/// studies::catalogue(). folder: where its relative paths begin. Throws SceneError with every fault found.
+/// studies::catalogue(). folder: base of its relative paths. Throws SceneError with every fault found.
 Scene read(std::istream& in, const Catalogue& catalogue, const std::string& folder = {});
-/// The same from a file, and its folder. Throws FileError where the file cannot be read.
+/// The same from a file, with its folder. Throws FileError if the file cannot be read.
 Scene read_file(const std::string& path, const Catalogue& catalogue);
 
 /// The resolved scene with every default, in the same format: read(write(s)) gives s again.
 std::string write(const Scene& scene);
-/// Checks a scene that was built or changed in code. Throws SceneError with the faults that reading
-/// write(scene) finds.
+/// Validates a scene built or changed in code. Throws SceneError with the faults that reading write(scene)
+/// would find.
 void check(const Scene& scene);
-/// All files that it names.
+/// All files named by the scene.
 std::vector<NamedFile*> files(Scene& scene);
-/// The same scene from another folder: relative paths lead to the same files.
+/// The same scene relative to another folder: paths are adjusted to refer to the same files.
 Scene from_folder(Scene scene, const std::string& folder);
 
-/// Hash of the resolved scene and of what the files hold that it names (FNV-1a, 64 bits, 16 hexadecimal
-/// digits), kept in results.
+/// Hash of the resolved scene and of the content of its named files (FNV-1a, 64 bits, 16 hexadecimal digits),
+/// stored in results.
 std::string hash(const Scene& scene);
 
-/// Names of all parameters: ties, then every "part.field" (a tied field still answers to its own name).
+/// Names of all parameters: ties, then every "part.field" (tied fields can also be read by their own names).
 std::vector<std::string> parameter_names(const Scene& scene);
 /// The fields behind a parameter, one for a "part.field" and one for each member of a tie. Throws
 /// ParameterError.
 std::vector<const Field*> parameter_fields(const Scene& scene, std::string_view parameter);
-/// Value of a parameter. Throws ParameterError, with the nearest known name, where there is none.
+/// Value of a parameter. Throws ParameterError, with the nearest known name, if it is unknown.
 double value(const Scene& scene, std::string_view parameter);
-/// Gives a parameter a value and drops it from the lists of every study, as drop() does. Throws
-/// ParameterError where there is no such parameter, where the value is out of its bounds, and where the field
-/// is tied: its tie is to be set then.
+/// Sets a parameter and drops it from the lists of every study, as drop() does. Throws ParameterError for an
+/// unknown parameter, a value out of bounds, or a tied field, which must be set by its tie.
 void set(Scene& scene, std::string_view parameter, double value);
-/// Takes a parameter from for_each and from the lists that the study's settings hold.
+/// Removes a parameter from for_each and from the lists in the study's settings.
 void drop(Study& study, std::string_view parameter);
 
 /// Factor from the scene's frequency unit to rad/s.

@@ -5,7 +5,7 @@
 
 namespace arcslip::scene {
 
-/// What one kind of study is told, of a type that only this kind knows. Compares by value.
+/// The settings of a kind of study, of a type known only to that kind. Compares by value.
 class Settings {
  public:
   Settings() = default;
@@ -22,7 +22,7 @@ class Settings {
 
   bool empty() const { return !value_.has_value(); }
 
-  /// Throws std::bad_any_cast where they are of another type.
+  /// Throws std::bad_any_cast for another type.
   template <class T>
   const T& as() const {
     return std::any_cast<const T&>(value_);

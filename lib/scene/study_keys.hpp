@@ -1,11 +1,11 @@
 #pragma once
-// The keys of one kind of study: for each what it is called, what it may be and where its value goes, in one
-// place. Reader, writer, options of a command and documentation follow from it.
+// The keys of a kind of study: name, allowed values and target of each in one place, from which reader,
+// writer, command line options and documentation are derived.
 //
 //   struct Window { std::string over; double from = 0, to = 0, lower = 0, upper = 0; };
 //   KeysOf<Window> keys;
 //   keys.add(range_over(&Window::over, &Window::from, &Window::to, "the parameter to vary"));
-//   keys.add(window(&Window::lower, &Window::upper, "where peaks are looked for"));
+//   keys.add(window(&Window::lower, &Window::upper, "the search window"));
 
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_values.hpp>
@@ -22,7 +22,7 @@
 
 namespace arcslip::scene::file {
 
-/// A study's object while it is read, and what its values refer to.
+/// The object of a study while it is read, with the context of its values.
 struct Reading {
   const Keys& keys;
   const Field& frequency;  // in the scene's unit
@@ -38,23 +38,23 @@ struct KeyGroup {
   std::vector<Key> keys;
   std::function<void(const Reading&, Settings&)> read;
   std::function<void(const Settings&, const Scene&, Node::Object&)> write;
-  std::function<void(const Settings&, std::vector<Taken>&)> taken{};  // parameters that get values here
+  std::function<void(const Settings&, std::vector<Taken>&)> taken{};  // parameters with values in these keys
   std::function<void(std::string_view, Settings&)> drop{};            // a parameter from lists of values
   std::function<void(Settings&, std::vector<NamedFile*>&)> files{};   // that are named here
 };
 
-// The groups that need no more than to know where their values go. Each leaves a value that is not there, or
-// not as it must be, as it was.
+// Standard groups of keys, defined by the targets of their values. A missing or invalid value leaves its
+// target unchanged.
 
 /// "from" and "to" in the unit of the scene's frequencies, from < to.
 std::pair<double, double> read_frequency_range(const Reading& reading);
-/// "over", a parameter, and "from" and "to", of its values.
+/// "over", a parameter, and its range "from" and "to".
 struct RangeOver {
   std::string over;
   double from = 0, to = 0;
 };
 RangeOver read_range_over(const Reading& reading);
-/// "frequency": a window [lower, upper], or one.
+/// "frequency": a window [lower, upper], or a single frequency.
 std::pair<double, double> read_window(const Reading& reading);
 double read_frequency(const Reading& reading);
 /// "from" and "to" of a field.
@@ -142,7 +142,7 @@ KeyGroup<S> whole(const std::string& name, int S::*value, int lower, int upper, 
           }};
 }
 
-/// A text that may be absent. what: "a string, the name of an NLopt algorithm".
+/// An optional text. what: "a string, the name of an NLopt algorithm".
 template <class S>
 KeyGroup<S> text(const std::string& name, std::string S::*value, const std::string& what,
                  std::string otherwise, std::string help) {
@@ -155,7 +155,7 @@ KeyGroup<S> text(const std::string& name, std::string S::*value, const std::stri
           }};
 }
 
-/// The text of a file, which is at most largest_size long.
+/// The text of a file, of at most largest_size bytes.
 std::optional<NamedFile> read_file_of(const Place& place, const std::string& what, const Reading& reading);
 
 /// The path of a file, which is read with the scene. what: "a string, the path of a table of q and f".
@@ -205,7 +205,7 @@ template <class S>
 class KeysOf {
  public:
   void add(KeyGroup<S> group) { groups_.push_back(std::move(group)); }
-  /// What must hold of several values together; called when all are read.
+  /// A check of several values together, called when all are read.
   void check(std::function<void(const Reading&, S&)> check) { check_ = std::move(check); }
 
   std::vector<Key> keys() const {

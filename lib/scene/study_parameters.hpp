@@ -1,5 +1,5 @@
 #pragma once
-// The parameters that studies name, and the values and ranges that they give them.
+// The parameters named by studies, with their values and ranges.
 
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_values.hpp>
@@ -13,7 +13,7 @@
 
 namespace arcslip::scene::file {
 
-/// Where the parameters of a scene are looked up by name.
+/// Lookup of the parameters of a scene by name.
 struct Parameters {
   /// Where the ties are not complete, others may exist.
   Parameters(const std::vector<Tie>& ties, bool ties_complete, const Names& names);
@@ -24,28 +24,28 @@ struct Parameters {
   std::unordered_map<std::string_view, const Tie*> tie_by_name, tie_of_field;
 };
 
-/// The fields that a value for this parameter must suit; empty where a fault is told.
+/// The fields whose bounds apply to this parameter; empty after a fault.
 std::vector<const Field*> fields_of(const std::string& parameter, const std::string& pointer,
                                     const Parameters& all, Faults& faults);
 
-/// A parameter that the study is over, and what bounds it; any number where a fault is told.
+/// The continuation parameter of a study, and its bounds; unbounded after a fault.
 Field read_parameter(const Place& place, const Parameters& all, std::string& parameter, Faults& faults);
 
-/// A pair [lower, upper] of values of a field, lower < upper; zeros where a fault is told. what: it is a
-/// lower and an upper ... of.
+/// A pair [lower, upper] of values of a field, lower < upper; zeros after a fault. what: the noun in
+/// messages, "bound".
 std::pair<double, double> read_pair(const Place& place, const std::string& wanted, const Field& field,
                                     std::string_view what, Faults& faults);
 
-/// Lists of values by the names of parameters, of which their fields allow each. A name that is taken is a
-/// fault.
+/// Lists of values by parameter name, each within the bounds of its fields. A parameter that is already used
+/// is a fault.
 ValueLists read_value_lists(const Place& place, const Parameters& all, const std::vector<Taken>& taken,
                             Faults& faults);
 
-/// Tells a fault where the study gives values to this parameter elsewhere. Then true.
+/// Reports a fault and returns true if the study sets this parameter elsewhere.
 bool is_taken(const std::string& parameter, const std::string& pointer, const std::vector<Taken>& taken,
               Faults& faults);
 
-/// The bounds of all fields that a parameter sets; any number where a fault is told.
+/// The common bounds of all fields set by a parameter; unbounded after a fault.
 Field bounds_of(const std::string& parameter, const std::string& pointer, const Parameters& all,
                 Faults& faults);
 

@@ -1,7 +1,6 @@
 #pragma once
-// A kind of study: what its settings are called in a scene file, and what it computes. Kinds stand in a
-// Catalogue, as laws of force do, which whoever reads a scene passes; the reader, the writer and the command
-// know none by name.
+// A kind of study: its keys in a scene file and its computation. Kinds and laws of force are listed in a
+// Catalogue, which is passed to the reader of a scene; reader, writer and command depend on no specific kind.
 
 #include <arcslip/results/figure.hpp>
 #include <arcslip/results/progress.hpp>
@@ -15,17 +14,17 @@
 
 namespace arcslip::scene {
 
-/// A parameter to which a study itself gives values, and how: `which the study is "over"`.
+/// A parameter that a study itself sets, and how: `which the study is "over"`.
 struct Taken {
   std::string parameter, how;
 };
 
-/// How much of its results a study is to give.
+/// Options for the extent of the results.
 struct RunOptions {
-  bool points = true;         // false: for who sees only events and facts, no rows of points and of histories
-  bool coefficients = false;  // points and events with the harmonics of the response: a_n, b_n
+  bool points = true;         // false: only events and facts, no rows of points and histories
+  bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
   bool figures = false;
-  results::ProgressCallback progress{};  // false stops: what is computed so far is kept
+  results::ProgressCallback progress{};  // false stops; the results so far are kept
 };
 
 class StudyType {
@@ -36,38 +35,37 @@ class StudyType {
   virtual std::string_view verb() const { return name(); }
   virtual std::string_view help() const = 0;  // one line
 
-  /// Those between "kind" and "for_each", in the order of a file.
+  /// The keys between "kind" and "for_each", in the order of a file.
   virtual std::vector<Key> keys() const = 0;
   virtual Settings defaults() const = 0;
   virtual Settings read(const file::Reading& from) const = 0;
-  /// Files that the settings name.
+  /// Files named by the settings.
   virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
   virtual void write(const Settings& settings, const Scene& scene, file::Node::Object& to) const = 0;
 
   virtual std::vector<Taken> taken(const Settings& settings) const = 0;
-  /// Takes a parameter from lists of values; from what the study is over it cannot be taken.
+  /// Removes a parameter from lists of values; the continuation parameter cannot be removed.
   virtual void drop(std::string_view parameter, Settings& settings) const = 0;
 
-  /// What all results of the study look like.
+  /// The structure of all results of the study.
   virtual results::Schema schema(const Scene& scene, const Study& study, const RunOptions& options) const = 0;
   /// Whether RunOptions::coefficients changes the results.
   virtual bool takes_coefficients() const = 0;
-  /// Hands the results to the sink as they are there, as of the schema with this index, which the sink knows:
-  /// one after the other for each combination of the study's for_each lists, each as if it stood alone.
-  /// Returns the figures that were asked for, each with a name of its own; with one there may be nothing on
-  /// it.
+  /// Passes the results to the sink as they are computed, with the index of their schema in the sink: one
+  /// after the other for each combination of the study's for_each lists, each independent of the others.
+  /// Returns the requested figures, each with a unique name; a figure may be empty.
   virtual std::vector<results::FigureData> run(const Scene& scene, const Study& study,
                                                const RunOptions& options, std::size_t schema,
                                                results::Sink& sink) const = 0;
 };
 
-/// What a reader knows: the laws of force of the section "elements", and the kinds of studies. They outlive
+/// The laws of force of the section "elements" and the kinds of studies known to a reader. They must outlive
 /// every scene.
 struct Catalogue {
   std::vector<const PartType*> elements;
   std::vector<const StudyType*> studies;
 
-  /// The law or the kind of that name, or null.
+  /// The law or the kind with that name, or null.
   const PartType* element(std::string_view name) const;
   const StudyType* study(std::string_view name) const;
 };

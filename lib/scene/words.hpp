@@ -1,5 +1,5 @@
 #pragma once
-// The words by which a scene file names the choices of the data, for reading and for writing.
+// The words of enumerated values in a scene file, for reading and writing.
 
 #include <arcslip/scene/scene.hpp>
 
@@ -25,7 +25,7 @@ inline constexpr std::array<Word<FrequencyUnit>, 2> frequency_units = {
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 
-/// What results call their own quantities, beside which the parameter of a study stands by its name.
+/// Names of quantities in results, which the continuation parameter of a study must not have.
 inline constexpr std::array<std::string_view, 25> result_names = {"kind",
                                                                   "nonsmooth",
                                                                   "located",

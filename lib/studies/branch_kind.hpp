@@ -1,5 +1,6 @@
 #pragma once
-// The kinds of study that follow branches of responses: they differ in their keys and in what they follow.
+// The kinds of studies that trace branches of responses; they differ in their keys and in the curves
+// they trace.
 
 #include <arcslip/studies/branches.hpp>
 #include <arcslip/studies/figures.hpp>
@@ -13,8 +14,8 @@
 
 namespace arcslip::studies {
 
-/// follow(scene, range, progress) gives the branches of one combination, over the parameter range.over, or
-/// over the frequency where a Range has none.
+/// follow(scene, range, progress) returns the branches of one combination, over the parameter range.over, or
+/// over the frequency if the Range has none.
 template <auto follow, BranchKind drawn, class Range>
 KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, std::string_view help,
                                                        scene::file::KeysOf<Range> keys) {

@@ -89,7 +89,7 @@ Described<ResponseBranch> branches(const scene::Scene& scene, const std::string&
 results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> all,
                             const RunOptions& options) {
   results::Results found{header(scene), {}, {}};
-  std::map<std::pair<std::string, bool>, std::size_t> index;  // of schemas, by what tells their columns apart
+  std::map<std::pair<std::string, bool>, std::size_t> index;  // of schemas, by their distinguishing columns
   std::vector<Described<ResponseBranch>> described;
   for (const ResponseBranch& branch : all) {
     const bool maxima = has_maxima(branch);

@@ -12,12 +12,12 @@
 
 namespace arcslip::studies {
 
-/// Of a study. over: the parameter that its branches are over, if it is not the frequency; maxima: its points
-/// have them. docs/results.md tells all that there is.
+/// The schema of a study. over: the continuation parameter, if it is not the frequency; maxima: whether its
+/// points have maxima. See docs/results.md for all fields.
 Described<observables::ResponseBranch> branches(const scene::Scene& scene, const std::string& over,
                                                 bool maxima, const RunOptions& options);
 
-/// Of branches that are there, of any studies.
+/// The results of existing branches, of any studies.
 results::Results results_of(const scene::Scene& scene, std::span<const observables::ResponseBranch> all,
                             const RunOptions& options = {});
 

@@ -14,7 +14,7 @@ const scene::StudyType& frf();    // frequency responses; settings: observables:
 const scene::StudyType& trace();  // responses over a parameter; observables::ParameterRange
 const scene::StudyType& peaks();  // resonance peaks over a parameter; observables::CurveRange
 const scene::StudyType& folds();  // folds over a parameter; observables::CurveRange
-const scene::StudyType& time();   // motions in time; observables::TimeSettings
+const scene::StudyType& time();   // time integration; observables::TimeSettings
 const scene::StudyType& point();  // responses at one frequency; observables::PointSettings
 
 /// All of them.
@@ -22,8 +22,8 @@ scene::Catalogue catalogue();
 
 /// The results of every study of a scene.
 results::Results run(const scene::Scene& scene, const scene::RunOptions& options = {});
-/// The same, each handed to the sink as soon as it is there, and forgotten; studies whose results stand in
-/// one list of a document one after the other.
+/// The same, each passed to the sink as soon as it is computed, and not kept; studies with results in the
+/// same list of a document are run consecutively.
 void run(const scene::Scene& scene, const scene::RunOptions& options, results::Sink& sink);
 
 }  // namespace arcslip::studies

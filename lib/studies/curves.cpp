@@ -1,4 +1,4 @@
-// Curves of resonance peaks and of folds, which differ in what they follow alone.
+// Curves of resonance peaks and of folds, which differ only in the points they continue.
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>

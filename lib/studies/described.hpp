@@ -1,5 +1,5 @@
 #pragma once
-// The results of one study before they are there: what all look like, and how one is made of an item.
+// Description of the results of a study: their structure, and the conversion of an item to a result.
 
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -16,7 +16,7 @@ struct Described {
   std::function<results::Result(const Item&)> result;  // of the schema 0; refers to the scene
 };
 
-/// Those of some items together.
+/// The results of several items.
 template <class Item>
 results::Results collected(const scene::Scene& scene, const Described<Item>& described,
                            std::span<const Item> items) {

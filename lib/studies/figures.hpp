@@ -14,26 +14,25 @@
 
 namespace arcslip::studies {
 
-/// What branches are of: responses over the frequency, responses over a parameter, resonance peaks or folds.
+/// The kind of branches: responses over the frequency, responses over a parameter, resonance peaks or folds.
 enum class BranchKind { responses, over_parameter, peaks, folds };
 
-/// Of branches of this kind, a line for each combination of set parameters. Columns: the
-/// parameter of branches over one, the frequency, the amplitude (m), stick (%) of each friction element. Of
-/// frequency responses and traces over a parameter: the amplitude and the stick share of each friction
-/// element
-/// ("amplitude", "stick"). Of resonance peaks: their amplitude, their frequency ("frequency"), and the
-/// amplitude over the stick share of each friction element ("amplitude_over_stick"). Of folds: the parameter
-/// over the frequency ("folds").
+/// Figures of branches of this kind, with a line for each combination of set parameters. Columns: the
+/// continuation parameter if it is not the frequency, the frequency, the amplitude (m), stick (%) of each
+/// friction element. For frequency responses and traces: the amplitude and the stick share of each friction
+/// element ("amplitude", "stick"). For resonance peaks: their amplitude, their frequency ("frequency"), and
+/// the amplitude over the stick share of each friction element ("amplitude_over_stick"). For folds: the
+/// parameter over the frequency ("folds").
 results::FigureData figures_of(const scene::Scene& scene, BranchKind kind,
                                std::span<const observables::ResponseBranch> branches);
 
-/// The branches behind one line, and the line without anything on it.
+/// The branches of one line, and the line without data.
 struct LineOfBranches {
   results::FigureLine line;
   std::vector<const observables::ResponseBranch*> branches;
 };
 
-/// The same of lines that the caller tells apart.
+/// The same for lines grouped by the caller.
 results::FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<LineOfBranches> lines);
 
 /// The columns of the frequency, and of the amplitude, in that data.
@@ -46,7 +45,7 @@ std::size_t amplitude_column(BranchKind kind);
 /// thinned.
 results::FigureData figures_of(const scene::Scene& scene, std::span<const observables::Motion> motions);
 
-/// A line of these set parameters, without anything on it: "3 N, 0.1 N s/m".
+/// A line of these set parameters, without data: "3 N, 0.1 N s/m".
 results::FigureLine line_of(const scene::Scene& scene,
                             const std::vector<std::pair<std::string, double>>& set);
 

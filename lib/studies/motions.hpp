@@ -11,10 +11,10 @@
 
 namespace arcslip::studies {
 
-/// Of a study. docs/results.md tells all that there is.
+/// The schema of a study. See docs/results.md for all fields.
 Described<observables::Motion> motions(const scene::Scene& scene, const RunOptions& options);
 
-/// Of motions that are there.
+/// The results of existing motions.
 results::Results results_of(const scene::Scene& scene, std::span<const observables::Motion> all,
                             const RunOptions& options = {});
 

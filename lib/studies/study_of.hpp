@@ -1,6 +1,6 @@
 #pragma once
-// A kind of study from a few functions of its settings S and of the items that it computes (branches,
-// motions, optima), and the loop over the combinations of for_each around it.
+// A kind of study defined by a few functions of its settings S and of the items it computes (branches,
+// motions, optima), and the loop over the combinations of for_each.
 
 #include <arcslip/results/progress.hpp>
 #include <arcslip/scene/combinations.hpp>
@@ -23,11 +23,11 @@ namespace arcslip::studies {
 /// One combination of a study's lists.
 struct Case {
   const scene::Scene& scene;  // with its values
-  bool alone = true;          // there is no other
+  bool alone = true;          // it is the only one
 };
 
-/// Calls each(item) with what compute(Case, progress) gives for each combination of the lists, each item with
-/// what was set for it. After a stop by the callback no further combination is begun.
+/// Calls each(item) with the items of compute(Case, progress) for each combination of the lists, each item
+/// with its set parameters. After a stop by the callback no further combination is started.
 template <class Compute, class Each>
 void for_each(const scene::Scene& scene, const scene::ValueLists& lists, const Compute& compute,
               const results::ProgressCallback& progress, const Each& each) {
@@ -65,7 +65,7 @@ std::vector<Item> for_each(const scene::Scene& scene, const scene::ValueLists& l
   return items;
 }
 
-/// With the columns of what for_each gives.
+/// Adds the columns of the parameters set by for_each.
 inline results::Schema with_set(const scene::Scene& scene, const scene::Study& study,
                                 results::Schema schema) {
   NamedValues set;
@@ -74,8 +74,8 @@ inline results::Schema with_set(const scene::Scene& scene, const scene::Study& s
   return schema;
 }
 
-/// StudyType::run() by functions: compute() as for for_each(), figures(items). Items are kept only where
-/// figures are asked for.
+/// StudyType::run() by functions: compute() as for for_each(), figures(items). Items are kept only if figures
+/// are requested.
 template <class Item, class Compute, class FiguresOf>
 std::vector<results::FigureData> run_items(const scene::Scene& scene, const scene::Study& study,
                                            const scene::RunOptions& options, const Described<Item>& described,
@@ -91,7 +91,7 @@ std::vector<results::FigureData> run_items(const scene::Scene& scene, const scen
   return options.figures ? figures_of(std::span<const Item>(kept)) : std::vector<results::FigureData>();
 }
 
-/// A kind that computes items of one type.
+/// A kind of study with items of one type.
 template <class S, class Item>
 struct KindOf {
   std::string_view name, help;

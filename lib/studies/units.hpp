@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and their units as people read them.
+// Numbers with their units in text output.
 
 #include <arcslip/results/value.hpp>
 #include <arcslip/scene/scene.hpp>

@@ -52,7 +52,7 @@ struct Range {
   double high = -INFINITY, low = INFINITY;
   Eigen::RowVectorXd dhigh, dlow;
 
-  // What slips must slip back, or is not periodic: a slider that does not rests, as far as shooting goes.
+  // A slipping slider must slip back in a periodic motion: one that does not counts as sticking for shooting.
   bool resting() const { return !(up && down); }
 };
 

@@ -53,16 +53,16 @@ enum class EndReason {
   reached,     // the end of the interval
   events,      // number of events >= EventLimits::events
   pieces,      // number of pieces >= EventLimits::pieces
-  not_finite,  // the motion grew beyond all numbers
-  stopped,     // EventLimits::stop was asked for
+  not_finite,  // the motion overflowed
+  stopped,     // by EventLimits::stop
 };
 
-/// What one integration may cost.
+/// Limits of one integration.
 struct EventLimits {
   long events = 1'000'000;
   long pieces =
       20'000'000;  // power series: about one for each radian of the fastest mode, and one for each event
-  std::function<bool()> stop{};  // asked now and then; true ends it
+  std::function<bool()> stop{};  // called at intervals; true ends it
 };
 
 /// One element with a contact over the interval.
@@ -82,7 +82,7 @@ struct EventDrivenMotion {
   EnergyBalance energy;
   double amplitude = 0;       // max |response|, m
   double amplitude_time = 0;  // s
-  History history;            // at the instants asked for
+  History history;            // at the requested instants
 };
 
 class March;

@@ -79,7 +79,7 @@ void ImplicitElements::evaluate(const Vector& y) {
   }
 }
 
-// b - A y - D f after y, and its largest entry in roundings of the terms that it is made of.
+// The residual b - A y - D f at y, and its largest entry in units of the rounding of its terms.
 double ImplicitElements::residual(const Vector& y) {
   evaluate(y);
   residual_ = b_;

@@ -92,8 +92,8 @@ void March::begin(const State& start, double time, bool derivatives) {
   reason_ = EndReason::reached;
 }
 
-// What does not depend on the displacement while the mode lasts: the force of its memory, where that rests,
-// or of what that would be at q = 0.
+// The force independent of the displacement within a mode: that of its memory if it rests, otherwise that of
+// the memory at q = 0.
 void March::enter(Contact& contact) {
   const elements::Mode& mode = contact.mode();
   auto g = g_.middleRows(contact.row, contact.directions.cols());
@@ -117,8 +117,8 @@ bool March::find(double to) {
   return true;
 }
 
-// The first event on the piece; of several in one instant, one, and the others at the start of the next
-// piece.
+// The first event on the piece; of several at the same instant one, and the others at the start of the
+// next piece.
 void March::locate() {
   s_ = 1;
   event_.reset();

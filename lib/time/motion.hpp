@@ -1,5 +1,5 @@
 #pragma once
-// What a time integration gives, whichever way it was made.
+// Results of a time integration, independent of the integrator.
 
 #include <arcslip/time/equation_of_motion.hpp>
 

@@ -65,7 +65,7 @@ Solved Newmark::begin(const State& state) {
   return placed;
 }
 
-// Along massless_ the forces balance: without damping by the place, with damping by the velocity.
+// Along massless_ the forces balance: by the displacement without damping, by the velocity with damping.
 Solved Newmark::place_massless() {
   if (undamped_.cols() > 0) {
     std::vector<Element> seen = equation_.elements;

@@ -8,8 +8,8 @@
 //
 //   (4/h^2 M + 2/h C + K) y + sum_e d_e f_e1 = r0 + F(t1) + 4/h M v0 + C v0 - K x0,   v1 = 2/h y - v0
 //
-// Error: of second order in h; a linear oscillator of angular frequency w keeps its energy and its period is
-// too long by the share (w h)^2/12. Stable for every h where nothing but the friction elements is nonlinear.
+// Second-order accurate in h; for a linear oscillator of angular frequency w the energy is conserved and the
+// relative period error is (w h)^2/12. Unconditionally stable if only friction elements are nonlinear.
 //
 // Energy over a step, from x1 - x0 = h (v0 + v1)/2:
 //   input    (F0 + F1)/2 . y        viscous   y . C y/h       friction   what the laws dissipate
@@ -27,8 +27,7 @@ namespace arcslip::time {
 
 class Newmark {
  public:
-  /// h = period/steps. Throws std::invalid_argument where steps < 1 or the frequency is not above 0 and
-  /// finite.
+  /// h = period/steps. Throws std::invalid_argument if steps < 1 or the frequency is not positive and finite.
   Newmark(EquationOfMotion equation, long steps);
 
   /// From a state at t = 0. Massless motions take the place, or the velocity, that the forces there give
@@ -37,7 +36,7 @@ class Newmark {
   /// The same from a state that a step has left, as it is.
   void resume(const State& state);
 
-  /// Without allocation. Where it is not solved, the state is that before the step.
+  /// Does not allocate. If the step fails, the state is unchanged.
   Solved step();
 
   const EquationOfMotion& equation() const { return equation_; }

@@ -154,7 +154,7 @@ PeriodMap newmark_map(Newmark& newmark, const State& start) {
     Eigen::RowVectorXd d_high, d_low;
     bool up, down;  // slips that way
 
-    // What slips only one way does not come back to where it was, and rests as far as periodic motions go.
+    // A slider that slips in one direction only does not return, and counts as sticking for periodic motions.
     bool rests() const { return !(up && down); }
   };
   PeriodMap map;

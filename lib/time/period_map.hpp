@@ -1,5 +1,5 @@
 #pragma once
-// What shooting needs of a motion over one period, whichever way it is integrated.
+// The period map for shooting, independent of the integrator.
 
 #include <arcslip/time/equation_of_motion.hpp>
 
@@ -9,9 +9,9 @@
 
 namespace arcslip::time {
 
-/// A slider that rested throughout, or slipped in one direction only: over a periodic motion it rests. Any
-/// offset would do for it, so that a periodic motion has to choose one: the centre of the element's motion,
-/// (max q + min q)/2, the limit from the slipping side.
+/// A slider that stuck throughout, or slipped in one direction only: in a periodic motion it sticks. Its
+/// offset is arbitrary, so that a periodic motion has to fix it: at the centre of the element's motion, (max
+/// q + min q)/2, the limit from the slipping side.
 struct RestingSlider {
   int slider = 0;
   double centre = 0;              // m
@@ -20,7 +20,7 @@ struct RestingSlider {
 
 struct PeriodMap {
   bool done = false;
-  std::string message;  // where it is not done: why
+  std::string message;  // why it failed
   State end;
   double size = 0;   // largest |(x, x'/omega)| on the way, m: what rounding and tolerances are relative to
   Matrix monodromy;  // d end/d start in (x, x', z)

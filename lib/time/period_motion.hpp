@@ -1,6 +1,6 @@
 #pragma once
-// What a motion does over some periods of the excitation, whichever way it is integrated, and how a motion
-// goes on period by period until it is steady.
+// A motion over some periods of the excitation, independent of the integrator, and transients that are
+// integrated period by period until they are steady.
 
 #include <arcslip/time/motion.hpp>
 #include <arcslip/time/reasons.hpp>
@@ -26,7 +26,7 @@ struct PeriodMotion {
   double amplitude = 0;  // max |x| of the response, m
   EnergyBalance energy;
   std::vector<FrictionShare> friction;  // of each friction element, in the order of the elements
-  History history;                      // empty where it was not asked for; both ends included
+  History history;                      // empty if not requested; both ends included
 
   bool done() const { return failure.code.empty(); }
 };
@@ -36,7 +36,7 @@ struct PeriodMotion {
 using Periods = std::function<PeriodMotion(const State& start, long count, bool with_history)>;
 
 struct TransientOptions {
-  long periods = 1000;      // at most, those recorded included
+  long periods = 1000;      // maximum, including the recorded ones
   long recorded = 1;        // with history, at the end, once the motion is steady
   double tolerance = 1e-9;  // steady: change of the state over a period, relative to its size; 0: never
 };

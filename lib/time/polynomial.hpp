@@ -1,5 +1,5 @@
 #pragma once
-// Sign changes of a polynomial on [0, 1], none missed: g(s) = sum_k c_k s^k, coefficients ascending.
+// All sign changes of a polynomial on [0, 1], found rigorously: g(s) = sum_k c_k s^k, coefficients ascending.
 //
 // With M = sum k (k - 1) |c_k| b^(k-2) >= |g''| on [a, b], an interval of length h is decided as in
 // elements/reversals.hpp: no change where both ends lie at least M h^2/8 from zero on the same side; one

@@ -82,8 +82,8 @@ class Shooting {
     return true;
   }
 
-  // Of least norm where I - M is singular to rounding of M: a structure that nothing holds has a motion at
-  // every place, an undamped one in resonance has none, and part of the defect remains unexplained.
+  // The minimum-norm solution if I - M is singular to rounding of M: an unsupported structure has a motion at
+  // every position, an undamped one in resonance has none, and part of the defect remains.
   Vector newton_step() {
     Matrix J = -result_.map.monodromy;
     for (const RestingSlider& slider : result_.map.resting)

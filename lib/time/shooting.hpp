@@ -4,14 +4,14 @@
 //
 //   (I - M) dX = Phi(X) - X
 //
-// A slider that rests throughout gives z = z, a row of zeros; its row asks for the centred offset instead
-// (RestingSlider). Phi is piecewise smooth: a step is halved until the defect falls, and where no step does,
-// the motion itself goes on for some periods, which friction and damping make a contraction, before Newton's
-// method is tried again. That fails beside resonances without viscous damping, where a start from harmonic
-// balance (from_harmonics.hpp) still takes few steps.
+// A slider that sticks throughout gives z = z, a row of zeros, which is replaced by the condition of a
+// centred offset (RestingSlider). Phi is piecewise smooth: a step is halved until the defect decreases, and
+// if no step does, the motion is integrated for some periods, a contraction due to friction and damping,
+// before Newton's method is tried again. That fails near resonances without viscous damping, where a start
+// from harmonic balance (from_harmonics.hpp) still converges in a few steps.
 //
-// Floquet multipliers: the eigenvalues of M without the sliders that rest throughout, each of which would add
-// one multiplier 1. As many are zero, in general, as sliders slip at once at some instant. Source:
+// Floquet multipliers: the eigenvalues of M without the sliders that stick throughout, each of which would
+// add a multiplier 1. In general as many are zero as sliders slip simultaneously at some instant. Source:
 // docs/theory/09-event-driven.md.
 
 #include <arcslip/time/event_driven.hpp>
@@ -24,8 +24,8 @@ namespace arcslip::time {
 struct ShootingOptions {
   int periods = 1;          // of the excitation, in one period of the motion
   int transients = 3;       // periods of the motion before the first step of Newton's method
-  int iterations = 50;      // Newton steps and runs of the motion itself
-  double tolerance = 1e-9;  // of the last correction, relative; it is applied, and leaves its square
+  int iterations = 50;      // Newton steps and integrations of the motion
+  double tolerance = 1e-9;  // of the last correction, relative; the error is about its square
 };
 
 enum class ShootingEnd {

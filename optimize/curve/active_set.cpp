@@ -39,8 +39,8 @@ Vector column(const Inequality& of, const OptimalityEvaluator& at, Eigen::Index 
   return c;
 }
 
-// Makes room for `what`: the index of the multiplier that vanishes first, with the others as they are then,
-// and what that of `what` is.
+// The multiplier that vanishes first as that of `what` increases: its index, with the values of the others
+// and of `what` then.
 std::optional<std::size_t> leaves(const Inequality& what, const OptimalityEvaluator& at,
                                   std::vector<Multiplier>& all, double& entering) {
   const auto count = static_cast<Eigen::Index>(all.size());

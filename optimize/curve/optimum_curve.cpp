@@ -41,8 +41,8 @@ std::vector<KnownPeak> peaks_of(const OptimumPoint& point) {
   return all;
 }
 
-// Which of `count` inequalities has ended a piece; count: another peak joins. An extremum or a turn may stand
-// at the same place, after it.
+// The one of `count` inequalities that ended a piece; count: another peak joins. An extremum or a turn may
+// follow at the same point.
 std::size_t last_change(const continuation::Branch& branch, std::size_t count) {
   const auto last = std::find_if(branch.events.rbegin(), branch.events.rend(), is_change);
   std::size_t i = 0;
@@ -367,7 +367,7 @@ void CurveOfOptima::keep(const continuation::Branch& branch, const std::map<doub
   }
   for (const Event& event : branch.events) {
     const Seen* at = find(event.point.arclength);
-    // Along the curve the amplitude is stationary at turning points, too, where over s it is not.
+    // Along the curve the amplitude is also stationary at turning points, but not over s.
     const bool only_turns =
         event.monitor != event_kinds::turning_point && at && std::abs(at->slope) > flat_slope;
     if (!is_change(event) && !only_turns && at)

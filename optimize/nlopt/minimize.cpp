@@ -46,7 +46,7 @@ std::vector<nlopt_algorithm> compiled() {
   return all;
 }
 
-// The known name that was meant: "slsqp" is LD_SLSQP, "LD_SLSPQ" too. "" where nothing is near.
+// The most similar known name: LD_SLSQP for "slsqp" or "LD_SLSPQ". "" if none is similar.
 std::string suggestion(std::string word, const std::vector<std::string>& known) {
   for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   for (const std::string& name : known)
@@ -172,7 +172,7 @@ void set(nlopt_opt handle, const Problem& problem, const Options& options) {
   nlopt_set_upper_bounds(handle, problem.upper.data());
   set(handle, options.tolerances);
   nlopt_set_stopval(handle, options.target);
-  nlopt_set_maxeval(handle, options.evaluations);  // the limit of time is kept by Run, which sees every call
+  nlopt_set_maxeval(handle, options.evaluations);  // the time limit is enforced by Run, which sees every call
   nlopt_set_population(handle, static_cast<unsigned>(options.population));
   if (options.local) {
     const Handle local = create(algorithm(options.local->algorithm), problem.lower.size());
@@ -182,7 +182,7 @@ void set(nlopt_opt handle, const Problem& problem, const Options& options) {
   }
 }
 
-// Moves x onto the bounds that it is outside of, and says so.
+// Projects x onto the bounds, with notes.
 std::vector<std::string> move_inside(std::vector<double>& x, const Problem& problem) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < x.size(); ++i) {

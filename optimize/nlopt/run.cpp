@@ -44,7 +44,7 @@ Run::Run(const Problem& problem, const Options& options, nlopt_opt handle)
       values_(problem.constraints.size() + 1, not_a_number) {}
 
 double Run::objective(std::span<const double> x, std::span<double> gradient) noexcept {
-  // Some algorithms look at their limit once in several calls only.
+  // Some algorithms check their limit only once in several calls.
   if (!interrupted_ && evaluations_ >= options_.evaluations) interrupt(Reason::evaluation_limit);
   const double value = call(0, problem_.objective, x, gradient);
   return std::isfinite(value) ? value : barrier();
@@ -91,7 +91,7 @@ double Run::call(std::size_t k, const Function& function, std::span<const double
   return value;
 }
 
-// Looks at what function k gave.
+// Checks the result of function k.
 void Run::take(std::size_t k, std::span<const double> x, std::span<const double> gradient, double value) {
   if (k == 0 && value == infinity && worst_ > -infinity) return;  // outside the domain, but not at the start
   const auto odd =
@@ -116,7 +116,7 @@ void Run::take(std::size_t k, std::span<const double> x, std::span<const double>
 }
 
 // Objective and constraints are called one after the other at the same x, in an order that depends on the
-// algorithm. The point can be judged once all are there.
+// algorithm. The point can be assessed once all are known.
 void Run::keep_if_best() {
   if (std::any_of(values_.begin(), values_.end(), [](double v) { return std::isnan(v); })) return;
   double excess = 0;
@@ -135,8 +135,8 @@ void Run::report(std::span<const double> x, double value) {
   if (!options_.progress({evaluations_, x, value, best})) interrupt(Reason::user);
 }
 
-// What an algorithm is told where the objective is infinite: above all the others, but finite, since models
-// are fitted through it.
+// The value passed to an algorithm for an infinite objective: above all others, but finite, since algorithms
+// fit models to it.
 double Run::barrier() const noexcept {
   if (worst_ == -infinity) return 0;
   const double spread = best_value_ < worst_ ? worst_ - best_value_ : 0;

@@ -70,7 +70,7 @@ Vector PeakAmplitude::parameters(std::span<const double> design) const {
   return p;
 }
 
-// With the places of all peaks, smooth ones as resonances and others as kinks.
+// Traces a response and locates all peaks, smooth ones as resonances and others as kinks.
 PeakState PeakAmplitude::response(std::span<const double> design, observables::Steps steps) {
   PeakState found;
   found.design.assign(design.begin(), design.end());
@@ -81,7 +81,7 @@ PeakState PeakAmplitude::response(std::span<const double> design, observables::S
     found.message = growth.message;
     return found;
   }
-  // Without an observer, which would have the equations evaluated at each point.
+  // Without an observer, which would require an evaluation at each point.
   const auto traced = observables::frequency_branch(model, window_, window_.lower, {}, 1, steps, go_on_);
   if (go_on_ && !go_on_()) throw Interrupted();
   work_.factorizations += traced.branch.counts.factorizations;
@@ -121,7 +121,7 @@ PeakState PeakAmplitude::response(std::span<const double> design, observables::S
   return found;
 }
 
-// Whose corner a nonsmooth peak is, if it is one where an element begins to slip.
+// Identifies the corner of a nonsmooth peak, if it is an onset of slip.
 void PeakAmplitude::classify(Peak& peak) {
   const Vector p = parameters(state_.design);
   for (const hbm::Corner& corner : hbm::corners_near(*problem_, peak.x.head(problem_->size()), p, at_limit)) {
@@ -133,7 +133,7 @@ void PeakAmplitude::classify(Peak& peak) {
   }
 }
 
-// Amplitude and gradient. False where the equations are singular.
+// Amplitude and gradient. False if the equations are singular.
 bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
   const Vector p = parameters(design);
   sensitivity_->hold(peak.instant);
@@ -155,7 +155,7 @@ bool PeakAmplitude::measure(Peak& peak, std::span<const double> design) {
   return done;
 }
 
-// The gradient at a kink and how it moves, from responses at neighbouring designs.
+// The gradient and the displacement of a kink, from responses at neighbouring designs.
 void PeakAmplitude::differences(Peak& peak, observables::Steps steps) {
   std::vector<double> design = state_.design;
   const auto problem = problem_;
@@ -187,8 +187,8 @@ void PeakAmplitude::differences(Peak& peak, observables::Steps steps) {
   problem_ = problem;
 }
 
-// At the ends of the window those extremes of the motion that may become the largest. What a motion of a
-// shorter period repeats is one of them.
+// Adds the extrema of the motion at the ends of the window that may become the largest; one of those repeated
+// by a motion with a shorter period.
 void PeakAmplitude::add_extremes() {
   double most = 0;
   for (const Peak& peak : state_.peaks) most = std::max(most, peak.amplitude);

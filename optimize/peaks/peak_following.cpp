@@ -1,4 +1,4 @@
-// How the peaks of a design are followed to another one, and what changes along.
+// Tracking of the peaks from one design to another.
 
 #include <arcslip/optimize/peaks/follower.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
@@ -40,8 +40,8 @@ double slope_on_way(double from, double to, double s) {
 
 }  // namespace
 
-// Whether a peak that is not watched is expected to have come up at the design of the state: by its slopes at
-// the last response, over the logarithms.
+// Whether a new peak is expected at the design of the state, by logarithmic extrapolation of the unwatched
+// peaks from the last response.
 bool PeakAmplitude::came_up() const {
   return std::any_of(lower_.begin(), lower_.end(), [&](const LowerPeak& peak) {
     double level = 0;

@@ -87,8 +87,8 @@ class Certifier {
 
   enum class End { level, limit, bound };
 
-  // The place beyond the optimum where V = (1 + share) V_opt, from a guess; where a limit is exceeded or the
-  // bound comes first, that.
+  // The value beyond the optimum at which V = (1 + share) V_opt, from a guess, or the limit or bound that
+  // comes first.
   double range_end(std::size_t k, int side, double share, double guess, End& end) {
     auto design = design_;
     const double target = std::log1p(share), bound = side < 0 ? lower_[k] : upper_[k];
@@ -124,14 +124,14 @@ class Certifier {
       }
       double next = bracketed ? 0.5 * (inner + outer) : bound;
       if (end == End::limit) {
-        // A limit is nearly a line over the way; every third step halves, for one that is not.
+        // Limits are nearly linear; every third step bisects, in case they are not.
         const double share_of_way =
             std::max(0.0, -inner_margin) / (outer_margin - std::min(0.0, inner_margin));
         if (step % 3 != 2) next = inner + share_of_way * (outer - inner);
         if (std::abs(next - inner) <= narrow * std::abs(outer)) return inner;
       } else if (std::isfinite(now)) {
         const double slope = cases_.gradient()[static_cast<Eigen::Index>(k)] / now;
-        // V is nearly a parabola over the distance from the optimum: so is Newton's method exact at once.
+        // V is nearly a parabola in the distance from the optimum, for which this Newton step is exact.
         const double distance = value - design_[k];
         const double newton =
             slope * distance > 0 && level > 0
@@ -170,8 +170,8 @@ class Certifier {
     result_.ranges.push_back(std::move(of));
   }
 
-  // Of a case: the response at the upper end of the window from nothing, if the traced branch does not end
-  // in it, and other solutions at the highest peak.
+  // Responses of a case on other branches: at the upper end of the window without initial guess, if the
+  // traced branch does not end there, and by deflation at the highest peak.
   void other_branches(std::size_t c) {
     const PeakState& optimum = optimum_[c];
     const PeakAmplitude& peaks = cases_.peaks(c);

@@ -153,15 +153,15 @@ double Formulation::level(std::size_t c, std::size_t peak, std::span<double> gra
   return std::log(cases_.weight(c) * of.amplitude / reference_);
 }
 
-// Limits are those of peaks: an end of the window is none where the response rises inwards. Where it ceases
-// to, a peak comes to the end, with the same observables.
+// Limits apply to peaks: not at an end of the window from which the response increases inwards. When that
+// changes, a peak reaches the end, with the same observables.
 bool Formulation::is_limited(std::size_t c, std::size_t peak) const {
   const Peak& of = cases_.state(c).peaks[peak];
   return !of.rises_inwards() && !of.is_further;
 }
 
-// ln of the amplitude over that from which a limit holds at a peak; infinity at peaks where it does, whatever
-// it is.
+// ln of the amplitude over the threshold above which a limit applies to a peak; infinity if it
+// always applies.
 double Formulation::height(std::size_t c, std::size_t peak) const {
   const PeakState& state = cases_.state(c);
   const Peak& of = state.peaks[peak];
@@ -169,8 +169,8 @@ double Formulation::height(std::size_t c, std::size_t peak) const {
   return std::log(of.amplitude / (watched_share * state.amplitude()));
 }
 
-// A limit holds at peaks above a share of the highest. So that it does not jump where a peak gets lower than
-// that, it is met where the peak is: the less of both counts.
+// A limit applies to peaks above a share of the highest. For continuity at that threshold it is satisfied if
+// the peak is below it: the smaller of both counts.
 double Formulation::limit(const Limited& each, std::size_t c, std::size_t peak, std::span<double> gradient) {
   PeakAmplitude& peaks = cases_.peaks(c);
   const PeakState& state = peaks.state();

@@ -15,8 +15,8 @@ constexpr double on_bound = 1e-9;     // of the range of y
 constexpr double no_descent = 1e-12;  // of |G|^2: a multiplier that would gain less stays 0
 constexpr int steps_per_column = 20;  // far more than there are: guards against cycling by rounding
 
-// Minimum of |G m| with the sums of the groups, over the columns that are free; the others stay 0. What is
-// alone in its group has its share; beyond the groups there are no sums.
+// Minimizes |G m| subject to the sums of the groups, over the free columns; the others stay 0. The only
+// member of a group has its share; columns beyond the groups have no sum.
 Eigen::VectorXd minimum_of(const Eigen::MatrixXd& G, const std::vector<std::size_t>& group,
                            const std::vector<double>& shares, const std::vector<bool>& is_free) {
   std::vector<std::size_t> members(shares.size() + 1, 0);

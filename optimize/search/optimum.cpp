@@ -21,19 +21,19 @@ namespace {
 using observables::Status;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double seen_before = 1e-8;  // relative: a response that is higher by more has a peak not watched
+constexpr double seen_before = 1e-8;  // relative: a response higher by more than this has an unwatched peak
 constexpr int most_rounds = 12;
-constexpr double gain = 1e-7;                   // relative, of a round that is worth another one
-constexpr double small_gradient = 1e-8;         // of d ln V / dy: what is left is rounding
+constexpr double gain = 1e-7;                   // relative: progress of a round that justifies another one
+constexpr double small_gradient = 1e-8;         // of d ln V / dy: below this, rounding
 constexpr double as_good = 1e-13;               // relative: values that differ by rounding
-constexpr double as_good_within_limits = 1e-7;  // the same, and by what a limit's tolerance gains
-constexpr double settled_share = 0.1;           // of what a minimum may leave: where a refinement ends
-constexpr std::size_t most_retreats = 12;       // designs that are looked at again, of each distance
+constexpr double as_good_within_limits = 1e-7;  // the same, including the effect of the tolerance of limits
+constexpr double settled_share = 0.1;           // of the tolerances of a minimum: where a refinement ends
+constexpr std::size_t most_retreats = 12;       // designs evaluated again, for each distance
 constexpr std::array apart_by = {1e-2, 1e-3, 1e-4, 1e-5};             // of the range of a variable
 constexpr std::array slipping = {most_dissipation, 0.75, 0.9, 0.97};  // of k_d X: slip limits after a release
-constexpr int most_idle = 100;           // calls at designs that are known, one after the other
-constexpr double gain_outside = 0.5;     // of what a limit is exceeded by, relative
-constexpr std::size_t patience = 25;     // evaluations without a gain, for each parameter and one more
+constexpr int most_idle = 100;                                        // consecutive calls at known designs
+constexpr double gain_outside = 0.5;     // of the violation of the limits, relative
+constexpr std::size_t patience = 25;     // evaluations without progress, times the number of parameters + 1
 constexpr int most_in_refinement = 200;  // evaluations of one algorithm
 
 }  // namespace
@@ -60,7 +60,7 @@ Optimum Search::run() {
       more = false;
       interrupted();
     } catch (const OptionsError&) {
-      throw;  // an algorithm that does not take what was given
+      throw;  // an algorithm that does not support the problem
     } catch (const std::exception& thrown) {
       more = false;
       result_.status = Status::failed;
@@ -87,7 +87,7 @@ std::string Search::after() {
   return text(" after ", count(), count() == 1 ? " evaluation" : " evaluations");
 }
 
-// Once, however many rounds find it.
+// Adds a note only once, even if several rounds find it.
 void Search::note(std::string sentence) {
   std::vector<std::string>& notes = result_.notes;
   if (std::find(notes.begin(), notes.end(), sentence) == notes.end()) notes.push_back(std::move(sentence));
@@ -153,14 +153,14 @@ void Search::minimize_once() {
   Options options;
   options.algorithm = algorithm_.name;
   options.tolerances = options_.tolerances;
-  if (algorithm_.global)  // equal values are not the end: dampers that stick leave them
+  if (algorithm_.global)  // equal values are no convergence: sticking dampers cause them
     options.tolerances.f_relative = options.tolerances.f_absolute = 0;
   if (algorithm_.name == asked_.name) {  // others go on without
     options.local = options_.local;
     options.population = options_.population;
   }
   options.seed = options_.seed;
-  const int known = algorithm_.global ? 0 : 1;  // a local search begins where the cases stand
+  const int known = algorithm_.global ? 0 : 1;  // a local search starts from the current design
   options.evaluations = std::max(1, options_.evaluations - static_cast<int>(count()) + known);
   if (refinements_ > 0) options.evaluations = std::min(options.evaluations, most_in_refinement);
   const bool smooth = algorithm_.name[1] == 'D' && !formulation.epigraph() && problem.constraints.empty();
@@ -249,7 +249,7 @@ bool Search::gradient_vanishes() {
   return true;
 }
 
-// Of one round, with the numbers of all of them.
+// The message of one round, with the numbers of all rounds.
 std::string Search::sentence(const Result& found) {
   if (found.reason == Reason::evaluation_limit)
     return text("the limit of ", options_.evaluations, " evaluations was reached");
@@ -287,10 +287,10 @@ bool Search::verify() {
   return !ended_;
 }
 
-// Where following loses a peak again and again, the response changes from one design to the next by more than
-// it can see, and so may the amplitude jump: from here on each design has a response of its own. What was
-// tried before is better in part; of that, what is so in a response, too: of designs that are far apart
-// first; where these gain nothing, of those between them, since the jump may be close by.
+// If tracking loses a peak repeatedly, the response changes too much from one design to the next, and the
+// amplitude may jump: from now on each design is evaluated by a new response. Some earlier designs were
+// better; these are evaluated again with new responses: first designs that are far apart, and without
+// progress those in between, since the jump may be close.
 void Search::retreat() {
   trials_.trace_all();
   std::vector<std::tuple<double, double, std::vector<double>>> tried;  // excess, V, design
@@ -340,8 +340,8 @@ bool Search::release() {
   }
   const std::string stuck = space().text(best().design);
   const bool within = best().excess == 0;
-  // Slip that has just begun keeps the limits that are kept without, but a limit on the energy perhaps not
-  // where that is largest. From far outside, a search may go back to where all sticks.
+  // At the onset of slip the limits that hold without slip still hold, but perhaps not a limit on the energy
+  // at its maximum. From far outside, a search may return to where everything sticks.
   std::optional<std::vector<double>> from;
   double least = infinity;
   for (const std::vector<double>& design : designs) {

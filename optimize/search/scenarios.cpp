@@ -71,7 +71,7 @@ std::vector<double> Scenarios::centre() const {
   return box_->design(y);
 }
 
-// All, or where they are too many some that are drawn at random, the same each time.
+// All corners, or, if there are too many, a reproducible random sample.
 std::vector<std::vector<double>> Scenarios::corners() const {
   const std::size_t n = problem_.scatter.size();
   const bool all = n < 64 && std::size_t{1} << n <= most_corners;

@@ -1,4 +1,4 @@
-// Whether what a search has come to is a minimum, and where it goes on if not.
+// Whether a search has reached a minimum, and how it continues otherwise.
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
@@ -30,8 +30,8 @@ constexpr std::size_t most_by_cobyla = 5;      // of them, the lowest
 constexpr double apart = 0.1;        // of the range of a variable: designs that are worth two searches
 constexpr double same_level = 1e-9;  // of amplitudes, relative: both are where nothing slips at the peak
 
-// Go on where another algorithm ended at no minimum. CCSAQ descends from the feasible side by conservative
-// approximations (Svanberg 2002), slowly at the end; SLSQP is quick from near by.
+// Algorithms that continue where another one ended at no minimum. CCSAQ descends from the feasible side by
+// conservative approximations (Svanberg 2002), slowly at the end; SLSQP is fast nearby.
 constexpr std::array ladder = {"LD_CCSAQ", "LD_SLSQP", "LN_COBYLA", "LD_SLSQP"};
 
 }  // namespace

@@ -22,7 +22,7 @@ bool is_flat(const Cases& cases, std::size_t c) {
                      [](const auto& element) { return !element.has_stick || element.slip_angles.empty(); });
 }
 
-// Where the cases stand.
+// At the current design of the cases.
 Fault fault(Trials& trials) {
   const Cases& cases = trials.cases();
   for (std::size_t c = 0; c < cases.size(); ++c) {
@@ -71,8 +71,8 @@ bool moves_highest(const PeakState& state, std::size_t k) {
   });
 }
 
-// The force over its limit, the most among the elements that stick at a peak and whose limit parameter k
-// moves.
+// The largest ratio of the force to its limit among the elements that stick at a peak and whose limit depends
+// on parameter k.
 double closest_to_slip(PeakAmplitude& peaks, const observables::ResponsePoint& point, int parameter) {
   double most = 0;
   const Vector p = peaks.parameters(peaks.state().design);

@@ -106,7 +106,7 @@ CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, co
   return found;
 }
 
-// The highest of a line at a value of the parameter, between its points; NaN beyond them.
+// The highest interpolated value of a line at a value of the parameter; NaN beyond its points.
 double height(const results::FigureLine& line, std::size_t column, double at) {
   double highest = std::numeric_limits<double>::quiet_NaN();
   for (const auto& part : line.parts)
@@ -119,7 +119,7 @@ double height(const results::FigureLine& line, std::size_t column, double at) {
   return highest;
 }
 
-// Of what is to be least: its curve, made of the lines, the optimum on it and the ranges around.
+// The criterion: its curve, computed from the lines, with the optimum and its tolerance ranges.
 void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseLines& lines) {
   results::FigureData& data = lines.data;
   const bool mean = result.problem.criterion == Criterion::mean;

@@ -71,7 +71,7 @@ std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const Optimum
   return all;
 }
 
-// Tells what is new, and what is done, again and again. False stops, once and for all.
+// Reports progress and the current phase. False stops for good.
 class Teller {
  public:
   Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, const char* item)
@@ -116,8 +116,8 @@ class Teller {
   observables::Progress told_;
 };
 
-// What figures show and the direct way, as long as the watch goes on: where it does not the result is not
-// complete.
+// Adds the curves of figures and the direct method, as long as the watch allows; otherwise the result is
+// not complete.
 void add_curves(OptimumResult& result, const scene::Scene& with, bool limited, bool alone, Watch& watch,
                 Teller& teller) {
   const observables::ProgressCallback ask = [&](const observables::Progress&) { return watch.go_on(); };
@@ -142,7 +142,7 @@ void add_curves(OptimumResult& result, const scene::Scene& with, bool limited, b
     }
 }
 
-// A study that was ended before all of it was done is not complete, whatever its search has come to.
+// A study that was ended early is not complete, whatever the result of its search.
 void end_early(OptimumResult& result, const Watch& watch) {
   const std::string before = result.stop.message;
   result.stop = watch.why();

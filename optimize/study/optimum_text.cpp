@@ -27,7 +27,7 @@ std::string with_unit(const scene::Scene& scene, const std::string& parameter, d
   return number(value) + (unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
-// Of several friction elements the sticks are told once, not of every case.
+// With several friction elements their stick shares are written once, not for every case.
 std::string place(const scene::Scene& scene, const observables::ResponsePoint& point, std::size_t most) {
   std::string text = number(studies::in_scene_unit(scene, point.omega), "%.8f") + " " +
                      std::string(scene::unit_name(scene.frequency_unit));

@@ -26,7 +26,7 @@ std::vector<std::string> optimize(const std::vector<std::string>& more) {
 
 }  // namespace
 
-TEST_CASE("optimize --json - prints one object with the optimum, its certificate and the direct way") {
+TEST_CASE("optimize --json - prints one object with the optimum, its certificate and the direct method") {
   const Workplace place;
   const Ended ended = run(place, optimize({"--over", "damper.normal_load=0.1:100", "--json", "-"}));
   CHECK(ended.exit_code == 0);

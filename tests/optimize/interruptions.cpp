@@ -125,7 +125,7 @@ TEST_CASE("a search that is interrupted far from its best design tells the best,
   CHECK(cut.point.amplitude == Approx(whole.amplitude).epsilon(1e-9));
 }
 
-TEST_CASE("a stop before the first design leaves none, and its reason") {
+TEST_CASE("a stop before the first design leaves no design, and the reason") {
   const auto found = optimize::optimum(scenes::paper(7, 3), {{{"damper.normal_load", 0.1, 100}}, 18, 22},
                                        {.go_on = [] { return false; }});
   CHECK(found.status == observables::Status::stopped);

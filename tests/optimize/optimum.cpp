@@ -240,7 +240,7 @@ TEST_CASE("no design is a complete answer if the response of another is far belo
   CHECK(std::adjacent_find(notes.begin(), notes.end()) == notes.end());
 }
 
-TEST_CASE("with sampled friction the search ends, and the direct way says that it is none") {
+TEST_CASE("with sampled friction the search ends, and the direct method reports that it is not applicable") {
   scene::Scene s = paper(5, 3);
   s.harmonics.friction = scene::Friction::sampled;
   s.harmonics.samples = 64;

@@ -1,4 +1,4 @@
-// The worst of what scatters between bounds.
+// The worst case of uncertain parameters between bounds.
 
 #include "catch.hpp"
 
@@ -87,7 +87,7 @@ TEST_CASE("a friction coefficient anywhere between 0.4 and 0.6: both ends are ac
   CHECK(found.certificate->stationarity < 1e-6);
 }
 
-TEST_CASE("what scatters in each of two levels: the higher one decides") {
+TEST_CASE("scatter at each of two levels: the higher one decides") {
   auto problem = with({{"damper.friction_coefficient", 0.4, 0.6}});
   problem.cases = {{{{"force.cosine", 0.5}}, 1}, {{{"force.cosine", 1}}, 1}};
   const Optimum found = optimize::optimum(closed_form(), problem, {.certificate = false});
@@ -162,7 +162,7 @@ TEST_CASE("the worst within a box, not at its ends, is found, as a grid of frequ
   for (const double factor : {0.9, 1.1}) CHECK(highest_in_box(factor * found.design[0]) > grid);
 }
 
-TEST_CASE("a start at which a corner of what scatters is unbounded is moved") {
+TEST_CASE("a start at which a corner of the scatter is unbounded is moved") {
   // mu Fn = 0.3 at the lowest coefficient is below pi/4.
   const Optimum found = optimize::optimum(closed_form(3), with({{"damper.friction_coefficient", 0.1, 0.6}}));
   CHECK(found.status == observables::Status::complete);
@@ -196,7 +196,7 @@ TEST_CASE("the user and what is thrown end the search for the worst, too") {
   }
 }
 
-TEST_CASE("what scatters and makes no sense is told") {
+TEST_CASE("invalid scatter is rejected") {
   const auto error_of = [](const OptimumProblem& problem) {
     try {
       optimize::optimum(closed_form(), problem);

@@ -90,7 +90,7 @@ void add_bad_designs(std::vector<BadScene>& rows) {
       "found \"wrost\", must be one of \"worst\", \"mean\"; did you mean \"worst\"?");
   add("mean of no cases", R"("criterion": "mean")", "criterion",
       "found \"mean\" without \"cases\"; must be \"worst\"");
-  add("mean of what scatters", R"("criterion": "mean", "cases": [{}], "scatter": {"m.value": [1, 2]})",
+  add("mean with scatter", R"("criterion": "mean", "cases": [{}], "scatter": {"m.value": [1, 2]})",
       "criterion", "found \"mean\" together with \"scatter\", which takes the worst case; must be \"worst\"");
   add("scatter that is a list", R"("scatter": [1, 2])", "scatter", "found a list, must be an object");
   add("scatter of one value", R"("scatter": {"m.value": 1})", "scatter/m.value",
@@ -116,8 +116,8 @@ void add_bad_designs(std::vector<BadScene>& rows) {
       "along",
       "found \"along\" together with \"constraints\", \"cases\", which it does not support; must be given "
       "alone");
-  add("along what scatters", R"("scatter": {"c.value": [1, 2]}, "along": "c.value")" + range, "along",
-      "found \"along\" together with \"scatter\"");
+  add("along an uncertain parameter", R"("scatter": {"c.value": [1, 2]}, "along": "c.value")" + range,
+      "along", "found \"along\" together with \"scatter\"");
   add("along a parameter without its end", R"("along": "f.sine", "from": 1)", "to",
       "found no key \"to\", which is required: must be a finite number (N)");
   add("along a parameter backwards", R"("along": "f.sine", "from": 1, "to": 0)", "to",
@@ -126,7 +126,7 @@ void add_bad_designs(std::vector<BadScene>& rows) {
       "found the key \"from\" without \"along\", whose range it belongs to");
   add("for each of what cases set", R"("cases": {"m.value": [1]}, "for_each": {"m.value": [2]})",
       "for_each/m.value", "found \"m.value\", which \"cases\" set; must be another parameter");
-  add("for each of what scatters", R"("scatter": {"m.value": [1, 2]}, "for_each": {"m.value": [2]})",
+  add("for each of an uncertain parameter", R"("scatter": {"m.value": [1, 2]}, "for_each": {"m.value": [2]})",
       "for_each/m.value", "found \"m.value\", which is in \"scatter\"; must be another parameter");
   add("for each of what the study goes along", R"("along": "f.sine", "for_each": {"f.sine": [2]})" + range,
       "for_each/f.sine", "found \"f.sine\", which the study goes \"along\"; must be another parameter");

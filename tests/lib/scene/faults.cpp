@@ -137,7 +137,7 @@ TEST_CASE("all faults of a study of an optimum are told in one go") {
   CHECK(pointers == expected);
 }
 
-TEST_CASE("all faults of cases, of what scatters and of settings of a search are told in one go") {
+TEST_CASE("all faults of cases, scatter and search settings are reported at once") {
   const std::vector<Fault> faults = faults_of(
       good_scene_with(R"({"kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}})",
                       R"({"kind": "optimum", "over": ["d.normal_load"], "bounds": [[1, 2]],

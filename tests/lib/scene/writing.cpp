@@ -89,7 +89,7 @@ TEST_CASE("lists of values for cases make their product, the last list fastest")
   CHECK(cases[3] == DesignCase{Set{{"f.sine", 2}, {"n.stiffness", 0}}, 1, {}});
 }
 
-TEST_CASE("a study of an optimum is written with its cases, what scatters, and what it goes along") {
+TEST_CASE("a study of an optimum is written with its cases, scatter and along") {
   const std::string text = write(read_text(full_scene));
   for (const char* line :
        {R"({"sum": {"k.value": 1, "load": -0.5}, "at_least": 0})",
