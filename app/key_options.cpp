@@ -66,8 +66,8 @@ bool has_ranges(const Key& key) {
   return key.type == KeyType::parameters || key.type == KeyType::followed;
 }
 
-std::vector<ParameterRange> ranges_of(const std::string& option, const std::vector<std::string>& texts) {
-  std::vector<ParameterRange> ranges;
+std::vector<RangeOption> ranges_of(const std::string& option, const std::vector<std::string>& texts) {
+  std::vector<RangeOption> ranges;
   for (const std::string& text : texts) ranges.push_back(parameter_range(option, text));
   return ranges;
 }

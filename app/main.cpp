@@ -56,8 +56,8 @@ ExitCode run(int argc, const char* const* argv) {
     if (const auto* information = std::get_if<Information>(&request)) {
       return print(*information);
     }
-    scene_file = std::get<Options>(request).scene;
-    return execute(std::get<Options>(request), catalogue);
+    scene_file = std::get<CommandOptions>(request).scene;
+    return execute(std::get<CommandOptions>(request), catalogue);
   } catch (const scene::SceneError& error) {
     tell_faults(scene_file, error);
     return ExitCode::invalid_scene;

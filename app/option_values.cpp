@@ -60,7 +60,7 @@ std::optional<int> whole_number(const std::string& option, const std::string& te
   return value;
 }
 
-ParameterRange parameter_range(const std::string& option, const std::string& text) {
+RangeOption parameter_range(const std::string& option, const std::string& text) {
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
   if (text.empty()) {

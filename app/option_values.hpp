@@ -21,6 +21,6 @@ std::optional<double> frequency(const std::string& option, const std::string& te
 /// --frequency: one frequency, or a window.
 std::vector<double> frequencies(const std::vector<std::string>& texts);
 /// name.field, or name.field=lower:upper.
-ParameterRange parameter_range(const std::string& option, const std::string& text);
+RangeOption parameter_range(const std::string& option, const std::string& text);
 
 }  // namespace arcslip::app

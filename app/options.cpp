@@ -69,7 +69,7 @@ struct Texts {
 };
 
 /// The options of every verb that takes a scene.
-void add_scene_options(CLI::App* verb, Options& options, Texts& texts) {
+void add_scene_options(CLI::App* verb, CommandOptions& options, Texts& texts) {
   verb->add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-1)")
       ->required()
       ->type_name("");
@@ -96,7 +96,7 @@ void add_key_option(CLI::App& verb, KeyOption& of) {
   }
 }
 
-void add_study_options(CLI::App& verb, Verb& of, Options& options, Texts& texts) {
+void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts& texts) {
   for (KeyOption& option : of.keys) {
     add_key_option(verb, option);
   }
@@ -122,7 +122,7 @@ void add_study_options(CLI::App& verb, Verb& of, Options& options, Texts& texts)
 }
 
 /// The number given for a key by an option, if any.
-std::optional<double> number_of(const Options& options, const std::string& key) {
+std::optional<double> number_of(const CommandOptions& options, const std::string& key) {
   for (const GivenKey& given : options.keys) {
     const auto* node = std::get_if<scene::file::Node>(&given.value);
     if (given.key.name == key && node != nullptr && node->get<double>() != nullptr) {
@@ -132,7 +132,7 @@ std::optional<double> number_of(const Options& options, const std::string& key) 
   return std::nullopt;
 }
 
-void check_consistent(const Options& options, bool json_given, bool csv_given, bool out_given) {
+void check_consistent(const CommandOptions& options, bool json_given, bool csv_given, bool out_given) {
   if ((json_given && options.json.empty()) || (csv_given && options.csv.empty()) ||
       (out_given && options.out.empty())) {
     throw UsageError("--out, --json and --csv need a nonempty name");
@@ -156,10 +156,10 @@ bool given(const CLI::App& verb, const std::string& option) {
 
 }  // namespace
 
-std::variant<Options, Information> parse(int argc, const char* const* argv,
-                                         const scene::Catalogue& catalogue) {
+std::variant<CommandOptions, Information> parse(int argc, const char* const* argv,
+                                                const scene::Catalogue& catalogue) {
   const std::string hint = "Run arcslip --help for the verbs, arcslip VERB --help for their options.";
-  Options options;
+  CommandOptions options;
   Texts texts;
   CLI::App app("Responses of vibrating structures with friction and other nonlinear elements.", "arcslip");
   app.require_subcommand(1);

@@ -16,7 +16,7 @@
 namespace arcslip::app {
 
 /// A parameter and its range on the command line: name.field, or name.field=lower:upper.
-struct ParameterRange {
+struct RangeOption {
   std::string parameter;
   std::optional<std::pair<double, double>> range;
 };
@@ -26,10 +26,10 @@ struct GivenKey {
   scene::Key key;
   std::string text;  // "--from 18", for messages
   // ranges: of KeyType::parameters and KeyType::followed
-  std::variant<scene::file::Node, std::vector<ParameterRange>> value;
+  std::variant<scene::file::Node, std::vector<RangeOption>> value;
 };
 
-struct Options {
+struct CommandOptions {
   std::string verb;                                 // "run", "check", or the verb of a kind of study
   const scene::StudyType* type = nullptr;           // of the verb
   std::string scene;                                // path
@@ -53,7 +53,7 @@ struct Information {
 };
 
 /// catalogue: the kinds of studies, each with its verb. Throws UsageError.
-std::variant<Options, Information> parse(int argc, const char* const* argv,
-                                         const scene::Catalogue& catalogue);
+std::variant<CommandOptions, Information> parse(int argc, const char* const* argv,
+                                                const scene::Catalogue& catalogue);
 
 }  // namespace arcslip::app

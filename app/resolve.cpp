@@ -17,7 +17,7 @@
 namespace arcslip::app {
 namespace {
 
-void apply(scene::Scene& scene, const Options& options) {
+void apply(scene::Scene& scene, const CommandOptions& options) {
   for (const auto& [name, value] : options.set) {
     try {
       scene::set(scene, name, value);
@@ -65,7 +65,7 @@ std::string parameter_at(const std::vector<Member>& keys, const std::string& nam
   return text != nullptr ? *text : "";
 }
 
-const GivenKey* find(const Options& options, const std::string& name) {
+const GivenKey* find(const CommandOptions& options, const std::string& name) {
   const auto found = std::find_if(options.keys.begin(), options.keys.end(),
                                   [&](const GivenKey& given) { return given.key.name == name; });
   return found != options.keys.end() ? &*found : nullptr;
@@ -90,12 +90,12 @@ void check_parameter(const scene::Scene& scene, const std::string& option, const
   }
 }
 
-void check_parameters(const scene::Scene& scene, const Options& options) {
+void check_parameters(const scene::Scene& scene, const CommandOptions& options) {
   for (const GivenKey& given : options.keys) {
     const std::string option = "--" + given.key.name;
     check_parameter(scene, option, parameter_of(given));
-    if (const auto* ranges = std::get_if<std::vector<ParameterRange>>(&given.value)) {
-      for (const ParameterRange& each : *ranges) {
+    if (const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value)) {
+      for (const RangeOption& each : *ranges) {
         check_parameter(scene, option, each.parameter);
       }
     }
@@ -120,7 +120,7 @@ void add_parameters(const GivenKey& given, const Node::Object& own, std::vector<
   const Node* names = find(own, given.key.name);
   const Node* bounds = find(own, "bounds");
   Node::List all_names, all_bounds;
-  for (const ParameterRange& each : std::get<std::vector<ParameterRange>>(given.value)) {
+  for (const RangeOption& each : std::get<std::vector<RangeOption>>(given.value)) {
     const Node* known = nullptr;
     const auto& own_names = *names->get<Node::List>();
     for (std::size_t i = 0; i < own_names.size(); ++i) {
@@ -140,7 +140,7 @@ void add_parameters(const GivenKey& given, const Node::Object& own, std::vector<
 }
 
 void add_followed(const GivenKey& given, std::vector<Member>& keys) {
-  const ParameterRange& one = std::get<std::vector<ParameterRange>>(given.value).front();
+  const RangeOption& one = std::get<std::vector<RangeOption>>(given.value).front();
   if (!one.range) {
     const std::string option = "--" + given.key.name + " " + one.parameter;
     throw UsageError(option + ": no range given; give it as " + option + "=from:to");
@@ -151,7 +151,7 @@ void add_followed(const GivenKey& given, std::vector<Member>& keys) {
 }
 
 /// The keys given by the options, in addition to the study's own.
-std::vector<Member> keys_of(const Options& options, const Node::Object& own) {
+std::vector<Member> keys_of(const CommandOptions& options, const Node::Object& own) {
   std::vector<Member> keys;
   for (const GivenKey& given : options.keys) {
     if (const auto* node = std::get_if<Node>(&given.value)) {
@@ -166,11 +166,11 @@ std::vector<Member> keys_of(const Options& options, const Node::Object& own) {
 }
 
 /// The parameters named by the options, which are then dropped from the lists of the study.
-std::vector<std::string> named_parameters(const Options& options) {
+std::vector<std::string> named_parameters(const CommandOptions& options) {
   std::vector<std::string> names;
   for (const GivenKey& given : options.keys) {
-    if (const auto* ranges = std::get_if<std::vector<ParameterRange>>(&given.value)) {
-      for (const ParameterRange& each : *ranges) {
+    if (const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value)) {
+      for (const RangeOption& each : *ranges) {
         names.push_back(each.parameter);
       }
     } else if (const std::string parameter = parameter_of(given); !parameter.empty()) {
@@ -181,7 +181,8 @@ std::vector<std::string> named_parameters(const Options& options) {
 }
 
 /// Throws if --set sets a parameter that the study itself varies.
-void check_set(const std::vector<Key>& known, const std::vector<Member>& keys, const Options& options) {
+void check_set(const std::vector<Key>& known, const std::vector<Member>& keys,
+               const CommandOptions& options) {
   for (const Key& key : known) {
     if (key.type != KeyType::parameter && key.type != KeyType::followed) {
       continue;
@@ -200,7 +201,7 @@ void check_set(const std::vector<Key>& known, const std::vector<Member>& keys, c
 
 /// Throws if the range between --from and --to is empty.
 void check_range(const scene::Scene& scene, const scene::Study& study, const std::vector<Member>& keys,
-                 const Options& options) {
+                 const CommandOptions& options) {
   const GivenKey* from_given = find(options, "from");
   const GivenKey* to_given = find(options, "to");
   const Node *from_node = find(keys, "from"), *to_node = find(keys, "to");
@@ -225,14 +226,14 @@ void check_range(const scene::Scene& scene, const scene::Study& study, const std
 }
 
 /// The option that gave the key at this location within a study, or "".
-std::string option_at(const std::string& place, const Options& options) {
+std::string option_at(const std::string& place, const CommandOptions& options) {
   const std::string key = place.substr(0, place.find('/'));
   for (const GivenKey& given : options.keys) {
     const std::vector<std::string> beside = scene::keys_beside(given.key.type);
     if (key != given.key.name && std::find(beside.begin(), beside.end(), key) == beside.end()) {
       continue;
     }
-    const auto* ranges = std::get_if<std::vector<ParameterRange>>(&given.value);
+    const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value);
     if (ranges == nullptr) {
       const auto* number = std::get<Node>(given.value).get<double>();
       return number != nullptr ? "--" + given.key.name + " " + results::shortest(*number) : given.text;
@@ -245,7 +246,7 @@ std::string option_at(const std::string& place, const Options& options) {
 }
 
 /// The index of the study that provides what the command line leaves out, if the scene has one.
-std::optional<std::size_t> study_to_follow(const scene::Scene& scene, const Options& options) {
+std::optional<std::size_t> study_to_follow(const scene::Scene& scene, const CommandOptions& options) {
   const GivenKey* over = find(options, "over");
   const std::string parameter = over != nullptr ? parameter_of(*over) : "";
   std::optional<std::size_t> found;
@@ -264,7 +265,7 @@ std::optional<std::size_t> study_to_follow(const scene::Scene& scene, const Opti
 }
 
 /// A study with defaults and a unique name.
-scene::Study new_study(const scene::Scene& scene, const Options& options) {
+scene::Study new_study(const scene::Scene& scene, const CommandOptions& options) {
   std::string name = options.verb;
   while (std::any_of(scene.studies.begin(), scene.studies.end(),
                      [&](const scene::Study& other) { return other.name == name; })) {
@@ -275,7 +276,7 @@ scene::Study new_study(const scene::Scene& scene, const Options& options) {
 
 /// Throws if scene and options together do not define the study. is_new: the scene has no study of this kind;
 /// otherwise it has none over this parameter, and ranges are required.
-void check_complete(const Options& options, bool is_new, const std::string& over) {
+void check_complete(const CommandOptions& options, bool is_new, const std::string& over) {
   std::vector<std::string> missing;
   for (const Key& key : options.type->keys()) {
     const bool is_wanted = is_new ? key.required && key.type != KeyType::other : key.type == KeyType::value;
@@ -292,13 +293,13 @@ void check_complete(const Options& options, bool is_new, const std::string& over
 
 }  // namespace
 
-scene::Scene resolve(const Options& options, const scene::Catalogue& catalogue) {
+scene::Scene resolve(const CommandOptions& options, const scene::Catalogue& catalogue) {
   scene::Scene scene = scene::read_file(options.scene, catalogue, interrupted);
   apply(scene, options);
   return scene;
 }
 
-bool takes_keys(const scene::Study& study, const Options& options) {
+bool takes_keys(const scene::Study& study, const CommandOptions& options) {
   const std::vector<Key> keys = study.type->keys();
   return std::all_of(options.keys.begin(), options.keys.end(), [&](const GivenKey& given) {
     return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
@@ -307,7 +308,7 @@ bool takes_keys(const scene::Study& study, const Options& options) {
   });
 }
 
-scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Options& options) {
+scene::Scene with_options(const scene::Scene& scene, std::size_t index, const CommandOptions& options) {
   scene::Scene dropped = scene;
   scene::Study& study = dropped.studies[index];
   const std::vector<std::string> named = named_parameters(options);
@@ -346,7 +347,7 @@ scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Op
   }
 }
 
-scene::Study study_of_verb(scene::Scene& scene, const Options& options) {
+scene::Study study_of_verb(scene::Scene& scene, const CommandOptions& options) {
   check_parameters(scene, options);
   const GivenKey* over_given = find(options, "over");
   const std::string over = over_given != nullptr ? parameter_of(*over_given) : "";

@@ -119,7 +119,7 @@ ResultsFolder::~ResultsFolder() {
   }
 }
 
-void add_places(const StudyFiles& files, const std::string& study, std::vector<Place>& places) {
+void add_places(const StudyFiles& files, const std::string& study, std::vector<OutputPath>& places) {
   const std::string what = "the results of the study \"" + study + '"';
   for (const char* extension : file_extensions) {
     places.push_back({what, files.path(extension)});
@@ -132,7 +132,7 @@ bool may_wait(const std::string& place) {
   return place == "-" || std::filesystem::is_other(place, ignored);
 }
 
-void add_csv_places(const std::string& what, const std::string& path, std::vector<Place>& places) {
+void add_csv_places(const std::string& what, const std::string& path, std::vector<OutputPath>& places) {
   if (path != "-") {
     places.push_back({what, path});
   }
@@ -172,7 +172,7 @@ void write(const File& file, const results::Results& results, std::ostream& out)
   results::replay(results, *file.sink(out));
 }
 
-void check_places(const std::vector<Place>& places, const std::string& scene_file) {
+void check_places(const std::vector<OutputPath>& places, const std::string& scene_file) {
   std::map<std::string, std::string> by_path;              // what goes there
   std::map<std::pair<dev_t, ino_t>, std::string> by_file;  // the same, of what is there, by whatever name
   struct stat status {};
@@ -182,7 +182,7 @@ void check_places(const std::vector<Place>& places, const std::string& scene_fil
   if (::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode)) {
     by_file.emplace(std::pair(status.st_dev, status.st_ino), "standard output");
   }
-  for (const Place& place : places) {
+  for (const OutputPath& place : places) {
     const bool is_there = ::stat(place.path.c_str(), &status) == 0;
     if (is_there && S_ISCHR(status.st_mode)) {
       output::check_writable(place.path);

@@ -43,7 +43,7 @@ class ResultsFolder {
 };
 
 /// An output path, and a description of what goes there.
-struct Place {
+struct OutputPath {
   std::string what, path;
 };
 
@@ -64,17 +64,17 @@ std::vector<File> csv_files(const std::string& path, std::span<const results::Sc
 void write(const File& file, const results::Results& results, std::ostream& out);
 
 /// Adds every path that CSV results may be written to.
-void add_csv_places(const std::string& what, const std::string& path, std::vector<Place>& places);
+void add_csv_places(const std::string& what, const std::string& path, std::vector<OutputPath>& places);
 
 /// Whether writing may block on a reader: standard output ("-"), a pipe, a device.
 bool may_wait(const std::string& place);
 
 /// Adds the paths of a study with files of its own.
-void add_places(const StudyFiles& files, const std::string& study, std::vector<Place>& places);
+void add_places(const StudyFiles& files, const std::string& study, std::vector<OutputPath>& places);
 
 /// Throws UsageError if two of the paths are the same file, under whatever name, or one is the scene file or
 /// the file behind standard output; output::WriteError if one cannot be written.
-void check_places(const std::vector<Place>& places, const std::string& scene_file);
+void check_places(const std::vector<OutputPath>& places, const std::string& scene_file);
 
 /// Writes several outputs in turn: a failure is reported on standard error and does not affect the others.
 class Writing {

@@ -31,15 +31,16 @@
 namespace arcslip::app {
 namespace {
 
-bool takes_standard_output(const Options& options) {
+bool takes_standard_output(const CommandOptions& options) {
   return options.json == "-" || options.csv == "-";
 }
 
 /// Checks that all results can be written, before anything is computed. Returns the locked output folder.
-std::optional<ResultsFolder> prepare_places(const Options& options, const std::vector<scene::Study>& studies,
+std::optional<ResultsFolder> prepare_places(const CommandOptions& options,
+                                            const std::vector<scene::Study>& studies,
                                             const std::vector<StudyFiles>& files) {
   std::optional<ResultsFolder> folder;
-  std::vector<Place> places;
+  std::vector<OutputPath> places;
   if (!options.out.empty()) {
     folder.emplace(options.out);
     for (std::size_t i = 0; i < studies.size(); ++i) {
@@ -57,7 +58,7 @@ std::optional<ResultsFolder> prepare_places(const Options& options, const std::v
 }
 
 /// Throws if one table would have to hold results of different kinds.
-void check_one_table(const Options& options, const scene::Scene& scene,
+void check_one_table(const CommandOptions& options, const scene::Scene& scene,
                      const std::vector<scene::Study>& studies) {
   const auto list = [&](const scene::Study& study) { return study.type->schema(scene, study, {}).list; };
   for (const scene::Study& study : studies) {
@@ -78,7 +79,7 @@ std::string whole(double count) {
 }
 
 /// Throws if the lists of for_each, whose lengths multiply, have more combinations than allowed.
-void check_combinations(const Options& options, const std::vector<scene::Study>& studies) {
+void check_combinations(const CommandOptions& options, const std::vector<scene::Study>& studies) {
   const int most = options.combinations.value_or(scene::usual_combinations);
   for (const scene::Study& study : studies) {
     const double count = scene::Combinations(study.for_each).count();
@@ -103,7 +104,7 @@ void tell_partial(Interruption& interruption) {
 
 /// Runs a study into a sink with a progress line. Returns its figures.
 std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, const scene::Study& study,
-                                                 scene::RunOptions how, const Options& options,
+                                                 scene::RunOptions how, const CommandOptions& options,
                                                  results::Sink& sink, Interruption& interruption) {
   ProgressLine line(options.quiet, std::string(scene::unit_name(scene.frequency_unit)));
   how.progress = [&](const results::Progress& now) {
@@ -122,7 +123,7 @@ std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, cons
 }
 
 /// The files for the results of all studies together.
-std::vector<File> common_files(const Options& options, std::span<const results::Schema> schemas) {
+std::vector<File> common_files(const CommandOptions& options, std::span<const results::Schema> schemas) {
   std::vector<File> files;
   if (!options.json.empty()) {
     files.push_back(json_file(options.json));
@@ -146,7 +147,7 @@ bool are_of_one_list(std::span<const results::Schema> schemas) {
 }
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
-                     const Options& options) {
+                     const CommandOptions& options) {
   check_one_table(options, scene, studies);
   check_combinations(options, studies);
   const std::vector<StudyFiles> files = study_files(options.out, studies);
@@ -244,7 +245,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   return writing.code(code);
 }
 
-ExitCode check(const scene::Scene& scene, const Options& options) {
+ExitCode check(const scene::Scene& scene, const CommandOptions& options) {
   if (!options.quiet) {
     StandardOutput screen;
     screen.write_lines([&](std::ostream& out) { out << scene::write(scene); });
@@ -253,7 +254,7 @@ ExitCode check(const scene::Scene& scene, const Options& options) {
   return ExitCode::done;
 }
 
-ExitCode run(scene::Scene scene, Options options) {
+ExitCode run(scene::Scene scene, CommandOptions options) {
   if (scene.studies.empty()) {
     throw UsageError(
         "the scene has no studies, so there is nothing to run: add one to \"studies\", or use "
@@ -279,7 +280,7 @@ ExitCode run(scene::Scene scene, Options options) {
 
 }  // namespace
 
-ExitCode execute(const Options& options, const scene::Catalogue& catalogue) {
+ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue) {
   scene::Scene scene = resolve(options, catalogue);
   if (options.verb == "run") {
     return run(std::move(scene), options);

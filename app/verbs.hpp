@@ -7,6 +7,6 @@ namespace arcslip::app {
 
 /// Does what the options ask for. catalogue: the kinds of studies that a scene may hold. Throws UsageError,
 /// scene::SceneError, scene::FileError, output::WriteError.
-ExitCode execute(const Options& options, const scene::Catalogue& catalogue);
+ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue);
 
 }  // namespace arcslip::app

@@ -32,7 +32,7 @@ void exact_family(benchmark::State& state) {
   for (auto _ : state)
     for (const double value : loads) {
       p[load] = value;
-      time::State start;
+      time::MotionState start;
       for (int i = 0; i < points; ++i) {
         p[model::frequency] = 2 * std::numbers::pi * (18 + 4.0 * i / (points - 1));
         const auto equation = time::equation_of_motion(model, p);

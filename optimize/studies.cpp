@@ -92,7 +92,7 @@ void drop_from(std::string_view parameter, OptimumProblem& problem) {
 }
 
 void read_along(const Reading& reading, OptimumSettings& settings) {
-  const Place place = reading.keys.find("along");
+  const Location place = reading.keys.find("along");
   for (const std::string& key : scene::keys_beside(KeyType::followed))
     if (place.node == nullptr && reading.keys.has(key))
       reading.faults.add(reading.keys.find(key).pointer,
@@ -102,7 +102,7 @@ void read_along(const Reading& reading, OptimumSettings& settings) {
   const scene::Field field = read_parameter(place, reading.parameters, along.name, reading.faults);
   std::vector<std::string> beside;
   for (const char* key : {"constraints", "cases", "scatter"}) {
-    const Place other = reading.keys.find(key);
+    const Location other = reading.keys.find(key);
     const auto* list = other.node != nullptr ? other.node->get<Node::List>() : nullptr;
     const auto* object = other.node != nullptr ? other.node->get<Node::Object>() : nullptr;
     if ((list != nullptr && !list->empty()) || (object != nullptr && !object->empty()))

@@ -53,71 +53,79 @@ void DiagramTracer::first_branch() {
   name_events(0);
 }
 
-// Follows a half-branch that was not traced, and its opposite.
+// Whether a half-branch is still to be traced and can be; otherwise notes why the diagram is incomplete.
+bool DiagramTracer::may_trace(const Junction& junction, HalfBranch& half) {
+  if (half.branch >= 0) return false;
+  if (half.untraced.empty() && junction.event < 0)  // beyond a terminal event that became certain only later
+    half.untraced = "the branch that met it ended before reaching it";
+  if (half.untraced.empty() && static_cast<int>(diagram_.branches.size()) >= limits_.branches)
+    half.untraced = "reached the maximum number of branches, " + std::to_string(limits_.branches);
+  if (!half.untraced.empty()) incomplete(half.untraced);
+  return half.untraced.empty();
+}
+
+// The length from a branch point to the first point of a branch that leaves it.
+double DiagramTracer::way_from(const Junction& origin, const Branch& branch) const {
+  if (branch.points.empty()) return 0;
+  const Point& first = branch.points.front();
+  return distance(*with_, joined(origin.u, origin.parameter), joined(first.u, first.parameter));
+}
+
+// The branch point where a branch starts, as an event of that branch: its tangent there comes first.
+Event DiagramTracer::as_event_of(const Junction& origin, const Vector& direction) const {
+  Event event = diagram_.branches[static_cast<std::size_t>(origin.branch)]
+                    .branch.events[static_cast<std::size_t>(origin.event)];
+  event.point.arclength = 0;
+  event.point.tangent = direction;
+  if (!simple(event)) return event;
+  auto& tangents = std::get<BranchPoint>(event.data).tangents;
+  const auto along = [&](const Vector& t) { return std::abs(with_->dot(t, direction)); };
+  std::iter_swap(tangents.begin(),
+                 std::max_element(tangents.begin(), tangents.end(),
+                                  [&](const Vector& a, const Vector& b) { return along(a) < along(b); }));
+  if (with_->dot(tangents.front(), direction) < 0) tangents.front() = -tangents.front();
+  return event;
+}
+
+// Traces a half-branch, unless it is known, and its opposite.
 void DiagramTracer::leave(std::size_t k, std::size_t h) {
   const auto half = [&](std::size_t i) -> HalfBranch& { return diagram_.branch_points[k].half_branches[i]; };
-  if (half(h).branch >= 0) return;
-  if (!half(h).untraced.empty()) return incomplete(half(h).untraced);
-  if (diagram_.branch_points[k].event < 0) {  // beyond a terminal event that became certain only later
-    half(h).untraced = "the branch that met it ended before reaching it";
-    return incomplete(half(h).untraced);
-  }
-  if (static_cast<int>(diagram_.branches.size()) >= limits_.branches) {
-    half(h).untraced = "reached the maximum number of branches, " + std::to_string(limits_.branches);
-    return incomplete(half(h).untraced);
-  }
+  if (!may_trace(diagram_.branch_points[k], half(h))) return;
   const auto forward = enter(k, half(h));
   if (!forward) {
     if (half(h).branch < 0) incomplete(half(h).untraced);
     return;
   }
   const int index = static_cast<int>(diagram_.branches.size());
-  DiagramBranch now;
-  now.depth = diagram_.branch_points[k].depth + 1;
-  now.origin = static_cast<int>(k);
+  const int depth = diagram_.branch_points[k].depth + 1;
   half(h).branch = index;
-  now.branch = follow(*forward, index, now.depth);
-  now.begin = now.branch.stop;
-  const bool closed = now.branch.stop.reason == StopReason::closed;
+  Branch ahead = follow(*forward, index, depth);
+  DiagramBranch now;
+  now.depth = depth;
+  now.origin = static_cast<int>(k);
+  now.begin = ahead.stop;
   diagram_.branches.push_back(std::move(now));
 
-  // The origin between both ways is a point of the branch, and an event as on the branch that met it.
+  const bool closed = ahead.stop.reason == StopReason::closed;
   const Junction origin = diagram_.branch_points[k];
-  const Vector x = joined(origin.u, origin.parameter);
-  Branch ahead = std::move(diagram_.branches.back().branch);
-  const auto way = [&](const Branch& branch) {
-    return branch.points.empty()
-               ? 0
-               : distance(*with_, x, joined(branch.points.front().u, branch.points.front().parameter));
-  };
-  shift(ahead, way(ahead));
+  Event event = as_event_of(origin, half(h).direction);
+  shift(ahead, way_from(origin, ahead));
   Branch whole;
   whole.linear_solver = ahead.linear_solver;
-  Event event = diagram_.branches[static_cast<std::size_t>(origin.branch)]
-                    .branch.events[static_cast<std::size_t>(origin.event)];
-  event.point.arclength = 0;
-  event.point.tangent = half(h).direction;
   const auto opposite = simple(event) ? nearest(origin, -half(h).direction) : std::nullopt;
   if (!closed && opposite && half(*opposite).branch < 0 && !stopped_) {
     diagram_.branches.back().branch = ahead;  // the backward trace may reach it
     if (const auto backward = enter(k, half(*opposite))) {
       half(*opposite).branch = index;
-      whole = follow(*backward, index, diagram_.branches.back().depth);
+      whole = follow(*backward, index, depth);
       diagram_.branches.back().begin = whole.stop;
-      shift(whole, way(whole));
+      shift(whole, way_from(origin, whole));
       reverse(whole);
     } else if (half(*opposite).branch < 0) {
       incomplete(half(*opposite).untraced);
     }
   }
-  auto& tangents = std::get<BranchPoint>(event.data).tangents;
-  if (simple(event)) {
-    const auto along = [&](const Vector& t) { return std::abs(with_->dot(t, half(h).direction)); };
-    std::iter_swap(tangents.begin(),
-                   std::max_element(tangents.begin(), tangents.end(),
-                                    [&](const Vector& a, const Vector& b) { return along(a) < along(b); }));
-    if (with_->dot(tangents.front(), half(h).direction) < 0) tangents.front() = -tangents.front();
-  }
+  // The origin between both ways is a point of the branch, and an event as on the branch that met it.
   whole.points.push_back(event.point);
   if (!closed) whole.events.push_back(std::move(event));
   append(whole, std::move(ahead));

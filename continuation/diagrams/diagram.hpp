@@ -47,8 +47,8 @@ struct Junction {
 /// a branch point, which is then also a point and an event of the branch (of a loop, the last one). The
 /// `falling` and `rising` of a monitor refer to the direction of the trace, away from the origin.
 struct DiagramBranch {
-  Branch branch;  // branch.stop: how it ended forward; closed: a loop, from its origin to it
-  Stop begin;     // how it ended backward; equal to `stop` if it was not traced backward
+  Branch branch;     // branch.stop: how it ended forward; closed: a loop, from its origin to it
+  BranchStop begin;  // how it ended backward; equal to `stop` if it was not traced backward
   int depth = 0;
   int origin = -1;  // index of the branch point; -1: the start
 };

@@ -48,6 +48,9 @@ class DiagramTracer {
 
   void first_branch();
   void leave(std::size_t junction, std::size_t half);
+  bool may_trace(const Junction& junction, HalfBranch& half);
+  double way_from(const Junction& origin, const Branch& branch) const;
+  Event as_event_of(const Junction& origin, const Vector& direction) const;
   Branch follow(const Entry& entry, int branch, int depth);
   Arrival pass(const Event& event, const Entry& entry, int branch, int depth);
   std::size_t meet(const Event& event, int depth);

@@ -64,7 +64,7 @@ std::optional<Entry> DiagramTracer::enter(std::size_t k, HalfBranch& half) {
   const Vector row = with_->border_row(half.direction);
   const Eigen::Index n = x.size() - 1;
   bool inside = false;
-  Place place;
+  CurvePoint place;
   place.tangent.resize(n + 1);
   for (double step = longest_entry * size; step >= shortest_entry * size; step *= entry_reduction) {
     const Vector predicted = x + step * half.direction;

@@ -99,7 +99,7 @@ enum class StopReason {
 
 const char* name(StopReason reason);
 
-struct Stop {
+struct BranchStop {
   StopReason reason = StopReason::boundary;
   double value = 0, limit = 0;  // of the condition of the reason
   std::string message;          // one sentence for the user
@@ -113,7 +113,7 @@ struct Counts {
 struct Branch {
   std::vector<Point> points;
   std::vector<Event> events;  // in the order of arclength
-  Stop stop;
+  BranchStop stop;
   Counts counts;
   std::string linear_solver;  // name of the linear solver used
 

@@ -32,8 +32,8 @@ class Neighbours {
   double parameter_derivative(In w, int k);  // w . dF_pk
 
  private:
-  template <class Place>
-  bool take(const Site& here, double h, Place&& place);
+  template <class CurvePoint>
+  bool take(const Site& here, double h, CurvePoint&& place);
 
   const InnerProblem& inner_;
   Vector scales_;

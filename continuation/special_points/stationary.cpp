@@ -14,7 +14,7 @@ namespace {
 
 struct Definition {
   InnerProblem inner;
-  Quantity quantity;
+  StationaryQuantity quantity;
 
   // dq/dx, n + 1
   void gradient(const Site& at, Out q_x) const {
@@ -277,7 +277,7 @@ const StationaryEvaluator& stationary(const Accepted& now) {
 }  // namespace
 
 std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> problem, int along,
-                                                 Quantity quantity, MakeLinearSolver make_solver) {
+                                                 StationaryQuantity quantity, MakeLinearSolver make_solver) {
   const auto definition = std::make_shared<const Definition>(
       Definition{{std::move(problem), along, std::move(make_solver)}, std::move(quantity)});
   return augmented(
@@ -288,7 +288,7 @@ std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> 
 
 std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int along,
                                      MakeLinearSolver make_solver) {
-  Quantity parameter;
+  StationaryQuantity parameter;
   parameter.gradient = [](Evaluator&, In, In, Out dq_du) { dq_du.setZero(); };
   parameter.parameter_derivative = [along](Evaluator&, In, In, int k) { return k == along ? 1.0 : 0.0; };
   parameter.second_derivative = [](Evaluator&, In, In, In, In, Out du, Out dp) {

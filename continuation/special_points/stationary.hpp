@@ -34,7 +34,7 @@
 namespace arcslip::continuation {
 
 /// A scalar function of the solution. The evaluator is at (u, p).
-struct Quantity {
+struct StationaryQuantity {
   std::function<void(Evaluator& at, In u, In p, Out dq_du)> gradient;            // n
   std::function<double(Evaluator& at, In u, In p, int k)> parameter_derivative;  // dq/dp_k
   /// The gradient of q_u . v + sum_k q_pk r_k with respect to u (n) and all parameters. None: by differences.
@@ -45,7 +45,8 @@ struct Quantity {
 /// p_along) with the same parameters; p[along] is ignored. make_solver: for the bordered systems with B; if
 /// none, the problem's own, or the default for its Jacobian. Throws std::out_of_range for an invalid index.
 std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> problem, int along,
-                                                 Quantity quantity, MakeLinearSolver make_solver = {});
+                                                 StationaryQuantity quantity,
+                                                 MakeLinearSolver make_solver = {});
 
 /// The folds of branches in the parameter `along`.
 std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int along,

@@ -118,7 +118,7 @@ bool ModeCounter::basis() {
   return true;
 }
 
-std::optional<CrossedModes> ModeCounter::between(const Place& from, const Place& to, double length,
+std::optional<CrossedModes> ModeCounter::between(const CurvePoint& from, const CurvePoint& to, double length,
                                                  const Vector& row, const LinearSolver& at_to) {
   row_ = &row;
   at_to_ = &at_to;

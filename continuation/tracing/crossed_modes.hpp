@@ -14,7 +14,7 @@
 
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>
-#include <arcslip/continuation/tracing/place.hpp>
+#include <arcslip/continuation/tracing/curve_point.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -35,8 +35,8 @@ class ModeCounter {
 
   /// Between two points on one smooth piece, `length` apart. row: r of the factors at `to`. Returns nothing
   /// if J cannot be evaluated between them, or another piece of F lies between.
-  std::optional<CrossedModes> between(const Place& from, const Place& to, double length, const Vector& row,
-                                      const LinearSolver& at_to);
+  std::optional<CrossedModes> between(const CurvePoint& from, const CurvePoint& to, double length,
+                                      const Vector& row, const LinearSolver& at_to);
 
  private:
   bool evaluate(const Vector& v, std::uint64_t piece);

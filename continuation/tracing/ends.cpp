@@ -14,7 +14,7 @@ constexpr int window_bisections = 50;
 
 }  // namespace
 
-std::optional<Exit> leaves(const Window& window, const Place& from, const Place& to, double length,
+std::optional<Exit> leaves(const Window& window, const CurvePoint& from, const CurvePoint& to, double length,
                            bool straight) {
   const Eigen::Index n = from.v.size() - 1;
   const double p0 = from.v[n], p1 = to.v[n];
@@ -45,10 +45,10 @@ std::optional<Exit> leaves(const Window& window, const Place& from, const Place&
   return {};
 }
 
-std::optional<Exit> leaves(const Window& window, const Place& here, Trial& trial) {
-  const Place* from = &here;
+std::optional<Exit> leaves(const Window& window, const CurvePoint& here, Trial& trial) {
+  const CurvePoint* from = &here;
   for (std::size_t k = 0; k < trial.corners.size(); ++k) {
-    const Place& to = trial.corners[k].before;
+    const CurvePoint& to = trial.corners[k].before;
     if (const auto found = leaves(window, *from, to, to.arclength - from->arclength, false)) {
       trial.end = to;
       trial.corners.resize(k);
@@ -56,11 +56,11 @@ std::optional<Exit> leaves(const Window& window, const Place& here, Trial& trial
     }
     from = &trial.corners[k].beyond;
   }
-  const Place& end = trial.end;
+  const CurvePoint& end = trial.end;
   return leaves(window, *from, end, end.arclength - from->arclength, trial.kink && trial.corners.empty());
 }
 
-bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orientation, Place& place,
+bool draw_back(Corrector& with, const CurvePoint& from, const Exit& exit, int orientation, CurvePoint& place,
                Vector& row) {
   const Eigen::Index n = place.v.size() - 1;
   const double length = distance(with, from.v, place.v);
@@ -83,9 +83,9 @@ bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orienta
   return true;
 }
 
-bool runs_along(const Corrector& in, const Place& before, const Place& here, double bound) {
+bool runs_along(const Corrector& in, const CurvePoint& before, const CurvePoint& here, double bound) {
   const Eigen::Index n = here.v.size() - 1;
-  const auto change = [&](const Place& at) {
+  const auto change = [&](const CurvePoint& at) {
     return std::abs(bound - at.v[n]) * in.norm_u(at.tangent) / std::abs(at.tangent[n]);
   };
   const double x = std::abs(bound - here.v[n]), x_before = std::abs(bound - before.v[n]);
@@ -94,26 +94,28 @@ bool runs_along(const Corrector& in, const Place& before, const Place& here, dou
   return std::isfinite(now) && std::log(now / then) > least_power * std::log(x / x_before);
 }
 
-std::optional<Stop> limit_reached(const Options& options, const Branch& branch, int unknowns, double size,
-                                  double parameter, double seconds) {
+std::optional<BranchStop> limit_reached(const Options& options, const Branch& branch, int unknowns,
+                                        double size, double parameter, double seconds) {
   if (size > options.largest_state)
-    return Stop{StopReason::state_too_large, size, options.largest_state,
-                "the solution grows without bound near " + text(parameter)};
+    return BranchStop{StopReason::state_too_large, size, options.largest_state,
+                      "the solution grows without bound near " + text(parameter)};
   const long points = branch.counts.points;
   if (points >= options.points)
-    return Stop{StopReason::point_limit, static_cast<double>(points), static_cast<double>(options.points),
-                "reached the maximum number of points, " + std::to_string(options.points)};
+    return BranchStop{StopReason::point_limit, static_cast<double>(points),
+                      static_cast<double>(options.points),
+                      "reached the maximum number of points, " + std::to_string(options.points)};
   if (options.seconds > 0 && seconds >= options.seconds)
-    return Stop{StopReason::time_limit, seconds, options.seconds,
-                "reached the time limit of " + text(options.seconds) + " s"};
+    return BranchStop{StopReason::time_limit, seconds, options.seconds,
+                      "reached the time limit of " + text(options.seconds) + " s"};
   if (options.memory > 0) {
     const auto numbers = 2 * static_cast<std::size_t>(unknowns) + 1;
     const std::size_t each = sizeof(Point) + (options.keep_points ? sizeof(double) * numbers : 0);
     const std::size_t bytes = each * branch.points.size();
     if (bytes >= options.memory)
-      return Stop{StopReason::memory_limit, static_cast<double>(bytes), static_cast<double>(options.memory),
-                  "the points of the branch reached the memory limit of " + std::to_string(options.memory) +
-                      " bytes"};
+      return BranchStop{StopReason::memory_limit, static_cast<double>(bytes),
+                        static_cast<double>(options.memory),
+                        "the points of the branch reached the memory limit of " +
+                            std::to_string(options.memory) + " bytes"};
   }
   return {};
 }
@@ -126,8 +128,8 @@ constexpr double rounding_share = 10;  // of the corrector's: closer solutions a
 
 }  // namespace
 
-bool may_come_home(const Corrector& in, const Place& start, const Place& from, const Place& to, double length,
-                   double largest_angle, Vector& v) {
+bool may_come_home(const Corrector& in, const CurvePoint& start, const CurvePoint& from, const CurvePoint& to,
+                   double length, double largest_angle, Vector& v) {
   if (from.arclength == 0) return false;
   const auto ahead = [&](const Vector& place) { return in.dot(start.v - place, start.tangent); };
   double lower = 0, upper = 1, a = ahead(from.v), b = ahead(to.v);
@@ -144,7 +146,7 @@ bool may_come_home(const Corrector& in, const Place& start, const Place& from, c
   return distance(in, v, start.v) <= beside * length;
 }
 
-double rounding_of_home(const Corrector& in, const Place& start, double rounding_level) {
+double rounding_of_home(const Corrector& in, const CurvePoint& start, double rounding_level) {
   const double p = std::abs(start.v[start.v.size() - 1]) / in.parameter_scale();
   return rounding_share * rounding_level * (1 + in.norm_u(start.v) + p);
 }

@@ -3,7 +3,7 @@
 
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/place.hpp>
+#include <arcslip/continuation/tracing/curve_point.hpp>
 #include <arcslip/continuation/tracing/trial.hpp>
 
 #include <optional>
@@ -23,39 +23,39 @@ struct Exit {
 
 /// Where the cubic between two points, `length` apart, first leaves the window. straight: the chord instead,
 /// as for a step with a kink. Nothing if it stays inside.
-std::optional<Exit> leaves(const Window& window, const Place& from, const Place& to, double length,
+std::optional<Exit> leaves(const Window& window, const CurvePoint& from, const CurvePoint& to, double length,
                            bool straight);
 
 /// The same of a step from `here`, section by section: trial.end becomes the end of the section in which it
 /// leaves, and later corners are dropped.
-std::optional<Exit> leaves(const Window& window, const Place& here, Trial& trial);
+std::optional<Exit> leaves(const Window& window, const CurvePoint& here, Trial& trial);
 
 /// Moves `place` from beyond the window back to the bound, with its tangent. False if this branch has no such
 /// solution: none is found, it is farther away than the length of the step, or its determinant has another
 /// sign than `orientation` (0: unknown). row: work space, n + 1; on return the border row of the factors.
-bool draw_back(Corrector& with, const Place& from, const Exit& exit, int orientation, Place& place,
+bool draw_back(Corrector& with, const CurvePoint& from, const Exit& exit, int orientation, CurvePoint& place,
                Vector& row);
 
 /// Whether a branch with these last two points approaches a bound of the window asymptotically: with the
 /// distance x = |p - bound|, x |du/dp| is the change of u while x decreases by the factor e. Towards a point
 /// at the bound it decreases like a power of x, 1/2 at a fold; if u goes to infinity it does not.
-bool runs_along(const Corrector& in, const Place& before, const Place& here, double bound);
+bool runs_along(const Corrector& in, const CurvePoint& before, const CurvePoint& here, double bound);
 
 // The limits of a trace: state, points, time and memory.
 
 /// The limit reached, if any. size: |u| in scales, at the parameter; seconds: since the trace started.
-std::optional<Stop> limit_reached(const Options& options, const Branch& branch, int unknowns, double size,
-                                  double parameter, double seconds);
+std::optional<BranchStop> limit_reached(const Options& options, const Branch& branch, int unknowns,
+                                        double size, double parameter, double seconds);
 
 // Closed branches: the return to the start.
 
 /// Whether the start may lie on the step between two points, `length` apart. v: set to the point where
 /// their cubic intersects the plane through the start normal to its tangent. largest_angle: between the
 /// tangents there.
-bool may_come_home(const Corrector& in, const Place& start, const Place& from, const Place& to, double length,
-                   double largest_angle, Vector& v);
+bool may_come_home(const Corrector& in, const CurvePoint& start, const CurvePoint& from, const CurvePoint& to,
+                   double length, double largest_angle, Vector& v);
 
 /// The distance below which two solutions near the start are the same. rounding_level: of the corrector.
-double rounding_of_home(const Corrector& in, const Place& start, double rounding_level);
+double rounding_of_home(const Corrector& in, const CurvePoint& start, double rounding_level);
 
 }  // namespace arcslip::continuation

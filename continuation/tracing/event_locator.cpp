@@ -17,7 +17,7 @@ constexpr double smallest_kink = 1e-4;  // rad
 
 // An extremum between two points that is not searched for lies within the intersection of the tangents to the
 // quantity at both ends.
-double farthest_extreme(std::size_t monitor, const Place& from, const Place& to) {
+double farthest_extreme(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) {
   const double a = from.monitors[monitor], b = to.monitors[monitor], length = to.arclength - from.arclength;
   const double q = from.quantities[monitor], next = to.quantities[monitor];
   return q + a * std::clamp((next - q - b * length) / (a - b), 0.0, length);
@@ -50,7 +50,7 @@ Corrector& EventLocator::probe() {
   return *probe_;
 }
 
-std::vector<LocatedEvent> EventLocator::between(const Place& from, const Place& to) {
+std::vector<LocatedEvent> EventLocator::between(const CurvePoint& from, const CurvePoint& to) {
   return gather(&EventLocator::find, from, to);
 }
 
@@ -62,7 +62,7 @@ std::vector<LocatedEvent> EventLocator::across(const Corner& corner) {
   return found;
 }
 
-std::vector<LocatedEvent> EventLocator::gather(Find by, const Place& from, const Place& to) {
+std::vector<LocatedEvent> EventLocator::gather(Find by, const CurvePoint& from, const CurvePoint& to) {
   std::vector<LocatedEvent> found;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     const auto before = static_cast<std::ptrdiff_t>(found.size());
@@ -93,7 +93,7 @@ void EventLocator::judge(Course& course, double q, std::vector<LocatedEvent>& ce
   course.waiting.reset();
 }
 
-void EventLocator::follow(std::size_t monitor, Find by, const Place& from, const Place& to,
+void EventLocator::follow(std::size_t monitor, Find by, const CurvePoint& from, const CurvePoint& to,
                           std::vector<LocatedEvent>& certain) {
   Course& course = courses_[monitor];
   const double q = from.quantities[monitor], next = to.quantities[monitor];
@@ -124,7 +124,8 @@ void EventLocator::follow(std::size_t monitor, Find by, const Place& from, const
   judge(course, next, certain);
 }
 
-std::optional<LocatedEvent> EventLocator::find(std::size_t monitor, const Place& from, const Place& to) {
+std::optional<LocatedEvent> EventLocator::find(std::size_t monitor, const CurvePoint& from,
+                                               const CurvePoint& to) {
   return turns(from, to) ? locate_beside_kink(monitor, from, to) : locate(monitor, from, to);
 }
 
@@ -140,30 +141,31 @@ void EventLocator::describe(std::size_t monitor, LocatedEvent& found) {
   if (const auto now = look_at(found.place)) found.event.data = call(by.describe, by, *now);
 }
 
-std::optional<Accepted> EventLocator::look_at(const Place& event) {
+std::optional<Accepted> EventLocator::look_at(const CurvePoint& event) {
   if (!probe().linearize(event.v, probe().border_row(event.tangent))) return std::nullopt;
   probe().move_to(event.v);
   return accepted(probe(), event);
 }
 
-bool EventLocator::changes_sign(const Place& from, const Place& to) const {
+bool EventLocator::changes_sign(const CurvePoint& from, const CurvePoint& to) const {
   for (std::size_t m = 0; m < monitors_.size(); ++m)
     if (changes(m, from, to, Crossing::any)) return true;
   return false;
 }
 
-bool EventLocator::changes(std::size_t monitor, const Place& from, const Place& to, Crossing wanted) const {
+bool EventLocator::changes(std::size_t monitor, const CurvePoint& from, const CurvePoint& to,
+                           Crossing wanted) const {
   const double a = from.monitors[monitor], b = to.monitors[monitor];
   const bool falling = a > 0 && b <= 0, rising = a < 0 && b >= 0;
   return (falling && wanted != Crossing::rising) || (rising && wanted != Crossing::falling);
 }
 
-bool EventLocator::turns(const Place& from, const Place& to) {
+bool EventLocator::turns(const CurvePoint& from, const CurvePoint& to) {
   return to.piece != from.piece &&
          probe().dot(to.tangent, from.tangent) < std::cos(options_.step.largest_angle);
 }
 
-Event EventLocator::event(std::size_t monitor, const Place& place, double value,
+Event EventLocator::event(std::size_t monitor, const CurvePoint& place, double value,
                           const Correction& correction) const {
   Event result;
   result.monitor = monitors_[monitor].name;
@@ -187,19 +189,107 @@ constexpr double spreads = 2;               // of the samples: more is not round
 constexpr double spreads_at_kink = 8;       // of two samples
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
+// The value of a monitor at the share s of a section, corrected onto the branch from the cubic between its
+// ends.
+class OnSection {
+ public:
+  OnSection(Corrector& probe, const Monitor& monitor, const CurvePoint& from, const CurvePoint& to,
+            double largest_angle)
+      : probe_(probe),
+        monitor_(monitor),
+        from_(from),
+        to_(to),
+        length_(to.arclength - from.arclength),
+        chord_(to.v - from.v),
+        row_(probe.border_row(chord_ / length_)),
+        least_along_(length_ * std::cos(std::min(2 * largest_angle, steepest))),
+        place_(to) {}
+
+  double operator()(double s) {
+    hermite(from_.v, from_.tangent, to_.v, to_.tangent, length_, s, place_.v);
+    correction_ = probe_.correct(place_.v, row_, factors_);
+    if (!correction_.converged) correction_ = probe_.correct(place_.v, row_, false);
+    // A tangent from factors near the solution may be less accurate than the zero requires.
+    if (!correction_.converged ||
+        (correction_.last > linearized_there && !probe_.linearize(place_.v, row_)) || !settle(probe_, place_))
+      return fail();
+    factors_ = true;
+    const bool smooth = to_.piece == from_.piece && place_.piece == from_.piece;
+    if (smooth && probe_.dot(place_.tangent, chord_) < least_along_) return fail();  // on another branch
+    place_.arclength = from_.arclength + distance(probe_, from_.v, place_.v);
+    const double f = value_of(monitor_, accepted(probe_, place_));
+    failed_ = std::isnan(f);
+    took(f, place_.piece);
+    return f;
+  }
+
+  /// The monitored quantity at the last place.
+  double quantity() { return quantity_of(monitor_, accepted(probe_, place_)); }
+
+  /// Notes the piece of a value: whether the last values of either sign, the ends of the bracket, lie on one.
+  void took(double f, std::uint64_t piece) { (f > 0 ? positive_piece_ : negative_piece_) = piece; }
+  bool changes_piece() const { return positive_piece_ != negative_piece_; }
+
+  bool failed() const { return failed_; }
+  const CurvePoint& place() const { return place_; }
+  const Correction& correction() const { return correction_; }
+
+  /// Of s, to locate a zero to the tolerances in p and u.
+  double tolerance(double in_p) const {
+    const Eigen::Index n = to_.v.size() - 1;
+    const double p_size = std::max(std::abs(to_.v[n]), 1e-300);
+    const double u_size = std::max(probe_.norm_u(to_.v), 1e-300);
+    const double by_p = in_p * p_size / std::max(std::abs(chord_[n]), 1e-300);
+    const double by_u = state_tolerance * u_size / std::max(probe_.norm_u(chord_), 1e-300);
+    return std::clamp(std::min(by_p, by_u), finest_share, coarsest_share);
+  }
+
+ private:
+  double fail() {
+    failed_ = true;
+    return 0;
+  }
+
+  Corrector& probe_;
+  const Monitor& monitor_;
+  const CurvePoint &from_, &to_;
+  double length_;
+  Vector chord_, row_;
+  double least_along_;
+  CurvePoint place_;
+  Correction correction_;
+  bool factors_ = false, failed_ = false;
+  std::uint64_t positive_piece_ = 0, negative_piece_ = 0;
+};
+
+// The rounding of a quantity next to its extremum at s: its spread over a part of the section in which it
+// hardly changes.
+double spread_beside(OnSection& value, double s, double extremum) {
+  double lowest = extremum, highest = lowest;
+  for (int k = -samples_beside; k <= samples_beside && !value.failed(); ++k) {
+    value(s + sample_share * k);
+    const double q = value.quantity();
+    lowest = std::min(lowest, q);
+    highest = std::max(highest, q);
+  }
+  const double representable = std::numeric_limits<double>::epsilon() * std::abs(extremum);
+  return spreads * std::max(highest - lowest, representable);
+}
+
 }  // namespace
 
 // If the corrector fails between the points, the one with the monitor nearer to zero represents the event.
-LocatedEvent EventLocator::nearer_end(std::size_t monitor, const Place& from, const Place& to) const {
-  const Place& end = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
+LocatedEvent EventLocator::nearer_end(std::size_t monitor, const CurvePoint& from,
+                                      const CurvePoint& to) const {
+  const CurvePoint& end = std::abs(from.monitors[monitor]) < std::abs(to.monitors[monitor]) ? from : to;
   Event found = event(monitor, end, end.monitors[monitor], {});
   found.located = false;
   return {std::move(found), end, end.quantities[monitor]};
 }
 
 // A quantity is the same on both sides of a kink, but for its rounding.
-std::optional<LocatedEvent> EventLocator::at_kink(std::size_t monitor, const Place& kink,
-                                                  const Place& beyond) {
+std::optional<LocatedEvent> EventLocator::at_kink(std::size_t monitor, const CurvePoint& kink,
+                                                  const CurvePoint& beyond) {
   Event found = event(monitor, kink, kink.monitors[monitor], {});
   found.nonsmooth = true;
   LocatedEvent result{std::move(found), kink, kink.quantities[monitor]};
@@ -210,15 +300,15 @@ std::optional<LocatedEvent> EventLocator::at_kink(std::size_t monitor, const Pla
   return result;
 }
 
-std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor, const Place& from,
-                                                             const Place& to) {
+std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor, const CurvePoint& from,
+                                                             const CurvePoint& to) {
   Corrector& probe = this->probe();
-  Place kink;
+  CurvePoint kink;
   Correction correction;
   if (!locate_kink(probe, from, to.arclength - from.arclength, kink, correction))
     return nearer_end(monitor, from, to);
   const double ahead = beyond_kink * (to.arclength - kink.arclength);
-  Place beyond = to;
+  CurvePoint beyond = to;
   beyond.v = kink.v + ahead * to.tangent;
   if (!probe.correct(beyond.v, probe.border_row(to.tangent), false).converged || !settle(probe, beyond))
     return nearer_end(monitor, from, to);
@@ -234,77 +324,32 @@ std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor
   return at_kink(monitor, kink, beyond);
 }
 
-std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Place& from, const Place& to) {
-  Corrector& probe = this->probe();
-  const double length = to.arclength - from.arclength;
-  const Vector chord = to.v - from.v;
-  const Vector row = probe.border_row(chord / length);
-  Place place = to;
-  Correction correction;
-  bool factors = false, failed = false;
-  const bool smooth = to.piece == from.piece;
-  const double least_along = length * std::cos(std::min(2 * options_.step.largest_angle, steepest));
-  std::uint64_t positive_piece = 0, negative_piece = 0;  // of the last value of each sign: the bracket's ends
-  const auto value = [&](double s) {
-    hermite(from.v, from.tangent, to.v, to.tangent, length, s, place.v);
-    correction = probe.correct(place.v, row, factors);
-    if (!correction.converged) correction = probe.correct(place.v, row, false);
-    // A tangent from factors near the solution may be less accurate than the zero requires.
-    if (!correction.converged || (correction.last > linearized_there && !probe.linearize(place.v, row)) ||
-        !settle(probe, place)) {
-      failed = true;
-      return 0.0;
-    }
-    factors = true;
-    if (smooth && place.piece == from.piece && probe.dot(place.tangent, chord) < least_along) {
-      failed = true;  // on another branch
-      return 0.0;
-    }
-    place.arclength = from.arclength + distance(probe, from.v, place.v);
-    const double f = value_of(monitors_[monitor], accepted(probe, place));
-    failed = std::isnan(f);
-    (f > 0 ? positive_piece : negative_piece) = place.piece;
-    return f;
-  };
-  const Eigen::Index n = to.v.size() - 1;
-  const double p_size = std::max(std::abs(to.v[n]), 1e-300);
-  const double u_size = std::max(probe.norm_u(to.v), 1e-300);
-  const double in_p = options_.event_tolerance * p_size / std::max(std::abs(chord[n]), 1e-300);
-  const double in_u = state_tolerance * u_size / std::max(probe.norm_u(chord), 1e-300);
-  const double tolerance = std::clamp(std::min(in_p, in_u), finest_share, coarsest_share);
+std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const CurvePoint& from,
+                                                 const CurvePoint& to) {
+  OnSection value(probe(), monitors_[monitor], from, to, options_.step.largest_angle);
   const double a = from.monitors[monitor], b = to.monitors[monitor];
-  double begin = 0, at_begin = from_crossing_ ? a : value(0);      // matrices are singular at a crossing
-  while (!failed && (at_begin > 0) == (b > 0) && at_begin != 0) {  // the sign of `from` was one of rounding
+  double begin = 0, at_begin = from_crossing_ ? a : value(0);  // matrices are singular at a crossing
+  while (!value.failed() && (at_begin > 0) == (b > 0) && at_begin != 0) {  // the sign of `from` was rounding
     if (begin <= -1) return std::nullopt;
     begin = begin == 0 ? -0.25 : 2 * begin;
     at_begin = value(begin);
   }
-  if (failed) return nearer_end(monitor, from, to);
-  (b > 0 ? positive_piece : negative_piece) = to.piece;
-  const Root root = find_root(value, begin, at_begin, 1, b, tolerance);
-  if (failed) return nearer_end(monitor, from, to);
+  if (value.failed()) return nearer_end(monitor, from, to);
+  value.took(b, to.piece);
+  const auto at = [&](double s) { return value(s); };
+  const Root root = find_root(at, begin, at_begin, 1, b, value.tolerance(options_.event_tolerance));
+  if (value.failed()) return nearer_end(monitor, from, to);
   const double left = value(root.x);
-  if (failed) return nearer_end(monitor, from, to);
-  Event found = event(monitor, place, left, correction);
-  found.nonsmooth =
-      positive_piece != negative_piece &&
-      std::max(std::abs(root.f_lower), std::abs(root.f_upper)) > nonsmooth_share * std::abs(b - a);
-  LocatedEvent result{std::move(found), place};
-  if (!monitors_[monitor].quantity) return result;
-  result.quantity = quantity_of(monitors_[monitor], accepted(probe, place));
-  if (std::max(std::abs(a), std::abs(b)) * length >
-      options_.newton.rounding_level * std::abs(result.quantity))
-    return result;
-  double lowest = result.quantity, highest = lowest;
-  for (int k = -samples_beside; k <= samples_beside && !failed; ++k) {
-    value(root.x + sample_share * k);
-    const double q = quantity_of(monitors_[monitor], accepted(probe, place));
-    lowest = std::min(lowest, q);
-    highest = std::max(highest, q);
-  }
-  const double representable = std::numeric_limits<double>::epsilon() * std::abs(result.quantity);
-  result.rounding = spreads * std::max(highest - lowest, representable);
-  return result;
+  if (value.failed()) return nearer_end(monitor, from, to);
+  LocatedEvent found{event(monitor, value.place(), left, value.correction()), value.place()};
+  found.event.nonsmooth = value.changes_piece() && std::max(std::abs(root.f_lower), std::abs(root.f_upper)) >
+                                                       nonsmooth_share * std::abs(b - a);
+  if (!monitors_[monitor].quantity) return found;
+  found.quantity = value.quantity();
+  const double change = std::max(std::abs(a), std::abs(b)) * (to.arclength - from.arclength);
+  if (change <= options_.newton.rounding_level * std::abs(found.quantity))
+    found.rounding = spread_beside(value, root.x, found.quantity);
+  return found;
 }
 
 }  // namespace arcslip::continuation

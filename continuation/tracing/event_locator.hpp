@@ -15,7 +15,7 @@
 // A monitor may have zeros that are not events (Monitor::is_event). The events located in a step do not
 // depend on the steps before it: the probe is reset.
 
-#include <arcslip/continuation/tracing/place.hpp>
+#include <arcslip/continuation/tracing/curve_point.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 
 #include <memory>
@@ -39,65 +39,69 @@ class EventLocator {
   }
 
   /// Whether any monitor changes sign, in either direction.
-  bool changes_sign(const Place& from, const Place& to) const;
+  bool changes_sign(const CurvePoint& from, const CurvePoint& to) const;
 
   /// The kink at which the piece of `from` ends, within `length` along its tangent. towards: the direction
   /// beyond, if the signs of determinants are not known. Nothing if none is found.
-  std::optional<Corner> corner(const Place& from, double length, const Vector& towards);
+  std::optional<Corner> corner(const CurvePoint& from, double length, const Vector& towards);
 
   /// Whether any monitor needs the kinks of a step.
   bool looks_for_kinks() const;
 
   /// The kinks of a step that were found, in order from `from`; empty if no monitor needs them.
-  std::vector<Corner> corners(const Place& from, const Place& to);
+  std::vector<Corner> corners(const CurvePoint& from, const CurvePoint& to);
 
   /// The points of a smooth section at which the part of a quantity changes (Monitor::part), in order.
-  std::vector<Corner> divisions(const Place& from, const Place& to);
+  std::vector<Corner> divisions(const CurvePoint& from, const CurvePoint& to);
 
   /// The events that became certain with this section, in order of arclength. The caller sets `after`.
-  std::vector<LocatedEvent> between(const Place& from, const Place& to);
+  std::vector<LocatedEvent> between(const CurvePoint& from, const CurvePoint& to);
 
   /// The same for a section with a branch point: matrices are singular there, and a zero next to it would be
   /// sought on either branch. So its two sides are searched separately, and a monitor that vanishes at the
   /// branch point has its zero there.
-  std::vector<LocatedEvent> past(const Place& from, const Place& crossing, const Place& to);
+  std::vector<LocatedEvent> past(const CurvePoint& from, const CurvePoint& crossing, const CurvePoint& to);
 
   /// The events at a kink.
   std::vector<LocatedEvent> across(const Corner& corner);
 
   /// The branch point between two points of different orientation. Nothing if no branches cross: then `to` is
   /// on another branch. The event belongs to the first branch_point monitor, or has no name.
-  std::optional<LocatedEvent> branch_point(const Place& from, const Place& to);
+  std::optional<LocatedEvent> branch_point(const CurvePoint& from, const CurvePoint& to);
 
   /// The same for a rank loss of [J F_p] of 2 or more.
-  std::optional<LocatedEvent> multiple_point(const Place& from, const Place& to, int rank_loss);
+  std::optional<LocatedEvent> multiple_point(const CurvePoint& from, const CurvePoint& to, int rank_loss);
 
   /// An event as passed to monitors and observers: evaluator and factors are those at the event, until the
   /// next call. Nothing if it cannot be linearized.
-  std::optional<Accepted> look_at(const Place& event);
+  std::optional<Accepted> look_at(const CurvePoint& event);
 
  private:
-  bool changes(std::size_t monitor, const Place& from, const Place& to, Crossing wanted) const;
-  bool turns(const Place& from, const Place& to);
-  std::optional<LocatedEvent> find(std::size_t monitor, const Place& from, const Place& to);
-  std::optional<LocatedEvent> beyond_crossing(std::size_t monitor, const Place& crossing, const Place& to);
-  std::optional<LocatedEvent> at_kink(std::size_t monitor, const Place& kink, const Place& beyond);
-  std::optional<LocatedEvent> locate(std::size_t monitor, const Place& from, const Place& to);
-  std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const Place& from, const Place& to);
-  std::optional<LocatedEvent> crossing_event(const Place& from, const Place& to, const Vector& x,
+  bool changes(std::size_t monitor, const CurvePoint& from, const CurvePoint& to, Crossing wanted) const;
+  bool turns(const CurvePoint& from, const CurvePoint& to);
+  std::optional<LocatedEvent> find(std::size_t monitor, const CurvePoint& from, const CurvePoint& to);
+  std::optional<LocatedEvent> beyond_crossing(std::size_t monitor, const CurvePoint& crossing,
+                                              const CurvePoint& to);
+  std::optional<LocatedEvent> at_kink(std::size_t monitor, const CurvePoint& kink, const CurvePoint& beyond);
+  std::optional<LocatedEvent> locate(std::size_t monitor, const CurvePoint& from, const CurvePoint& to);
+  std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const CurvePoint& from,
+                                                 const CurvePoint& to);
+  std::optional<LocatedEvent> crossing_event(const CurvePoint& from, const CurvePoint& to, const Vector& x,
                                              BranchPoint&& branches);
-  LocatedEvent nearer_end(std::size_t monitor, const Place& from, const Place& to) const;
+  LocatedEvent nearer_end(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) const;
   LocatedEvent kink_event(const Monitor& monitor, const Corner& corner) const;
-  std::optional<Corner> division(const Place& from, double length);
-  bool look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards, Place& beyond);
+  std::optional<Corner> division(const CurvePoint& from, double length);
+  bool look_beyond(const CurvePoint& kink, double way, bool is_next_to_it, const Vector& towards,
+                   CurvePoint& beyond);
   bool is_event(std::size_t monitor, const LocatedEvent& found);
   void describe(std::size_t monitor, LocatedEvent& found);
-  Event event(std::size_t monitor, const Place& place, double value, const Correction& correction) const;
+  Event event(std::size_t monitor, const CurvePoint& place, double value, const Correction& correction) const;
   Corrector& probe();
 
-  using Find = std::optional<LocatedEvent> (EventLocator::*)(std::size_t, const Place&, const Place&);
-  std::vector<LocatedEvent> gather(Find by, const Place& from, const Place& to);
-  void follow(std::size_t monitor, Find by, const Place& from, const Place& to,
+  using Find = std::optional<LocatedEvent> (EventLocator::*)(std::size_t, const CurvePoint&,
+                                                             const CurvePoint&);
+  std::vector<LocatedEvent> gather(Find by, const CurvePoint& from, const CurvePoint& to);
+  void follow(std::size_t monitor, Find by, const CurvePoint& from, const CurvePoint& to,
               std::vector<LocatedEvent>& certain);
   void judge(Course& course, double q, std::vector<LocatedEvent>& certain);
 

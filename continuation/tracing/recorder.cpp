@@ -27,14 +27,14 @@ std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found,
 
 }  // namespace
 
-void Recorder::keep(const Place& place, const Correction& correction) {
+void Recorder::keep(const CurvePoint& place, const Correction& correction) {
   Point kept = point(place, correction);
   if (!options_.keep_points) kept.u = kept.tangent = {};
   s_.branch.points.push_back(std::move(kept));
   ++s_.branch.counts.points;
 }
 
-void Recorder::warn_of_undefined(const Place& place) {
+void Recorder::warn_of_undefined(const CurvePoint& place) {
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!std::isnan(place.monitors[m]) && !std::isnan(place.quantities[m])) continue;
     const std::string start = "the monitor \"" + monitors_[m].name + "\" is not a number at ";
@@ -46,7 +46,7 @@ void Recorder::warn_of_undefined(const Place& place) {
 
 bool Recorder::events_of(Trial& trial) {
   bool go_on = true;
-  const Place* from = &s_.here;
+  const CurvePoint* from = &s_.here;
   for (const Corner& corner : trial.corners) {
     if (!go_on || terminal_) break;
     go_on = pass(*from, corner);
@@ -63,8 +63,8 @@ bool Recorder::events_of(Trial& trial) {
 
 // Moves to a kink, from the start of a section, and across it. A visible corner becomes a point of
 // the branch.
-bool Recorder::pass(const Place& from, const Corner& corner) {
-  const Place& kink = corner.before;
+bool Recorder::pass(const CurvePoint& from, const Corner& corner) {
+  const CurvePoint& kink = corner.before;
   bool go_on = report(events_.between(from, kink));
   if (!go_on || terminal_) return go_on;
   go_on = report(events_.across(corner));

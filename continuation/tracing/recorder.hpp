@@ -27,23 +27,23 @@ class Recorder {
         events_(events) {}
 
   /// A point of the branch.
-  void keep(const Place& place, const Correction& correction);
+  void keep(const CurvePoint& place, const Correction& correction);
 
   /// Where a monitor is NaN, its zeros are missed: a warning of the branch, once for each monitor.
-  void warn_of_undefined(const Place& place);
+  void warn_of_undefined(const CurvePoint& place);
 
   /// The events of a step from the last point, section by section, with those of its corners, and the branch
   /// point on the way. False: the observer said stop.
   bool events_of(Trial& trial);
 
   /// The first terminal event, if one was met: the branch ends there.
-  const std::optional<Place>& terminal() const { return terminal_; }
+  const std::optional<CurvePoint>& terminal() const { return terminal_; }
 
   /// The last point to the observer. False: it said stop.
   bool show_last_point();
 
  private:
-  bool pass(const Place& from, const Corner& corner);
+  bool pass(const CurvePoint& from, const Corner& corner);
   bool report(std::vector<LocatedEvent>&& found);
   const Event* add(Event&& event);
 
@@ -53,7 +53,7 @@ class Recorder {
   State& s_;
   Corrector& main_;
   EventLocator& events_;
-  std::optional<Place> terminal_;
+  std::optional<CurvePoint> terminal_;
 };
 
 }  // namespace arcslip::continuation

@@ -29,7 +29,7 @@ void Resolution::measure_curve(Trial& trial) {
   trial.other_piece_between = false;
   if (!(options_.step.curve_tolerance > 0)) return;
   double largest = 0;
-  trial.all_sections(s_.here, [&](const Place& from, const Place& to) {
+  trial.all_sections(s_.here, [&](const CurvePoint& from, const CurvePoint& to) {
     if (from.piece == to.piece)
       largest = std::max(largest, curve_error(from, trial, to));
     else if (looks_for_kinks_)
@@ -40,7 +40,7 @@ void Resolution::measure_curve(Trial& trial) {
 }
 
 // The error of one cubic: in its middle, where it is largest up to the variation of the fourth derivative.
-double Resolution::curve_error(const Place& from, Trial& trial, const Place& to) {
+double Resolution::curve_error(const CurvePoint& from, Trial& trial, const CurvePoint& to) {
   const double size = std::max({main_.norm_u(from.v), main_.norm_u(to.v), smallest_relevant_curve});
   const double allowed = middle_share * options_.step.curve_tolerance * size;
   const double length = distance(main_, from.v, to.v);
@@ -61,15 +61,15 @@ bool Resolution::hides_a_piece(const Trial& trial) {
 bool Resolution::tells_quantities(Trial& trial) {
   trial.chord_error = 0;
   if (stretch_is_short(unresolved_share)) return true;
-  const bool all =
-      trial.all_sections(s_.here, [&](const Place& from, const Place& to) { return tells(from, to, trial); });
+  const bool all = trial.all_sections(
+      s_.here, [&](const CurvePoint& from, const CurvePoint& to) { return tells(from, to, trial); });
   if (!all) begin_stretch(trial.length);
   return all;
 }
 
 // The same for one section. The bend of the slope between its ends follows from the change of the quantity,
 // and from the preceding slope.
-bool Resolution::tells(const Place& from, const Place& to, Trial& trial) const {
+bool Resolution::tells(const CurvePoint& from, const CurvePoint& to, Trial& trial) const {
   const double length = to.arclength - from.arclength;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!monitors_[m].quantity) continue;
@@ -101,7 +101,8 @@ bool Resolution::tells(const Place& from, const Place& to, Trial& trial) const {
 // Deviation of the curve of a quantity q over p from its chord in a step, relative to q along q or to p along
 // p, whichever is less, as on logarithmic axes. The middle of three points at ds/2 is off the chord by a
 // parallelogram of the slopes at the ends.
-double Resolution::chord_departure(const Place& from, const Place& to, std::size_t m, double length) const {
+double Resolution::chord_departure(const CurvePoint& from, const CurvePoint& to, std::size_t m,
+                                   double length) const {
   const Eigen::Index n = to.v.size() - 1;
   const double area =
       std::abs(from.tangent[n] * to.monitors[m] - to.tangent[n] * from.monitors[m]) * length * length / 8;

@@ -43,9 +43,9 @@ class Resolution {
   void begin_stretch(double length);
 
  private:
-  double curve_error(const Place& from, Trial& trial, const Place& to);
-  bool tells(const Place& from, const Place& to, Trial& trial) const;
-  double chord_departure(const Place& from, const Place& to, std::size_t m, double length) const;
+  double curve_error(const CurvePoint& from, Trial& trial, const CurvePoint& to);
+  bool tells(const CurvePoint& from, const CurvePoint& to, Trial& trial) const;
+  double chord_departure(const CurvePoint& from, const CurvePoint& to, std::size_t m, double length) const;
 
   const Options& options_;
   const std::vector<Monitor>& monitors_;

@@ -141,7 +141,7 @@ void fields(Visit&& visit, auto& x) {
     visit("monitor", x.monitor), visit("point", x.point), visit("value", x.value);
     visit("nonsmooth", x.nonsmooth), visit("located", x.located), visit("after", x.after);
     visit("data", x.data);
-  } else if constexpr (is<T, Stop>) {
+  } else if constexpr (is<T, BranchStop>) {
     visit("reason", x.reason), visit("value", x.value), visit("limit", x.limit);
     visit("message", x.message);
   } else if constexpr (is<T, Counts>) {
@@ -151,7 +151,7 @@ void fields(Visit&& visit, auto& x) {
     visit("points", x.points), visit("events", x.events), visit("stop", x.stop), visit("counts", x.counts);
     visit("linear_solver", x.linear_solver);
     if (visit.holds("warnings")) visit("warnings", x.warnings);  // absent in states of earlier versions
-  } else if constexpr (is<T, Place>) {
+  } else if constexpr (is<T, CurvePoint>) {
     visit("v", x.v), visit("tangent", x.tangent), visit("arclength", x.arclength);
     visit("orientation", x.orientation), visit("piece", x.piece), visit("monitors", x.monitors);
     visit("quantities", x.quantities);

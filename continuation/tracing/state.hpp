@@ -4,7 +4,7 @@
 
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/continuation/tracing/place.hpp>
+#include <arcslip/continuation/tracing/curve_point.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -16,7 +16,7 @@ namespace arcslip::continuation {
 /// An event and its place.
 struct LocatedEvent {
   Event event;
-  Place place;
+  CurvePoint place;
   double quantity = 0, rounding = 0;  // q and r of the quantity whose slope the monitor is
 };
 
@@ -30,9 +30,9 @@ struct Course {
 struct State {
   Branch branch;
   int free = 0, direction = 1;
-  Vector p;     // all parameters; the free one at its start value
-  Place start;  // the first point
-  Place here, before;
+  Vector p;          // all parameters; the free one at its start value
+  CurvePoint start;  // the first point
+  CurvePoint here, before;
   bool has_before = false;  // so that the cubic predictor applies
   bool begun = false, ended = false;
   double step = 0, last_step = 0;  // to try next; from `before` to `here`

@@ -29,15 +29,15 @@ constexpr double singular_bound = 1e-6;  // relative to p: a singular bound this
 
 // Both tangents point the same way in p, but p changed the other way: another branch, or two folds in
 // one step.
-bool went_back(const Place& from, const Place& to) {
+bool went_back(const CurvePoint& from, const CurvePoint& to) {
   const Eigen::Index n = to.v.size() - 1;
   const double a = from.tangent[n], b = to.tangent[n], dp = to.v[n] - from.v[n];
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(from.v[n]);
 }
 
 // If pieces of F meet there, or the branch point is not simple.
-LocatedEvent unlocated_branch_point(const std::vector<Monitor>& monitors, const Place& from,
-                                    const Place& to) {
+LocatedEvent unlocated_branch_point(const std::vector<Monitor>& monitors, const CurvePoint& from,
+                                    const CurvePoint& to) {
   LocatedEvent found;
   for (const Monitor& monitor : monitors)
     if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
@@ -82,7 +82,7 @@ bool Tracer::Impl::step() try {
 // Predicts, corrects, and asks what a step has to keep to be accepted: one branch, the length of dp, the
 // curve, the quantities.
 Tracer::Impl::Outcome Tracer::Impl::attempt() {
-  Place& end = trial_.end;
+  CurvePoint& end = trial_.end;
   trial_.begin();
   control_.predict(end.v);
   main_.border_row(s_.here.tangent, row_);
@@ -118,7 +118,7 @@ Tracer::Impl::Outcome Tracer::Impl::attempt() {
   end.arclength = s_.here.arclength + chord;
   trial_.corners = events_.corners(s_.here, end);
   if (!trial_.corners.empty()) {
-    const Place& last = trial_.corners.back().beyond;
+    const CurvePoint& last = trial_.corners.back().beyond;
     trial_.length = last.arclength - s_.here.arclength + distance(main_, last.v, end.v);
     end.arclength = s_.here.arclength + trial_.length;
   }
@@ -202,7 +202,7 @@ bool Tracer::Impl::is_kink() {
 // jump to a nearby branch, unless branches cross here or it persists with the smallest step; and several
 // modes that cross zero are several branch points, unless they do so at the same point.
 std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
-  Place& to = trial_.end;
+  CurvePoint& to = trial_.end;
   const bool turned = to.orientation != s_.here.orientation;
   int modes = turned ? 1 : 0;
   const double inseparable = branch_point_step * (1 + main_.norm_u(s_.here.v));
@@ -240,7 +240,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
 // within the corrector's tolerance, which near a sharp peak can change the sign of a monitor: a sign change
 // is accepted only with the linearization at the solution itself.
 bool Tracer::Impl::measure() {
-  Place& place = trial_.end;
+  CurvePoint& place = trial_.end;
   evaluate(monitors_, main_, place);
   if (!events_.changes_sign(trial_.last_section(s_.here), place)) return true;
   main_.border_row(place.tangent, v_);
@@ -253,7 +253,7 @@ bool Tracer::Impl::measure() {
 void Tracer::Impl::divide() {
   std::vector<Corner> all;
   std::size_t k = 0;
-  trial_.all_sections(s_.here, [&](const Place& from, const Place& to) {
+  trial_.all_sections(s_.here, [&](const CurvePoint& from, const CurvePoint& to) {
     auto found = events_.divisions(from, to);
     all.insert(all.end(), std::move_iterator(found.begin()), std::move_iterator(found.end()));
     if (k < trial_.corners.size()) all.push_back(trial_.corners[k++]);
@@ -286,8 +286,8 @@ Tracer::Impl::Outcome Tracer::Impl::take(double next_step) {
 
 Tracer::Impl::Outcome Tracer::Impl::end_at_bound(const Exit& exit) {
   const double bound = exit.bound;
-  const Place& from = trial_.last_section(s_.here);
-  Place& place = trial_.end;
+  const CurvePoint& from = trial_.last_section(s_.here);
+  CurvePoint& place = trial_.end;
   auto& crossing = trial_.crossing;
   // A branch point within the step changes the sign.
   const bool crossed = crossing && from.arclength + exit.share * (place.arclength - from.arclength) >
@@ -315,7 +315,7 @@ Tracer::Impl::Outcome Tracer::Impl::end_at_bound(const Exit& exit) {
 
 // Where the step comes back to the start, or to a kink at which the branch began: there it ends.
 std::optional<Tracer::Impl::Outcome> Tracer::Impl::come_home() {
-  Place& place = trial_.end;
+  CurvePoint& place = trial_.end;
   const double rounding = rounding_of_home(main_, s_.start, options_.newton.rounding_level);
   if (!trial_.kink &&
       may_come_home(main_, s_.start, s_.here, place, trial_.length, options_.step.largest_angle, v_)) {
@@ -334,7 +334,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::come_home() {
     if (!main_.linearize(place.v, row_)) return refuse(Rejected::singular, 0, 0);
   }
   for (std::size_t k = 0; k < trial_.corners.size() && s_.here.arclength > 0; ++k) {
-    const Place& at = trial_.corners[k].before;
+    const CurvePoint& at = trial_.corners[k].before;
     const double miss = distance(main_, at.v, s_.start.v);
     if (miss > rounding || at.arclength < been_away * rounding) continue;
     place = s_.start;
@@ -350,7 +350,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::come_home() {
 bool Tracer::Impl::accept() {
   const bool go_on = record_.events_of(trial_);
   if (record_.terminal()) return end_at(*record_.terminal());
-  Place& place = trial_.end;
+  CurvePoint& place = trial_.end;
   record_.warn_of_undefined(place);
   record_.keep(place, trial_.correction);
   s_.last_step = place.arclength - trial_.last_section(s_.here).arclength;
@@ -366,7 +366,7 @@ bool Tracer::Impl::accept() {
 }
 
 // Ends the branch at a terminal event: points and events beyond it, found while it was pending, are dropped.
-bool Tracer::Impl::end_at(const Place& terminal) {
+bool Tracer::Impl::end_at(const CurvePoint& terminal) {
   auto& points = s_.branch.points;
   auto& events = s_.branch.events;
   while (!points.empty() && points.back().arclength > terminal.arclength) points.pop_back();

@@ -22,7 +22,7 @@ bool Tracer::Impl::corner() {
   std::uint64_t ahead = 0;
   if (!main_.move_to(v_) || !main_.piece(ahead) || ahead == s_.here.piece) return false;
   auto& corners = trial_.corners;
-  const Place* from = &s_.here;
+  const CurvePoint* from = &s_.here;
   for (int k = 0; k < most_corners; ++k) {
     auto found = events_.corner(*from, s_.step, from->tangent);
     if (!found) return false;
@@ -36,11 +36,11 @@ bool Tracer::Impl::corner() {
 
 // From the last corner along the tangent beyond it.
 bool Tracer::Impl::step_beyond_corner() {
-  const Place kink = trial_.corners.back().before;
+  const CurvePoint kink = trial_.corners.back().before;
   const Vector beyond = trial_.corners.back().beyond.tangent;
   const double along = std::abs(beyond[n_]), most = control_.largest_parameter_step();
   const double largest = options_.step.largest_angle;
-  Place& end = trial_.end;
+  CurvePoint& end = trial_.end;
   end.v = kink.v + (along * s_.step > most ? most / along : s_.step) * beyond;
   main_.border_row(beyond, row_);
   trial_.correction = main_.correct(end.v, row_, false);

@@ -3,7 +3,7 @@
 
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/continuation/tracing/place.hpp>
+#include <arcslip/continuation/tracing/curve_point.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace arcslip::continuation {
 
 /// A tracer has one, so that its vectors are allocated once.
 struct Trial {
-  Place end;
+  CurvePoint end;
   Correction correction;
   double length = 0;                     // arclength of the step, by way of its corners
   double turn = 0;                       // rad, of the tangent
@@ -37,15 +37,15 @@ struct Trial {
   }
 
   /// Where the last of its smooth sections begins.
-  const Place& last_section(const Place& here) const {
+  const CurvePoint& last_section(const CurvePoint& here) const {
     return corners.empty() ? here : corners.back().beyond;
   }
 
   /// f(from, to) for each smooth section of the step from `here`, in order, while it returns true. Whether it
   /// always did.
   template <class F>
-  bool all_sections(const Place& here, F&& f) const {
-    const Place* from = &here;
+  bool all_sections(const CurvePoint& here, F&& f) const {
+    const CurvePoint* from = &here;
     for (const Corner& corner : corners) {
       if (!f(*from, corner.before)) return false;
       from = &corner.beyond;

@@ -214,7 +214,7 @@ std::shared_ptr<const continuation::Problem> corner_points(std::shared_ptr<const
 }
 
 CornerSides::CornerSides(std::shared_ptr<const HbmProblem> problem, const Corner& corner,
-                         continuation::Quantity quantity)
+                         continuation::StationaryQuantity quantity)
     : problem_(std::move(problem)),
       corner_(corner),
       quantity_(std::move(quantity)),

@@ -61,7 +61,7 @@ struct CornerSlopes {
 class CornerSides {
  public:
   CornerSides(std::shared_ptr<const HbmProblem> problem, const Corner& corner,
-              continuation::Quantity quantity);
+              continuation::StationaryQuantity quantity);
 
   /// x: (u, omega, angles); p[frequency] is ignored.
   CornerSlopes slopes(In x, In p);
@@ -71,7 +71,7 @@ class CornerSides {
 
   std::shared_ptr<const HbmProblem> problem_;
   Corner corner_;
-  continuation::Quantity quantity_;
+  continuation::StationaryQuantity quantity_;
   std::unique_ptr<HbmEvaluator> evaluator_;
   std::unique_ptr<continuation::LinearSolver> solver_;
   continuation::Borders border_;

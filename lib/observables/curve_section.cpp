@@ -117,8 +117,8 @@ class AmplitudeGradient {
 
 }  // namespace
 
-continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem,
-                                          std::shared_ptr<const std::optional<double>> instant) {
+continuation::StationaryQuantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem,
+                                                    std::shared_ptr<const std::optional<double>> instant) {
   const auto gradient = std::make_shared<AmplitudeGradient>(*problem, std::move(instant));
   const auto of = [](continuation::Evaluator& at) -> const hbm::HbmEvaluator& {
     return static_cast<const hbm::HbmEvaluator&>(at);

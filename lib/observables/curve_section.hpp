@@ -44,7 +44,8 @@ class CurveSection {
 
 /// The amplitude as the quantity whose stationary points are continued. instant: if set, the extremum of the
 /// motion nearest to this angle in place of the largest.
-continuation::Quantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem,
-                                          std::shared_ptr<const std::optional<double>> instant = {});
+continuation::StationaryQuantity amplitude_quantity(
+    const std::shared_ptr<const hbm::HbmProblem>& problem,
+    std::shared_ptr<const std::optional<double>> instant = {});
 
 }  // namespace arcslip::observables

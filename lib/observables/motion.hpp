@@ -48,7 +48,7 @@ struct Motion {
   std::vector<ElementMotion> elements;
   std::vector<std::complex<double>> multipliers;  // Floquet, by decreasing modulus; with shooting
   std::optional<bool> stable;                     // all of them within the unit circle
-  time::History history;                          // of the recorded periods; t = 0 at their start
+  time::TimeHistory history;                      // of the recorded periods; t = 0 at their start
   double seconds = 0;                             // computing time
 };
 

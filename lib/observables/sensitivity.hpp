@@ -81,7 +81,7 @@ class Sensitivity {
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
   std::shared_ptr<std::optional<double>> instant_;
-  continuation::Quantity quantity_;
+  continuation::StationaryQuantity quantity_;
   Amplitude extremes_;
   std::unique_ptr<hbm::HbmEvaluator> evaluator_;
   std::unique_ptr<continuation::LinearSolver> solver_;

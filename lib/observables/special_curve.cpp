@@ -71,7 +71,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
   result_ = {};
   arclength_ = 0;
   SpecialCurveEnd& end = result_.end;
-  Place at{start.x, start.over, direction, {}};
+  CurveStart at{start.x, start.over, direction, {}};
   end.x = at.x;
   end.over = at.over;
   end.direction = direction;
@@ -102,7 +102,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     end.left_window = by == window_event;
     end.vanishes = by == event_kinds::fold;
     if (!passes) break;
-    Place place{end.x, end.over, end.direction, at.corner};
+    CurveStart place{end.x, end.over, end.direction, at.corner};
     if (place.corner) place.corner = hbm::at_angles(*place.corner, last.u);
     auto next = leaves ? leave_corner(place, by == above_event) : to_corner(place);
     if (!next && kind_.maximum && is_surpassed(place)) end.vanishes = true;
@@ -117,7 +117,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
   return std::move(result_);
 }
 
-continuation::Branch SpecialCurveTracer::trace(const Place& from) {
+continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
   const Eigen::Index n = problem_->size();
   const bool corner = from.corner.has_value();
   auto monitors = corner ? corner_monitors_ : smooth_monitors_;

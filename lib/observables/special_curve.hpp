@@ -44,7 +44,7 @@ SpecialPoints special_points(const OverParameter& way, double over, const Freque
 /// The kind of special points, as zeros of the slope of a quantity along the branch over the frequency.
 struct SpecialKind {
   std::string event;  // event_kinds::peak or fold
-  continuation::Quantity quantity;
+  continuation::StationaryQuantity quantity;
   bool maximum = false;  // of the quantity only
 };
 SpecialKind peak_kind(const std::shared_ptr<const hbm::HbmProblem>& problem);
@@ -52,7 +52,7 @@ SpecialKind fold_kind();
 
 /// The start or end of a curve, and its reason.
 struct SpecialCurveEnd {
-  continuation::Stop stop;
+  continuation::BranchStop stop;
   continuation::Vector x;    // unknowns and frequency
   double over = 0;           // the parameter
   int direction = 1;         // of the parameter, where it stopped
@@ -110,33 +110,33 @@ class SpecialCurveTracer {
   SpecialPoint point_of(const SpecialCurve::At& at) const;
 
  private:
-  struct Place {
+  struct CurveStart {
     continuation::Vector x;  // unknowns and frequency
     double over = 0;
     int direction = 1;
     std::optional<hbm::Corner> corner;  // none on smooth parts
   };
 
-  continuation::Branch trace(const Place& from);
+  continuation::Branch trace(const CurveStart& from);
   // The first of the `points` of a curve beyond its passage through a special point; 0: none.
   std::size_t passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through) const;
   bool comes_back(std::size_t begin);
   void end_at(std::size_t count, bool closed);
   bool is_repeated(const SpecialCurve::EventAt& event) const;
-  std::optional<Place> to_corner(const Place& at);
+  std::optional<CurveStart> to_corner(const CurveStart& at);
   struct Beside {
-    Place place;
+    CurveStart place;
     hbm::CornerSlopes slopes;
   };
-  std::optional<Beside> corner_beside(const Place& at, const hbm::Corner& corner, int direction,
+  std::optional<Beside> corner_beside(const CurveStart& at, const hbm::Corner& corner, int direction,
                                       double beside) const;
   bool is_special(const hbm::CornerSlopes& slopes) const;
-  std::optional<Place> leave_corner(const Place& at, bool above);
-  std::optional<Place> to_crossing_corner(const Place& at);
-  std::optional<Place> from_corner(const Place& at, bool above) const;
-  std::optional<Place> seen_beyond(const Place& at);
-  std::optional<continuation::Vector> at_depth(const Place& at, double depth, double reach) const;
-  bool is_surpassed(const Place& at) const;
+  std::optional<CurveStart> leave_corner(const CurveStart& at, bool above);
+  std::optional<CurveStart> to_crossing_corner(const CurveStart& at);
+  std::optional<CurveStart> from_corner(const CurveStart& at, bool above) const;
+  std::optional<CurveStart> seen_beyond(const CurveStart& at);
+  std::optional<continuation::Vector> at_depth(const CurveStart& at, double depth, double reach) const;
+  bool is_surpassed(const CurveStart& at) const;
   std::optional<continuation::Vector> corrected(const continuation::Problem& problem,
                                                 const continuation::Vector& x, double over,
                                                 const continuation::Vector& row, double reach) const;

@@ -48,7 +48,7 @@ std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem&
 }
 
 // The corner at a slightly different parameter, and the slopes on its sides.
-std::optional<SpecialCurveTracer::Beside> SpecialCurveTracer::corner_beside(const Place& at,
+std::optional<SpecialCurveTracer::Beside> SpecialCurveTracer::corner_beside(const CurveStart& at,
                                                                             const hbm::Corner& corner,
                                                                             int direction,
                                                                             double beside) const {
@@ -72,7 +72,7 @@ bool SpecialCurveTracer::is_special(const hbm::CornerSlopes& slopes) const {
 // The corner near a point, and the direction in which it is special. On one side of it the slope is near
 // zero; if the corner is special neither before nor beyond the sign change of that slope, the special
 // point ends.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Place& at) {
+std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::to_corner(const CurveStart& at) {
   for (const auto& corner :
        hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), near_corner))
     for (const double beside : besides) {
@@ -94,7 +94,8 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_corner(const Pla
 
 // The continuation from a corner where the slope on one side changes sign: if it vanishes, a smooth curve
 // starts on that side; if it jumps, another corner crosses this one.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::leave_corner(const Place& at, bool above) {
+std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::leave_corner(const CurveStart& at,
+                                                                               bool above) {
   hbm::CornerSides sides(problem_, *at.corner, kind_.quantity);
   const auto slopes = sides.slopes(hbm::with_angles(at.x, *at.corner), parameters(at.x, at.over));
   const double changes = above ? slopes.above : slopes.below, other = above ? slopes.below : slopes.above;
@@ -103,7 +104,7 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::leave_corner(const 
 
 // Two crossing corners exchange their order along the frequency, with a different slope between them. The
 // special point continues at one of them, or, if it is at neither, has met the other one.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_crossing_corner(const Place& at) {
+std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::to_crossing_corner(const CurveStart& at) {
   const auto crossing =
       hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), at_corner);
   bool found = false;
@@ -120,7 +121,7 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::to_crossing_corner(
 // Comparison of responses on both sides of a point: the special point continues as that of the response
 // beyond, or, if that has one less, has met its counterpart. So a curve passes kinks of any kind, such as a
 // new reversal while an element slips, near which slopes vary with the square root of the distance.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::seen_beyond(const Place& at) {
+std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(const CurveStart& at) {
   const Eigen::Index n = problem_->size();
   for (const double beside : seen_besides) {
     const auto seen = [&](int direction) {
@@ -152,7 +153,7 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::seen_beyond(const P
     }
     if (beyond.size() != before.size() || !reaches(*nearest(beyond))) continue;
     const SpecialPoint& next = *nearest(beyond);
-    const Place place{next.x, next.over, at.direction, {}};
+    const CurveStart place{next.x, next.over, at.direction, {}};
     return next.nonsmooth ? to_corner(place) : place;
   }
   return {};
@@ -161,7 +162,7 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::seen_beyond(const P
 // Whether the displacement attains its maximum at two different instants of the period. The maximum of two
 // functions of the frequency has a convex kink where they cross: it is no peak, and a peak that reaches it
 // ends, exceeded by the other. Extrema that are equal by a symmetry of the motion do not cross.
-bool SpecialCurveTracer::is_surpassed(const Place& at) const {
+bool SpecialCurveTracer::is_surpassed(const CurveStart& at) const {
   const auto& harmonics = problem_->harmonics();
   const auto evaluator = problem_->hbm_evaluator();
   const auto u = at.x.head(problem_->size());
@@ -183,7 +184,8 @@ bool SpecialCurveTracer::is_surpassed(const Place& at) const {
 
 // The smooth curve that starts where the slope vanishes on one side of a corner. There h is prescribed, not
 // the parameter, which may vary with any power of h: with its square root at the onset of slip.
-std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const Place& at, bool above) const {
+std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::from_corner(const CurveStart& at,
+                                                                              bool above) const {
   const Eigen::Index n = problem_->size();
   const double size = hbm::corner_size(*problem_, *at.corner, at.x.head(n), parameters(at.x, at.over));
   for (const double beside : besides) {
@@ -192,14 +194,14 @@ std::optional<SpecialCurveTracer::Place> SpecialCurveTracer::from_corner(const P
     if (!v) continue;
     const double over = (*v)[n + 1];
     if (inside(over) && std::abs(over - at.over) > least_change * at.over)
-      return Place{v->head(n + 1), over, over > at.over ? 1 : -1, {}};
+      return CurveStart{v->head(n + 1), over, over > at.over ? 1 : -1, {}};
   }
   return {};
 }
 
 // The special point of the smooth branches at which a corner has a given h, within the relative distance
 // `reach`: Newton's method for all three conditions, with h moved to its value before each step.
-std::optional<Vector> SpecialCurveTracer::at_depth(const Place& at, double depth, double reach) const {
+std::optional<Vector> SpecialCurveTracer::at_depth(const CurveStart& at, double depth, double reach) const {
   const Eigen::Index n = problem_->size();
   continuation::NewtonOptions one_step;
   one_step.iterations = 1;

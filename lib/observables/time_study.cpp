@@ -19,8 +19,8 @@ namespace arcslip::observables {
 namespace {
 
 using time::EquationOfMotion;
+using time::MotionState;
 using time::PeriodMotion;
-using time::State;
 
 constexpr int expected_maps = 20;  // of shooting, for progress
 constexpr long affordable_events = 100'000,
@@ -30,7 +30,7 @@ constexpr long affordable_events = 100'000,
 struct Integrator {
   std::string name;
   bool between_events = false;  // else in steps
-  State start;                  // at rest, as it takes it
+  MotionState start;            // at rest, as it takes it
   results::Reason failure;      // why it cannot begin; none: it can
   std::string message;
   time::Periods periods{};
@@ -42,10 +42,10 @@ Integrator newmark(const EquationOfMotion& equation, long steps, const std::func
   Integrator result{"newmark", false, {}, {}, {}};
   std::tie(result.failure, result.message) = time::failure_of(method->begin(time::at_rest(equation)), 0);
   result.start = method->state();
-  result.periods = [method, stop](const State& start, long count, bool with_history) {
+  result.periods = [method, stop](const MotionState& start, long count, bool with_history) {
     return time::newmark_periods(*method, start, count, with_history, false, stop);
   };
-  result.flow = [method](const State& start) { return time::newmark_map(*method, start); };
+  result.flow = [method](const MotionState& start) { return time::newmark_map(*method, start); };
   return result;
 }
 
@@ -64,8 +64,8 @@ results::Reason failure_of(time::EndReason reason) {
   return reasons::not_finite;
 }
 
-PeriodMotion periods_between_events(time::EventDriven& events, const State& start, long count, long steps,
-                                    bool with_history) {
+PeriodMotion periods_between_events(time::EventDriven& events, const MotionState& start, long count,
+                                    long steps, bool with_history) {
   const double period = events.equation().period(), end = static_cast<double>(count) * period;
   std::vector<double> instants;
   for (long k = 0; with_history && k <= count * steps; ++k)
@@ -88,10 +88,12 @@ PeriodMotion periods_between_events(time::EventDriven& events, const State& star
 Integrator event_driven(const EquationOfMotion& equation, long steps, const time::EventLimits& limits) {
   const auto events = std::make_shared<time::EventDriven>(equation, limits);
   Integrator result{"event-driven", true, time::at_rest(equation), {}, {}};
-  result.periods = [events, steps](const State& start, long count, bool with_history) {
+  result.periods = [events, steps](const MotionState& start, long count, bool with_history) {
     return periods_between_events(*events, start, count, steps, with_history);
   };
-  result.flow = [events](const State& start) { return events->map(start, events->equation().period()); };
+  result.flow = [events](const MotionState& start) {
+    return events->map(start, events->equation().period());
+  };
   return result;
 }
 
@@ -186,7 +188,7 @@ class InTime {
       record(integrator.periods(integrator.start, settings_.recorded, true));
       return end(Status::failed, reasons::unbounded, 0, 0, growth.message);
     }
-    const time::Flow flow = [&](const State& start) {
+    const time::Flow flow = [&](const MotionState& start) {
       if (go_on(progress_.points + 1)) return integrator.flow(start);
       time::PeriodMap none;
       none.message = "stopped by the caller";
@@ -220,12 +222,12 @@ class InTime {
     end(Status::complete, reasons::periodic, found.correction, settings_.tolerance, found.message);
   }
 
-  std::optional<State> from_harmonic_balance() {
+  std::optional<MotionState> from_harmonic_balance() {
     const FirstResponse first =
         first_response(model_, motion_.omega, motion_.omega, [this] { return go_on(progress_.points); });
     if (!first.u) return std::nullopt;
     const auto p = hbm::parameters_at(*first.problem, motion_.omega);
-    State state = time::state_of(*first.problem, *first.u, p);
+    MotionState state = time::state_of(*first.problem, *first.u, p);
     const bool finite = state.x.allFinite() && state.v.allFinite() && state.z.allFinite();
     return finite ? std::optional(std::move(state)) : std::nullopt;
   }

@@ -15,7 +15,7 @@ struct Box {
   }
   bool is_within_axes() const { return left >= 0 && right <= 1 && bottom >= 0 && top <= 1; }
   /// Clips the segment by each side in turn (Liang and Barsky 1984).
-  bool meets_segment(const Place& a, const Place& b) const {
+  bool meets_segment(const Position& a, const Position& b) const {
     double first = 0;
     double last = 1;
     const auto clip = [&](double step, double room) {  // share * step <= room
@@ -46,7 +46,7 @@ Box box(const LabelWish& wish, LabelSide side, const LabelMetrics& metrics) {
           middle + 0.4 * metrics.line_height};
 }
 
-bool meets_line(const Box& box, const std::vector<Place>& line) {
+bool meets_line(const Box& box, const std::vector<Position>& line) {
   for (std::size_t i = 1; i < line.size(); ++i) {
     if (box.meets_segment(line[i - 1], line[i])) {
       return true;
@@ -81,7 +81,7 @@ LabelOffset offset(LabelSide side) {
 }
 
 std::vector<LabelSide> place_labels(const std::vector<LabelWish>& wishes,
-                                    const std::vector<std::vector<Place>>& lines,
+                                    const std::vector<std::vector<Position>>& lines,
                                     const LabelMetrics& metrics) {
   constexpr std::array sides{LabelSide::above,      LabelSide::right,       LabelSide::left,
                              LabelSide::above_left, LabelSide::above_right, LabelSide::below,
@@ -100,7 +100,7 @@ std::vector<LabelSide> place_labels(const std::vector<LabelWish>& wishes,
              std::none_of(taken.begin(), taken.end(),
                           [&](const Box& other) { return candidate.meets(other); }) &&
              std::none_of(lines.begin(), lines.end(),
-                          [&](const std::vector<Place>& line) { return meets_line(candidate, line); });
+                          [&](const std::vector<Position>& line) { return meets_line(candidate, line); });
     };
     const auto* const side = std::find_if(sides.begin(), sides.end(), is_free);
     chosen.push_back(side == sides.end() ? LabelSide::none : *side);

@@ -6,13 +6,13 @@
 namespace arcslip::output {
 
 /// A position in a figure; x and y from 0 to 1 over the axes.
-struct Place {
+struct Position {
   double x = 0, y = 0;
 };
 
 /// A text to be placed near a mark.
 struct LabelWish {
-  Place mark;
+  Position mark;
   std::string text;
 };
 
@@ -33,7 +33,7 @@ LabelOffset offset(LabelSide side);
 /// A position of each label within the axes that covers no other label, mark or line (all polylines); none if
 /// there is no such position.
 std::vector<LabelSide> place_labels(const std::vector<LabelWish>& wishes,
-                                    const std::vector<std::vector<Place>>& lines,
+                                    const std::vector<std::vector<Position>>& lines,
                                     const LabelMetrics& metrics = {});
 
 }  // namespace arcslip::output

@@ -151,7 +151,7 @@ bool Axes::shows(const results::Record& values, const results::Figure& figure) c
   return x.shows(values[figure.x]) && y.shows(values[figure.y]);
 }
 
-Place Axes::place(const results::Record& values, const results::Figure& figure) const {
+Position Axes::place(const results::Record& values, const results::Figure& figure) const {
   return {x.place(values[figure.x]), y.place(values[figure.y])};
 }
 

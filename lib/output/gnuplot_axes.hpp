@@ -37,7 +37,7 @@ struct Axes {
   Axis x, y;
 
   bool shows(const results::Record& values, const results::Figure& figure) const;
-  Place place(const results::Record& values, const results::Figure& figure) const;
+  Position place(const results::Record& values, const results::Figure& figure) const;
 };
 
 Axes axes_of(const results::FigureData& data, const results::Figure& figure);

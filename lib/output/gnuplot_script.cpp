@@ -57,11 +57,11 @@ bool is_labelled(const std::string& kind) {
 }
 
 /// The lines in axis coordinates from 0 to 1, to keep labels off them.
-std::vector<std::vector<Place>> places(const FigureData& data, const Figure& figure, const Axes& axes) {
-  std::vector<std::vector<Place>> lines;
+std::vector<std::vector<Position>> places(const FigureData& data, const Figure& figure, const Axes& axes) {
+  std::vector<std::vector<Position>> lines;
   for (const FigureLine& line : data.lines) {
     for (const std::vector<Record>& part : line.parts) {
-      std::vector<Place>& path = lines.emplace_back();
+      std::vector<Position>& path = lines.emplace_back();
       for (const Record& values : part) {
         if (axes.shows(values, figure)) {
           path.push_back(axes.place(values, figure));

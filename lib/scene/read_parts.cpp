@@ -18,7 +18,7 @@ const PartType* read_type(const Keys& keys, std::span<const PartType* const> typ
     known.emplace_back(type->name());
   }
   const std::string wanted = "one of " + listed(known);
-  const Place place = keys.require("type", wanted, faults);
+  const Location place = keys.require("type", wanted, faults);
   const auto text = read_string(place, wanted, faults);
   if (!text) {
     return nullptr;
@@ -60,7 +60,7 @@ std::vector<std::string> keys_of(const Part& part, bool is_element) {
   return keys;
 }
 
-Settings read_options(const PartType& type, const Place& place, const Dofs& dofs, const FileSource& source,
+Settings read_options(const PartType& type, const Location& place, const Dofs& dofs, const FileSource& source,
                       Faults& faults) {
   if (type.options().empty()) {
     return {};
@@ -79,7 +79,7 @@ std::vector<Direction> read_directions(const PartType& type, const Keys& keys, c
   }
   std::vector<Direction> directions;
   for (const std::string_view slot : type.slots()) {
-    const Place place =
+    const Location place =
         keys.require(slot, "an object with one of \"at\", \"between\", \"direction\"", faults);
     if (place.node == nullptr) {
       continue;
@@ -92,7 +92,7 @@ std::vector<Direction> read_directions(const PartType& type, const Keys& keys, c
   return directions;
 }
 
-Part read_part(const Place& place, const PartType* section_type, std::span<const PartType* const> types,
+Part read_part(const Location& place, const PartType* section_type, std::span<const PartType* const> types,
                const Dofs& dofs, const FileSource& source, Names& names, Faults& faults) {
   Part part;
   part.type = section_type;
@@ -108,7 +108,7 @@ Part read_part(const Place& place, const PartType* section_type, std::span<const
     names.set_incomplete();
     return part;
   }
-  const Place name = keys.require("name", "a string, the name of the part", faults);
+  const Location name = keys.require("name", "a string, the name of the part", faults);
   const auto text = read_string(name, "a string, the name of the part", faults);
   if (text && names.add(*text, name.pointer, faults)) {
     part.name = *text;
@@ -129,7 +129,7 @@ Part read_part(const Place& place, const PartType* section_type, std::span<const
     part.harmonic = read_integer(keys.find("harmonic"), 0, largest_order, faults).value_or(part.harmonic);
   }
   for (const Field& field : part.fields()) {
-    const Place value =
+    const Location value =
         field.default_value ? keys.find(field.name) : keys.require(field.name, allowed_text(field), faults);
     part.values.push_back(read_number(value, field, faults).value_or(field.default_value.value_or(0)));
   }
@@ -206,8 +206,9 @@ void Names::set_unknown(const std::string& part) {
   parts_.emplace(part, std::nullopt);
 }
 
-std::vector<Part> read_parts(const Place& place, const PartType* type, std::span<const PartType* const> types,
-                             const Dofs& dofs, const FileSource& source, Names& names, Faults& faults) {
+std::vector<Part> read_parts(const Location& place, const PartType* type,
+                             std::span<const PartType* const> types, const Dofs& dofs,
+                             const FileSource& source, Names& names, Faults& faults) {
   std::vector<Part> parts;
   const Node::List* list = read_list(place, "a list of objects", faults);
   if (place.node != nullptr && list == nullptr) {
@@ -225,7 +226,7 @@ namespace {
 constexpr std::string_view members_wanted = "a list of at least one parameter \"part.field\"";
 
 // The members of one tie. used: the fields already tied, and where.
-std::vector<std::string> read_members(const Place& place, const Names& names,
+std::vector<std::string> read_members(const Location& place, const Names& names,
                                       std::unordered_map<std::string, std::string>& used, Faults& faults) {
   std::vector<std::string> members;
   const Node::List* list = read_list(place, members_wanted, faults);
@@ -234,7 +235,7 @@ std::vector<std::string> read_members(const Place& place, const Names& names,
   }
   std::string_view unit;
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    const Place item{&(*list)[i], child(place.pointer, i)};
+    const Location item{&(*list)[i], child(place.pointer, i)};
     const auto member = read_string(item, "a string, a parameter \"part.field\"", faults);
     const Field* field = member ? names.field(*member, item.pointer, faults) : nullptr;
     if (field == nullptr) {
@@ -258,7 +259,7 @@ std::vector<std::string> read_members(const Place& place, const Names& names,
 
 }  // namespace
 
-std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults) {
+std::vector<Tie> read_ties(const Location& place, Names& names, Faults& faults) {
   std::vector<Tie> ties;
   if (place.node == nullptr || !Keys(place, {}, faults).is_object()) {
     return ties;
@@ -269,7 +270,7 @@ std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults) {
     if (seen[member.key]++ > 0) {
       continue;  // reported as a duplicate key
     }
-    const Place item{&member.value, child(place.pointer, member.key)};
+    const Location item{&member.value, child(place.pointer, member.key)};
     names.add(member.key, item.pointer, faults);
     ties.push_back({member.key, read_members(item, names, used, faults)});
   }
@@ -307,12 +308,12 @@ bool add_term(const std::string& name, double weight, const std::string& pointer
   return true;
 }
 
-bool read_at(const Place& place, const Dofs& dofs, Direction& direction, Faults& faults) {
+bool read_at(const Location& place, const Dofs& dofs, Direction& direction, Faults& faults) {
   const auto name = read_string(place, "a string, the name of a degree of freedom", faults);
   return name && add_term(*name, 1, place.pointer, dofs, direction, faults);
 }
 
-bool read_between(const Place& place, const Dofs& dofs, Direction& direction, Faults& faults) {
+bool read_between(const Location& place, const Dofs& dofs, Direction& direction, Faults& faults) {
   constexpr std::string_view wanted = "a list of two names of degrees of freedom";
   const Node::List* list = read_list(place, wanted, faults);
   if (list == nullptr) {
@@ -325,14 +326,14 @@ bool read_between(const Place& place, const Dofs& dofs, Direction& direction, Fa
   }
   bool good = true;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Place item{&(*list)[i], child(place.pointer, i)};
+    const Location item{&(*list)[i], child(place.pointer, i)};
     const auto name = read_string(item, "a string, the name of a degree of freedom", faults);
     good = name && add_term(*name, i == 0 ? 1 : -1, item.pointer, dofs, direction, faults) && good;
   }
   return good;
 }
 
-bool read_weights(const Place& place, const Dofs& dofs, Direction& direction, Faults& faults) {
+bool read_weights(const Location& place, const Dofs& dofs, Direction& direction, Faults& faults) {
   const std::size_t before = faults.count();
   const Keys keys(place, {}, faults);
   if (!keys.is_object() || faults.count() > before) {
@@ -340,7 +341,7 @@ bool read_weights(const Place& place, const Dofs& dofs, Direction& direction, Fa
   }
   bool good = true;
   for (const Member& member : *place.node->get<Node::Object>()) {
-    const Place item{&member.value, child(place.pointer, member.key)};
+    const Location item{&member.value, child(place.pointer, member.key)};
     const auto weight = read_number(item, any_number, faults);
     good = add_term(member.key, weight.value_or(0), item.pointer, dofs, direction, faults) && weight && good;
   }
@@ -349,7 +350,7 @@ bool read_weights(const Place& place, const Dofs& dofs, Direction& direction, Fa
 
 }  // namespace
 
-Dofs read_dofs(const Place& place, Faults& faults) {
+Dofs read_dofs(const Location& place, Faults& faults) {
   Dofs dofs;
   const std::size_t before = faults.count();
   const Node::List* list = read_list(place, dofs_wanted, faults);
@@ -363,7 +364,7 @@ Dofs read_dofs(const Place& place, Faults& faults) {
                                   "evaluation would take many seconds and gigabytes; reduce the model first");
   }
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    const Place item{&(*list)[i], child(place.pointer, i)};
+    const Location item{&(*list)[i], child(place.pointer, i)};
     const auto name = read_string(item, "a string, the name of a degree of freedom", faults);
     if (!name) {
       continue;
@@ -402,7 +403,7 @@ std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faul
     return {};
   }
   Direction direction;
-  const Place place = keys.find(given.front());
+  const Location place = keys.find(given.front());
   const bool good = given.front() == "at"        ? read_at(place, dofs, direction, faults)
                     : given.front() == "between" ? read_between(place, dofs, direction, faults)
                                                  : read_weights(place, dofs, direction, faults);

@@ -50,11 +50,12 @@ class Names {
   bool complete_ = true;
 };
 
-Dofs read_dofs(const Place& place, Faults& faults);
+Dofs read_dofs(const Location& place, Faults& faults);
 /// The direction of an object with one of "at", "between" and "direction".
 std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults);
 /// A section with parts of one type or, if `type` is null, of any of `types`.
-std::vector<Part> read_parts(const Place& place, const PartType* type, std::span<const PartType* const> types,
-                             const Dofs& dofs, const FileSource& source, Names& names, Faults& faults);
+std::vector<Part> read_parts(const Location& place, const PartType* type,
+                             std::span<const PartType* const> types, const Dofs& dofs,
+                             const FileSource& source, Names& names, Faults& faults);
 
 }  // namespace arcslip::scene::file

@@ -58,10 +58,10 @@ std::string kinds_with(std::string_view key, const Catalogue& catalogue) {
 }
 
 // Null after a fault.
-const StudyType* read_kind(const Place& study, const Catalogue& catalogue, Faults& faults) {
+const StudyType* read_kind(const Location& study, const Catalogue& catalogue, Faults& faults) {
   const std::vector<std::string> known = names_of(catalogue);
   Faults told_later;
-  const Place place = Keys(study, {}, told_later).require("kind", "one of " + listed(known), faults);
+  const Location place = Keys(study, {}, told_later).require("kind", "one of " + listed(known), faults);
   const auto name = read_string(place, "one of " + listed(known), faults);
   const StudyType* type = name ? catalogue.study(*name) : nullptr;
   if (name && type == nullptr) {
@@ -85,7 +85,7 @@ std::string unused_name(const std::string& wish, std::unordered_map<std::string,
 
 }  // namespace
 
-std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Parameters& all,
+std::vector<Study> read_studies(const Location& place, FrequencyUnit unit, const Parameters& all,
                                 const Dofs& dofs, const FileSource& source, const Catalogue& catalogue,
                                 Faults& faults) {
   const Field frequency = frequency_field(unit);
@@ -94,7 +94,7 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Pa
   std::unordered_map<std::string, std::string> used;  // names and where they stand
   const Node::List* list = read_list(place, "a list of objects", faults);
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    const Place item{&(*list)[i], child(place.pointer, i)};
+    const Location item{&(*list)[i], child(place.pointer, i)};
     Study study;
     if (item.node->get<Node::Object>() != nullptr) {
       study.type = read_kind(item, catalogue, faults);
@@ -108,7 +108,7 @@ std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Pa
     if (!keys.is_object()) {
       continue;
     }
-    const Place name = keys.find("name");
+    const Location name = keys.find("name");
     if (const auto text = read_string(name, "a string, the name of the study", faults)) {
       const auto [first, is_new] = used.emplace(*text, name.pointer);
       if (!is_file_name(*text)) {

@@ -10,9 +10,9 @@
 namespace arcslip::scene::file {
 
 /// Reads "ties". check_ties() checks that tied fields have the same value.
-std::vector<Tie> read_ties(const Place& place, Names& names, Faults& faults);
+std::vector<Tie> read_ties(const Location& place, Names& names, Faults& faults);
 /// Reads "studies", of the kinds of the catalogue. all: the ties that were read, and the names of parts.
-std::vector<Study> read_studies(const Place& place, FrequencyUnit unit, const Parameters& all,
+std::vector<Study> read_studies(const Location& place, FrequencyUnit unit, const Parameters& all,
                                 const Dofs& dofs, const FileSource& source, const Catalogue& catalogue,
                                 Faults& faults);
 

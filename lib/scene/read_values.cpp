@@ -7,11 +7,12 @@
 
 namespace arcslip::scene::file {
 
-void add_wrong_type(const Place& place, std::string_view must_be, Faults& faults) {
+void add_wrong_type(const Location& place, std::string_view must_be, Faults& faults) {
   faults.add(place.pointer, "found " + described(*place.node) + ", must be " + std::string(must_be));
 }
 
-Keys::Keys(const Place& place, std::vector<std::string> allowed, Faults& faults, const Elsewhere& elsewhere)
+Keys::Keys(const Location& place, std::vector<std::string> allowed, Faults& faults,
+           const Elsewhere& elsewhere)
     : object_(place.node != nullptr ? place.node->get<Node::Object>() : nullptr), pointer_(place.pointer) {
   if (object_ == nullptr) {
     if (place.node != nullptr) {
@@ -36,8 +37,8 @@ Keys::Keys(const Place& place, std::vector<std::string> allowed, Faults& faults,
   }
 }
 
-Place Keys::find(std::string_view key) const {
-  Place place{nullptr, child(pointer_, key)};
+Location Keys::find(std::string_view key) const {
+  Location place{nullptr, child(pointer_, key)};
   if (object_ != nullptr) {
     const auto member =
         std::find_if(object_->begin(), object_->end(), [&](const Member& m) { return m.key == key; });
@@ -46,15 +47,15 @@ Place Keys::find(std::string_view key) const {
   return place;
 }
 
-Place Keys::require(std::string_view key, const std::string& what, Faults& faults) const {
-  Place place = find(key);
+Location Keys::require(std::string_view key, const std::string& what, Faults& faults) const {
+  Location place = find(key);
   if (place.node == nullptr && is_object()) {
     faults.add(place.pointer, "found no key " + quoted(key) + ", which is required: must be " + what);
   }
   return place;
 }
 
-std::vector<const Member*> members(const Place& place, Faults& faults) {
+std::vector<const Member*> members(const Location& place, Faults& faults) {
   std::vector<const Member*> all;
   if (place.node == nullptr || !Keys(place, {}, faults).is_object()) {
     return all;
@@ -68,7 +69,7 @@ std::vector<const Member*> members(const Place& place, Faults& faults) {
   return all;
 }
 
-std::optional<double> read_number(const Place& place, const Field& bounds, Faults& faults) {
+std::optional<double> read_number(const Location& place, const Field& bounds, Faults& faults) {
   if (place.node == nullptr) {
     return {};
   }
@@ -86,7 +87,7 @@ std::optional<double> read_number(const Place& place, const Field& bounds, Fault
   return {};
 }
 
-std::optional<int> read_integer(const Place& place, int lower, int upper, Faults& faults,
+std::optional<int> read_integer(const Location& place, int lower, int upper, Faults& faults,
                                 std::string_view why) {
   if (place.node == nullptr) {
     return {};
@@ -101,7 +102,7 @@ std::optional<int> read_integer(const Place& place, int lower, int upper, Faults
   return {};
 }
 
-std::optional<std::string> read_string(const Place& place, std::string_view what, Faults& faults) {
+std::optional<std::string> read_string(const Location& place, std::string_view what, Faults& faults) {
   if (place.node == nullptr) {
     return {};
   }
@@ -112,7 +113,7 @@ std::optional<std::string> read_string(const Place& place, std::string_view what
   return {};
 }
 
-const Node::List* read_list(const Place& place, std::string_view what, Faults& faults) {
+const Node::List* read_list(const Location& place, std::string_view what, Faults& faults) {
   if (place.node == nullptr) {
     return nullptr;
   }

@@ -16,7 +16,7 @@
 namespace arcslip::scene::file {
 
 /// A value and its JSON pointer; `node` is null if the value is missing.
-struct Place {
+struct Location {
   const Node* node = nullptr;
   std::string pointer;
 };
@@ -28,14 +28,15 @@ using Elsewhere = std::function<std::string(std::string_view)>;
 /// of allowed keys allows every key. Of duplicates the first counts.
 class Keys {
  public:
-  Keys(const Place& place, std::vector<std::string> allowed, Faults& faults, const Elsewhere& elsewhere = {});
+  Keys(const Location& place, std::vector<std::string> allowed, Faults& faults,
+       const Elsewhere& elsewhere = {});
   bool is_object() const { return object_ != nullptr; }
   bool has(std::string_view key) const { return find(key).node != nullptr; }
   const std::string& pointer() const { return pointer_; }
   /// The value of an optional key.
-  Place find(std::string_view key) const;
+  Location find(std::string_view key) const;
   /// The value of a required key; what: the expected value. A fault if it is absent.
-  Place require(std::string_view key, const std::string& what, Faults& faults) const;
+  Location require(std::string_view key, const std::string& what, Faults& faults) const;
 
  private:
   const Node::Object* object_;
@@ -49,22 +50,22 @@ inline constexpr Field any_number{.name = "value",
                                   .upper = std::numeric_limits<double>::infinity()};
 
 /// These report a fault and return nothing if the value is absent or invalid.
-std::optional<double> read_number(const Place& place, const Field& bounds, Faults& faults);
+std::optional<double> read_number(const Location& place, const Field& bounds, Faults& faults);
 /// `why` follows the bounds in a message.
-std::optional<int> read_integer(const Place& place, int lower, int upper, Faults& faults,
+std::optional<int> read_integer(const Location& place, int lower, int upper, Faults& faults,
                                 std::string_view why = {});
-std::optional<std::string> read_string(const Place& place, std::string_view what, Faults& faults);
-const Node::List* read_list(const Place& place, std::string_view what, Faults& faults);
+std::optional<std::string> read_string(const Location& place, std::string_view what, Faults& faults);
+const Node::List* read_list(const Location& place, std::string_view what, Faults& faults);
 
 /// The members of an object whose keys are names; duplicates are reported. None if there is no object.
-std::vector<const Member*> members(const Place& place, Faults& faults);
+std::vector<const Member*> members(const Location& place, Faults& faults);
 
 /// "found 3 (a number), must be a string".
-void add_wrong_type(const Place& place, std::string_view must_be, Faults& faults);
+void add_wrong_type(const Location& place, std::string_view must_be, Faults& faults);
 
 /// One of a few words; absent means `otherwise`.
 template <class Words, class Choice>
-Choice read_choice(const Place& place, const Words& words, Choice otherwise, Faults& faults) {
+Choice read_choice(const Location& place, const Words& words, Choice otherwise, Faults& faults) {
   const std::vector<std::string> known = texts(words);
   if (const auto text = read_string(place, "one of " + listed(known), faults)) {
     if (const auto value = value_of<Choice>(words, *text)) {

@@ -19,14 +19,14 @@ namespace {
 
 void read_format(const Keys& keys, Faults& faults) {
   const std::string wanted = quoted(format_name);
-  const Place place = keys.require("format", wanted, faults);
+  const Location place = keys.require("format", wanted, faults);
   const auto text = read_string(place, wanted, faults);
   if (text && *text != format_name) {
     faults.add(place.pointer, "found " + shown(*text) + ", must be " + wanted);
   }
 }
 
-Harmonics read_harmonics(const Place& place, Faults& faults) {
+Harmonics read_harmonics(const Location& place, Faults& faults) {
   Harmonics harmonics;
   if (place.node != nullptr) {
     const Keys keys(place, {"order", "period", "friction", "samples"}, faults);
@@ -44,7 +44,7 @@ Harmonics read_harmonics(const Place& place, Faults& faults) {
 constexpr std::string_view wanted_response =
     "an object with one of \"at\", \"between\", \"direction\", or a list of such objects with names";
 
-Response read_named_response(const Place& place, const Dofs& dofs, const std::vector<Response>& before,
+Response read_named_response(const Location& place, const Dofs& dofs, const std::vector<Response>& before,
                              Faults& faults) {
   constexpr const char* wanted = "a string, the name of the response";
   const Keys keys(place, {"name", "at", "between", "direction"}, faults);
@@ -52,7 +52,7 @@ Response read_named_response(const Place& place, const Dofs& dofs, const std::ve
   if (!keys.is_object()) {
     return response;
   }
-  const Place name = keys.require("name", wanted, faults);
+  const Location name = keys.require("name", wanted, faults);
   if (const auto text = read_string(name, wanted, faults)) {
     response.name = *text;
     if (const std::string reason = objection(*text); !reason.empty()) {
@@ -67,7 +67,7 @@ Response read_named_response(const Place& place, const Dofs& dofs, const std::ve
   return response;
 }
 
-std::vector<Response> read_responses(const Place& place, const Dofs& dofs, Faults& faults) {
+std::vector<Response> read_responses(const Location& place, const Dofs& dofs, Faults& faults) {
   if (place.node == nullptr) {
     if (dofs.complete && dofs.names.size() != 1) {
       faults.add(place.pointer,
@@ -100,7 +100,7 @@ std::vector<Response> read_responses(const Place& place, const Dofs& dofs, Fault
 std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, const FileSource& source, Names& names,
                                   Faults& faults) {
   constexpr const char* wanted = "a list of at least one force";
-  const Place place = root.require("excitation", wanted, faults);
+  const Location place = root.require("excitation", wanted, faults);
   std::vector<Part> forces = read_parts(place, &force_type(), {}, dofs, source, names, faults);
   if (place.node != nullptr && place.node->get<Node::List>() != nullptr && forces.empty()) {
     faults.add(place.pointer, std::string("found an empty list, must be ") + wanted);
@@ -127,7 +127,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
 
   const std::size_t before_parts = faults.count();
   Names names;
-  const Place structure_place = root.require("structure", "an object with the degrees of freedom", faults);
+  const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
   const Keys structure(structure_place, {"dofs", "masses", "springs", "dampers"}, faults);
   if (!structure.is_object()) {
     names.set_incomplete();

@@ -28,7 +28,8 @@ void check_frequency(double value, const std::string& pointer, const Reading& re
 
 }  // namespace
 
-std::optional<NamedFile> read_file_of(const Place& place, const std::string& what, const Reading& reading) {
+std::optional<NamedFile> read_file_of(const Location& place, const std::string& what,
+                                      const Reading& reading) {
   const auto path = read_string(place, what, reading.faults);
   if (!path) return {};
   for (const NamedFile& file : reading.source.read)
@@ -50,7 +51,7 @@ std::optional<NamedFile> read_file_of(const Place& place, const std::string& wha
 std::pair<double, double> read_range(const Reading& reading, const Field& field) {
   const std::string wanted = allowed_text(field);
   const auto from = read_number(reading.keys.require("from", wanted, reading.faults), field, reading.faults);
-  const Place to_place = reading.keys.require("to", wanted, reading.faults);
+  const Location to_place = reading.keys.require("to", wanted, reading.faults);
   const auto to = read_number(to_place, field, reading.faults);
   if (from && to && !(*from < *to)) {
     reading.faults.add(to_place.pointer, "found " + number_text(*to) + ", must be above \"from\", which is " +
@@ -69,7 +70,7 @@ std::pair<double, double> read_frequency_range(const Reading& reading) {
 RangeOver read_range_over(const Reading& reading) {
   constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
   RangeOver range;
-  const Place over = reading.keys.require("over", std::string(wanted), reading.faults);
+  const Location over = reading.keys.require("over", std::string(wanted), reading.faults);
   const Field field = read_parameter(over, reading.parameters, range.over, reading.faults);
   std::tie(range.from, range.to) = read_range(reading, field);
   return range;
@@ -78,7 +79,7 @@ RangeOver read_range_over(const Reading& reading) {
 std::pair<double, double> read_window(const Reading& reading) {
   const std::string wanted =
       "a window [lower, upper] of two frequencies, each " + allowed_text(reading.frequency);
-  const Place place = reading.keys.require("frequency", wanted, reading.faults);
+  const Location place = reading.keys.require("frequency", wanted, reading.faults);
   const auto window = read_pair(place, wanted, reading.frequency, "end", reading.faults);
   check_frequency(window.first, child(place.pointer, std::size_t{0}), reading);
   check_frequency(window.second, child(place.pointer, std::size_t{1}), reading);
@@ -87,7 +88,7 @@ std::pair<double, double> read_window(const Reading& reading) {
 
 double read_frequency(const Reading& reading) {
   const std::string wanted = "one frequency, " + allowed_text(reading.frequency);
-  const Place place = reading.keys.require("frequency", wanted, reading.faults);
+  const Location place = reading.keys.require("frequency", wanted, reading.faults);
   if (place.node != nullptr && place.node->get<Node::List>() != nullptr) {
     add_wrong_type(place, wanted, reading.faults);
     return 0;

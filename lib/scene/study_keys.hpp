@@ -156,7 +156,7 @@ KeyGroup<S> text(const std::string& name, std::string S::*value, const std::stri
 }
 
 /// The text of a file, of at most largest_size bytes.
-std::optional<NamedFile> read_file_of(const Place& place, const std::string& what, const Reading& reading);
+std::optional<NamedFile> read_file_of(const Location& place, const std::string& what, const Reading& reading);
 
 /// The path of a file, which is read with the scene. what: "a string, the path of a table of q and f".
 template <class S>

@@ -22,7 +22,8 @@ Field common(const std::vector<const Field*>& fields) {
   return all;
 }
 
-std::vector<double> read_values(const Place& place, const std::vector<const Field*>& fields, Faults& faults) {
+std::vector<double> read_values(const Location& place, const std::vector<const Field*>& fields,
+                                Faults& faults) {
   constexpr std::string_view wanted = "a list of at least one number";
   std::vector<double> values;
   const Node::List* list = read_list(place, wanted, faults);
@@ -113,7 +114,7 @@ bool is_taken(const std::string& parameter, const std::string& pointer, const st
   return found != taken.end();
 }
 
-Field read_parameter(const Place& place, const Parameters& all, std::string& parameter, Faults& faults) {
+Field read_parameter(const Location& place, const Parameters& all, std::string& parameter, Faults& faults) {
   constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
   const auto over = read_string(place, wanted, faults);
   if (!over) {
@@ -135,11 +136,11 @@ Field read_parameter(const Place& place, const Parameters& all, std::string& par
   return bounds_of(*over, place.pointer, all, faults);
 }
 
-ValueLists read_value_lists(const Place& place, const Parameters& all, const std::vector<Taken>& taken,
+ValueLists read_value_lists(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
                             Faults& faults) {
   ValueLists lists;
   for (const Member* member : members(place, faults)) {
-    const Place item{&member->value, child(place.pointer, member->key)};
+    const Location item{&member->value, child(place.pointer, member->key)};
     const auto fields = fields_of(member->key, item.pointer, all, faults);
     if (fields.empty() || !is_taken(member->key, item.pointer, taken, faults)) {
       lists.emplace_back(member->key, read_values(item, fields, faults));
@@ -148,7 +149,7 @@ ValueLists read_value_lists(const Place& place, const Parameters& all, const std
   return lists;
 }
 
-std::pair<double, double> read_pair(const Place& place, const std::string& wanted, const Field& field,
+std::pair<double, double> read_pair(const Location& place, const std::string& wanted, const Field& field,
                                     std::string_view what, Faults& faults) {
   const Node::List* list = read_list(place, wanted, faults);
   if (list == nullptr) {

@@ -29,16 +29,16 @@ std::vector<const Field*> fields_of(const std::string& parameter, const std::str
                                     const Parameters& all, Faults& faults);
 
 /// The continuation parameter of a study, and its bounds; unbounded after a fault.
-Field read_parameter(const Place& place, const Parameters& all, std::string& parameter, Faults& faults);
+Field read_parameter(const Location& place, const Parameters& all, std::string& parameter, Faults& faults);
 
 /// A pair [lower, upper] of values of a field, lower < upper; zeros after a fault. what: the noun in
 /// messages, "bound".
-std::pair<double, double> read_pair(const Place& place, const std::string& wanted, const Field& field,
+std::pair<double, double> read_pair(const Location& place, const std::string& wanted, const Field& field,
                                     std::string_view what, Faults& faults);
 
 /// Lists of values by parameter name, each within the bounds of its fields. A parameter that is already used
 /// is a fault.
-ValueLists read_value_lists(const Place& place, const Parameters& all, const std::vector<Taken>& taken,
+ValueLists read_value_lists(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
                             Faults& faults);
 
 /// Reports a fault and returns true if the study sets this parameter elsewhere.

@@ -219,7 +219,7 @@ std::vector<std::size_t> friction_of(const scene::Scene& scene) {
   return indices;
 }
 
-Record record(const time::History& history, const std::vector<std::size_t>& friction, std::size_t i) {
+Record record(const time::TimeHistory& history, const std::vector<std::size_t>& friction, std::size_t i) {
   Record values{history.time[i], history.displacement[i]};
   for (const std::size_t e : friction) {
     const bool is_there = e < history.elements.size();  // not in a motion that could not be integrated
@@ -229,7 +229,7 @@ Record record(const time::History& history, const std::vector<std::size_t>& fric
   return values;
 }
 
-std::vector<Record> records(const time::History& history, const std::vector<std::size_t>& friction) {
+std::vector<Record> records(const time::TimeHistory& history, const std::vector<std::size_t>& friction) {
   std::vector<Record> all;
   const std::size_t count = history.time.size();
   const std::size_t stride = (count + most_instants - 1) / most_instants;

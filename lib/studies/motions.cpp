@@ -15,7 +15,7 @@ using observables::Motion;
 
 /// One instant of a history.
 struct Instant {
-  const time::History* history;
+  const time::TimeHistory* history;
   std::size_t i;
 };
 
@@ -33,15 +33,16 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
     const std::string& name = scene.elements[e].name;
     const auto of_element = [&](const char* key, const char* unit, const char* help,
-                                std::vector<double> time::ElementHistory::*member) {
-      add({"elements", name, key}, unit, help, [e, member](const time::History& of) {
+                                std::vector<double> time::ElementTimeHistory::*member) {
+      add({"elements", name, key}, unit, help, [e, member](const time::TimeHistory& of) {
         return e < of.elements.size() ? &(of.elements[e].*member) : nullptr;
       });
     };
-    of_element("displacement", "m", "of the element", &time::ElementHistory::displacement);
-    of_element("force", "N", "against the motion", &time::ElementHistory::force);
+    of_element("displacement", "m", "of the element", &time::ElementTimeHistory::displacement);
+    of_element("force", "N", "against the motion", &time::ElementTimeHistory::force);
     if (observables::is_friction_part(scene.elements[e]))
-      of_element("slider", "m", "friction elements: position of the slider", &time::ElementHistory::slider);
+      of_element("slider", "m", "friction elements: position of the slider",
+                 &time::ElementTimeHistory::slider);
   }
   return table;
 }

@@ -44,7 +44,7 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
   return equation;
 }
 
-State at_rest(const EquationOfMotion& equation) {
+MotionState at_rest(const EquationOfMotion& equation) {
   return {Vector::Zero(equation.dofs()), Vector::Zero(equation.dofs()), Vector::Zero(equation.memory)};
 }
 

@@ -25,7 +25,7 @@ struct Element {
   std::shared_ptr<const elements::Law> law;
   std::vector<double> fields;
   Matrix directions;  // dofs x directions, d in each column
-  int memory = 0;     // where its own begins in State::z
+  int memory = 0;     // where its own begins in MotionState::z
 };
 
 /// (cosine cos n omega t + sine sin n omega t) d.
@@ -41,7 +41,7 @@ struct EquationOfMotion {
   std::vector<Element> elements;
   std::vector<HarmonicForce> forces;
   Vector response;                     // direction whose motion is observed
-  int memory = 0;                      // numbers in State::z
+  int memory = 0;                      // numbers in MotionState::z
   std::vector<std::string> dof_names;  // for messages; may be empty
 
   int dofs() const { return static_cast<int>(M.rows()); }
@@ -54,7 +54,7 @@ struct EquationOfMotion {
            Matrix directions);
 };
 
-struct State {
+struct MotionState {
   Vector x, v, z;  // m, m/s; z: the memory of all elements, m for sliders
 };
 
@@ -62,6 +62,6 @@ struct State {
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p);
 
 /// Everything at rest, without memory of force.
-State at_rest(const EquationOfMotion& equation);
+MotionState at_rest(const EquationOfMotion& equation);
 
 }  // namespace arcslip::time

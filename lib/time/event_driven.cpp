@@ -9,7 +9,7 @@
 namespace arcslip::time {
 namespace {
 
-double elastic_and_kinetic(const EquationOfMotion& equation, const State& state) {
+double elastic_and_kinetic(const EquationOfMotion& equation, const MotionState& state) {
   double energy = 0.5 * state.v.dot(equation.M * state.v) + 0.5 * state.x.dot(equation.K * state.x);
   for (const Element& element : equation.elements)
     energy += element.law->stored(element.fields, element.directions.transpose() * state.x,
@@ -114,14 +114,14 @@ class Recorder {
  private:
   void at(double s, double t) {
     const LinearMotion& piece = march_.piece();
-    History& history = motion_.history;
+    TimeHistory& history = motion_.history;
     history.time.push_back(t);
     piece.displacement(equation_.response, series_);
     history.displacement.push_back(value(series_, s));
     piece.velocity(equation_.response, series_);
     history.velocity.push_back(value(series_, s));
     for (const Contact& contact : march_.contacts()) {
-      ElementHistory& element = history.elements[static_cast<std::size_t>(contact.element)];
+      ElementTimeHistory& element = history.elements[static_cast<std::size_t>(contact.element)];
       const bool first = element.force.size() < history.time.size();
       if (first) {
         q_.resize(contact.directions.cols());
@@ -188,7 +188,7 @@ EventDriven::EventDriven(const EquationOfMotion& equation, const EventLimits& li
 
 EventDriven::~EventDriven() = default;
 
-EventDrivenMotion EventDriven::integrate(const State& start, double from, double to,
+EventDrivenMotion EventDriven::integrate(const MotionState& start, double from, double to,
                                          std::span<const double> instants) {
   march_->begin(start, from, false);
   Recorder recorder(equation_, *march_, instants);
@@ -199,7 +199,7 @@ EventDrivenMotion EventDriven::integrate(const State& start, double from, double
   return recorder.finish();
 }
 
-PeriodMap EventDriven::map(const State& start, double to) {
+PeriodMap EventDriven::map(const MotionState& start, double to) {
   march_->begin(start, 0, true);
   const auto& contacts = march_->contacts();
   std::vector<Range> ranges(contacts.size());

@@ -76,13 +76,13 @@ struct EventDrivenMotion {
   EndReason reason = EndReason::reached;
   std::string message;
   double time = 0;  // s, where it ended
-  State end;
+  MotionState end;
   std::vector<ContactEvent> events;      // in the order of time
   std::vector<FrictionRecord> friction;  // of each element with a contact
   EnergyBalance energy;
   double amplitude = 0;       // max |response|, m
   double amplitude_time = 0;  // s
-  History history;            // at the requested instants
+  TimeHistory history;        // at the requested instants
 };
 
 class March;
@@ -98,11 +98,11 @@ class EventDriven {
   const EquationOfMotion& equation() const { return equation_; }
 
   /// instants: ascending, in [from, to].
-  EventDrivenMotion integrate(const State& start, double from, double to,
+  EventDrivenMotion integrate(const MotionState& start, double from, double to,
                               std::span<const double> instants = {});
 
   /// From 0 to `to`, with derivatives, for shooting.
-  PeriodMap map(const State& start, double to);
+  PeriodMap map(const MotionState& start, double to);
 
  private:
   const EquationOfMotion equation_;

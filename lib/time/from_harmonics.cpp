@@ -8,10 +8,10 @@ Matrix dof_coefficients(const hbm::HbmProblem& problem, elements::In u, const co
   return stiffness.motion(problem.coordinates().P, u, p[problem.excitation_factor()]);
 }
 
-State state_of(const hbm::HbmProblem& problem, elements::In u, const continuation::Vector& p) {
+MotionState state_of(const hbm::HbmProblem& problem, elements::In u, const continuation::Vector& p) {
   const Matrix coefficients = dof_coefficients(problem, u, p);
   const EquationOfMotion equation = equation_of_motion(problem.model(), p);
-  State state = at_rest(equation);
+  MotionState state = at_rest(equation);
   for (Eigen::Index i = 0; i < coefficients.cols(); ++i) {
     const auto values = elements::series_values(problem.harmonics(), coefficients.col(i), 0);
     state.x[i] = values.x;

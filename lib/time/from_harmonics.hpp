@@ -7,7 +7,7 @@
 namespace arcslip::time {
 
 /// u, p: as of a solution of `problem`. The sliders are where the truncated friction force puts them.
-State state_of(const hbm::HbmProblem& problem, elements::In u, const continuation::Vector& p);
+MotionState state_of(const hbm::HbmProblem& problem, elements::In u, const continuation::Vector& p);
 
 /// Coefficients of every degree of freedom, one column each, in the layout of elements/harmonics.hpp.
 Matrix dof_coefficients(const hbm::HbmProblem& problem, elements::In u, const continuation::Vector& p);

@@ -60,7 +60,7 @@ March::March(const EquationOfMotion& equation, const EventLimits& limits)
   velocity_.resize(most);
 }
 
-void March::begin(const State& start, double time, bool derivatives) {
+void March::begin(const MotionState& start, double time, bool derivatives) {
   const Eigen::Index n = equation_.dofs(), memory = equation_.memory;
   const Eigen::Index columns = derivatives ? 1 + 2 * n + memory : 1;
   X_.setZero(n, columns);
@@ -192,8 +192,8 @@ double March::force(const Contact& contact, const Vector& q) const {
   return mode.f_q.row(0).dot(q.transpose()) + by_memory + mode.f_0[0];
 }
 
-State March::state() const {
-  State state{X_.col(0), V_.col(0), Z_.col(0)};
+MotionState March::state() const {
+  MotionState state{X_.col(0), V_.col(0), Z_.col(0)};
   for (const Contact& contact : contacts_)
     if (contact.follows())
       state.z[contact.memory] = memory(contact, contact.directions.transpose() * state.x);

@@ -16,7 +16,7 @@ struct Contact {
   Matrix directions;          // dofs x directions
   std::vector<Vector> along;  // its columns
   Eigen::Index row;           // of its first direction among those of all
-  int memory;                 // in State::z; -1: none
+  int memory;                 // in MotionState::z; -1: none
   int slider;                 // the direction that this memory follows; -1: it is no slider
   int now = 0;                // index of the mode
 
@@ -29,7 +29,7 @@ class March {
   March(const EquationOfMotion& equation, const EventLimits& limits);
 
   /// derivatives: columns for the change with x, x' and z of the start as well.
-  void begin(const State& start, double time, bool derivatives);
+  void begin(const MotionState& start, double time, bool derivatives);
 
   /// Finds the next piece, from time() over s() * h(), at most to `to`. False where the march has to end:
   /// reason().
@@ -46,7 +46,7 @@ class March {
   /// The event at the end of the piece; none: nullptr. Modes found at the start are no event.
   const ContactEvent* event() const { return event_ && recorded_ ? &*event_ : nullptr; }
 
-  State state() const;
+  MotionState state() const;
   double size() const;       // |(x, x'/omega)|
   Matrix monodromy() const;  // 2 dofs + memory
   /// z, and f along the first direction, where the element is at q.

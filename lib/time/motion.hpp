@@ -8,7 +8,7 @@
 namespace arcslip::time {
 
 /// One element at the instants of a history.
-struct ElementHistory {
+struct ElementTimeHistory {
   std::string name;
   std::vector<double> displacement;  // d . x, m
   std::vector<double> force;         // N, against the motion
@@ -16,11 +16,11 @@ struct ElementHistory {
       slider;  // z of the first slider along the first direction, m; empty where there is none
 };
 
-struct History {
+struct TimeHistory {
   std::vector<double> time;          // s
   std::vector<double> displacement;  // of the response, m
   std::vector<double> velocity;      // m/s
-  std::vector<ElementHistory> elements;
+  std::vector<ElementTimeHistory> elements;
 };
 
 /// Energies over an interval, J:  input = friction + viscous + stored.

@@ -45,7 +45,7 @@ Newmark::Newmark(EquationOfMotion equation, long steps)
   state_ = at_rest(equation_);
 }
 
-void Newmark::resume(const State& state) {
+void Newmark::resume(const MotionState& state) {
   state_ = state;
   number_ = 0;
   energy_ = {};
@@ -57,11 +57,11 @@ void Newmark::resume(const State& state) {
   stored_at_begin_ = stored();
 }
 
-Solved Newmark::begin(const State& state) {
+Solved Newmark::begin(const MotionState& state) {
   resume(state);
   if (massless_.cols() == 0) return Solved::yes;
   const Solved placed = place_massless();
-  resume(State(state_));
+  resume(MotionState(state_));
   return placed;
 }
 

@@ -32,9 +32,9 @@ class Newmark {
 
   /// From a state at t = 0. Massless motions take the place, or the velocity, that the forces there give
   /// them; a slider beyond its limit is drawn after.
-  Solved begin(const State& state);
+  Solved begin(const MotionState& state);
   /// The same from a state that a step has left, as it is.
-  void resume(const State& state);
+  void resume(const MotionState& state);
 
   /// Does not allocate. If the step fails, the state is unchanged.
   Solved step();
@@ -43,7 +43,7 @@ class Newmark {
   long steps_per_period() const { return steps_; }
   long step_number() const { return number_; }  // since begin()
   double time() const { return static_cast<double>(number_) * h_; }
-  const State& state() const { return state_; }
+  const MotionState& state() const { return state_; }
   const ImplicitElements& elements() const { return elements_; }
   /// Since begin().
   EnergyBalance energy() const;
@@ -60,7 +60,7 @@ class Newmark {
   long steps_, number_ = 0;
   double h_;
   ImplicitElements elements_;
-  State state_;
+  MotionState state_;
   Vector force_, new_force_, rate_, b_, y_, v_;
   Matrix inertia_;              // 4/h M
   Matrix massless_, undamped_;  // orthonormal bases of M w = 0, and of M w = C w = 0

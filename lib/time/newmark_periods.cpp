@@ -54,9 +54,9 @@ class Observation {
 
  private:
   void reserve(std::size_t count) {
-    History& history = result_.history;
+    TimeHistory& history = result_.history;
     for (auto* list : {&history.time, &history.displacement, &history.velocity}) list->reserve(count);
-    for (ElementHistory& element : history.elements)
+    for (ElementTimeHistory& element : history.elements)
       for (auto* list : {&element.displacement, &element.force, &element.slider}) list->reserve(count);
   }
 
@@ -73,14 +73,14 @@ class Observation {
 
   void record() {
     if (!with_history_) return;
-    History& history = result_.history;
+    TimeHistory& history = result_.history;
     history.time.push_back(newmark_.time());
     history.displacement.push_back(x_);
     history.velocity.push_back(v_);
     const ImplicitElements& elements = newmark_.elements();
     for (std::size_t e = 0; e < history.elements.size(); ++e) {
       const Element& element = elements.elements()[e];
-      ElementHistory& of = history.elements[e];
+      ElementTimeHistory& of = history.elements[e];
       of.displacement.push_back(element.directions.col(0).dot(newmark_.state().x));
       of.force.push_back(elements.force()[elements.first_direction(e)]);
       for (int k = 0; k < element.law->memory(); ++k)
@@ -119,8 +119,8 @@ std::pair<results::Reason, std::string> failure_of(Solved solved, double time) {
   return {};
 }
 
-PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, bool with_history, bool first,
-                             const std::function<bool()>& stop) {
+PeriodMotion newmark_periods(Newmark& newmark, const MotionState& start, long count, bool with_history,
+                             bool first, const std::function<bool()>& stop) {
   Solved solved = Solved::yes;
   if (first) {
     solved = newmark.begin(start);
@@ -144,7 +144,7 @@ PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, b
   return result;
 }
 
-PeriodMap newmark_map(Newmark& newmark, const State& start) {
+PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   const EquationOfMotion& equation = newmark.equation();
   const Eigen::Index n = equation.dofs(), size = 2 * n + equation.memory;
   struct Reach {
@@ -178,7 +178,7 @@ PeriodMap newmark_map(Newmark& newmark, const State& start) {
       return map;
     }
     newmark.differentiate(map.monodromy);
-    const State& state = newmark.state();
+    const MotionState& state = newmark.state();
     map.size = std::max(map.size, std::hypot(state.x.norm(), state.v.norm() / equation.omega));
     for (std::size_t i = 0; i < reaches.size(); ++i) {
       Reach& reach = reaches[i];

@@ -13,12 +13,12 @@ namespace arcslip::time {
 /// that goes the part dz of dq in a step sticks for the share 1 - dz/dq of it. first: at the beginning of a
 /// motion, where massless motions are put in their place. stop: asked now and then; true ends with the
 /// failure user.
-PeriodMotion newmark_periods(Newmark& newmark, const State& start, long count, bool with_history, bool first,
-                             const std::function<bool()>& stop = {});
+PeriodMotion newmark_periods(Newmark& newmark, const MotionState& start, long count, bool with_history,
+                             bool first, const std::function<bool()>& stop = {});
 
 /// The map of one period. The derivative is the product of those of the steps: that of the discrete map,
 /// exact but where a slider begins to slip just at the end of a step.
-PeriodMap newmark_map(Newmark& newmark, const State& start);
+PeriodMap newmark_map(Newmark& newmark, const MotionState& start);
 
 /// Why a step was not solved, and in one sentence; Solved::yes: none.
 std::pair<results::Reason, std::string> failure_of(Solved solved, double time);

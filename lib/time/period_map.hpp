@@ -21,13 +21,13 @@ struct RestingSlider {
 struct PeriodMap {
   bool done = false;
   std::string message;  // why it failed
-  State end;
+  MotionState end;
   double size = 0;   // largest |(x, x'/omega)| on the way, m: what rounding and tolerances are relative to
   Matrix monodromy;  // d end/d start in (x, x', z)
   std::vector<RestingSlider> resting;
 };
 
 /// From a state at t = 0 over the period.
-using Flow = std::function<PeriodMap(const State& start)>;
+using Flow = std::function<PeriodMap(const MotionState& start)>;
 
 }  // namespace arcslip::time

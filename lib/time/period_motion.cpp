@@ -11,11 +11,11 @@ double largest(const Vector& v) {
   return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0;
 }
 
-double size_of(const State& state, double omega) {
+double size_of(const MotionState& state, double omega) {
   return std::max({largest(state.x), largest(state.v) / omega, largest(state.z)});
 }
 
-double change_of(const State& from, const State& to, double omega) {
+double change_of(const MotionState& from, const MotionState& to, double omega) {
   const double size = std::max(size_of(from, omega), size_of(to, omega));
   const double change = size_of({to.x - from.x, to.v - from.v, to.z - from.z}, omega);
   return size > 0 ? change / size : 0;
@@ -23,7 +23,7 @@ double change_of(const State& from, const State& to, double omega) {
 
 }  // namespace
 
-Transient transient(const Periods& integrate, const State& start, double omega,
+Transient transient(const Periods& integrate, const MotionState& start, double omega,
                     const TransientOptions& options, const std::function<bool(long, double)>& progress) {
   Transient result;
   result.reason = TransientEnd::period_limit;

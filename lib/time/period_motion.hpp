@@ -22,18 +22,18 @@ struct PeriodMotion {
   results::Reason failure;  // why the interval was not reached, of time::reasons; none: it was
   std::string message;      // the same in one sentence
   double time = 0;          // s, where it ended
-  State end;
+  MotionState end;
   double amplitude = 0;  // max |x| of the response, m
   EnergyBalance energy;
   std::vector<FrictionShare> friction;  // of each friction element, in the order of the elements
-  History history;                      // empty if not requested; both ends included
+  TimeHistory history;                  // empty if not requested; both ends included
 
   bool done() const { return failure.code.empty(); }
 };
 
 /// Integrates over `count` periods from a state that stands at the beginning of one; t = 0 is that of the
 /// first.
-using Periods = std::function<PeriodMotion(const State& start, long count, bool with_history)>;
+using Periods = std::function<PeriodMotion(const MotionState& start, long count, bool with_history)>;
 
 struct TransientOptions {
   long periods = 1000;      // maximum, including the recorded ones
@@ -52,13 +52,13 @@ struct Transient {
   TransientEnd reason = TransientEnd::steady;
   long periods = 0;     // before those recorded
   double change = 0;    // of the state over the last period, relative to its size
-  State start;          // of the recorded periods
+  MotionState start;    // of the recorded periods
   PeriodMotion motion;  // the recorded periods
 };
 
 /// From a state at t = 0. progress: periods done, and the last change; false stops. omega: rad/s, makes
 /// velocities comparable with displacements.
-Transient transient(const Periods& integrate, const State& start, double omega,
+Transient transient(const Periods& integrate, const MotionState& start, double omega,
                     const TransientOptions& options, const std::function<bool(long, double)>& progress = {});
 
 }  // namespace arcslip::time

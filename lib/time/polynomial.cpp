@@ -8,7 +8,7 @@ namespace {
 
 constexpr double roundoff = std::numeric_limits<double>::epsilon();
 
-struct Place {
+struct Sample {
   double s, g;
 };
 
@@ -18,7 +18,7 @@ class Search {
 
   // The changes of sign in (a, b], in their order; `visit` returns true to end the search.
   template <class Visit>
-  bool run(const Place& a, const Place& b, Visit&& visit) const {
+  bool run(const Sample& a, const Sample& b, Visit&& visit) const {
     const double h = b.s - a.s, m = 0.5 * (a.s + b.s);
     const bool change = (a.g > 0) != (b.g > 0);
     const auto [size, curvature] = bounds(b.s);
@@ -26,7 +26,7 @@ class Search {
     if (!change && std::min(std::abs(a.g), std::abs(b.g)) >= sag) return false;
     const bool monotone = std::abs(slope(m)) > 0.5 * curvature * h;
     if (monotone || !(sag > roundoff * size)) return change && visit(polish(a, b));
-    const Place middle{m, value(c_, m)};
+    const Sample middle{m, value(c_, m)};
     return run(a, middle, visit) || run(middle, b, visit);
   }
 
@@ -52,7 +52,7 @@ class Search {
   }
 
   // Newton's method kept in the bracket.
-  double polish(Place a, Place b) const {
+  double polish(Sample a, Sample b) const {
     double s = a.s + (b.s - a.s) * (a.g / (a.g - b.g)), last = b.s - a.s;
     for (int i = 0; i < 200; ++i) {
       if (!(s > a.s && s < b.s)) s = 0.5 * (a.s + b.s);

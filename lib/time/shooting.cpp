@@ -15,19 +15,19 @@ constexpr double at_rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double singular = 64 * std::numeric_limits<double>::epsilon();
 constexpr double least_step = 1.0 / 32;
 
-Vector stacked(const State& state) {
+Vector stacked(const MotionState& state) {
   Vector y(state.x.size() + state.v.size() + state.z.size());
   y << state.x, state.v, state.z;
   return y;
 }
 
-State unstacked(const Vector& y, Eigen::Index n) {
+MotionState unstacked(const Vector& y, Eigen::Index n) {
   return {y.head(n), y.segment(n, n), y.tail(y.size() - 2 * n)};
 }
 
 class Shooting {
  public:
-  Shooting(const Flow& flow, const State& start, double omega, const ShootingOptions& options)
+  Shooting(const Flow& flow, const MotionState& start, double omega, const ShootingOptions& options)
       : flow_(flow),
         options_(options),
         n_(start.x.size()),
@@ -166,14 +166,15 @@ class Shooting {
 
 }  // namespace
 
-ShootingResult shoot(const Flow& flow, const State& start, double omega, const ShootingOptions& options) {
+ShootingResult shoot(const Flow& flow, const MotionState& start, double omega,
+                     const ShootingOptions& options) {
   return Shooting(flow, start, omega, options).run();
 }
 
-PeriodicMotion periodic_motion(EventDriven& integrator, const State& start, const ShootingOptions& options,
-                               std::span<const double> instants) {
+PeriodicMotion periodic_motion(EventDriven& integrator, const MotionState& start,
+                               const ShootingOptions& options, std::span<const double> instants) {
   const double period = options.periods * integrator.equation().period();
-  const Flow flow = [&](const State& state) { return integrator.map(state, period); };
+  const Flow flow = [&](const MotionState& state) { return integrator.map(state, period); };
   PeriodicMotion motion{shoot(flow, start, integrator.equation().omega, options), {}};
   if (motion.converged()) motion.period = integrator.integrate(motion.shooting.start, 0, period, instants);
   return motion;

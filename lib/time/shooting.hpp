@@ -38,7 +38,7 @@ enum class ShootingEnd {
 struct ShootingResult {
   ShootingEnd reason = ShootingEnd::converged;
   std::string message;
-  State start;                                    // on the periodic motion, t = 0
+  MotionState start;                              // on the periodic motion, t = 0
   double correction = 0;                          // the last one, relative to the state
   double defect = 0;                              // |Phi(X) - X| before it, relative to the state
   int iterations = 0;                             // Newton steps
@@ -51,7 +51,8 @@ struct ShootingResult {
 };
 
 /// omega: rad/s, makes velocities comparable with displacements.
-ShootingResult shoot(const Flow& flow, const State& start, double omega, const ShootingOptions& options = {});
+ShootingResult shoot(const Flow& flow, const MotionState& start, double omega,
+                     const ShootingOptions& options = {});
 
 /// A periodic motion of a structure with friction, exact.
 struct PeriodicMotion {
@@ -62,7 +63,7 @@ struct PeriodicMotion {
 };
 
 /// By event-driven integration. instants: ascending, s, in [0, periods 2 pi/omega], for the history.
-PeriodicMotion periodic_motion(EventDriven& integrator, const State& start,
+PeriodicMotion periodic_motion(EventDriven& integrator, const MotionState& start,
                                const ShootingOptions& options = {}, std::span<const double> instants = {});
 
 }  // namespace arcslip::time

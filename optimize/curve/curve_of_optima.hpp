@@ -57,10 +57,21 @@ class CurveOfOptima {
   // Continues from the current point to the end of the active set or of the range, or until a response
   // is due.
   void piece();
+  struct Piece {
+    continuation::Branch branch;
+    std::map<double, Seen> seen;  // by arclength
+    std::vector<Inequality> may_change;
+    bool response_due = false, stopped_by_user = false;
+  };
+  Piece trace_piece();
+  std::vector<continuation::Monitor> monitors(const std::vector<Inequality>& may_change) const;
+  continuation::Options trace_options();
+  std::unique_ptr<OptimalityEvaluator> move_to_end(Piece& piece);
+  void end_at_boundary(double s);
   // The equations at the end of a piece: with the tracked peaks, or, if trials have lost these, with those of
   // a new response.
   std::unique_ptr<OptimalityEvaluator> at_last_point();
-  void stop_with(const continuation::Stop& stop);
+  void stop_with(const continuation::BranchStop& stop);
   // The curve ends where the active peaks no longer depend on a parameter; at its end a trace may turn back
   // onto itself.
   static void end_at_u_turn(continuation::Branch& branch);
@@ -83,7 +94,7 @@ class CurveOfOptima {
   // Returns to the point of the last response.
   void go_back();
   // An active peak cannot be tracked further: identifies it in a response slightly beyond.
-  void lost(const continuation::Stop& stop);
+  void lost(const continuation::BranchStop& stop);
   // Continues from slightly beyond the end of a piece, with the peaks there. way: -1 if s turns, to a piece
   // with peaks of other kinds. False: no such optimum; here_ is then unchanged.
   bool goes_on(const Standing& last, double by, int way);

@@ -175,7 +175,7 @@ void CurveOfOptima::go_back() {
     here_.active.peaks = found;
 }
 
-void CurveOfOptima::lost(const continuation::Stop& stop) {
+void CurveOfOptima::lost(const continuation::BranchStop& stop) {
   const std::string where = "at " + place(here_.sigma) + ": ";
   if (here_.tangent.size() == 0 || here_.design.empty())
     return static_cast<void>(end(Status::failed, observables::reason_of(stop.reason), where + stop.message));

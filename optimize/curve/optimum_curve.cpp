@@ -204,32 +204,33 @@ OptimumPoint CurveOfOptima::point(const OptimalityEvaluator& at) {
   return p;
 }
 
-void CurveOfOptima::piece() {
-  const auto of = data();
-  std::vector<Inequality> may_change = inequalities(here_.active);
-  const Eigen::Index tau = here_.active.unknowns() - 1;
-  std::vector<Monitor> monitors;
+// An inequality of the active set that changes, or another peak that joins, ends the piece.
+std::vector<Monitor> CurveOfOptima::monitors(const std::vector<Inequality>& may_change) const {
+  using continuation::Crossing;
+  std::vector<Monitor> all;
   for (std::size_t i = 0; i < may_change.size(); ++i)
-    monitors.push_back(
+    all.push_back(
         {.name = change_name(i),
          .value = [each = may_change[i]](const Accepted& now) { return evaluator(now).slack(each); },
-         .crossing = continuation::Crossing::falling,
+         .crossing = Crossing::falling,
          .terminal = true});
-  monitors.push_back({.name = event_kinds::peak_joins,
-                      .value = [](const Accepted& now) { return evaluator(now).distance_of_others(); },
-                      .crossing = continuation::Crossing::falling,
-                      .terminal = true});
+  all.push_back({.name = event_kinds::peak_joins,
+                 .value = [](const Accepted& now) { return evaluator(now).distance_of_others(); },
+                 .crossing = Crossing::falling,
+                 .terminal = true});
+  const Eigen::Index tau = here_.active.unknowns() - 1;
   const auto slope = [tau](const Accepted& now) { return now.tangent[tau]; };
   const auto level = [tau](const Accepted& now) { return now.u[tau]; };
-  using continuation::Crossing;
-  monitors.push_back(
+  all.push_back(
       {.name = event_kinds::minimum, .value = slope, .crossing = Crossing::rising, .quantity = level});
-  monitors.push_back(
+  all.push_back(
       {.name = event_kinds::maximum, .value = slope, .crossing = Crossing::falling, .quantity = level});
-  Monitor turn = continuation::fold_monitor();
-  turn.name = event_kinds::turning_point;
-  monitors.push_back(turn);
+  all.push_back(continuation::fold_monitor());
+  all.back().name = event_kinds::turning_point;
+  return all;
+}
 
+continuation::Options CurveOfOptima::trace_options() {
   continuation::Options options;
   options.lower = sigma().scaled(along_.lower);
   options.upper = sigma().scaled(along_.upper);
@@ -239,75 +240,64 @@ void CurveOfOptima::piece() {
   options.step.smallest = smallest_step;
   options.points = std::max<long>(1, options_.points - static_cast<long>(curve_.points.size()) + 1);
   options.go_on = [this] { return watch_.go_on(); };
+  return options;
+}
 
-  std::map<double, Seen> seen;  // by arclength
-  bool due = false, user = false;
+CurveOfOptima::Piece CurveOfOptima::trace_piece() {
+  Piece piece;
+  piece.may_change = inequalities(here_.active);
   std::exception_ptr thrown;
   const auto observe = [&](const Accepted& now, const Event*) {
     Standing there = here_;
     there.tangent = now.tangent;
     there.orient(evaluator(now));
-    seen[now.arclength] = {point(evaluator(now)), evaluator(now).slope_along(), there.orientation};
-    const OptimumPoint& at = seen[now.arclength].point;
+    Seen& seen = piece.seen[now.arclength];
+    seen = {point(evaluator(now)), evaluator(now).slope_along(), there.orientation};
     try {
-      user = options_.progress && !options_.progress(at);
+      piece.stopped_by_user = options_.progress && !options_.progress(seen.point);
     } catch (...) {
       thrown = std::current_exception();
-      user = true;
+      piece.stopped_by_user = true;
     }
-    due = way_since_response(at) >= interval_;
-    return !due && !user;
+    piece.response_due = way_since_response(seen.point) >= interval_;
+    return !piece.response_due && !piece.stopped_by_user;
   };
-  continuation::Start start{here_.z, Vector::Constant(1, here_.sigma), 0, 1, here_.tangent};
-  auto branch = continuation::trace(optimality(of), start, options, monitors, observe);
+  const continuation::Start start{here_.z, Vector::Constant(1, here_.sigma), 0, 1, here_.tangent};
+  continuation::Branch& branch = piece.branch;
+  branch =
+      continuation::trace(optimality(data()), start, trace_options(), monitors(piece.may_change), observe);
   end_at_u_turn(branch);
   ++curve_.work.pieces;
   curve_.work.points += branch.counts.points;
   curve_.work.evaluations += branch.counts.residuals;
   curve_.work.hessians += branch.counts.jacobians;
-  keep(branch, seen);
+  keep(branch, piece.seen);
   if (thrown) std::rethrow_exception(thrown);
-  if (branch.points.empty()) {
-    lost(branch.stop);
-    return;
-  }
-  const auto& last = branch.points.back();
-  here_.z = last.u;
-  here_.sigma = last.parameter;
-  here_.tangent = last.tangent;
-  if (branch.points.size() > 1) step_ = last.arclength - branch.points[branch.points.size() - 2].arclength;
-  const std::vector<std::size_t> indices = here_.active.peaks;
-  const auto end_of_piece = at_last_point();
-  if (!end_of_piece) {
+  return piece;
+}
+
+void CurveOfOptima::piece() {
+  Piece piece = trace_piece();
+  const continuation::Branch& branch = piece.branch;
+  if (branch.points.empty()) return lost(branch.stop);
+  const auto at = move_to_end(piece);
+  if (!at) {
     end(Status::stopped, reasons::lost_peak,
         "at " + place(here_.sigma) + " a newly traced response does not have the tracked peaks");
     return;
   }
-  const OptimalityEvaluator& at = *end_of_piece;
-  here_.design = at.design();
-  here_.peaks = peaks_of(curve_.points.back());
-  here_.orientation = std::prev(seen.upper_bound(last.arclength))->second.orientation;  // of all the piece
-  for (Inequality& each : may_change)
-    if (each.kind == Kind::peak)
-      each.index = here_.active.peaks[static_cast<std::size_t>(
-          std::find(indices.begin(), indices.end(), each.index) - indices.begin())];
   switch (branch.stop.reason) {
     case StopReason::boundary:
       verify();
-      if (ended_ || rewound_) return;
-      if (last.parameter >= options.upper)
-        end(Status::complete, reasons::boundary, "the optimum was continued to " + place(last.parameter));
-      else
-        end(Status::stopped, reasons::turned_back,
-            "the curve of optima turned back and left the range at " + place(last.parameter));
+      if (!ended_ && !rewound_) end_at_boundary(branch.points.back().parameter);
       return;
     case StopReason::event:
-      change(last_change(branch, may_change.size()), may_change, at);
+      change(last_change(branch, piece.may_change.size()), piece.may_change, *at);
       return;
     case StopReason::user:
       if (watch_.stopped())
         end_interrupted();
-      else if (due && !user)
+      else if (piece.response_due && !piece.stopped_by_user)
         verify();
       else
         stop_with(branch.stop);
@@ -322,6 +312,36 @@ void CurveOfOptima::piece() {
   }
 }
 
+// here_ becomes the end of the piece, with its equations, and the inequalities get the indices of the peaks
+// there. Null if a new response does not have them.
+std::unique_ptr<OptimalityEvaluator> CurveOfOptima::move_to_end(Piece& piece) {
+  const auto& points = piece.branch.points;
+  const auto& last = points.back();
+  here_.z = last.u;
+  here_.sigma = last.parameter;
+  here_.tangent = last.tangent;
+  if (points.size() > 1) step_ = last.arclength - points[points.size() - 2].arclength;
+  const std::vector<std::size_t> indices = here_.active.peaks;
+  auto at = at_last_point();
+  if (!at) return nullptr;
+  here_.design = at->design();
+  here_.peaks = peaks_of(curve_.points.back());
+  here_.orientation = std::prev(piece.seen.upper_bound(last.arclength))->second.orientation;  // of all of it
+  for (Inequality& each : piece.may_change)
+    if (each.kind == Kind::peak)
+      each.index = here_.active.peaks[static_cast<std::size_t>(
+          std::find(indices.begin(), indices.end(), each.index) - indices.begin())];
+  return at;
+}
+
+void CurveOfOptima::end_at_boundary(double s) {
+  if (s >= sigma().scaled(along_.upper))
+    end(Status::complete, reasons::boundary, "the optimum was continued to " + place(s));
+  else
+    end(Status::stopped, reasons::turned_back,
+        "the curve of optima turned back and left the range at " + place(s));
+}
+
 std::unique_ptr<OptimalityEvaluator> CurveOfOptima::at_last_point() {
   auto at = std::make_unique<OptimalityEvaluator>(data());
   const OptimumPoint& last = curve_.points.back();
@@ -334,7 +354,7 @@ std::unique_ptr<OptimalityEvaluator> CurveOfOptima::at_last_point() {
   return here_.move(*at) ? std::move(at) : nullptr;
 }
 
-void CurveOfOptima::stop_with(const continuation::Stop& stop) {
+void CurveOfOptima::stop_with(const continuation::BranchStop& stop) {
   end(Status::stopped, observables::reason_of(stop.reason), "at " + place(here_.sigma) + ": " + stop.message);
 }
 

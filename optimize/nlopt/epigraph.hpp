@@ -16,7 +16,7 @@ namespace arcslip::optimize {
 /// Adds levels to the variables of a problem and to its start, and sets ln sum_g exp(t_g) as the objective.
 /// visit: called with every y at which the objective is evaluated. The caller adds the constraints
 /// ln f_gk(y) - t_g <= 0.
-inline void add_levels(Problem& problem, std::vector<double>& start, std::span<const double> levels,
+inline void add_levels(NonlinearProgram& problem, std::vector<double>& start, std::span<const double> levels,
                        double lower, double upper, std::function<void(std::span<const double>)> visit) {
   const std::size_t n = start.size();
   start.insert(start.end(), levels.begin(), levels.end());

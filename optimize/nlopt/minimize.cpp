@@ -92,7 +92,7 @@ void check(const std::string& where, const Tolerances& t) {
     require(value >= 0 && std::isfinite(value), (where + "." + field).c_str(), value, "finite and >= 0");
 }
 
-void check(const Problem& problem, const std::vector<double>& start, const Algorithm& chosen) {
+void check(const NonlinearProgram& problem, const std::vector<double>& start, const Algorithm& chosen) {
   const std::size_t n = start.size();
   if (n == 0) throw OptionsError("there is nothing to vary: the start has 0 variables");
   if (problem.lower.size() != n || problem.upper.size() != n)
@@ -123,7 +123,7 @@ void check(const Problem& problem, const std::vector<double>& start, const Algor
   }
 }
 
-void check(const Options& o, const Algorithm& chosen) {
+void check(const MinimizeOptions& o, const Algorithm& chosen) {
   check("tolerances", o.tolerances);
   require(o.evaluations >= 1, "evaluations", o.evaluations, ">= 1");
   require(o.seconds >= 0 && std::isfinite(o.seconds), "seconds", o.seconds, "finite and >= 0 (0: no limit)");
@@ -167,7 +167,7 @@ void set(nlopt_opt handle, const Tolerances& t) {
   nlopt_set_ftol_abs(handle, t.f_absolute);
 }
 
-void set(nlopt_opt handle, const Problem& problem, const Options& options) {
+void set(nlopt_opt handle, const NonlinearProgram& problem, const MinimizeOptions& options) {
   nlopt_set_lower_bounds(handle, problem.lower.data());
   nlopt_set_upper_bounds(handle, problem.upper.data());
   set(handle, options.tolerances);
@@ -183,7 +183,7 @@ void set(nlopt_opt handle, const Problem& problem, const Options& options) {
 }
 
 // Projects x onto the bounds, with notes.
-std::vector<std::string> move_inside(std::vector<double>& x, const Problem& problem) {
+std::vector<std::string> move_inside(std::vector<double>& x, const NonlinearProgram& problem) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double inside = std::clamp(x[i], problem.lower[i], problem.upper[i]);
@@ -197,7 +197,8 @@ std::vector<std::string> move_inside(std::vector<double>& x, const Problem& prob
 
 }  // namespace
 
-Result minimize(const Problem& problem, std::vector<double> start, const Options& options) {
+MinimizeResult minimize(const NonlinearProgram& problem, std::vector<double> start,
+                        const MinimizeOptions& options) {
   const Algorithm chosen = algorithm(options.algorithm);
   check(options, chosen);
   check(problem, start, chosen);
@@ -219,7 +220,7 @@ Result minimize(const Problem& problem, std::vector<double> start, const Options
   nlopt_srand(options.seed);  // of this thread
   double value = 0;
   const int code = nlopt_optimize(handle.get(), start.data(), &value);
-  Result result = run.result(code, nlopt_get_errmsg(handle.get()));
+  MinimizeResult result = run.result(code, nlopt_get_errmsg(handle.get()));
   result.notes = std::move(notes);
   return result;
 }

@@ -34,7 +34,7 @@ struct Algorithm {
   std::string name;          // "LD_SLSQP"
   int code = 0;              // nlopt_algorithm
   bool global = false;       // needs finite bounds
-  bool needs_local = false;  // requires Options::local
+  bool needs_local = false;  // requires MinimizeOptions::local
   bool takes_local = false;  // AUGLAG and MLSL
   bool takes_constraints = false;
 };
@@ -59,7 +59,7 @@ struct Constraint {
 
 /// Bounds may be infinite for local algorithms. lower < upper in every variable. An objective of +infinity
 /// means that x is outside the domain; algorithms then see a value above all others.
-struct Problem {
+struct NonlinearProgram {
   Function objective;
   std::vector<double> lower, upper;
   std::vector<Constraint> constraints{};
@@ -80,14 +80,14 @@ struct LocalOptions {
   int evaluations = 0;  // in each local search; 0: only the limit of the whole run
 };
 
-struct Progress {
+struct MinimizeProgress {
   long evaluations = 0;       // calls of the objective so far
   std::span<const double> x;  // of the last call
   double value = 0;           // of the last call
   double best = 0;            // lowest feasible value so far; infinity if there is none
 };
 
-struct Options {
+struct MinimizeOptions {
   std::string algorithm{default_algorithm};  // NLopt name, see algorithms()
   Tolerances tolerances{};
   int evaluations = 10000;                                   // calls of the objective, >= 1
@@ -96,18 +96,18 @@ struct Options {
   int population = 0;      // of stochastic algorithms; 0: the algorithm's default
   unsigned long seed = 1;  // of stochastic algorithms: the same seed gives the same run
   std::optional<LocalOptions> local{};
-  std::function<bool(const Progress&)>
+  std::function<bool(const MinimizeProgress&)>
       progress{};  // called after every call of the objective; false stops the run
 };
 
-struct Result {
+struct MinimizeResult {
   std::vector<double> x;  // best point: least constraint violation, then lowest value; may be empty
   double value =
       std::numeric_limits<double>::infinity();  // f(x); infinity, and x empty, if no evaluation succeeded
   bool feasible = false;                        // all constraints hold at x, within their tolerances
   long evaluations = 0;                         // calls of the objective
   double seconds = 0;
-  Reason reason = Reason::failed;
+  MinimizeReason reason = MinimizeReason::failed;
   std::string message;             // the reason as one sentence, with its numbers
   std::string cause;               // the first part of it, without evaluations and best value
   std::vector<std::string> notes;  // changes of the input: a start moved into the bounds
@@ -115,6 +115,7 @@ struct Result {
 
 /// Minimizes from `start`, which is projected onto the bounds. Throws only OptionsError; exceptions of the
 /// objective become a reason. Thread-safe.
-Result minimize(const Problem& problem, std::vector<double> start, const Options& options = {});
+MinimizeResult minimize(const NonlinearProgram& problem, std::vector<double> start,
+                        const MinimizeOptions& options = {});
 
 }  // namespace arcslip::optimize

@@ -4,70 +4,70 @@
 
 namespace arcslip::optimize {
 
-std::string_view name(Reason reason) {
+std::string_view name(MinimizeReason reason) {
   return reason_of(reason).code;
 }
 
-results::Reason reason_of(Reason reason) {
+results::Reason reason_of(MinimizeReason reason) {
   switch (reason) {
-    case Reason::converged:
+    case MinimizeReason::converged:
       return reasons::converged;
-    case Reason::converged_value:
+    case MinimizeReason::converged_value:
       return reasons::converged_value;
-    case Reason::converged_step:
+    case MinimizeReason::converged_step:
       return reasons::converged_step;
-    case Reason::target:
+    case MinimizeReason::target:
       return reasons::target;
-    case Reason::evaluation_limit:
+    case MinimizeReason::evaluation_limit:
       return reasons::evaluation_limit;
-    case Reason::time_limit:
+    case MinimizeReason::time_limit:
       return reasons::time_limit;
-    case Reason::user:
+    case MinimizeReason::user:
       return reasons::user;
-    case Reason::rounding:
+    case MinimizeReason::rounding:
       return reasons::rounding;
-    case Reason::objective_failed:
+    case MinimizeReason::objective_failed:
       return reasons::objective_failed;
-    case Reason::not_finite:
+    case MinimizeReason::not_finite:
       return reasons::not_finite;
-    case Reason::invalid_arguments:
+    case MinimizeReason::invalid_arguments:
       return reasons::invalid_arguments;
-    case Reason::out_of_memory:
+    case MinimizeReason::out_of_memory:
       return reasons::out_of_memory;
-    case Reason::failed:
+    case MinimizeReason::failed:
       break;
   }
   return reasons::failed;
 }
 
-bool is_converged(Reason reason) {
-  return reason <= Reason::target;
+bool is_converged(MinimizeReason reason) {
+  return reason <= MinimizeReason::target;
 }
 
-Reason reason_of(int nlopt_result) {
+MinimizeReason reason_of(int nlopt_result) {
   switch (nlopt_result) {
     case NLOPT_SUCCESS:
-      return Reason::converged;
+      return MinimizeReason::converged;
     case NLOPT_STOPVAL_REACHED:
-      return Reason::target;
+      return MinimizeReason::target;
     case NLOPT_FTOL_REACHED:
-      return Reason::converged_value;
+      return MinimizeReason::converged_value;
     case NLOPT_XTOL_REACHED:
-      return Reason::converged_step;
+      return MinimizeReason::converged_step;
     case NLOPT_MAXEVAL_REACHED:
-      return Reason::evaluation_limit;
+      return MinimizeReason::evaluation_limit;
     case NLOPT_MAXTIME_REACHED:
-      return Reason::time_limit;
+      return MinimizeReason::time_limit;
     case NLOPT_FORCED_STOP:
-      return Reason::user;
+      return MinimizeReason::user;
     case NLOPT_ROUNDOFF_LIMITED:
-      return Reason::rounding;
+      return MinimizeReason::rounding;
     case NLOPT_INVALID_ARGS:
-      return Reason::invalid_arguments;
+      return MinimizeReason::invalid_arguments;
     case NLOPT_OUT_OF_MEMORY:
-      return Reason::out_of_memory;
+      return MinimizeReason::out_of_memory;
     default:
-      return Reason::failed;
+      return MinimizeReason::failed;
   }
 }
 

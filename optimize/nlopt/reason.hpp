@@ -27,7 +27,7 @@ namespace arcslip::optimize {
 ///   out_of_memory     NLopt ran out of memory.
 ///   failed            the algorithm failed without giving a reason. Causes: degenerate constraints,
 ///                     wrong gradients.
-enum class Reason {
+enum class MinimizeReason {
   converged,
   converged_value,
   converged_step,
@@ -44,16 +44,16 @@ enum class Reason {
 };
 
 /// "converged_value" and so on.
-std::string_view name(Reason reason);
+std::string_view name(MinimizeReason reason);
 
 /// True for the first group.
-bool is_converged(Reason reason);
+bool is_converged(MinimizeReason reason);
 
 /// The reason for a return code of NLopt (its enum nlopt_result); `failed` for unknown codes.
-Reason reason_of(int nlopt_result);
+MinimizeReason reason_of(int nlopt_result);
 
 /// The reason with the code name(reason).
-results::Reason reason_of(Reason reason);
+results::Reason reason_of(MinimizeReason reason);
 
 namespace reasons {
 

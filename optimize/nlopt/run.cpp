@@ -37,7 +37,7 @@ std::string what(const std::exception_ptr& thrown) {
 
 }  // namespace
 
-Run::Run(const Problem& problem, const Options& options, nlopt_opt handle)
+Run::Run(const NonlinearProgram& problem, const MinimizeOptions& options, nlopt_opt handle)
     : problem_(problem),
       options_(options),
       handle_(handle),
@@ -45,7 +45,7 @@ Run::Run(const Problem& problem, const Options& options, nlopt_opt handle)
 
 double Run::objective(std::span<const double> x, std::span<double> gradient) noexcept {
   // Some algorithms check their limit only once in several calls.
-  if (!interrupted_ && evaluations_ >= options_.evaluations) interrupt(Reason::evaluation_limit);
+  if (!interrupted_ && evaluations_ >= options_.evaluations) interrupt(MinimizeReason::evaluation_limit);
   const double value = call(0, problem_.objective, x, gradient);
   return std::isfinite(value) ? value : barrier();
 }
@@ -67,7 +67,7 @@ double Run::call(std::size_t k, const Function& function, std::span<const double
   }
   std::fill(gradient.begin(), gradient.end(), not_a_number);
   if (std::any_of(x.begin(), x.end(), [](double xi) { return !std::isfinite(xi); })) {
-    interrupt(Reason::rounding);  // SLSQP divides by zero where no step keeps two constraints
+    interrupt(MinimizeReason::rounding);  // SLSQP divides by zero where no step keeps two constraints
     std::fill(gradient.begin(), gradient.end(), 0.0);
     return not_a_number;
   }
@@ -81,12 +81,13 @@ double Run::call(std::size_t k, const Function& function, std::span<const double
     called = problem_.constraints.size() + 1;
     if (k == 0 && !interrupted_) report(x, value);
   } catch (const Interrupted&) {
-    interrupt(Reason::user);
+    interrupt(MinimizeReason::user);
   } catch (...) {
     thrown_ = std::current_exception();
-    interrupt(Reason::objective_failed, called);
+    interrupt(MinimizeReason::objective_failed, called);
   }
-  if (!interrupted_ && options_.seconds > 0 && seconds() >= options_.seconds) interrupt(Reason::time_limit);
+  if (!interrupted_ && options_.seconds > 0 && seconds() >= options_.seconds)
+    interrupt(MinimizeReason::time_limit);
   if (!std::isfinite(value)) std::fill(gradient.begin(), gradient.end(), 0.0);  // it has no meaning there
   return value;
 }
@@ -98,12 +99,12 @@ void Run::take(std::size_t k, std::span<const double> x, std::span<const double>
       std::find_if_not(gradient.begin(), gradient.end(), [](double g) { return std::isfinite(g); });
   if (!std::isfinite(value)) {
     odd_ = value;
-    return interrupt(Reason::not_finite, k);
+    return interrupt(MinimizeReason::not_finite, k);
   }
   if (odd != gradient.end()) {
     odd_ = *odd;
     odd_entry_ = static_cast<std::size_t>(odd - gradient.begin());
-    return interrupt(Reason::not_finite, k);
+    return interrupt(MinimizeReason::not_finite, k);
   }
   if (k == 0) worst_ = std::max(worst_, value);
 
@@ -132,7 +133,7 @@ void Run::keep_if_best() {
 void Run::report(std::span<const double> x, double value) {
   if (!options_.progress) return;
   const double best = best_excess_ == 0 ? best_value_ : infinity;
-  if (!options_.progress({evaluations_, x, value, best})) interrupt(Reason::user);
+  if (!options_.progress({evaluations_, x, value, best})) interrupt(MinimizeReason::user);
 }
 
 // The value passed to an algorithm for an infinite objective: above all others, but finite, since algorithms
@@ -144,7 +145,7 @@ double Run::barrier() const noexcept {
   return worst_ + (above > 0 ? above : 1);
 }
 
-void Run::interrupt(Reason reason, std::size_t blamed) noexcept {
+void Run::interrupt(MinimizeReason reason, std::size_t blamed) noexcept {
   interrupted_ = reason;
   blamed_ = blamed;
 }
@@ -153,8 +154,8 @@ double Run::seconds() const noexcept {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
-Result Run::result(int nlopt_result, const char* nlopt_message) const {
-  Result r;
+MinimizeResult Run::result(int nlopt_result, const char* nlopt_message) const {
+  MinimizeResult r;
   r.x = best_x_;
   r.value = best_value_;
   r.feasible = best_excess_ == 0;
@@ -173,45 +174,45 @@ std::string Run::blamed_name() const {
   return "the progress callback";
 }
 
-std::string Run::message(const Result& r) const {
+std::string Run::message(const MinimizeResult& r) const {
   const std::string excess = r.feasible ? "" : text(", where a constraint is exceeded by ", best_excess_);
   const std::string best = r.x.empty() ? "; no evaluation succeeded"
                                        : text("; the best value is ", r.value, " at ", text_of(r.x), excess);
-  if (r.reason == Reason::evaluation_limit) return r.cause + best;
+  if (r.reason == MinimizeReason::evaluation_limit) return r.cause + best;
   return r.cause + text(" after ", r.evaluations, r.evaluations == 1 ? " evaluation" : " evaluations", best);
 }
 
-std::string Run::cause(const Result& r, const char* nlopt_message) const {
+std::string Run::cause(const MinimizeResult& r, const char* nlopt_message) const {
   const Tolerances& t = options_.tolerances;
   const std::string& algorithm = options_.algorithm;
   const std::string said = nlopt_message ? text(": ", nlopt_message) : "";
   switch (r.reason) {
-    case Reason::converged:
+    case MinimizeReason::converged:
       return algorithm + " found a minimum";
-    case Reason::converged_value:
+    case MinimizeReason::converged_value:
       return "a step changed the value by less than " + tolerance(t.f_relative, t.f_absolute);
-    case Reason::converged_step:
+    case MinimizeReason::converged_step:
       return "a step changed the variables by less than " + tolerance(t.x_relative, t.x_absolute);
-    case Reason::target:
+    case MinimizeReason::target:
       return text("the value reached the target ", options_.target);
-    case Reason::evaluation_limit:
+    case MinimizeReason::evaluation_limit:
       return text("the limit of ", options_.evaluations, " evaluations was reached");
-    case Reason::time_limit:
+    case MinimizeReason::time_limit:
       return text("the limit of ", options_.seconds, " s was reached at ", r.seconds, " s");
-    case Reason::user:
+    case MinimizeReason::user:
       return "the progress callback stopped the run";
-    case Reason::rounding:
+    case MinimizeReason::rounding:
       return "rounding errors prevented further progress";
-    case Reason::objective_failed:
+    case MinimizeReason::objective_failed:
       return blamed_name() + " threw \"" + what(thrown_) + "\"";
-    case Reason::not_finite:
+    case MinimizeReason::not_finite:
       return (odd_entry_ ? text("entry ", *odd_entry_, " of the gradient of ") : "") + blamed_name() +
              text(" is ", odd_);
-    case Reason::invalid_arguments:
+    case MinimizeReason::invalid_arguments:
       return "NLopt refused to run " + algorithm + said;
-    case Reason::out_of_memory:
+    case MinimizeReason::out_of_memory:
       return algorithm + " ran out of memory";
-    case Reason::failed:
+    case MinimizeReason::failed:
       return algorithm + " gave up" + said;
   }
   return "";

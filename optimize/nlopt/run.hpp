@@ -14,13 +14,13 @@ namespace arcslip::optimize {
 /// why the run ended. objective() and constraint() are called from C and let no exception escape.
 class Run {
  public:
-  Run(const Problem& problem, const Options& options, nlopt_opt handle);
+  Run(const NonlinearProgram& problem, const MinimizeOptions& options, nlopt_opt handle);
 
   double objective(std::span<const double> x, std::span<double> gradient) noexcept;
   double constraint(std::size_t k, std::span<const double> x, std::span<double> gradient) noexcept;
 
   /// The result of a run that NLopt ended with this code and this message (may be null).
-  Result result(int nlopt_result, const char* nlopt_message) const;
+  MinimizeResult result(int nlopt_result, const char* nlopt_message) const;
 
  private:
   // The functions by number: 0 the objective, then the constraints, then the progress callback.
@@ -30,14 +30,14 @@ class Run {
   void keep_if_best();
   void report(std::span<const double> x, double value);
   double barrier() const noexcept;
-  void interrupt(Reason reason, std::size_t blamed = 0) noexcept;
+  void interrupt(MinimizeReason reason, std::size_t blamed = 0) noexcept;
   double seconds() const noexcept;
   std::string blamed_name() const;
-  std::string cause(const Result& r, const char* nlopt_message) const;
-  std::string message(const Result& r) const;
+  std::string cause(const MinimizeResult& r, const char* nlopt_message) const;
+  std::string message(const MinimizeResult& r) const;
 
-  const Problem& problem_;
-  const Options& options_;
+  const NonlinearProgram& problem_;
+  const MinimizeOptions& options_;
   nlopt_opt handle_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   long evaluations_ = 0;
@@ -49,7 +49,7 @@ class Run {
   double best_excess_ = std::numeric_limits<double>::infinity();
   double worst_ = -std::numeric_limits<double>::infinity();  // largest finite value of the objective
 
-  std::optional<Reason> interrupted_;
+  std::optional<MinimizeReason> interrupted_;
   std::size_t blamed_ = 0;  // number of the function that failed
   std::exception_ptr thrown_;
   double odd_ = 0;                        // the non-finite value,

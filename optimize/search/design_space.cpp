@@ -173,7 +173,7 @@ double DesignSpace::value(const Linear& limit, std::span<const double> design) c
   return (sum - limit.bound) / limit.scale;
 }
 
-void DesignSpace::add_linear(Problem& problem) const {
+void DesignSpace::add_linear(NonlinearProgram& problem) const {
   const std::size_t n = names_.size();
   for (const Linear& limit : linear_)
     problem.constraints.push_back({linear_name,

@@ -49,7 +49,7 @@ class DesignSpace {
 
   /// The linear limits as constraints, and the largest of their values, above 0 if one is exceeded; -infinity
   /// without linear limits.
-  void add_linear(Problem& problem) const;
+  void add_linear(NonlinearProgram& problem) const;
   double margin(std::span<const double> design) const;
   std::vector<ActiveLimit> active(std::span<const double> design) const;
 

@@ -39,8 +39,8 @@ bool Formulation::wants_epigraph(const Algorithm& algorithm) const {
   return *std::max_element(peaks.begin(), peaks.end()) > 1;
 }
 
-Problem Formulation::problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
-                             std::function<void(std::span<const double>)> move) {
+NonlinearProgram Formulation::problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
+                                      std::function<void(std::span<const double>)> move) {
   const std::size_t n = y.size();
   reference_ = reference;
   move_ = std::move(move);
@@ -48,7 +48,7 @@ Problem Formulation::problem(std::vector<double>& y, const Algorithm& algorithm,
   for (std::size_t c = 0; c < cases_.size(); ++c)
     constraints_.emplace_back(cases_.state(c).peaks.size() + spare_peaks);
   epigraph_ = wants_epigraph(algorithm);
-  Problem problem;
+  NonlinearProgram problem;
   problem.lower = space_.scaled(space_.lower());
   problem.upper = space_.scaled(space_.upper());
   if (epigraph_)
@@ -71,7 +71,7 @@ Problem Formulation::problem(std::vector<double>& y, const Algorithm& algorithm,
   return problem;
 }
 
-void Formulation::add_epigraph(Problem& problem, std::vector<double>& y) {
+void Formulation::add_epigraph(NonlinearProgram& problem, std::vector<double>& y) {
   const std::size_t n = y.size();
   std::vector<double> levels;
   for (std::size_t g = 0; g < cases_.groups(); ++g)
@@ -94,7 +94,7 @@ void Formulation::add_epigraph(Problem& problem, std::vector<double>& y) {
            }});
 }
 
-void Formulation::add_limits(Problem& problem, std::size_t n) {
+void Formulation::add_limits(NonlinearProgram& problem, std::size_t n) {
   for (const Limited& each : limits_)
     for (std::size_t c = 0; c < cases_.size(); ++c)
       for (std::size_t k = 0; k < constraints_[c].size(); ++k)

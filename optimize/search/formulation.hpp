@@ -52,8 +52,8 @@ class Formulation {
 
   /// The problem for a run from the current design of the cases, all finite. reference: V_0. move: moves the
   /// cases to the design of y. y: the start; levels are added to it. Refers to this object.
-  Problem problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
-                  std::function<void(std::span<const double> y)> move);
+  NonlinearProgram problem(std::vector<double>& y, const Algorithm& algorithm, double reference,
+                           std::function<void(std::span<const double> y)> move);
 
   /// Whether the epigraph form applies at the current design of the cases, and whether the last problem
   /// used it.
@@ -80,8 +80,8 @@ class Formulation {
   double height(std::size_t c, std::size_t peak) const;
   double limit(const Limited& each, std::size_t c, std::size_t peak, std::span<double> gradient);
   std::optional<std::size_t> peak(std::size_t c, std::size_t constraint);
-  void add_epigraph(Problem& problem, std::vector<double>& y);
-  void add_limits(Problem& problem, std::size_t n);
+  void add_epigraph(NonlinearProgram& problem, std::vector<double>& y);
+  void add_limits(NonlinearProgram& problem, std::size_t n);
 
   const DesignSpace& space_;
   Cases& cases_;

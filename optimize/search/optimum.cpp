@@ -115,7 +115,7 @@ void Search::search() {
 
 void Search::begin() {
   trials_.begin("the initial design");
-  const Start start = find_start(trials_, start_, result_.notes);
+  const SearchStart start = find_start(trials_, start_, result_.notes);
   ended_ = !start.found;
   if (start.found) {
     start_ = start.design;
@@ -146,11 +146,11 @@ void Search::minimize_once() {
   round_value_ = std::min(cases().value(), best().value);
   round_excess_ = best().excess;
   std::vector<double> y = space().scaled(start_);
-  const Problem problem =
+  const NonlinearProgram problem =
       formulation.problem(y, algorithm_, reference_, [this](auto at) { trials_.move_to(at); });
   result_.epigraph = result_.epigraph || (formulation.epigraph() && algorithm_.name == asked_.name);
 
-  Options options;
+  MinimizeOptions options;
   options.algorithm = algorithm_.name;
   options.tolerances = options_.tolerances;
   if (algorithm_.global)  // equal values are no convergence: sticking dampers cause them
@@ -170,17 +170,18 @@ void Search::minimize_once() {
   gained_value_ = best().value;
   idle_ = 0;
   Ends by = Ends::no;
-  options.progress = [&](const Progress&) {
+  options.progress = [&](const MinimizeProgress&) {
     by = ends(smooth);
     return watch_.go_on() && by == Ends::no;
   };
-  Result found = minimize(problem, y, options);
-  if (found.reason != Reason::objective_failed && interrupted()) return;
+  MinimizeResult found = minimize(problem, y, options);
+  if (found.reason != MinimizeReason::objective_failed && interrupted()) return;
   take_candidate();
   const bool short_run =
-      found.reason == Reason::evaluation_limit && static_cast<int>(count()) < options_.evaluations;
+      found.reason == MinimizeReason::evaluation_limit && static_cast<int>(count()) < options_.evaluations;
   if (by != Ends::no || short_run) {
-    found.reason = by == Ends::vanishes || by == Ends::settles ? Reason::converged : Reason::rounding;
+    found.reason =
+        by == Ends::vanishes || by == Ends::settles ? MinimizeReason::converged : MinimizeReason::rounding;
     found.cause = by == Ends::vanishes  ? text("converged, residual gradient below ", small_gradient)
                   : by == Ends::settles ? text("converged, residual gradient ", candidate_.left.stationarity)
                                         : text(algorithm_.name, " made no further progress");
@@ -188,9 +189,9 @@ void Search::minimize_once() {
   result_.stop = {};
   result_.stop.reason = reason_of(found.reason);
   result_.stop.message = sentence(found);
-  result_.status = is_converged(found.reason) || found.reason == Reason::rounding ? Status::complete
-                   : found.reason == Reason::evaluation_limit                     ? Status::stopped
-                                                                                  : Status::failed;
+  result_.status = is_converged(found.reason) || found.reason == MinimizeReason::rounding ? Status::complete
+                   : found.reason == MinimizeReason::evaluation_limit                     ? Status::stopped
+                                                                                          : Status::failed;
   ended_ = result_.status != Status::complete;
 }
 
@@ -250,8 +251,8 @@ bool Search::gradient_vanishes() {
 }
 
 // The message of one round, with the numbers of all rounds.
-std::string Search::sentence(const Result& found) {
-  if (found.reason == Reason::evaluation_limit)
+std::string Search::sentence(const MinimizeResult& found) {
+  if (found.reason == MinimizeReason::evaluation_limit)
     return text("the limit of ", options_.evaluations, " evaluations was reached");
   return found.cause + after();
 }

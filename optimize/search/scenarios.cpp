@@ -151,7 +151,7 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
   };
   bool more = true;
   const auto goes_on = [&] { return (more = more && go_on()) && std::isfinite(worst.amplitude); };
-  Problem problem;
+  NonlinearProgram problem;
   problem.lower = box_->scaled(box_->lower());
   problem.upper = box_->scaled(box_->upper());
   problem.objective = [&](auto y, auto g) {
@@ -164,14 +164,15 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
              box_->slope(k, state.design[k]);
     return -std::log(amplitude);
   };
-  Options options;
+  MinimizeOptions options;
   options.tolerances = {.x_relative = 0, .x_absolute = 1e-7, .f_relative = 0, .f_absolute = 1e-13};
-  options.progress = [&](const Progress&) { return goes_on(); };
+  options.progress = [&](const MinimizeProgress&) { return goes_on(); };
   const auto search = [&](const std::vector<double>& start) {
     if (!more || !std::isfinite(worst.amplitude)) return;
     if (look(peaks.at(start)) == 0) return;  // without excitation there is no way up from here
-    const Result found = minimize(problem, box_->scaled(start), options);
-    if (found.reason != Reason::user && found.reason != Reason::rounding && !is_converged(found.reason))
+    const MinimizeResult found = minimize(problem, box_->scaled(start), options);
+    if (found.reason != MinimizeReason::user && found.reason != MinimizeReason::rounding &&
+        !is_converged(found.reason))
       throw std::runtime_error("the worst case of the uncertain parameters was not found: " + found.message);
   };
   for (const std::vector<double>& start : known) search(start);

@@ -42,7 +42,7 @@ class Search {
   bool interrupted();
   void minimize_once();
   Ends ends(bool smooth);
-  std::string sentence(const Result& found);
+  std::string sentence(const MinimizeResult& found);
   // At the best design so far: worse stationary points do not count.
   bool gradient_vanishes();
   // With limits and epigraphs: keeps the design with the smallest residual of the conditions of a minimum,

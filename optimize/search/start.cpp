@@ -23,7 +23,7 @@ bool is_flat(const Cases& cases, std::size_t c) {
 }
 
 // At the current design of the cases.
-Fault fault(Trials& trials) {
+StartFault fault(Trials& trials) {
   const Cases& cases = trials.cases();
   for (std::size_t c = 0; c < cases.size(); ++c) {
     const PeakState& state = cases.state(c);
@@ -38,13 +38,13 @@ Fault fault(Trials& trials) {
 
 }  // namespace
 
-Start find_start(Trials& trials, const std::vector<double>& given, std::vector<std::string>& notes) {
+SearchStart find_start(Trials& trials, const std::vector<double>& given, std::vector<std::string>& notes) {
   const DesignSpace& space = trials.space();
-  Start start;
+  SearchStart start;
   for (int attempt = -1; attempt < space.attempts(); ++attempt) {
     start.design = attempt < 0 ? given : space.attempt(attempt);
     trials.evaluate(start.design, attempt >= 0);
-    const Fault here = fault(trials);
+    const StartFault here = fault(trials);
     if (attempt < 0) start.fault = here;
     if (here.reason.code.empty()) {
       if (attempt >= 0)

@@ -1,5 +1,5 @@
 #pragma once
-// Start of a search. Not installed.
+// SearchStart of a search. Not installed.
 
 #include <arcslip/optimize/search/cases.hpp>
 #include <arcslip/optimize/search/trials.hpp>
@@ -14,20 +14,20 @@ namespace arcslip::optimize {
 
 /// Why a design is no valid start: unbounded, no_response or flat (no parameter affects the amplitude, since
 /// no friction element slips); without a reason: it is valid.
-struct Fault {
+struct StartFault {
   results::Reason reason;
   std::string message;
 };
 
-struct Start {
+struct SearchStart {
   bool found = false;
   std::vector<double> design;  // then the current design of the cases
-  Fault fault;                 // of the requested design
+  StartFault fault;            // of the requested design
 };
 
 /// A design with finite V that depends on the parameters: the given one, or one on the diagonal of the
 /// bounds, with a note. None after an interruption.
-Start find_start(Trials& trials, const std::vector<double>& given, std::vector<std::string>& notes);
+SearchStart find_start(Trials& trials, const std::vector<double>& given, std::vector<std::string>& notes);
 
 // Dampers that stick. Not installed.
 //

@@ -13,7 +13,7 @@ using scene::Field;
 namespace {
 
 std::pair<double, double> read_limits(const Keys& keys, Faults& faults) {
-  const Place least = keys.find("at_least"), most = keys.find("at_most");
+  const Location least = keys.find("at_least"), most = keys.find("at_most");
   const double at_least = read_number(least, any_number, faults).value_or(any_number.lower);
   const double at_most = read_number(most, any_number, faults).value_or(any_number.upper);
   if (least.node == nullptr && most.node == nullptr) {
@@ -25,7 +25,7 @@ std::pair<double, double> read_limits(const Keys& keys, Faults& faults) {
   return {at_least, at_most};
 }
 
-std::vector<std::pair<std::string, double>> read_sum(const Place& place, const OptimumProblem& problem,
+std::vector<std::pair<std::string, double>> read_sum(const Location& place, const OptimumProblem& problem,
                                                      Faults& faults) {
   const std::size_t before = faults.count();
   std::vector<std::pair<std::string, double>> weights;
@@ -34,7 +34,7 @@ std::vector<std::pair<std::string, double>> read_sum(const Place& place, const O
     known.push_back(variable.name);
   }
   for (const Member* member : members(place, faults)) {
-    const Place item{&member->value, child(place.pointer, member->key)};
+    const Location item{&member->value, child(place.pointer, member->key)};
     if (faults.full()) {
       faults.add({}, {});
     } else if (std::find(known.begin(), known.end(), member->key) == known.end()) {
@@ -60,8 +60,8 @@ void read_design(const Reading& reading, OptimumProblem& problem) {
   Faults& faults = reading.faults;
   constexpr std::string_view names = "a list of at least one parameter \"part.field\" or tie";
   constexpr std::string_view pairs = "a list of pairs [lower, upper], one for each parameter of \"over\"";
-  const Place over = keys.require("over", std::string(names), faults);
-  const Place bounds = keys.require("bounds", std::string(pairs), faults);
+  const Location over = keys.require("over", std::string(names), faults);
+  const Location bounds = keys.require("bounds", std::string(pairs), faults);
   const Node::List* parameters = read_list(over, names, faults);
   const Node::List* ranges = read_list(bounds, pairs, faults);
   if (parameters != nullptr && parameters->empty()) {
@@ -73,7 +73,7 @@ void read_design(const Reading& reading, OptimumProblem& problem) {
                                    std::string(pairs));
   }
   for (std::size_t i = 0; parameters != nullptr && i < parameters->size(); ++i) {
-    const Place item{&(*parameters)[i], child(over.pointer, i)};
+    const Location item{&(*parameters)[i], child(over.pointer, i)};
     DesignVariable variable;
     const Field field = read_parameter(item, reading.parameters, variable.name, faults);
     const bool again = std::any_of(problem.over.begin(), problem.over.end(),
@@ -91,14 +91,14 @@ void read_design(const Reading& reading, OptimumProblem& problem) {
 }
 
 void read_constraints(const Reading& reading, OptimumProblem& problem) {
-  const Place place = reading.keys.find("constraints");
+  const Location place = reading.keys.find("constraints");
   Faults& faults = reading.faults;
   if (place.node == nullptr) {
     return;
   }
   const Node::List* list = read_list(place, "a list of objects", faults);
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    const Place item{&(*list)[i], child(place.pointer, i)};
+    const Location item{&(*list)[i], child(place.pointer, i)};
     const Keys keys(item, {"observable", "sum", "at_least", "at_most"}, faults);
     if (!keys.is_object()) {
       continue;
@@ -127,7 +127,7 @@ namespace {
 constexpr int largest_cases = 1000;
 
 // The product of the lists, the last one fastest.
-void add_product(const Place& place, const Reading& reading, OptimumProblem& problem) {
+void add_product(const Location& place, const Reading& reading, OptimumProblem& problem) {
   Faults& faults = reading.faults;
   const auto lists = read_value_lists(place, reading.parameters, taken(problem), faults);
   if (lists.empty()) {
@@ -158,13 +158,14 @@ void add_product(const Place& place, const Reading& reading, OptimumProblem& pro
   problem.cases = std::move(cases);
 }
 
-DesignCase read_case(const Place& place, const Reading& reading, const std::vector<scene::Taken>& already) {
+DesignCase read_case(const Location& place, const Reading& reading,
+                     const std::vector<scene::Taken>& already) {
   Faults& faults = reading.faults;
   DesignCase one;
   const Keys keys(place, {"set", "weight", "response"}, faults);
-  const Place set = keys.find("set"), response = keys.find("response");
+  const Location set = keys.find("set"), response = keys.find("response");
   for (const Member* member : members(set, faults)) {
-    const Place item{&member->value, child(set.pointer, member->key)};
+    const Location item{&member->value, child(set.pointer, member->key)};
     const std::size_t before = faults.count();
     const Field field = bounds_of(member->key, item.pointer, reading.parameters, faults);
     if (faults.count() == before && !is_taken(member->key, item.pointer, already, faults)) {
@@ -187,7 +188,7 @@ DesignCase read_case(const Place& place, const Reading& reading, const std::vect
 }  // namespace
 
 void read_cases(const Reading& reading, OptimumProblem& problem) {
-  const Place place = reading.keys.find("cases");
+  const Location place = reading.keys.find("cases");
   Faults& faults = reading.faults;
   constexpr std::string_view wanted =
       "a list of at least one object with the keys \"set\", \"weight\", \"response\", or an object with a "
@@ -219,12 +220,12 @@ void read_cases(const Reading& reading, OptimumProblem& problem) {
 }
 
 void read_scatter(const Reading& reading, OptimumProblem& problem) {
-  const Place place = reading.keys.find("scatter");
+  const Location place = reading.keys.find("scatter");
   Faults& faults = reading.faults;
   const std::vector<scene::Taken> already = taken(problem);
   std::vector<DesignVariable> scatter;
   for (const Member* member : members(place, faults)) {
-    const Place item{&member->value, child(place.pointer, member->key)};
+    const Location item{&member->value, child(place.pointer, member->key)};
     const std::size_t before = faults.count();
     const Field field = bounds_of(member->key, item.pointer, reading.parameters, faults);
     if (faults.count() == before && !is_taken(member->key, item.pointer, already, faults)) {
@@ -237,7 +238,7 @@ void read_scatter(const Reading& reading, OptimumProblem& problem) {
 }
 
 void check_criterion(const Reading& reading, const OptimumProblem& problem) {
-  const Place place = reading.keys.find("criterion");
+  const Location place = reading.keys.find("criterion");
   if (problem.criterion != Criterion::mean) {
     return;
   }

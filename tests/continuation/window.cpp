@@ -10,8 +10,8 @@ using namespace problems;
 
 namespace {
 
-Place place(double u, double p, double du, double dp) {
-  Place at;
+CurvePoint place(double u, double p, double du, double dp) {
+  CurvePoint at;
   at.v = Vector{{u, p}};
   at.tangent = Vector{{du, dp}}.normalized();
   return at;
@@ -21,7 +21,7 @@ Place place(double u, double p, double du, double dp) {
 
 TEST_CASE("a step whose ends lie within the window leaves it where its cubic does") {
   // p = x - x^2 on [0, 1], whose cubic it is: beyond 0.21 from x = 0.3 to 0.7, beyond 0.25 nowhere.
-  Place from, to;
+  CurvePoint from, to;
   from.v = to.v = Vector{{0.0}};
   from.tangent = Vector{{1.0}};
   to.tangent = Vector{{-1.0}};
@@ -49,7 +49,7 @@ TEST_CASE(
   Corrector with(*problem, Vector{{0.0}}, 0, {}, counts);
   Vector row(2);
   const auto drawn_to = [&](double u, double share, int orientation) -> std::optional<double> {
-    Place from = place(0, 0, 0, 1), beyond = place(u, 1, 0, 1);
+    CurvePoint from = place(0, 0, 0, 1), beyond = place(u, 1, 0, 1);
     from.piece = beyond.piece = 0;
     if (!draw_back(with, from, {share, share}, orientation, beyond, row)) return {};
     return beyond.v[0];

@@ -11,11 +11,11 @@ TEST_CASE("the minimum of Rosenbrock's function is found at (1, 1) with its grad
   for (const char* name :
        {"LD_SLSQP", "LD_LBFGS", "LD_MMA", "LD_CCSAQ", "LD_TNEWTON_PRECOND_RESTART", "LD_VAR2"}) {
     INFO(name);
-    Options options{.algorithm = name};
+    MinimizeOptions options{.algorithm = name};
     options.tolerances = {.x_relative = 1e-10, .f_relative = 0};
-    const Result r = minimize(rosenbrock(), {-1.2, 1}, options);
+    const MinimizeResult r = minimize(rosenbrock(), {-1.2, 1}, options);
     INFO(r.message);
-    REQUIRE((is_converged(r.reason) || r.reason == Reason::rounding));
+    REQUIRE((is_converged(r.reason) || r.reason == MinimizeReason::rounding));
     CHECK(r.x[0] == Approx(1).margin(1e-5));
     CHECK(r.x[1] == Approx(1).margin(1e-5));
     CHECK(r.value < 1e-10);
@@ -27,9 +27,9 @@ TEST_CASE("the minimum of Rosenbrock's function is found at (1, 1) without its g
   for (const char* name :
        {"LN_BOBYQA", "LN_COBYLA", "LN_SBPLX", "LN_NELDERMEAD", "LN_PRAXIS", "LN_NEWUOA_BOUND"}) {
     INFO(name);
-    Options options{.algorithm = name, .evaluations = 50000};
+    MinimizeOptions options{.algorithm = name, .evaluations = 50000};
     options.tolerances = {.x_relative = 1e-9, .f_relative = 0};
-    const Result r = minimize(rosenbrock(), {-1.2, 1}, options);
+    const MinimizeResult r = minimize(rosenbrock(), {-1.2, 1}, options);
     INFO(r.message);
     CHECK(r.x[0] == Approx(1).margin(1e-3));
     CHECK(r.x[1] == Approx(1).margin(2e-3));
@@ -42,10 +42,10 @@ TEST_CASE("global algorithms find the lowest of the six humps of the camel") {
   for (const char* name : {"GN_DIRECT", "GN_DIRECT_L", "GN_ORIG_DIRECT_L", "GN_CRS2_LM", "GN_ISRES",
                            "GN_ESCH", "GN_MLSL", "GD_MLSL_LDS", "G_MLSL_LDS"}) {
     INFO(name);
-    Options options{.algorithm = name, .evaluations = 5000};
+    MinimizeOptions options{.algorithm = name, .evaluations = 5000};
     if (options.algorithm.find("MLSL") != std::string::npos)
       options.local = LocalOptions{.algorithm = "LD_LBFGS"};
-    const Result r = minimize(six_hump_camel(), {2.5, 1.7}, options);
+    const MinimizeResult r = minimize(six_hump_camel(), {2.5, 1.7}, options);
     INFO(r.message);
     CHECK(r.value == Approx(-1.0316284535).margin(options.algorithm == "GN_ESCH" ? 1e-3 : 1e-6));
     CHECK(r.evaluations <= 5000);
@@ -59,11 +59,11 @@ TEST_CASE("the optimum of Hock and Schittkowski's problem 71 is found where both
   for (const char* name :
        {"LD_SLSQP", "LD_MMA", "LD_CCSAQ", "LN_COBYLA", "LD_AUGLAG", "AUGLAG", "AUGLAG_EQ"}) {
     INFO(name);
-    Options options{.algorithm = name, .evaluations = 100000};
+    MinimizeOptions options{.algorithm = name, .evaluations = 100000};
     options.tolerances = {.x_relative = 1e-10, .f_relative = 1e-13};
     if (options.algorithm.starts_with("AUGLAG"))
       options.local = LocalOptions{.algorithm = options.algorithm == "AUGLAG" ? "LD_LBFGS" : "LD_SLSQP"};
-    const Result r = minimize(hock_schittkowski_71(), {1.1, 4.5, 3.7, 1.5}, options);
+    const MinimizeResult r = minimize(hock_schittkowski_71(), {1.1, 4.5, 3.7, 1.5}, options);
     INFO(r.message);
     CHECK(r.feasible);
     CHECK(r.value == Approx(17.0140173).margin(2e-6));
@@ -79,9 +79,9 @@ TEST_CASE("the best normal load of a friction damper is p = pi f0 / 2 in one har
        {"LD_SLSQP", "LD_LBFGS", "LD_MMA", "LN_BOBYQA", "LN_COBYLA", "LN_SBPLX", "GN_DIRECT_L"}) {
     for (double start : {0.8, 1.0, 3.0, 50.0}) {
       INFO(name << " from " << start);
-      Options options{.algorithm = name};
+      MinimizeOptions options{.algorithm = name};
       options.tolerances = {.x_relative = 1e-9, .f_relative = 0, .f_absolute = 1e-16};
-      const Result r = minimize(friction_damper(0.1, 50), {start}, options);
+      const MinimizeResult r = minimize(friction_damper(0.1, 50), {start}, options);
       INFO(r.message);
       CHECK(r.x[0] == Approx(pi / 2).margin(1e-6));
       CHECK(r.value == Approx(pi).epsilon(1e-12));
@@ -91,7 +91,7 @@ TEST_CASE("the best normal load of a friction damper is p = pi f0 / 2 in one har
 
 TEST_CASE("the same seed gives the same run, another seed another one") {
   auto run = [](unsigned long seed) {
-    Options options{.algorithm = "GN_ISRES", .evaluations = 300, .population = 30, .seed = seed};
+    MinimizeOptions options{.algorithm = "GN_ISRES", .evaluations = 300, .population = 30, .seed = seed};
     return minimize(six_hump_camel(), {1, 1}, options);
   };
   CHECK(run(7).x == run(7).x);
@@ -100,12 +100,12 @@ TEST_CASE("the same seed gives the same run, another seed another one") {
 
 TEST_CASE("a start outside the bounds is moved onto them, and that is said") {
   std::vector<double> first;
-  Problem problem = rosenbrock();
+  NonlinearProgram problem = rosenbrock();
   problem.objective = [f = problem.objective, &first](auto x, auto g) {
     if (first.empty()) first.assign(x.begin(), x.end());
     return f(x, g);
   };
-  const Result r = minimize(problem, {-3, 0.5});
+  const MinimizeResult r = minimize(problem, {-3, 0.5});
   CHECK(first == std::vector<double>{-2, 0.5});
   REQUIRE(r.notes.size() == 1);
   CHECK(r.notes[0] == "the start of variable 0 was -3, outside [-2, 2], and was moved to -2");
@@ -116,7 +116,7 @@ TEST_CASE("the gradient is asked for by gradient-based algorithms only") {
     if (a.needs_local) continue;
     INFO(a.name);
     bool asked = false;
-    Problem problem = rosenbrock();
+    NonlinearProgram problem = rosenbrock();
     problem.objective = [f = problem.objective, &asked](auto x, auto g) {
       asked = asked || !g.empty();
       return f(x, g);
@@ -129,15 +129,15 @@ TEST_CASE("the gradient is asked for by gradient-based algorithms only") {
 TEST_CASE("progress is told after every evaluation") {
   std::vector<long> counts;
   double best = 0;
-  Options options;
-  options.progress = [&](const Progress& p) {
+  MinimizeOptions options;
+  options.progress = [&](const MinimizeProgress& p) {
     counts.push_back(p.evaluations);
     CHECK(p.x.size() == 2);
     CHECK(p.best <= p.value);
     best = p.best;
     return true;
   };
-  const Result r = minimize(rosenbrock(), {-1.2, 1}, options);
+  const MinimizeResult r = minimize(rosenbrock(), {-1.2, 1}, options);
   REQUIRE(counts.size() == static_cast<std::size_t>(r.evaluations));
   for (std::size_t i = 0; i < counts.size(); ++i) CHECK(counts[i] == static_cast<long>(i + 1));
   CHECK(best == r.value);

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Rosenbrock 1960: 0 at (1, 1).
-inline arcslip::optimize::Problem rosenbrock() {
+inline arcslip::optimize::NonlinearProgram rosenbrock() {
   auto f = [](std::span<const double> x, std::span<double> g) {
     const double a = 1 - x[0], b = x[1] - x[0] * x[0];
     if (!g.empty()) {
@@ -22,7 +22,7 @@ inline arcslip::optimize::Problem rosenbrock() {
 }
 
 /// Dixon & Szego 1978: six minima, the two lowest -1.0316284535.
-inline arcslip::optimize::Problem six_hump_camel() {
+inline arcslip::optimize::NonlinearProgram six_hump_camel() {
   auto f = [](std::span<const double> p, std::span<double> g) {
     const double x = p[0], y = p[1];
     if (!g.empty()) {
@@ -36,7 +36,7 @@ inline arcslip::optimize::Problem six_hump_camel() {
 
 /// Hock & Schittkowski 1981, problem 71: min x0 x3 (x0 + x1 + x2) + x2, x0 x1 x2 x3 >= 25, |x|^2 <= 40, 1 <=
 /// x <= 5.
-inline arcslip::optimize::Problem hock_schittkowski_71() {
+inline arcslip::optimize::NonlinearProgram hock_schittkowski_71() {
   auto f = [](std::span<const double> x, std::span<double> g) {
     if (!g.empty()) {
       g[0] = x[3] * (2 * x[0] + x[1] + x[2]);
@@ -65,7 +65,7 @@ inline arcslip::optimize::Problem hock_schittkowski_71() {
 
 /// Peak amplitude kd A = p / (1 - pi / (4 p)) of an undamped oscillator with a friction damper of slip force
 /// p under a force of 1 N, in one harmonic; unbounded for p <= pi / 4.
-inline arcslip::optimize::Problem friction_damper(double lower, double upper) {
+inline arcslip::optimize::NonlinearProgram friction_damper(double lower, double upper) {
   auto f = [](std::span<const double> x, std::span<double> g) {
     const double p = x[0], quarter = std::numbers::pi / 4;
     if (p <= quarter) return std::numeric_limits<double>::infinity();

@@ -76,8 +76,8 @@ TEST_CASE("the reasons of the continuation and of NLopt keep their names") {
     check_words(observables::reason_of(reason));
   }
   std::set<std::string_view> codes;
-  for (int k = 0; k <= static_cast<int>(optimize::Reason::failed); ++k) {
-    const auto reason = static_cast<optimize::Reason>(k);
+  for (int k = 0; k <= static_cast<int>(optimize::MinimizeReason::failed); ++k) {
+    const auto reason = static_cast<optimize::MinimizeReason>(k);
     CHECK(optimize::reason_of(reason).code == name(reason));
     CHECK(codes.insert(name(reason)).second);
     CHECK(std::count(optimize::reasons::of_optima.begin(), optimize::reasons::of_optima.end(),

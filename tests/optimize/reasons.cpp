@@ -14,7 +14,7 @@ using namespace arcslip::optimize;
 namespace {
 
 // The objective of `problem` that does something else in its n-th call.
-Problem interfere(Problem problem, long n, std::function<double()> instead) {
+NonlinearProgram interfere(NonlinearProgram problem, long n, std::function<double()> instead) {
   auto calls = std::make_shared<long>(0);
   problem.objective = [f = problem.objective, n, instead, calls](auto x, auto g) {
     const double value = f(x, g);
@@ -23,7 +23,8 @@ Problem interfere(Problem problem, long n, std::function<double()> instead) {
   return problem;
 }
 
-std::string error_of(const Problem& problem, const std::vector<double>& start, const Options& options = {}) {
+std::string error_of(const NonlinearProgram& problem, const std::vector<double>& start,
+                     const MinimizeOptions& options = {}) {
   try {
     minimize(problem, start, options);
   } catch (const OptionsError& e) {
@@ -35,53 +36,53 @@ std::string error_of(const Problem& problem, const std::vector<double>& start, c
 }  // namespace
 
 TEST_CASE("every return code of NLopt has a reason of its own") {
-  const std::vector<std::pair<int, Reason>> codes{
-      {NLOPT_SUCCESS, Reason::converged},
-      {NLOPT_STOPVAL_REACHED, Reason::target},
-      {NLOPT_FTOL_REACHED, Reason::converged_value},
-      {NLOPT_XTOL_REACHED, Reason::converged_step},
-      {NLOPT_MAXEVAL_REACHED, Reason::evaluation_limit},
-      {NLOPT_MAXTIME_REACHED, Reason::time_limit},
-      {NLOPT_FAILURE, Reason::failed},
-      {NLOPT_INVALID_ARGS, Reason::invalid_arguments},
-      {NLOPT_OUT_OF_MEMORY, Reason::out_of_memory},
-      {NLOPT_ROUNDOFF_LIMITED, Reason::rounding},
-      {NLOPT_FORCED_STOP, Reason::user},
+  const std::vector<std::pair<int, MinimizeReason>> codes{
+      {NLOPT_SUCCESS, MinimizeReason::converged},
+      {NLOPT_STOPVAL_REACHED, MinimizeReason::target},
+      {NLOPT_FTOL_REACHED, MinimizeReason::converged_value},
+      {NLOPT_XTOL_REACHED, MinimizeReason::converged_step},
+      {NLOPT_MAXEVAL_REACHED, MinimizeReason::evaluation_limit},
+      {NLOPT_MAXTIME_REACHED, MinimizeReason::time_limit},
+      {NLOPT_FAILURE, MinimizeReason::failed},
+      {NLOPT_INVALID_ARGS, MinimizeReason::invalid_arguments},
+      {NLOPT_OUT_OF_MEMORY, MinimizeReason::out_of_memory},
+      {NLOPT_ROUNDOFF_LIMITED, MinimizeReason::rounding},
+      {NLOPT_FORCED_STOP, MinimizeReason::user},
   };
   for (const auto& [code, reason] : codes) {
     INFO(code);
     CHECK(std::string(name(reason_of(code))) == name(reason));
   }
-  CHECK(reason_of(99) == Reason::failed);
-  CHECK(reason_of(-99) == Reason::failed);
+  CHECK(reason_of(99) == MinimizeReason::failed);
+  CHECK(reason_of(-99) == MinimizeReason::failed);
 }
 
 TEST_CASE("a run ends as converged_value where the value stands still") {
-  Options options;
+  MinimizeOptions options;
   options.tolerances = {.x_relative = 0, .f_relative = 1e-3};
-  const Result r = minimize(friction_damper(0.8, 50), {3}, options);
+  const MinimizeResult r = minimize(friction_damper(0.8, 50), {3}, options);
   CHECK(std::string(name(r.reason)) == "converged_value");
   CHECK(is_converged(r.reason));
   CHECK(contains(r.message, "a step changed the value by less than 0.001 relative after "));
 }
 
 TEST_CASE("a run ends as converged_step where the variables stand still") {
-  Options options{.algorithm = "LN_BOBYQA"};
+  MinimizeOptions options{.algorithm = "LN_BOBYQA"};
   options.tolerances = {.x_relative = 1e-4, .x_absolute = 1e-5, .f_relative = 0};
-  const Result r = minimize(rosenbrock(), {-1.2, 1}, options);
+  const MinimizeResult r = minimize(rosenbrock(), {-1.2, 1}, options);
   CHECK(std::string(name(r.reason)) == "converged_step");
   CHECK(contains(r.message, "the variables by less than 0.0001 relative or 1e-05 absolute after "));
 }
 
 TEST_CASE("a run ends as converged where the algorithm's own test holds") {
   // The gradient vanishes at the start.
-  const Result r = minimize(rosenbrock(), {1, 1}, {.algorithm = "LD_LBFGS"});
+  const MinimizeResult r = minimize(rosenbrock(), {1, 1}, {.algorithm = "LD_LBFGS"});
   CHECK(is_converged(r.reason));
   CHECK(r.value == 0);
 }
 
 TEST_CASE("a run ends at its target") {
-  const Result r = minimize(rosenbrock(), {-1.2, 1}, {.target = 0.5});
+  const MinimizeResult r = minimize(rosenbrock(), {-1.2, 1}, {.target = 0.5});
   CHECK(std::string(name(r.reason)) == "target");
   CHECK(r.value <= 0.5);
   CHECK(contains(r.message, "the value reached the target 0.5 after "));
@@ -91,10 +92,10 @@ TEST_CASE("no algorithm passes its limit of evaluations") {
   for (const Algorithm& a : algorithms()) {
     for (int limit : {1, 2, 7}) {
       INFO(a.name << " " << limit);
-      Options options{.algorithm = a.name, .evaluations = limit};
+      MinimizeOptions options{.algorithm = a.name, .evaluations = limit};
       options.tolerances = {.x_relative = 0, .f_relative = 0};
       if (a.needs_local) options.local = LocalOptions{.algorithm = "LN_BOBYQA"};
-      const Result r = minimize(rosenbrock(), {-1.2, 1}, options);
+      const MinimizeResult r = minimize(rosenbrock(), {-1.2, 1}, options);
       CHECK(std::string(name(r.reason)) == "evaluation_limit");
       CHECK(r.evaluations <= limit);
       CHECK(r.value < 1e4);
@@ -106,15 +107,15 @@ TEST_CASE("no algorithm passes its limit of evaluations") {
 TEST_CASE("every algorithm stops at the limit of time with the best so far") {
   for (const Algorithm& a : algorithms()) {
     INFO(a.name);
-    Problem slow = rosenbrock();
+    NonlinearProgram slow = rosenbrock();
     slow.objective = [f = slow.objective](auto x, auto g) {
       std::this_thread::sleep_for(std::chrono::microseconds(400));
       return f(x, g);
     };
-    Options options{.algorithm = a.name, .seconds = 0.001};
+    MinimizeOptions options{.algorithm = a.name, .seconds = 0.001};
     options.tolerances = {.x_relative = 0, .f_relative = 0};
     if (a.needs_local) options.local = LocalOptions{.algorithm = "LN_BOBYQA"};
-    const Result r = minimize(slow, {-1.2, 1}, options);
+    const MinimizeResult r = minimize(slow, {-1.2, 1}, options);
     CHECK(std::string(name(r.reason)) == "time_limit");
     CHECK(r.evaluations <= 3);
     CHECK(r.value < 1e4);
@@ -127,10 +128,10 @@ TEST_CASE("every algorithm stops when the callback says so") {
   for (const Algorithm& a : algorithms()) {
     for (long last : {1, 2, 4}) {
       INFO(a.name << " " << last);
-      Options options{.algorithm = a.name};
-      options.progress = [last](const Progress& p) { return p.evaluations < last; };
+      MinimizeOptions options{.algorithm = a.name};
+      options.progress = [last](const MinimizeProgress& p) { return p.evaluations < last; };
       if (a.needs_local) options.local = LocalOptions{.algorithm = "LN_BOBYQA"};
-      const Result r = minimize(rosenbrock(), {-1.2, 1}, options);
+      const MinimizeResult r = minimize(rosenbrock(), {-1.2, 1}, options);
       CHECK(std::string(name(r.reason)) == "user");
       CHECK(r.evaluations == last);
       CHECK(contains(r.message, "the progress callback stopped the run after "));
@@ -141,11 +142,11 @@ TEST_CASE("every algorithm stops when the callback says so") {
 TEST_CASE("an exception in the objective ends every algorithm with its text and the best so far") {
   for (const Algorithm& a : algorithms()) {
     INFO(a.name);
-    Options options{.algorithm = a.name};
+    MinimizeOptions options{.algorithm = a.name};
     if (a.needs_local) options.local = LocalOptions{.algorithm = "LN_BOBYQA"};
-    const Problem throws =
+    const NonlinearProgram throws =
         interfere(rosenbrock(), 4, []() -> double { throw std::runtime_error("no peak"); });
-    const Result r = minimize(throws, {-1.2, 1}, options);
+    const MinimizeResult r = minimize(throws, {-1.2, 1}, options);
     CHECK(std::string(name(r.reason)) == "objective_failed");
     CHECK(r.evaluations == 4);
     CHECK(r.value < 1e4);
@@ -154,8 +155,8 @@ TEST_CASE("an exception in the objective ends every algorithm with its text and 
 }
 
 TEST_CASE("an exception at the start leaves no value, and says so") {
-  const Problem throws = interfere(rosenbrock(), 1, []() -> double { throw 42; });
-  const Result r = minimize(throws, {-1.2, 1});
+  const NonlinearProgram throws = interfere(rosenbrock(), 1, []() -> double { throw 42; });
+  const MinimizeResult r = minimize(throws, {-1.2, 1});
   CHECK(std::string(name(r.reason)) == "objective_failed");
   CHECK(r.x.empty());
   CHECK(std::isinf(r.value));
@@ -166,13 +167,13 @@ TEST_CASE("an exception at the start leaves no value, and says so") {
 }
 
 TEST_CASE("an exception in a constraint or in the progress callback is told apart") {
-  Problem problem = hock_schittkowski_71();
+  NonlinearProgram problem = hock_schittkowski_71();
   problem.constraints[1].function = [](auto, auto) -> double { throw std::runtime_error("wear"); };
   CHECK(contains(minimize(problem, {1, 5, 5, 1}).message, "constraint \"square\" threw \"wear\""));
 
-  Options options;
-  options.progress = [](const Progress&) -> bool { throw std::runtime_error("disk full"); };
-  const Result r = minimize(rosenbrock(), {-1.2, 1}, options);
+  MinimizeOptions options;
+  options.progress = [](const MinimizeProgress&) -> bool { throw std::runtime_error("disk full"); };
+  const MinimizeResult r = minimize(rosenbrock(), {-1.2, 1}, options);
   CHECK(contains(r.message,
                  "the progress callback threw \"disk full\" after 1 evaluation; the best value is 24.2"));
   CHECK(r.value == Approx(24.2));
@@ -181,10 +182,10 @@ TEST_CASE("an exception in a constraint or in the progress callback is told apar
 TEST_CASE("a value that is no number ends every algorithm, and is not the best") {
   for (const Algorithm& a : algorithms()) {
     INFO(a.name);
-    Options options{.algorithm = a.name};
+    MinimizeOptions options{.algorithm = a.name};
     if (a.needs_local) options.local = LocalOptions{.algorithm = "LN_BOBYQA"};
-    const Problem odd = interfere(rosenbrock(), 3, [] { return std::nan(""); });
-    const Result r = minimize(odd, {-1.2, 1}, options);
+    const NonlinearProgram odd = interfere(rosenbrock(), 3, [] { return std::nan(""); });
+    const MinimizeResult r = minimize(odd, {-1.2, 1}, options);
     CHECK(std::string(name(r.reason)) == "not_finite");
     CHECK(r.value < 1e4);
     CHECK(contains(r.message, "the objective is not a number after 3 evaluations; the best value is "));
@@ -195,11 +196,11 @@ TEST_CASE("infinity is refused at the start, at minus infinity and in gradients 
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(
       contains(minimize(friction_damper(0.1, 50), {0.5}).message, "the objective is inf after 1 evaluation"));
-  const Result below = minimize(interfere(rosenbrock(), 2, [=] { return -infinity; }), {-1.2, 1});
-  CHECK(below.reason == Reason::not_finite);
+  const MinimizeResult below = minimize(interfere(rosenbrock(), 2, [=] { return -infinity; }), {-1.2, 1});
+  CHECK(below.reason == MinimizeReason::not_finite);
   CHECK(below.value == Approx(24.2));
 
-  Problem forgotten = rosenbrock();
+  NonlinearProgram forgotten = rosenbrock();
   forgotten.objective = [](std::span<const double> x, std::span<double> g) {
     if (!g.empty()) g[0] = 2 * x[0];
     return x[0] * x[0] + x[1];
@@ -207,28 +208,28 @@ TEST_CASE("infinity is refused at the start, at minus infinity and in gradients 
   CHECK(contains(minimize(forgotten, {1, 1}).message,
                  "entry 1 of the gradient of the objective is not a number"));
 
-  Problem constrained = hock_schittkowski_71();
+  NonlinearProgram constrained = hock_schittkowski_71();
   constrained.constraints[0].function = [=](auto, auto) { return infinity; };
   CHECK(contains(minimize(constrained, {1, 5, 5, 1}).message, "constraint \"product\" is inf"));
 }
 
 TEST_CASE("rounding errors end a run that asks for more than there is") {
-  Options options{.algorithm = "LN_COBYLA", .evaluations = 100000};
+  MinimizeOptions options{.algorithm = "LN_COBYLA", .evaluations = 100000};
   options.tolerances = {.x_relative = 0, .f_relative = 0};
-  const Result r = minimize(friction_damper(0.8, 50), {3}, options);
+  const MinimizeResult r = minimize(friction_damper(0.8, 50), {3}, options);
   CHECK(std::string(name(r.reason)) == "rounding");
   CHECK(contains(r.message, "rounding errors prevented further progress after "));
   CHECK(r.value == Approx(std::numbers::pi));
 }
 
 TEST_CASE("what NLopt itself refuses is told with its own message") {
-  const Result r = minimize(friction_damper(0.8, 50), {3}, {.algorithm = "LN_NEWUOA"});
+  const MinimizeResult r = minimize(friction_damper(0.8, 50), {3}, {.algorithm = "LN_NEWUOA"});
   CHECK(std::string(name(r.reason)) == "invalid_arguments");
   CHECK(contains(r.message, "NLopt refused to run LN_NEWUOA: "));
 }
 
 TEST_CASE("constraints that exclude each other leave the point of least excess") {
-  Problem problem = friction_damper(0.8, 50);
+  NonlinearProgram problem = friction_damper(0.8, 50);
   auto below = [](double bound) {
     return [bound](std::span<const double> x, std::span<double> g) {
       if (!g.empty()) g[0] = 1;
@@ -240,7 +241,7 @@ TEST_CASE("constraints that exclude each other leave the point of least excess")
     return 3 - x[0];
   };
   problem.constraints = {{"wear", below(2)}, {"lift", above}};
-  const Result r = minimize(problem, {4}, {.algorithm = "LN_COBYLA", .evaluations = 1000});
+  const MinimizeResult r = minimize(problem, {4}, {.algorithm = "LN_COBYLA", .evaluations = 1000});
   CHECK_FALSE(r.feasible);
   CHECK(r.x[0] == Approx(2.5).margin(1e-3));
   CHECK(contains(r.message, "where a constraint is exceeded by 0.5"));
@@ -266,12 +267,13 @@ TEST_CASE("an unknown algorithm is answered with the nearest and the known names
 
 TEST_CASE("bad input is answered with its numbers") {
   const double infinity = std::numeric_limits<double>::infinity();
-  Problem reversed = rosenbrock(), equal = rosenbrock(), open = rosenbrock(), empty = rosenbrock();
+  NonlinearProgram reversed = rosenbrock(), equal = rosenbrock(), open = rosenbrock(), empty = rosenbrock();
   reversed.lower[1] = 3;
   equal.lower[0] = equal.upper[0];
   open.upper[1] = infinity;
   empty.objective = nullptr;
-  Problem nan_bound = rosenbrock(), negative = hock_schittkowski_71(), nameless = hock_schittkowski_71();
+  NonlinearProgram nan_bound = rosenbrock(), negative = hock_schittkowski_71(),
+                   nameless = hock_schittkowski_71();
   nan_bound.lower[0] = std::nan("");
   negative.constraints[0].tolerance = -1;
   nameless.constraints[1].function = nullptr;
@@ -324,8 +326,8 @@ TEST_CASE("two threads do not disturb each other's random numbers") {
   auto run = [] {
     return minimize(six_hump_camel(), {1, 1}, {.algorithm = "GN_CRS2_LM", .evaluations = 2000});
   };
-  const Result alone = run();
-  Result first, second;
+  const MinimizeResult alone = run();
+  MinimizeResult first, second;
   std::thread a([&] { first = run(); }), b([&] { second = run(); });
   a.join();
   b.join();

@@ -31,7 +31,7 @@ std::string order_label(const scene::Scene& scene) {
 /// angle, time, displacement, force.
 using Rows = std::vector<std::vector<double>>;
 
-Rows balanced(const scene::Scene& scene, double frequency, const time::History& beside) {
+Rows balanced(const scene::Scene& scene, double frequency, const time::TimeHistory& beside) {
   std::vector<double> angles;
   const double omega = frequency * scene::to_rad_per_s(scene.frequency_unit);
   for (const double t : beside.time) angles.push_back(omega * t);

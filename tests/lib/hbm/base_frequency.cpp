@@ -171,7 +171,7 @@ TEST_CASE("a motion in time repeats after the period of the harmonics") {
   CHECK(std::abs((*u)[0]) > 0.5 * A);
   const auto equation = time::equation_of_motion(*model, p.head(p.size() - 1));
   CHECK(equation.period() == Approx(3 * 2 * std::numbers::pi / p[model::frequency]).epsilon(1e-14));
-  const time::State start = time::state_of(*problem, *u, p);
+  const time::MotionState start = time::state_of(*problem, *u, p);
   double error[2];
   for (int i : {0, 1}) {
     time::Newmark newmark(equation, 1000 * (i + 1));

@@ -193,7 +193,7 @@ TEST_CASE(
   time::Newmark newmark(time::equation_of_motion(model, p), 60);
   Vector start(6);
   start << 0.3, -0.2, 0.1, 0.4, 0.05, -0.02;
-  const auto state = [](const Vector& y) { return time::State{y.head(2), y.segment(2, 2), y.tail(2)}; };
+  const auto state = [](const Vector& y) { return time::MotionState{y.head(2), y.segment(2, 2), y.tail(2)}; };
   const time::PeriodMap map = time::newmark_map(newmark, state(start));
   REQUIRE(map.done);
   const double h = 1e-6;

@@ -53,7 +53,7 @@ struct Seen {
 struct Response {
   std::vector<Seen> events;  // by frequency, along the branch
   std::vector<Seen> points;  // the same of the points
-  arcslip::continuation::Stop stop;
+  arcslip::continuation::BranchStop stop;
 };
 
 Response response(const Variant& variant);

@@ -395,7 +395,7 @@ TEST_CASE("a label keeps off marks, lines, other labels and the border") {
   using output::LabelSide;
   const output::LabelMetrics metrics{0.02, 0.05};
   const auto sides = [&](const std::vector<output::LabelWish>& wishes,
-                         const std::vector<std::vector<output::Place>>& lines) {
+                         const std::vector<std::vector<output::Position>>& lines) {
     return output::place_labels(wishes, lines, metrics);
   };
   CHECK(sides({{{0.5, 0.5}, "3 N"}}, {}) == std::vector{LabelSide::above});
@@ -404,7 +404,7 @@ TEST_CASE("a label keeps off marks, lines, other labels and the border") {
   CHECK(sides({{{0.5, 0.5}, "3 N"}}, {{{0, 0.55}, {1, 0.55}}}) == std::vector{LabelSide::right});
   CHECK(sides({{{0.5, 0.5}, "3 N"}, {{0.5, 0.501}, "4 N"}}, {}) ==
         std::vector{LabelSide::above, LabelSide::right});
-  std::vector<std::vector<output::Place>> hatched;
+  std::vector<std::vector<output::Position>> hatched;
   for (int i = 0; i <= 100; ++i) {
     hatched.push_back({{0, i / 100.0}, {1, i / 100.0}});
   }

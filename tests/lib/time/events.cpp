@@ -14,7 +14,7 @@ using namespace systems;
 
 namespace {
 
-State at(double x, double v, double z) {
+MotionState at(double x, double v, double z) {
   return {Vector::Constant(1, x), Vector::Constant(1, v), Vector::Constant(1, z)};
 }
 
@@ -31,7 +31,7 @@ double relative_defect(const EnergyBalance& energy) {
 }
 
 // Runge-Kutta of fourth order with small steps, the slider drawn after at the end of each.
-State small_steps(const EquationOfMotion& equation, State s, double end, int steps) {
+MotionState small_steps(const EquationOfMotion& equation, MotionState s, double end, int steps) {
   const double h = end / steps;
   const Matrix inverse = equation.M.inverse();
   Vector f;
@@ -60,7 +60,7 @@ State small_steps(const EquationOfMotion& equation, State s, double end, int ste
   return s;
 }
 
-double distance(const State& a, const State& b) {
+double distance(const MotionState& a, const MotionState& b) {
   return std::max({(a.x - b.x).cwiseAbs().maxCoeff(), (a.v - b.v).cwiseAbs().maxCoeff(),
                    (a.z - b.z).cwiseAbs().maxCoeff()});
 }

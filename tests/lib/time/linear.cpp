@@ -18,7 +18,7 @@ std::vector<double> instants(double end, int count) {
 
 // The largest difference from x(t), relative to the largest x.
 template <class Function>
-double error(const EquationOfMotion& equation, const State& start, double end, Function&& x) {
+double error(const EquationOfMotion& equation, const MotionState& start, double end, Function&& x) {
   EventDriven integrator(equation);
   const auto motion = integrator.integrate(start, 0, end, instants(end, 97));
   REQUIRE(motion.reason == EndReason::reached);
@@ -32,7 +32,7 @@ double error(const EquationOfMotion& equation, const State& start, double end, F
   return worst / size;
 }
 
-State moving(double x, double v) {
+MotionState moving(double x, double v) {
   return {Vector::Constant(1, x), Vector::Constant(1, v), Vector()};
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("a mean force and a mean speed of a free mass make a parabola") {
 TEST_CASE("two masses tied by a spring move as their modes do") {
   auto equation = masses(Vector{{1.0, 1.0}});
   equation.K << 2, -1, -1, 2;  // w^2 = 1, 3
-  const State start{Vector{{1.0, 0.0}}, Vector{{0.0, 0.5}}, Vector()};
+  const MotionState start{Vector{{1.0, 0.0}}, Vector{{0.0, 0.5}}, Vector()};
   CHECK(error(equation, start, 60, [](double t) {
           const double w = std::sqrt(3.0);
           return 0.5 * (std::cos(t) + std::cos(w * t)) + 0.25 * (std::sin(t) - std::sin(w * t) / w);
@@ -94,6 +94,6 @@ TEST_CASE("the amplitude is the extreme between the instants, not the largest of
 TEST_CASE("a stuck damper is a spring from where its slider is") {
   auto equation = oscillator(1, 0, 3);
   add_damper(equation, Vector::Ones(1), 1, 100);
-  State start{Vector::Zero(1), Vector::Zero(1), Vector::Constant(1, 0.8)};
+  MotionState start{Vector::Zero(1), Vector::Zero(1), Vector::Constant(1, 0.8)};
   CHECK(error(equation, start, 30, [](double t) { return 0.2 * (1 - std::cos(2 * t)); }) < 1e-13);
 }

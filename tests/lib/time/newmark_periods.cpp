@@ -23,19 +23,19 @@ TEST_CASE("the derivative of the map over a period is that of differences") {
   add_damper(equation, vector({1, 0, 0}), 0.5, 100);  // rests
   add_cubic(equation, vector({0, 1, 0}), 0.8);
   Newmark newmark(equation, 60);
-  State start = newmark_periods(newmark, at_rest(equation), 25, false, true).end;
+  MotionState start = newmark_periods(newmark, at_rest(equation), 25, false, true).end;
   const PeriodMap map = newmark_map(newmark, start);
   REQUIRE(map.done);
   REQUIRE(map.resting.size() == 1);
   CHECK(map.resting[0].slider == 2);
   const auto changed = [&](Eigen::Index i, double by) {
-    State state = start;
+    MotionState state = start;
     if (i < 3) state.x[i] += by;
     if (i >= 3 && i < 6) state.v[i - 3] += by;
     if (i >= 6) state.z[i - 6] += by;
     return newmark_map(newmark, state);
   };
-  const auto stacked = [](const State& state) {
+  const auto stacked = [](const MotionState& state) {
     Vector y(state.x.size() + state.v.size() + state.z.size());
     y << state.x, state.v, state.z;
     return y;
@@ -59,7 +59,7 @@ TEST_CASE("Floquet multipliers of the discrete map come to those of the motion, 
   for (const long steps : {200L, 800L, 3200L, 12800L}) {
     CAPTURE(steps);
     Newmark newmark(equation, steps);
-    const State start = newmark_periods(newmark, at_rest(equation), 200, false, true).end;
+    const MotionState start = newmark_periods(newmark, at_rest(equation), 200, false, true).end;
     const PeriodMap map = newmark_map(newmark, start);
     const Eigen::VectorXcd values = Eigen::EigenSolver<Matrix>(map.monodromy).eigenvalues();
     std::vector<double> sizes;
@@ -74,7 +74,7 @@ TEST_CASE("Floquet multipliers of the discrete map come to those of the motion, 
 TEST_CASE("a transient ends where it is steady, at its limit, or as asked, and records its last periods") {
   const auto equation = paper(20, 3);
   Newmark newmark(equation, 100);
-  const Periods integrate = [&](const State& start, long count, bool with_history) {
+  const Periods integrate = [&](const MotionState& start, long count, bool with_history) {
     return newmark_periods(newmark, start, count, with_history, false);
   };
   const auto steady =
@@ -104,7 +104,7 @@ TEST_CASE("a transient ends where it is steady, at its limit, or as asked, and r
 
   auto runaway = oscillator(1, 0, -10, 1, 1);
   Newmark grows(runaway, 100);
-  const Periods explode = [&](const State& start, long count, bool with_history) {
+  const Periods explode = [&](const MotionState& start, long count, bool with_history) {
     return newmark_periods(grows, start, count, with_history, false);
   };
   const auto failed = transient(explode, at_rest(runaway), 1, {});

@@ -33,7 +33,7 @@ double frequency(const scene::Scene& s, double part) {
 }
 
 // Forces within their limits, and sliders that move only at the limit: no event was missed.
-void check_contact(const time::EquationOfMotion& equation, const time::History& history) {
+void check_contact(const time::EquationOfMotion& equation, const time::TimeHistory& history) {
   for (std::size_t e = 0; e < equation.elements.size(); ++e) {
     const double limit = systems::limit_of(equation.elements[e]), rounding = 1e-13 * limit;
     const auto& [name, displacement, force, slider] = history.elements[e];

@@ -30,7 +30,8 @@ double stick_percent(const PeriodicMotion& motion) {
 }
 
 // d end/d start of integrate() by central differences of fourth order, from a state within the limits.
-Matrix differences(const EquationOfMotion& equation, const State& start, double end, double relative_step) {
+Matrix differences(const EquationOfMotion& equation, const MotionState& start, double end,
+                   double relative_step) {
   EventDriven integrator(equation);
   const auto n = equation.dofs(), size = 2 * n + equation.memory;
   const auto flow = [&](const Vector& y) -> Vector {
@@ -115,7 +116,7 @@ TEST_CASE("the monodromy matrix is that of differences through slip and its ends
   // From rest, where all sliders are stuck: every column is a derivative on both sides.
   auto one = paper(20, 0.3);
   EventDriven first(one);
-  const State rest = at_rest(one);
+  const MotionState rest = at_rest(one);
   REQUIRE(first.integrate(rest, 0, one.period()).events.size() >= 3);
   const Matrix M = first.map(rest, one.period()).monodromy;
   CHECK((scaled(one, M) - scaled(one, differences(one, rest, one.period(), 1e-7))).cwiseAbs().maxCoeff() <
@@ -123,7 +124,7 @@ TEST_CASE("the monodromy matrix is that of differences through slip and its ends
 
   const auto two = two_masses();
   EventDriven second(two);
-  const State start{Vector{{0.05, -0.1}}, Vector{{0.02, 0.01}}, Vector{{0.0, 0.05}}};
+  const MotionState start{Vector{{0.05, -0.1}}, Vector{{0.02, 0.01}}, Vector{{0.0, 0.05}}};
   REQUIRE(second.integrate(start, 0, two.period()).events.size() >= 6);
   const Matrix M2 = second.map(start, two.period()).monodromy;
   CHECK((scaled(two, M2) - scaled(two, differences(two, start, two.period(), 1e-4))).cwiseAbs().maxCoeff() <
@@ -152,7 +153,8 @@ TEST_CASE(
     "a slider that slips at the start has no influence: its column is zero, its row that of the element") {
   const auto equation = two_masses();
   EventDriven integrator(equation);
-  const State start{Vector{{0.5, 0.1}}, Vector{{0.3, 0.1}}, Vector{{0.5 - 0.3 / 0.7, 0.4 - 0.15 / 0.4}}};
+  const MotionState start{Vector{{0.5, 0.1}}, Vector{{0.3, 0.1}},
+                          Vector{{0.5 - 0.3 / 0.7, 0.4 - 0.15 / 0.4}}};
   const double end = 0.05;  // both slip throughout
   const Matrix M = integrator.map(start, end).monodromy;
   CHECK(integrator.integrate(start, 0, end).events.empty());
@@ -303,7 +305,7 @@ TEST_CASE("a mean force moves the centre of a resting slider, which then bears n
 
 TEST_CASE("a flow of one's own is shot at as well") {
   // x' = -x + 1/2 over 2 pi, and beside it v := v + (2 - v^2)/4, whose fixed point sqrt 2 has 1 - sqrt(2)/2.
-  const Flow flow = [](const State& start) {
+  const Flow flow = [](const MotionState& start) {
     const double e = std::exp(-2 * std::numbers::pi), x = start.x[0], v = start.v[0];
     PeriodMap map;
     map.done = true;
@@ -332,7 +334,7 @@ TEST_CASE("shooting fails with its reason: no periodic motion, a flow that fails
   CHECK(failed.shooting.reason == ShootingEnd::flow_failed);
   CHECK(failed.shooting.message.find("3 events (the limit)") != std::string::npos);
 
-  const Flow nothing = [](const State& start) {
+  const Flow nothing = [](const MotionState& start) {
     PeriodMap map;
     map.done = true;
     map.end = start;

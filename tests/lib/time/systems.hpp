@@ -12,7 +12,7 @@ namespace systems {
 using namespace arcslip;
 using time::EquationOfMotion;
 using time::Matrix;
-using time::State;
+using time::MotionState;
 using time::Vector;
 
 /// Masses without anything else, observed at the first.

@@ -14,7 +14,7 @@
 
 namespace arcslip::continuation {
 
-struct Place {
+struct CurvePoint {
   Vector v, tangent;  // n + 1: (u, p) and d(u, p)/ds
   double arclength = 0;
   int orientation = 1;  // sign of det [J F_p; t^T]: the same on both sides of a kink
@@ -30,12 +30,12 @@ struct Place {
 
 /// A kink, seen from both sides: the end of the piece before it, and the start of the piece beyond.
 struct Corner {
-  Place before, beyond;
+  CurvePoint before, beyond;
 };
 
 /// Sets tangent, orientation and piece at the solution place.v of the last correction, with row . t > 0 for
 /// its border row. False if the tangent is not finite or the piece cannot be determined.
-bool settle(Corrector& at, Place& place);
+bool settle(Corrector& at, CurvePoint& place);
 
 /// Whether the corrector's point v is still in the current smooth piece, or part.
 using Inside = std::function<bool(const Vector& v)>;
@@ -45,17 +45,17 @@ using Inside = std::function<bool(const Vector& v)>;
 /// the branch; this is repeated from there, and the remaining distance converges quadratically. last: the
 /// last correction. False if a tangent on the way does not exist. is_inside: none, or a criterion in place
 /// of the piece.
-bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last,
+bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePoint& kink, Correction& last,
                  const Inside& is_inside = {});
 
 /// A place as passed to monitors and observers. The factors are those of the corrector's last linearization.
-Accepted accepted(Corrector& at, const Place& place);
+Accepted accepted(Corrector& at, const CurvePoint& place);
 
 /// Sets place.monitors, place.quantities and place.part.
-void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place);
+void evaluate(const std::vector<Monitor>& monitors, Corrector& at, CurvePoint& place);
 
 /// A place as stored in the branch.
-Point point(const Place& place, const Correction& correction);
+Point point(const CurvePoint& place, const Correction& correction);
 
 /// |b - a| in scales.
 double distance(const Corrector& in, const Vector& a, const Vector& b);

@@ -1,4 +1,4 @@
-#include <arcslip/continuation/tracing/place.hpp>
+#include <arcslip/continuation/tracing/curve_point.hpp>
 
 #include <arcslip/continuation/events/monitor_calls.hpp>
 
@@ -16,13 +16,13 @@ constexpr int most_kink_corrections = 60;
 
 }  // namespace
 
-bool settle(Corrector& at, Place& place) {
+bool settle(Corrector& at, CurvePoint& place) {
   if (!at.tangent(place.tangent)) return false;
   place.orientation = at.factors().determinant_sign().value_or(0);
   return at.piece(place.piece);
 }
 
-bool locate_kink(Corrector& with, const Place& from, double length, Place& kink, Correction& last,
+bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePoint& kink, Correction& last,
                  const Inside& is_inside) {
   const Vector row = with.border_row(from.tangent);
   const double finest = finest_kink * length;
@@ -89,13 +89,13 @@ bool locate_kink(Corrector& with, const Place& from, double length, Place& kink,
   return upper - lower <= finest;
 }
 
-Accepted accepted(Corrector& at, const Place& place) {
+Accepted accepted(Corrector& at, const CurvePoint& place) {
   const Eigen::Index n = place.v.size() - 1;
   return {place.v.head(n), at.parameters(), place.tangent, place.arclength,
           at.evaluator(),  at.factors(),    place.v[n],    at.scratch()};
 }
 
-void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place) {
+void evaluate(const std::vector<Monitor>& monitors, Corrector& at, CurvePoint& place) {
   const Accepted now = accepted(at, place);
   place.monitors.resize(monitors.size());
   place.quantities.resize(monitors.size());
@@ -107,7 +107,7 @@ void evaluate(const std::vector<Monitor>& monitors, Corrector& at, Place& place)
   }
 }
 
-Point point(const Place& place, const Correction& correction) {
+Point point(const CurvePoint& place, const Correction& correction) {
   const Eigen::Index n = place.v.size() - 1;
   return {place.v.head(n),       place.v[n],     place.tangent, place.arclength,
           correction.iterations, correction.last};

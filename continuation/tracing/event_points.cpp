@@ -26,8 +26,8 @@ constexpr double zero_share = 1e-6;
 }  // namespace
 
 // The branch point x as an event of the step. Nothing if it does not lie on the step.
-std::optional<LocatedEvent> EventLocator::crossing_event(const Place& from, const Place& to, const Vector& x,
-                                                         BranchPoint&& branches) {
+std::optional<LocatedEvent> EventLocator::crossing_event(const CurvePoint& from, const CurvePoint& to,
+                                                         const Vector& x, BranchPoint&& branches) {
   const double length = to.arclength - from.arclength;
   Corrector& probe = this->probe();
   Vector beside(x.size());
@@ -47,7 +47,7 @@ std::optional<LocatedEvent> EventLocator::crossing_event(const Place& from, cons
   return found;
 }
 
-std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const Place& to) {
+std::optional<LocatedEvent> EventLocator::branch_point(const CurvePoint& from, const CurvePoint& to) {
   Vector beside(from.v.size());
   for (const double guess : guesses) {
     hermite(from.v, from.tangent, to.v, to.tangent, to.arclength - from.arclength, guess, beside);
@@ -64,7 +64,8 @@ std::optional<LocatedEvent> EventLocator::branch_point(const Place& from, const 
   return std::nullopt;
 }
 
-std::optional<LocatedEvent> EventLocator::multiple_point(const Place& from, const Place& to, int rank_loss) {
+std::optional<LocatedEvent> EventLocator::multiple_point(const CurvePoint& from, const CurvePoint& to,
+                                                         int rank_loss) {
   const double length = to.arclength - from.arclength;
   Corrector& probe = this->probe();
   const Vector chord = to.v - from.v;
@@ -94,8 +95,9 @@ std::optional<LocatedEvent> EventLocator::multiple_point(const Place& from, cons
   return std::nullopt;
 }
 
-std::vector<LocatedEvent> EventLocator::past(const Place& from, const Place& crossing, const Place& to) {
-  Place at = crossing;
+std::vector<LocatedEvent> EventLocator::past(const CurvePoint& from, const CurvePoint& crossing,
+                                             const CurvePoint& to) {
+  CurvePoint at = crossing;
   at.piece = from.piece;
   at.orientation = from.orientation;
   const bool smooth = to.piece == from.piece;
@@ -120,8 +122,8 @@ std::vector<LocatedEvent> EventLocator::past(const Place& from, const Place& cro
   return found;
 }
 
-std::optional<LocatedEvent> EventLocator::beyond_crossing(std::size_t monitor, const Place& crossing,
-                                                          const Place& to) {
+std::optional<LocatedEvent> EventLocator::beyond_crossing(std::size_t monitor, const CurvePoint& crossing,
+                                                          const CurvePoint& to) {
   if (!zero_at_crossing_[monitor]) return find(monitor, crossing, to);
   if (!monitors_[monitor].at_branch_points) return std::nullopt;
   return LocatedEvent{event(monitor, crossing, 0, {}), crossing, crossing.quantities[monitor]};
@@ -139,8 +141,8 @@ LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Corner& corn
 
 // A point of the branch just beyond a kink, with its tangent: linearized ahead on the other piece, and
 // corrected along that tangent, farther away than the error of the kink.
-bool EventLocator::look_beyond(const Place& kink, double way, bool is_next_to_it, const Vector& towards,
-                               Place& beyond) {
+bool EventLocator::look_beyond(const CurvePoint& kink, double way, bool is_next_to_it, const Vector& towards,
+                               CurvePoint& beyond) {
   Corrector& probe = this->probe();
   beyond = kink;
   beyond.v = kink.v + way * kink.tangent;
@@ -161,7 +163,7 @@ bool EventLocator::look_beyond(const Place& kink, double way, bool is_next_to_it
   return beyond.piece != kink.piece && (kink.orientation == 0 || beyond.orientation == kink.orientation);
 }
 
-std::optional<Corner> EventLocator::corner(const Place& from, double length, const Vector& towards) {
+std::optional<Corner> EventLocator::corner(const CurvePoint& from, double length, const Vector& towards) {
   Corner corner;
   Correction correction;
   if (!locate_kink(probe(), from, length, corner.before, correction)) return std::nullopt;
@@ -185,10 +187,10 @@ bool EventLocator::looks_for_kinks() const {
   });
 }
 
-std::vector<Corner> EventLocator::corners(const Place& from, const Place& to) {
+std::vector<Corner> EventLocator::corners(const CurvePoint& from, const CurvePoint& to) {
   std::vector<Corner> found;
   if (to.piece == from.piece || !looks_for_kinks()) return found;
-  const Place* side = &from;
+  const CurvePoint* side = &from;
   for (int k = 0; k < most_kinks && side->piece != to.piece; ++k) {
     const Vector way = to.v - side->v;
     const double length = std::sqrt(probe().dot(way, way));
@@ -201,9 +203,9 @@ std::vector<Corner> EventLocator::corners(const Place& from, const Place& to) {
   return found;
 }
 
-std::optional<Corner> EventLocator::division(const Place& from, double length) {
+std::optional<Corner> EventLocator::division(const CurvePoint& from, double length) {
   Corrector& probe = this->probe();
-  Place at = from;
+  CurvePoint at = from;
   const auto part = [&](const Vector& v) {
     at.v = v;
     const Accepted now = accepted(probe, at);
@@ -218,7 +220,7 @@ std::optional<Corner> EventLocator::division(const Place& from, double length) {
   Correction correction;
   const auto is_inside = [&](const Vector& v) { return part(v) == from.part; };
   if (!locate_kink(probe, from, length, found.before, correction, is_inside)) return std::nullopt;
-  const auto measured = [&](Place& place) {
+  const auto measured = [&](CurvePoint& place) {
     if (!probe.linearize(place.v, probe.border_row(from.tangent)) || !settle(probe, place)) return false;
     if (probe.dot(place.tangent, from.tangent) < 0) place.reverse();
     evaluate(monitors_, probe, place);
@@ -226,7 +228,7 @@ std::optional<Corner> EventLocator::division(const Place& from, double length) {
   };
   if (!measured(found.before)) return std::nullopt;
   for (const double share : just_beyond) {
-    Place& beyond = found.beyond = found.before;
+    CurvePoint& beyond = found.beyond = found.before;
     beyond.v += share * length * found.before.tangent;
     if (!probe.correct(beyond.v, probe.border_row(found.before.tangent), false).converged ||
         !measured(beyond))
@@ -237,9 +239,9 @@ std::optional<Corner> EventLocator::division(const Place& from, double length) {
   return std::nullopt;
 }
 
-std::vector<Corner> EventLocator::divisions(const Place& from, const Place& to) {
+std::vector<Corner> EventLocator::divisions(const CurvePoint& from, const CurvePoint& to) {
   std::vector<Corner> found;
-  const Place* side = &from;
+  const CurvePoint* side = &from;
   for (int k = 0; k < most_kinks && side->piece == to.piece && side->part != to.part; ++k) {
     const double length = continuation::distance(probe(), side->v, to.v);
     if (!(length > 0)) break;
