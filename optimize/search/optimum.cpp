@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/optimize/nlopt/interrupted.hpp>
+#include <arcslip/optimize/search/convergence.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/search/search.hpp>
 #include <arcslip/optimize/search/start.hpp>
@@ -19,21 +20,16 @@ using continuation::text;
 namespace {
 
 using observables::Status;
+using Ends = Convergence::Ends;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double seen_before = 1e-8;  // relative: a response higher by more than this has an unwatched peak
 constexpr int most_rounds = 12;
-constexpr double gain = 1e-7;                   // relative: progress of a round that justifies another one
-constexpr double small_gradient = 1e-8;         // of d ln V / dy: below this, rounding
-constexpr double as_good = 1e-13;               // relative: values that differ by rounding
-constexpr double as_good_within_limits = 1e-7;  // the same, including the effect of the tolerance of limits
-constexpr double settled_share = 0.1;           // of the tolerances of a minimum: where a refinement ends
-constexpr std::size_t most_retreats = 12;       // designs evaluated again, for each distance
+constexpr double gain = 1e-7;              // relative: progress of a round that justifies another one
+constexpr std::size_t most_retreats = 12;  // designs evaluated again, for each distance
 constexpr std::array apart_by = {1e-2, 1e-3, 1e-4, 1e-5};             // of the range of a variable
 constexpr std::array slipping = {most_dissipation, 0.75, 0.9, 0.97};  // of k_d X: slip limits after a release
-constexpr int most_idle = 100;                                        // consecutive calls at known designs
 constexpr double gain_outside = 0.5;     // of the violation of the limits, relative
-constexpr std::size_t patience = 25;     // evaluations without progress, times the number of parameters + 1
 constexpr int most_in_refinement = 200;  // evaluations of one algorithm
 
 }  // namespace
@@ -104,10 +100,10 @@ void Search::search() {
       if (result_.status == Status::failed && best().value == stuck_value_ &&
           result_.stop.reason != reasons::objective_failed)
         std::tie(result_.status, result_.stop) = before;  // the optimum is still that of the round before
-      came_up_ = false;
+      round_.new_peak = false;
       if (!verify() && !release()) break;
       if (round + 1 < most_rounds) continue;
-      if (came_up_) stop_at_higher_peak();
+      if (round_.new_peak) stop_at_higher_peak();
       break;
     }
   } while (add_worst_scatter());
@@ -142,9 +138,9 @@ bool Search::interrupted() {
 
 void Search::minimize_once() {
   Formulation& formulation = trials_.formulation();
-  round_responses_ = cases().work().responses;
-  round_value_ = std::min(cases().value(), best().value);
-  round_excess_ = best().excess;
+  round_.responses = cases().work().responses;
+  round_.value = std::min(cases().value(), best().value);
+  round_.excess = best().excess;
   std::vector<double> y = space().scaled(start_);
   const NonlinearProgram problem =
       formulation.problem(y, algorithm_, reference_, [this](auto at) { trials_.move_to(at); });
@@ -164,26 +160,22 @@ void Search::minimize_once() {
   options.evaluations = std::max(1, options_.evaluations - static_cast<int>(count()) + known);
   if (refinements_ > 0) options.evaluations = std::min(options.evaluations, most_in_refinement);
   const bool smooth = algorithm_.name[1] == 'D' && !formulation.epigraph() && problem.constraints.empty();
-  candidate_ = {};
-  known_ = gained_ = count();
-  gained_excess_ = best().excess;
-  gained_value_ = best().value;
-  idle_ = 0;
+  Convergence convergence(trials_, {smooth, limited_, refinements_ > 0, algorithm_.global, start_.size()});
   Ends by = Ends::no;
   options.progress = [&](const MinimizeProgress&) {
-    by = ends(smooth);
+    by = convergence.test();
     return watch_.go_on() && by == Ends::no;
   };
   MinimizeResult found = minimize(problem, y, options);
   if (found.reason != MinimizeReason::objective_failed && interrupted()) return;
-  take_candidate();
+  convergence.take_candidate();
   const bool short_run =
       found.reason == MinimizeReason::evaluation_limit && static_cast<int>(count()) < options_.evaluations;
   if (by != Ends::no || short_run) {
     found.reason =
         by == Ends::vanishes || by == Ends::settles ? MinimizeReason::converged : MinimizeReason::rounding;
     found.cause = by == Ends::vanishes  ? text("converged, residual gradient below ", small_gradient)
-                  : by == Ends::settles ? text("converged, residual gradient ", candidate_.left.stationarity)
+                  : by == Ends::settles ? text("converged, residual gradient ", convergence.stationarity())
                                         : text(algorithm_.name, " made no further progress");
   }
   result_.stop = {};
@@ -193,61 +185,6 @@ void Search::minimize_once() {
                    : found.reason == MinimizeReason::evaluation_limit                     ? Status::stopped
                                                                                           : Status::failed;
   ended_ = result_.status != Status::complete;
-}
-
-Search::Ends Search::ends(bool smooth) {
-  idle_ = count() > known_ ? 0 : idle_ + 1;
-  known_ = count();
-  if (smooth && gradient_vanishes()) {
-    trials_.call_best();
-    return Ends::vanishes;
-  }
-  const bool within = best().excess == 0;
-  if (best().excess < (1 - gain_outside) * gained_excess_ ||
-      (within && best().value < (1 - gain) * gained_value_)) {
-    gained_excess_ = best().excess;
-    gained_value_ = best().value;
-    gained_ = count();
-  }
-  const bool settled = (limited_ || refinements_ > 0) && !smooth && is_settled();
-  if (settled && refinements_ > 0) return Ends::settles;
-  const bool in_vain = limited_ && !algorithm_.global && count() - gained_ > patience * (1 + start_.size());
-  return idle_ == most_idle || in_vain ? Ends::idles : Ends::no;
-}
-
-bool Search::is_settled() {
-  const double value = cases().value();
-  if (!std::isfinite(value) || value > (1 + as_good_within_limits) * best().value || best().excess > 0 ||
-      trials_.formulation().excess() > 0)
-    return false;
-  Balance left = balance_here();
-  if (candidate_.design.empty() || left.stationarity < candidate_.left.stationarity)
-    candidate_ = {cases().state(0).design, std::move(left)};
-  return candidate_.left.stationarity <= settled_share * most_stationarity &&
-         candidate_.left.complementarity <= settled_share * most_complementarity;
-}
-
-void Search::take_candidate() {
-  if (candidate_.design.empty() || !is_stationary(candidate_.left)) return;
-  cases().at(candidate_.design);
-  if (cases().value() <= (1 + as_good_within_limits) * best().value && trials_.formulation().excess() == 0)
-    trials_.call_best();
-}
-
-bool Search::gradient_vanishes() {
-  const double value = cases().value();
-  if (!std::isfinite(value) || value > (1 + as_good) * best().value) return false;
-  for (std::size_t c = 0; c < cases().size(); ++c)
-    if (cases().state(c).peaks.size() > 1) return false;
-  const std::vector<double>& design = cases().state(0).design;
-  const Vector gradient = cases().gradient();
-  for (std::size_t k = 0; k < design.size(); ++k) {
-    const double slope = gradient[static_cast<Eigen::Index>(k)] / value * space().slope(k, design[k]);
-    const bool held =
-        (design[k] == space().lower()[k] && slope > 0) || (design[k] == space().upper()[k] && slope < 0);
-    if (!held && std::abs(slope) > small_gradient) return false;
-  }
-  return true;
 }
 
 // The message of one round, with the numbers of all rounds.
@@ -261,8 +198,8 @@ bool Search::verify() {
   if (best().design.empty() || !std::isfinite(best().value)) return false;
   const int responses = cases().work().responses;
   const bool gained = best().excess > 0  // there a lower amplitude is none
-                          ? std::isfinite(round_excess_) && best().excess < (1 - gain_outside) * round_excess_
-                          : round_excess_ > 0 || best().value < (1 - gain) * round_value_;
+                          ? std::isfinite(round_.excess) && best().excess < (1 - gain_outside) * round_.excess
+                          : round_.excess > 0 || best().value < (1 - gain) * round_.value;
   const double seen = best().value;
   start_ = best().design;
   trials_.begin("the verification");
@@ -277,14 +214,14 @@ bool Search::verify() {
   const bool higher = !(std::abs(now / seen - 1) <= seen_before);
   const bool beyond = exceeded > best().excess + limit_tolerance;
   const bool changed =
-      formulation.epigraph() ? responses > round_responses_ : formulation.wants_epigraph(algorithm_);
+      formulation.epigraph() ? responses > round_.responses : formulation.wants_epigraph(algorithm_);
   if (!higher && !beyond) return changed && gained && !ended_;
-  came_up_ = true;
+  round_.new_peak = true;
   note(text("at ", space().text(start_), " a new peak ",
             higher ? text("of ", now, " m appeared, higher than the highest tracked peak of ", seen, " m")
                    : text("appeared at which a limit is exceeded by ", exceeded)));
   trials_.call_best();
-  if (++times_came_up_ > 1) retreat();
+  if (++new_peaks_ > 1) retreat();
   return !ended_;
 }
 
@@ -302,7 +239,7 @@ void Search::retreat() {
   std::sort(tried.begin(), tried.end());
   std::vector<std::vector<double>> looked_at{best().design};
   for (const double far_enough : apart_by) {
-    if (best().excess == 0 && best().value < (1 - gain) * round_value_) break;
+    if (best().excess == 0 && best().value < (1 - gain) * round_.value) break;
     std::size_t retreats = 0;
     for (const auto& [excess, value, design] : tried) {
       if (!(std::tie(excess, value) < std::tie(best().excess, best().value)) || retreats == most_retreats)

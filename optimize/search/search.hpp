@@ -26,10 +26,6 @@ class Search {
   Optimum run();
 
  private:
-  /// Why the search ended a run of an algorithm: the gradient vanishes; the conditions of a minimum hold; it
-  /// repeats known designs, or, with limits, makes no progress over many evaluations.
-  enum class Ends { no, vanishes, settles, idles };
-
   Cases& cases() { return trials_.cases(); }
   const DesignSpace& space() const { return trials_.space(); }
   const Best& best() const { return trials_.best(); }
@@ -41,14 +37,7 @@ class Search {
   void begin();
   bool interrupted();
   void minimize_once();
-  Ends ends(bool smooth);
   std::string sentence(const MinimizeResult& found);
-  // At the best design so far: worse stationary points do not count.
-  bool gradient_vanishes();
-  // With limits and epigraphs: keeps the design with the smallest residual of the conditions of a minimum,
-  // among those as good as the best up to the tolerance of the limits. Returns whether the conditions hold.
-  bool is_settled();
-  void take_candidate();
   // Traces the responses at the best design. True if the search is to continue: with a new higher peak, or
   // because peaks appeared and vanished during a round with progress.
   bool verify();
@@ -66,7 +55,6 @@ class Search {
   // True if the search is to continue, from another start or by another algorithm. Otherwise certifies
   // the optimum.
   bool goes_on();
-  Balance balance_here();
   bool stand_at_best();
   // An algorithm may report convergence at no minimum: coming from outside the limits it may have moved to
   // a lower infeasible design, and its best is then only the last feasible one. Other algorithms continue
@@ -82,6 +70,12 @@ class Search {
   // With limits there are often several local minima: further searches from the lowest of sampled designs,
   // also by LN_COBYLA, and by other algorithms from the start.
   bool look_elsewhere();
+  struct Beginning {
+    std::vector<double> design;
+    std::string algorithm;
+  };
+  std::vector<Beginning> beginnings(bool from_minimum);
+  Optimum search_from(const Beginning& beginning);
   // A lower design found while computing a tolerance range.
   bool passed_lower();
   void go_from(const std::vector<double>& design);
@@ -101,29 +95,26 @@ class Search {
   Trials trials_;
   Optimum result_;
   std::vector<double> start_;
-  double reference_ = 1;                                          // V at the start
-  int round_responses_ = 0;                                       // traced before the round
-  double round_value_ = std::numeric_limits<double>::infinity();  // least before it
-  double round_excess_ = std::numeric_limits<double>::infinity();
+  double reference_ = 1;  // V at the start
+  struct Round {
+    int responses = 0;                                                       // traced before it
+    double value = std::numeric_limits<double>::infinity(), excess = value;  // the best before it
+    bool new_peak = false;                                                   // in its last response
+  } round_;
+  int new_peaks_ = 0;                                             // rounds that ended with one
   double stuck_value_ = std::numeric_limits<double>::infinity();  // lowest one from which stuck dampers were
                                                                   // released
-  int times_came_up_ = 0;
-  bool came_up_ = false;           // a higher peak, in the last response
-  bool looked_elsewhere_ = false;  // for a feasible design
-  struct Candidate {
-    std::vector<double> design;
-    Balance left;
-  } candidate_;             // of this round, for a minimum
-  std::size_t known_ = 0;   // evaluations at the last call of an algorithm
-  int idle_ = 0;            // calls since the last new evaluation
-  std::size_t gained_ = 0;  // evaluations at the last improvement of this run, and its values
-  double gained_value_ = 0, gained_excess_ = 0;
-  double refined_ = 0;           // V at the last refinement
-  std::size_t refinements_ = 0;  // by other algorithms
-  int restarts_ = 0;             // from lower designs next to a minimum
-  bool was_elsewhere_ = false;
-  // V of a minimum from which further searches were started, and its result.
-  std::optional<std::pair<double, std::pair<observables::Status, observables::Stop>>> stood_{};
+  double refined_ = 0;                                            // V at the last refinement
+  std::size_t refinements_ = 0;                                   // by other algorithms
+  int restarts_ = 0;                                              // from lower designs next to a minimum
+  bool sought_feasible_ = false;                                  // by designs sampled over the bounds
+  bool sought_elsewhere_ = false;                                 // by further searches
+  struct Minimum {
+    double value;
+    observables::Status status;
+    observables::Stop stop;
+  };
+  std::optional<Minimum> left_{};  // the minimum from which further searches led elsewhere
   PeakWork work_elsewhere_{};
   bool ended_ = false;
 };

@@ -1,6 +1,7 @@
 // Whether a search has reached a minimum, and how it continues otherwise.
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/optimize/search/convergence.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/search/search.hpp>
 
@@ -37,10 +38,12 @@ constexpr std::array ladder = {"LD_CCSAQ", "LD_SLSQP", "LN_COBYLA", "LD_SLSQP"};
 }  // namespace
 
 bool Search::goes_on() {
-  if (stood_ && result_.status == Status::failed && best().value == stood_->first &&
-      result_.stop.reason != reasons::objective_failed)
-    std::tie(result_.status, result_.stop) = stood_->second;  // it led to nothing
-  stood_.reset();
+  if (left_ && result_.status == Status::failed && best().value == left_->value &&
+      result_.stop.reason != reasons::objective_failed) {  // it led to nothing
+    result_.status = left_->status;
+    result_.stop = left_->stop;
+  }
+  left_.reset();
   if (result_.status == Status::complete && interrupted()) return false;
   trials_.recall_best();
   if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
@@ -55,7 +58,7 @@ bool Search::goes_on() {
   }
   if (result_.stop.reason == reasons::flat) return false;
   if (!stand_at_best()) return false;
-  if (const Balance left = balance_here(); !is_stationary(left)) return refine(left);
+  if (const Balance left = balance_here(trials_); !is_stationary(left)) return refine(left);
   if (look_elsewhere()) return true;
   if (interrupted() || !options_.certificate || !stand_at_best()) return false;
   trials_.begin("the certificate");
@@ -64,10 +67,6 @@ bool Search::goes_on() {
       cases(), space().lower(), space().upper(), trials_.formulation().active(),
       [this] { return trials_.formulation().margin(); }, [this] { return watch_.go_on(); });
   return !interrupted() && passed_lower();
-}
-
-Balance Search::balance_here() {
-  return balance(cases(), space().lower(), space().upper(), trials_.formulation().active());
 }
 
 bool Search::stand_at_best() {
@@ -124,7 +123,7 @@ std::string Search::jump(const Balance& left) {
 }
 
 bool Search::find_feasible() {
-  if (std::exchange(looked_elsewhere_, true)) return false;
+  if (std::exchange(sought_feasible_, true)) return false;
   trials_.begin("the search for a feasible design");
   const std::string exceeds = space().text(best().design);
   for (int k = 0; k < space().attempts() + space().samples() && best().excess > 0; ++k) {
@@ -139,55 +138,69 @@ bool Search::find_feasible() {
   return true;
 }
 
-bool Search::look_elsewhere() {
-  if (!limited_ || !options_.elsewhere || asked_.global || std::exchange(was_elsewhere_, true)) return false;
-  trials_.begin("the search elsewhere");
-  std::vector<std::string> ignored;
-  std::vector<std::pair<std::vector<double>, std::string>> beginnings;
-  const std::vector<double> here = best().design;
-  const bool within =
-      best().excess == 0;  // else such designs were looked for in vain, but by these algorithms
-  double least = within ? (1 - gain) * best().value : infinity;
-  if (within) {
+// Where further searches start, and by which algorithms. from_minimum: otherwise designs over the bounds were
+// sampled in vain, though not by these algorithms.
+std::vector<Search::Beginning> Search::beginnings(bool from_minimum) {
+  std::vector<Beginning> all;
+  if (from_minimum) {
     const auto designs = lowest_elsewhere();
-    for (const auto& design : designs) beginnings.emplace_back(design, asked_.name);
+    for (const auto& design : designs) all.push_back({design, asked_.name});
     // Its first steps are long: it leaves a basin, and the plateau where a damper sticks, for a lower one.
     if (asked_.name != "LN_COBYLA")
       for (std::size_t i = 0; i < std::min(most_by_cobyla, designs.size()); ++i)
-        beginnings.emplace_back(designs[i], "LN_COBYLA");
+        all.push_back({designs[i], "LN_COBYLA"});
   }
-  for (const char* other : {"LN_COBYLA", "LD_MMA"}) beginnings.emplace_back(space().start(ignored), other);
+  std::vector<std::string> ignored;
+  for (const char* other : {"LN_COBYLA", "LD_MMA"}) all.push_back({space().start(ignored), other});
+  return all;
+}
+
+// A search of its own within the limits of this one, which reports as part of it.
+Optimum Search::search_from(const Beginning& beginning) {
+  scene::Scene there = scene_;
+  for (std::size_t k = 0; k < beginning.design.size(); ++k)
+    scene::set(there, problem_.over[k].name, beginning.design[k]);
+  OptimumOptions options = options_;
+  options.algorithm = beginning.algorithm;
+  options.seconds = 0;
+  options.certificate = options.elsewhere = false;
+  std::exception_ptr thrown;
+  options.progress = [&](OptimumProgress now) {
+    now.evaluations += static_cast<int>(count() + trials_.elsewhere().size());
+    now.best = std::min(now.best, best().value);
+    now.phase = watch_.phase();
+    try {
+      if (options_.progress && !options_.progress(now)) watch_.stop();
+    } catch (...) {
+      thrown = std::current_exception();
+      watch_.stop();
+    }
+    return !watch_.stopped();
+  };
+  options.go_on = [this] { return watch_.go_on(); };
+  Optimum found = optimum(there, problem_, options);
+  if (thrown) std::rethrow_exception(thrown);
+  trials_.elsewhere().insert(trials_.elsewhere().end(), found.evaluations.begin(), found.evaluations.end());
+  add(found.work, work_elsewhere_);
+  return found;
+}
+
+bool Search::look_elsewhere() {
+  if (!limited_ || !options_.elsewhere || asked_.global || std::exchange(sought_elsewhere_, true))
+    return false;
+  trials_.begin("the search elsewhere");
+  const std::vector<double> here = best().design;
+  const bool within = best().excess == 0;
+  double least = within ? (1 - gain) * best().value : infinity;
+  const std::vector<Beginning> all = beginnings(within);
   std::vector<double> lower;
   if (within && best().value < least) {
     least = best().value;
     lower = best().design;
   }
-  for (const auto& [design, by] : beginnings) {
+  for (const Beginning& each : all) {
     if (interrupted()) break;
-    scene::Scene there = scene_;
-    for (std::size_t k = 0; k < design.size(); ++k) scene::set(there, problem_.over[k].name, design[k]);
-    OptimumOptions options = options_;
-    options.algorithm = by;
-    options.seconds = 0;
-    options.certificate = options.elsewhere = false;
-    std::exception_ptr thrown;
-    options.progress = [&](OptimumProgress now) {
-      now.evaluations += static_cast<int>(count() + trials_.elsewhere().size());
-      now.best = std::min(now.best, best().value);
-      now.phase = watch_.phase();
-      try {
-        if (options_.progress && !options_.progress(now)) watch_.stop();
-      } catch (...) {
-        thrown = std::current_exception();
-        watch_.stop();
-      }
-      return !watch_.stopped();
-    };
-    options.go_on = [this] { return watch_.go_on(); };
-    const Optimum found = optimum(there, problem_, options);
-    if (thrown) std::rethrow_exception(thrown);
-    trials_.elsewhere().insert(trials_.elsewhere().end(), found.evaluations.begin(), found.evaluations.end());
-    add(found.work, work_elsewhere_);
+    const Optimum found = search_from(each);
     if (!found.feasible || found.design.empty() || !(found.amplitude < least)) continue;
     least = found.amplitude;
     lower = found.design;
@@ -198,7 +211,7 @@ bool Search::look_elsewhere() {
   note("the search reached " + space().text(here) +
        (within ? ", and continued from the lower " : ", where a limit is exceeded, and continued from ") +
        space().text(lower) + " found elsewhere");
-  stood_ = {best().value, {result_.status, result_.stop}};
+  left_ = {best().value, result_.status, result_.stop};
   go_from(lower);  // a limit that is active may be exceeded there, by rounding
   return true;
 }
@@ -276,7 +289,7 @@ void Search::describe() {
           cases().groups() > 1 || cases().weight(c) * result_.cases[c].amplitude >= (1 - active) * most;
     return;
   }
-  for (const ActivePeak& peak : balance_here().active) {
+  for (const ActivePeak& peak : balance_here(trials_).active) {
     result_.cases[peak.in_case].active = true;
     result_.cases[peak.in_case].multiplier += peak.multiplier;
   }

@@ -117,7 +117,7 @@ TEST_CASE("a --set of a parameter of the cases takes the place of their values")
         Approx(highest(place, found["optimum"]["damper.normal_load"].get<double>(), 2)).epsilon(1e-6));
 }
 
-TEST_CASE("--over of an uncertain parameter removes it from scatter") {
+TEST_CASE("the option --over of an uncertain parameter removes it from scatter") {
   const Workplace place;
   Json study = study_of_levels();
   study.erase("cases");
