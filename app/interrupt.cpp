@@ -18,9 +18,8 @@ extern "C" void ask_for_end(int signal) {
 
 void watch(int signal) {
   struct sigaction old {};
-  if (::sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN) {
+  if (::sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN)
     return;  // ignored, as under nohup
-  }
   struct sigaction action {};
   action.sa_handler = ask_for_end;  // without SA_RESTART: blocking calls return and check
   sigemptyset(&action.sa_mask);

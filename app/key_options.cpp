@@ -110,25 +110,20 @@ std::string KeyOption::help() const {
 
 GivenKey KeyOption::given() const {
   const bool may_be_empty = key.type == KeyType::text || key.type == KeyType::parameter || has_ranges(key);
-  if (!may_be_empty && std::find(texts.begin(), texts.end(), "") != texts.end()) {
+  if (!may_be_empty && std::find(texts.begin(), texts.end(), "") != texts.end())
     throw UsageError(name() + " needs a nonempty value");
-  }
   GivenKey given{key, name() + joined(texts), {}};
-  if (has_ranges(key)) {
+  if (has_ranges(key))
     given.value = ranges_of(name(), texts);
-  } else {
+  else
     given.value = node_of(key, name(), texts);
-  }
   return given;
 }
 
 std::vector<KeyOption> options_of(const std::vector<Key>& keys) {
   std::vector<KeyOption> options;
-  for (const Key& key : keys) {
-    if (key.type != KeyType::other) {
-      options.push_back({key});
-    }
-  }
+  for (const Key& key : keys)
+    if (key.type != KeyType::other) options.push_back({key});
   return options;
 }
 

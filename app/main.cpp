@@ -26,11 +26,9 @@ namespace {
 
 /// Otherwise the first file opened would take the descriptor of a standard stream that is closed at startup.
 void hold_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (::fcntl(stream, F_GETFD) < 0) {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0)
       ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // its use fails, as it should
-    }
-  }
 }
 
 ExitCode print(const Information& information) {
@@ -53,9 +51,7 @@ ExitCode run(int argc, const char* const* argv) {
     scene::Catalogue catalogue = studies::catalogue();
     optimize::add_studies(catalogue);
     const auto request = parse(argc, argv, catalogue);
-    if (const auto* information = std::get_if<Information>(&request)) {
-      return print(*information);
-    }
+    if (const auto* information = std::get_if<Information>(&request)) return print(*information);
     scene_file = std::get<CommandOptions>(request).scene;
     return execute(std::get<CommandOptions>(request), catalogue);
   } catch (const scene::SceneError& error) {

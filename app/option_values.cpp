@@ -19,44 +19,33 @@ std::optional<double> number(const std::string& text) {
 
 std::pair<std::string, double> assignment(const std::string& text) {
   const auto equals = text.rfind('=');
-  if (equals == std::string::npos || equals == 0) {
+  if (equals == std::string::npos || equals == 0)
     throw UsageError("--set " + text + ": give it as name.field=value, such as --set damper.normal_load=3");
-  }
   const std::string value = text.substr(equals + 1);
-  if (const auto parsed = number(value)) {
-    return {text.substr(0, equals), *parsed};
-  }
+  if (const auto parsed = number(value)) return {text.substr(0, equals), *parsed};
   throw UsageError("--set " + text + ": found the value \"" + value + "\", must be a finite number");
 }
 
 std::optional<double> number(const std::string& option, const std::string& text, const std::string& what) {
   const auto value = number(text);
-  if (!text.empty() && !value) {
-    throw UsageError(option + " " + text + ": must be " + what);
-  }
+  if (!text.empty() && !value) throw UsageError(option + " " + text + ": must be " + what);
   return value;
 }
 
 std::optional<double> frequency(const std::string& option, const std::string& text) {
-  if (text.empty()) {
-    return std::nullopt;
-  }
+  if (text.empty()) return std::nullopt;
   const auto value = number(text);
-  if (!value || *value <= 0) {
+  if (!value || *value <= 0)
     throw UsageError(option + " " + text + ": must be a frequency above 0, a finite number");
-  }
   return value;
 }
 
 std::optional<int> whole_number(const std::string& option, const std::string& text, const std::string& what) {
-  if (text.empty()) {
-    return std::nullopt;
-  }
+  if (text.empty()) return std::nullopt;
   int value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size()) {
+  if (error != std::errc() || stop != text.data() + text.size())
     throw UsageError(option + " " + text + ": must be " + what);
-  }
   return value;
 }
 
@@ -67,12 +56,8 @@ RangeOption parameter_range(const std::string& option, const std::string& text) 
     throw UsageError(option + " needs the name of a parameter, such as " + option +
                      " damper.normal_load=0.1:100");
   }
-  if (name.empty()) {
-    throw UsageError(option + " " + text + ": give it as name.field=lower:upper");
-  }
-  if (equals == std::string::npos) {
-    return {name, std::nullopt};
-  }
+  if (name.empty()) throw UsageError(option + " " + text + ": give it as name.field=lower:upper");
+  if (equals == std::string::npos) return {name, std::nullopt};
   const std::string bounds = text.substr(equals + 1);
   const auto colon = bounds.find(':');
   const auto lower = number(bounds.substr(0, colon));
@@ -86,9 +71,7 @@ RangeOption parameter_range(const std::string& option, const std::string& text) 
 
 std::vector<double> frequencies(const std::vector<std::string>& texts) {
   std::vector<double> values;
-  for (const std::string& text : texts) {
-    values.push_back(frequency("--frequency", text).value());
-  }
+  for (const std::string& text : texts) values.push_back(frequency("--frequency", text).value());
   if (values.size() == 2 && !(values[0] < values[1])) {
     throw UsageError("--frequency " + texts[0] + " " + texts[1] +
                      ": must be a window, the lower frequency before the upper one");

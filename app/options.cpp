@@ -33,9 +33,7 @@ std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
   for (const scene::StudyType* type : catalogue.studies) {
     for (const scene::Key& key : type->keys()) {
       const bool is_end = key.name == "from" || key.name == "to";
-      if (keys.size() < 2 && key.type == scene::KeyType::frequency && is_end) {
-        keys.push_back(key);
-      }
+      if (keys.size() < 2 && key.type == scene::KeyType::frequency && is_end) keys.push_back(key);
     }
   }
   return keys;
@@ -43,9 +41,8 @@ std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
 
 std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
   std::vector<Verb> verbs{{run, "run every study of the scene: results and figures"}};
-  for (const scene::StudyType* type : catalogue.studies) {
+  for (const scene::StudyType* type : catalogue.studies)
     verbs.push_back({std::string(type->verb()), std::string(type->help()), type});
-  }
   for (scene::Key key : range_keys(catalogue)) {
     key.help += " of frequency responses";
     verbs.front().keys.push_back({key});
@@ -56,9 +53,7 @@ std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
 
 std::string names_of(const std::vector<Verb>& verbs) {
   std::string names;
-  for (const Verb& verb : verbs) {
-    names.append(names.empty() ? "" : ", ").append(verb.name);
-  }
+  for (const Verb& verb : verbs) names.append(names.empty() ? "" : ", ").append(verb.name);
   return names + " or schema";
 }
 
@@ -87,19 +82,16 @@ void add_scene_options(CLI::App* verb, CommandOptions& options, Texts& texts) {
 void add_key_option(CLI::App& verb, KeyOption& of) {
   CLI::Option* option = verb.add_option(of.name(), of.texts, of.help());
   option->type_name(of.type_name())->allow_extra_args(false);  // what follows may be the scene
-  if (of.key.type == scene::KeyType::window) {
+  if (of.key.type == scene::KeyType::window)
     option->expected(2);
-  } else if (of.key.type == scene::KeyType::parameters) {
+  else if (of.key.type == scene::KeyType::parameters)
     option->expected(1)->take_all();
-  } else {
+  else
     option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-  }
 }
 
 void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts& texts) {
-  for (KeyOption& option : of.keys) {
-    add_key_option(verb, option);
-  }
+  for (KeyOption& option : of.keys) add_key_option(verb, option);
   verb.add_option("--out", options.out,
                   std::string("folder for results and figures (default: ") +
                       (of.name == run ? "out/<name of the scene file>)" : "none are written)"))
@@ -125,18 +117,16 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
 std::optional<double> number_of(const CommandOptions& options, const std::string& key) {
   for (const GivenKey& given : options.keys) {
     const auto* node = std::get_if<scene::file::Node>(&given.value);
-    if (given.key.name == key && node != nullptr && node->get<double>() != nullptr) {
+    if (given.key.name == key && node != nullptr && node->get<double>() != nullptr)
       return *node->get<double>();
-    }
   }
   return std::nullopt;
 }
 
 void check_consistent(const CommandOptions& options, bool json_given, bool csv_given, bool out_given) {
   if ((json_given && options.json.empty()) || (csv_given && options.csv.empty()) ||
-      (out_given && options.out.empty())) {
+      (out_given && options.out.empty()))
     throw UsageError("--out, --json and --csv need a nonempty name");
-  }
   if (!options.json.empty() && options.json == options.csv) {
     throw UsageError("--json and --csv both go to " +
                      (options.json == "-" ? "standard output" : options.json) +
@@ -174,26 +164,20 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
     CLI::App* verb = app.add_subcommand(each.name, each.help);
     verb->group("Verbs");
     verb_of.emplace(verb, &each);
-    if (argc < 2 || each.name != argv[1]) {
-      continue;  // its options are not needed
-    }
-    if (each.type != nullptr) {
-      each.keys = options_of(each.type->keys());
-    }
+    if (argc < 2 || each.name != argv[1]) continue;  // its options are not needed
+    if (each.type != nullptr) each.keys = options_of(each.type->keys());
     add_scene_options(verb, options, texts);
-    if (each.name == check) {
+    if (each.name == check)
       verb->add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
-    } else {
+    else
       add_study_options(*verb, each, options, texts);
-    }
   }
 
   CLI::App* const schema = app.add_subcommand("schema", "print the JSON Schema of scene files, for editors");
   schema->group("Verbs");
 
-  if (argc < 2) {
+  if (argc < 2)
     throw UsageError("no verb given. Give a verb and a scene, as in arcslip run scene.json\n" + hint);
-  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion& version) {
@@ -209,23 +193,16 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
     throw UsageError(results::visible(error.what()) + "\n" + hint);
   }
   const CLI::App* verb = app.get_subcommands().front();
-  if (verb == schema) {
-    return Information{scene::json_schema(catalogue)};
-  }
+  if (verb == schema) return Information{scene::json_schema(catalogue)};
   const Verb& chosen = *verb_of.at(verb);
   options.verb = chosen.name;
   options.type = chosen.type;
-  for (const std::string& text : texts.set) {
-    options.set.push_back(assignment(text));
-  }
+  for (const std::string& text : texts.set) options.set.push_back(assignment(text));
   options.harmonics = whole_number("--harmonics", texts.harmonics, "a whole number, the highest harmonic");
   options.combinations =
       whole_number("--combinations", texts.combinations, "a whole number, the combinations at most");
-  for (const KeyOption& option : chosen.keys) {
-    if (given(*verb, option.name())) {
-      options.keys.push_back(option.given());
-    }
-  }
+  for (const KeyOption& option : chosen.keys)
+    if (given(*verb, option.name())) options.keys.push_back(option.given());
   check_consistent(options, given(*verb, "--json"), given(*verb, "--csv"), given(*verb, "--out"));
   return options;
 }

@@ -19,18 +19,15 @@ std::size_t terminal_width() {
 }
 
 std::string time_left(double share, double seconds) {
-  if (!(share > 0.01) || seconds < 0.5) {
-    return "";
-  }
+  if (!(share > 0.01) || seconds < 0.5) return "";
   const double left = seconds * (1 - share) / share;
   std::array<char, 48> text{};
-  if (left < 90) {
+  if (left < 90)
     std::snprintf(text.data(), text.size(), "  %.0f s left", std::ceil(left));
-  } else if (left < 5400) {
+  else if (left < 5400)
     std::snprintf(text.data(), text.size(), "  %.0f min left", std::ceil(left / 60));
-  } else {
+  else
     std::snprintf(text.data(), text.size(), "  %.1f h left", left / 3600);
-  }
   return text.data();
 }
 
@@ -45,19 +42,12 @@ std::string progress_text(const results::Progress& progress, const std::string& 
     line += text.data();
   };
   add("%s %d/%d", progress.item, std::min(progress.branch + 1, branches), branches);
-  if (*progress.phase != '\0') {
-    add("  %s", progress.phase);
-  }
+  if (*progress.phase != '\0') add("  %s", progress.phase);
   add("  %ld %s", progress.points, progress.counted);
-  if (progress.frequency > 0) {
-    add("  %.6g %s", progress.frequency, unit.c_str());
-  }
-  if (progress.step != 0) {  // no step at a fixed frequency
+  if (progress.frequency > 0) add("  %.6g %s", progress.frequency, unit.c_str());
+  if (progress.step != 0)  // no step at a fixed frequency
     add("  step %.2g %s", progress.step, unit.c_str());
-  }
-  if (!std::isnan(progress.best)) {
-    add("  best %.5g m", progress.best);
-  }
+  if (!std::isnan(progress.best)) add("  best %.5g m", progress.best);
   if (std::isnan(progress.share_done)) {
     add("  %.0f s", seconds);
     return line;
@@ -73,13 +63,9 @@ ProgressLine::ProgressLine(bool quiet, std::string unit)
 }
 
 void ProgressLine::show(const results::Progress& progress) {
-  if (!shown_) {
-    return;
-  }
+  if (!shown_) return;
   const auto now = Clock::now();
-  if (now < next_) {
-    return;
-  }
+  if (now < next_) return;
   next_ = now + (terminal_ ? rewritten_every : told_every);
   std::string line = progress_text(progress, unit_, std::chrono::duration<double>(now - begin_).count());
   if (!terminal_) {

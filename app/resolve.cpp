@@ -26,16 +26,13 @@ void apply(scene::Scene& scene, const CommandOptions& options) {
     }
   }
   scene.harmonics.order = options.harmonics.value_or(scene.harmonics.order);
-  if (options.set.empty() && !options.harmonics) {
-    return;
-  }
+  if (options.set.empty() && !options.harmonics) return;
   try {
     scene::check(scene);
   } catch (const scene::SceneError& error) {
     std::string message = "the options make the scene invalid:";
-    for (const scene::Fault& fault : error.faults()) {
+    for (const scene::Fault& fault : error.faults())
       message += "\n  " + results::visible(fault.pointer) + ": " + fault.message;
-    }
     throw UsageError(message);
   }
 }
@@ -80,9 +77,7 @@ std::string parameter_of(const GivenKey& given) {
 
 /// Throws if an option names no parameter at all; other faults are reported when the option is read.
 void check_parameter(const scene::Scene& scene, const std::string& option, const std::string& parameter) {
-  if (parameter.empty() || parameter == "frequency") {
-    return;
-  }
+  if (parameter.empty() || parameter == "frequency") return;
   try {
     scene::parameter_fields(scene, parameter);
   } catch (const scene::ParameterError& error) {
@@ -94,20 +89,16 @@ void check_parameters(const scene::Scene& scene, const CommandOptions& options) 
   for (const GivenKey& given : options.keys) {
     const std::string option = "--" + given.key.name;
     check_parameter(scene, option, parameter_of(given));
-    if (const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value)) {
-      for (const RangeOption& each : *ranges) {
-        check_parameter(scene, option, each.parameter);
-      }
-    }
+    if (const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value))
+      for (const RangeOption& each : *ranges) check_parameter(scene, option, each.parameter);
   }
 }
 
 /// "--from, --to and --frequency"
 std::string listed(const std::vector<std::string>& words) {
   std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
+  for (std::size_t i = 0; i < words.size(); ++i)
     text.append(i == 0 ? "" : i + 1 == words.size() ? " and " : ", ").append(words[i]);
-  }
   return text;
 }
 
@@ -123,11 +114,8 @@ void add_parameters(const GivenKey& given, const Node::Object& own, std::vector<
   for (const RangeOption& each : std::get<std::vector<RangeOption>>(given.value)) {
     const Node* known = nullptr;
     const auto& own_names = *names->get<Node::List>();
-    for (std::size_t i = 0; i < own_names.size(); ++i) {
-      if (*own_names[i].get<std::string>() == each.parameter) {
-        known = &(*bounds->get<Node::List>())[i];
-      }
-    }
+    for (std::size_t i = 0; i < own_names.size(); ++i)
+      if (*own_names[i].get<std::string>() == each.parameter) known = &(*bounds->get<Node::List>())[i];
     if (!each.range && known == nullptr) {
       const std::string option = "--" + given.key.name + " " + each.parameter;
       throw UsageError(option + ": no bounds given; give them as " + option + "=lower:upper");
@@ -153,15 +141,13 @@ void add_followed(const GivenKey& given, std::vector<Member>& keys) {
 /// The keys given by the options, in addition to the study's own.
 std::vector<Member> keys_of(const CommandOptions& options, const Node::Object& own) {
   std::vector<Member> keys;
-  for (const GivenKey& given : options.keys) {
-    if (const auto* node = std::get_if<Node>(&given.value)) {
+  for (const GivenKey& given : options.keys)
+    if (const auto* node = std::get_if<Node>(&given.value))
       keys.push_back({given.key.name, *node});
-    } else if (given.key.type == KeyType::parameters) {
+    else if (given.key.type == KeyType::parameters)
       add_parameters(given, own, keys);
-    } else {
+    else
       add_followed(given, keys);
-    }
-  }
   return keys;
 }
 
@@ -169,13 +155,10 @@ std::vector<Member> keys_of(const CommandOptions& options, const Node::Object& o
 std::vector<std::string> named_parameters(const CommandOptions& options) {
   std::vector<std::string> names;
   for (const GivenKey& given : options.keys) {
-    if (const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value)) {
-      for (const RangeOption& each : *ranges) {
-        names.push_back(each.parameter);
-      }
-    } else if (const std::string parameter = parameter_of(given); !parameter.empty()) {
+    if (const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value))
+      for (const RangeOption& each : *ranges) names.push_back(each.parameter);
+    else if (const std::string parameter = parameter_of(given); !parameter.empty())
       names.push_back(parameter);
-    }
   }
   return names;
 }
@@ -184,9 +167,7 @@ std::vector<std::string> named_parameters(const CommandOptions& options) {
 void check_set(const std::vector<Key>& known, const std::vector<Member>& keys,
                const CommandOptions& options) {
   for (const Key& key : known) {
-    if (key.type != KeyType::parameter && key.type != KeyType::followed) {
-      continue;
-    }
+    if (key.type != KeyType::parameter && key.type != KeyType::followed) continue;
     for (const auto& [parameter, value] : options.set) {
       if (parameter == parameter_at(keys, key.name)) {
         throw UsageError(
@@ -205,13 +186,9 @@ void check_range(const scene::Scene& scene, const scene::Study& study, const std
   const GivenKey* from_given = find(options, "from");
   const GivenKey* to_given = find(options, "to");
   const Node *from_node = find(keys, "from"), *to_node = find(keys, "to");
-  if ((from_given == nullptr && to_given == nullptr) || from_node == nullptr || to_node == nullptr) {
-    return;
-  }
+  if ((from_given == nullptr && to_given == nullptr) || from_node == nullptr || to_node == nullptr) return;
   const double from = *from_node->get<double>(), to = *to_node->get<double>();
-  if (from < to) {
-    return;
-  }
+  if (from < to) return;
   const GivenKey& given = from_given != nullptr ? *from_given : *to_given;
   const std::string over = parameter_at(keys, "over");
   const std::string unit = given.key.type == KeyType::frequency
@@ -230,9 +207,7 @@ std::string option_at(const std::string& place, const CommandOptions& options) {
   const std::string key = place.substr(0, place.find('/'));
   for (const GivenKey& given : options.keys) {
     const std::vector<std::string> beside = scene::keys_beside(given.key.type);
-    if (key != given.key.name && std::find(beside.begin(), beside.end(), key) == beside.end()) {
-      continue;
-    }
+    if (key != given.key.name && std::find(beside.begin(), beside.end(), key) == beside.end()) continue;
     const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value);
     if (ranges == nullptr) {
       const auto* number = std::get<Node>(given.value).get<double>();
@@ -250,16 +225,11 @@ std::optional<std::size_t> study_to_follow(const scene::Scene& scene, const Comm
   const GivenKey* over = find(options, "over");
   const std::string parameter = over != nullptr ? parameter_of(*over) : "";
   std::optional<std::size_t> found;
-  for (std::size_t i = scene.studies.size(); i-- > 0;) {
-    if (scene.studies[i].type == options.type) {
-      found = i;
-    }
-  }
+  for (std::size_t i = scene.studies.size(); i-- > 0;)
+    if (scene.studies[i].type == options.type) found = i;
   for (std::size_t i = scene.studies.size(); i-- > 0 && !parameter.empty();) {
     const scene::Study& study = scene.studies[i];
-    if (study.type == options.type && parameter_at(own_keys(scene, study), "over") == parameter) {
-      found = i;
-    }
+    if (study.type == options.type && parameter_at(own_keys(scene, study), "over") == parameter) found = i;
   }
   return found;
 }
@@ -268,9 +238,8 @@ std::optional<std::size_t> study_to_follow(const scene::Scene& scene, const Comm
 scene::Study new_study(const scene::Scene& scene, const CommandOptions& options) {
   std::string name = options.verb;
   while (std::any_of(scene.studies.begin(), scene.studies.end(),
-                     [&](const scene::Study& other) { return other.name == name; })) {
+                     [&](const scene::Study& other) { return other.name == name; }))
     name += "_2";
-  }
   return {name, options.type, options.type->defaults(), {}};
 }
 
@@ -280,9 +249,8 @@ void check_complete(const CommandOptions& options, bool is_new, const std::strin
   std::vector<std::string> missing;
   for (const Key& key : options.type->keys()) {
     const bool is_wanted = is_new ? key.required && key.type != KeyType::other : key.type == KeyType::value;
-    if (is_wanted && find(options, key.name) == nullptr) {
+    if (is_wanted && find(options, key.name) == nullptr)
       missing.push_back("--" + key.name + (key.type == KeyType::parameters ? " with bounds" : ""));
-    }
   }
   if (!missing.empty()) {
     throw UsageError("the scene has no study of kind " + std::string(options.type->name()) +
@@ -312,9 +280,7 @@ scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Co
   scene::Scene dropped = scene;
   scene::Study& study = dropped.studies[index];
   const std::vector<std::string> named = named_parameters(options);
-  for (const std::string& parameter : named) {
-    scene::drop(study, parameter);
-  }
+  for (const std::string& parameter : named) scene::drop(study, parameter);
   const Node::Object own = own_keys(scene, study);
   std::vector<Member> keys = keys_of(options, own);
   for (const Key& key : study.type->keys()) {  // a parameter both in "along" and in "over"
@@ -322,9 +288,7 @@ scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Co
     if (key.type == KeyType::followed && find(keys, key.name) == nullptr && !along.empty() &&
         std::find(named.begin(), named.end(), along) != named.end()) {
       keys.push_back({key.name, {nullptr}});
-      for (const std::string& gone : scene::keys_beside(key.type)) {
-        keys.push_back({gone, {nullptr}});
-      }
+      for (const std::string& gone : scene::keys_beside(key.type)) keys.push_back({gone, {nullptr}});
     }
   }
   std::vector<Member> all = keys;

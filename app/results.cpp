@@ -41,9 +41,7 @@ std::string beside(const std::string& file, const std::string& part) {
 /// Whether a file starts like a table of results. Other files of that name are left alone.
 bool is_table(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    return false;
-  }
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   std::ifstream file(path);
   std::string first;
   return std::getline(file, first, ',') && first == "study";
@@ -67,13 +65,10 @@ void remove_other_figures(const StudyFiles& files, const std::vector<std::string
   for (const auto& entry : std::filesystem::directory_iterator(files.folder, error)) {
     const std::string name = entry.path().stem().string();
     if (entry.path().extension() == ".gp" && std::find(drawn.begin(), drawn.end(), name) == drawn.end() &&
-        owner(files.folder, name) == files.name) {
+        owner(files.folder, name) == files.name)
       others.push_back(name);
-    }
   }
-  for (const std::string& name : others) {
-    output::remove_figures(files.folder, name);
-  }
+  for (const std::string& name : others) output::remove_figures(files.folder, name);
 }
 
 }  // namespace
@@ -88,9 +83,8 @@ std::vector<StudyFiles> study_files(const std::string& folder, std::span<const s
     const std::string base = output::file_name(study.name);
     std::string name = base;
     const auto is_taken = [&](const StudyFiles& other) { return other.name == name; };
-    for (int number = 2; std::any_of(all.begin(), all.end(), is_taken); ++number) {
+    for (int number = 2; std::any_of(all.begin(), all.end(), is_taken); ++number)
       name = base + "_" + std::to_string(number);
-    }
     all.push_back({folder, name});
   }
   return all;
@@ -114,16 +108,12 @@ ResultsFolder::ResultsFolder(const std::string& folder) : descriptor_(-1) {
 }
 
 ResultsFolder::~ResultsFolder() {
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void add_places(const StudyFiles& files, const std::string& study, std::vector<OutputPath>& places) {
   const std::string what = "the results of the study \"" + study + '"';
-  for (const char* extension : file_extensions) {
-    places.push_back({what, files.path(extension)});
-  }
+  for (const char* extension : file_extensions) places.push_back({what, files.path(extension)});
   add_csv_places(what, files.path(".csv"), places);
 }
 
@@ -133,14 +123,9 @@ bool may_wait(const std::string& place) {
 }
 
 void add_csv_places(const std::string& what, const std::string& path, std::vector<OutputPath>& places) {
-  if (path != "-") {
-    places.push_back({what, path});
-  }
-  for (const char* part : csv_parts) {
-    if (!may_wait(path)) {
-      places.push_back({what, beside(path, part)});
-    }
-  }
+  if (path != "-") places.push_back({what, path});
+  for (const char* part : csv_parts)
+    if (!may_wait(path)) places.push_back({what, beside(path, part)});
 }
 
 File json_file(const std::string& path) {
@@ -160,11 +145,9 @@ std::vector<File> csv_files(const std::string& path, std::span<const results::Sc
   }
   files.push_back({beside(path, "summary"),
                    [](std::ostream& out) { return std::make_unique<results::CsvSummary>(out); }});
-  for (const char* part : {"events", "cases"}) {
-    if (std::find(keys.begin(), keys.end(), part) == keys.end() && is_table(beside(path, part))) {
+  for (const char* part : {"events", "cases"})
+    if (std::find(keys.begin(), keys.end(), part) == keys.end() && is_table(beside(path, part)))
       files.push_back({beside(path, part), nullptr});
-    }
-  }
   return files;
 }
 
@@ -176,12 +159,9 @@ void check_places(const std::vector<OutputPath>& places, const std::string& scen
   std::map<std::string, std::string> by_path;              // what goes there
   std::map<std::pair<dev_t, ino_t>, std::string> by_file;  // the same, of what is there, by whatever name
   struct stat status {};
-  if (::stat(scene_file.c_str(), &status) == 0) {
-    by_file.emplace(std::pair(status.st_dev, status.st_ino), "");
-  }
-  if (::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode)) {
+  if (::stat(scene_file.c_str(), &status) == 0) by_file.emplace(std::pair(status.st_dev, status.st_ino), "");
+  if (::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode))
     by_file.emplace(std::pair(status.st_dev, status.st_ino), "standard output");
-  }
   for (const OutputPath& place : places) {
     const bool is_there = ::stat(place.path.c_str(), &status) == 0;
     if (is_there && S_ISCHR(status.st_mode)) {
@@ -223,9 +203,7 @@ bool Writing::attempt(const std::string& what, const std::function<void()>& writ
 
 std::string Writing::missing() const {
   std::string list;
-  for (const std::string& what : missing_) {
-    list += (list.empty() ? "" : ", ") + what;
-  }
+  for (const std::string& what : missing_) list += (list.empty() ? "" : ", ") + what;
   return list.empty() ? "all results were written" : "not written: " + list;
 }
 
@@ -257,9 +235,7 @@ std::vector<std::string> write_figures(const StudyFiles& files,
       const output::Figures now = output::draw_figures(data, files.folder, drawn.back(), interrupted);
       paths.insert(paths.end(), now.sources.begin(), now.sources.end());
       paths.insert(paths.end(), now.images.begin(), now.images.end());
-      if (!now.problem.empty()) {
-        problems.push_back(now.problem);
-      }
+      if (!now.problem.empty()) problems.push_back(now.problem);
     });
   }
   if (!problems.empty()) {  // the others are alike

@@ -10,9 +10,7 @@
 namespace arcslip::app {
 
 void StandardOutput::write(const std::function<void(std::ostream&)>& writer) {
-  if (lost_) {
-    return;
-  }
+  if (lost_) return;
   try {
     output::AtomicFile file = output::AtomicFile::standard_output(interrupted);
     writer(file.stream());
@@ -29,9 +27,7 @@ void StandardOutput::write_lines(const std::function<void(std::ostream&)>& write
 }
 
 void StandardOutput::finish() const {
-  if (lost_) {
-    throw *lost_;
-  }
+  if (lost_) throw *lost_;
 }
 
 }  // namespace arcslip::app

@@ -43,16 +43,10 @@ std::optional<ResultsFolder> prepare_places(const CommandOptions& options,
   std::vector<OutputPath> places;
   if (!options.out.empty()) {
     folder.emplace(options.out);
-    for (std::size_t i = 0; i < studies.size(); ++i) {
-      add_places(files[i], studies[i].name, places);
-    }
+    for (std::size_t i = 0; i < studies.size(); ++i) add_places(files[i], studies[i].name, places);
   }
-  if (!options.json.empty() && options.json != "-") {
-    places.push_back({"--json", options.json});
-  }
-  if (!options.csv.empty()) {
-    add_csv_places("--csv", options.csv, places);
-  }
+  if (!options.json.empty() && options.json != "-") places.push_back({"--json", options.json});
+  if (!options.csv.empty()) add_csv_places("--csv", options.csv, places);
   check_places(places, options.scene);
   return folder;
 }
@@ -85,9 +79,8 @@ void check_combinations(const CommandOptions& options, const std::vector<scene::
     const double count = scene::Combinations(study.for_each).count();
     if (count > most) {
       std::string product;
-      for (const auto& [parameter, values] : study.for_each) {
+      for (const auto& [parameter, values] : study.for_each)
         product += std::to_string(values.size()) + (&values == &study.for_each.back().second ? "" : " x ");
-      }
       throw UsageError("the lists of for_each in the study \"" + study.name + "\" have " +
                        (study.for_each.size() > 1 ? product + " = " : "") + whole(count) +
                        " combinations, must be at most " + std::to_string(most) +
@@ -97,9 +90,8 @@ void check_combinations(const CommandOptions& options, const std::vector<scene::
 }
 
 void tell_partial(Interruption& interruption) {
-  if (interruption.is_new()) {
+  if (interruption.is_new())
     tell("interrupted; the results so far will be written (press Ctrl-C again to quit at once)");
-  }
 }
 
 /// Runs a study into a sink with a progress line. Returns its figures.
@@ -125,9 +117,7 @@ std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, cons
 /// The files for the results of all studies together.
 std::vector<File> common_files(const CommandOptions& options, std::span<const results::Schema> schemas) {
   std::vector<File> files;
-  if (!options.json.empty()) {
-    files.push_back(json_file(options.json));
-  }
+  if (!options.json.empty()) files.push_back(json_file(options.json));
   if (!options.csv.empty()) {
     std::vector<File> csv = csv_files(options.csv, schemas);
     std::move(csv.begin(), csv.end(), std::back_inserter(files));
@@ -142,8 +132,9 @@ std::vector<File> own_files(const StudyFiles& files, const results::Schema& sche
 }
 
 bool are_of_one_list(std::span<const results::Schema> schemas) {
-  return std::all_of(schemas.begin(), schemas.end(),
-                     [&](const results::Schema& schema) { return schema.list == schemas.front().list; });
+  return std::all_of(
+      schemas.begin(), schemas.end(),
+      [&](const results::Schema& schema) { return schema.list == schemas.front().list; });
 }
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
@@ -157,9 +148,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   const scene::RunOptions how{has_files, options.coefficients, !options.out.empty(), {}};
   const results::Header header = studies::header(scene);
   std::vector<results::Schema> schemas;
-  for (const scene::Study& study : studies) {
-    schemas.push_back(study.type->schema(scene, study, how));
-  }
+  for (const scene::Study& study : studies) schemas.push_back(study.type->schema(scene, study, how));
   // Files are written as results arrive; outputs that may block on a reader, or that have to sort several
   // lists, are written at the end.
   std::vector<File> common = common_files(options, schemas);
@@ -186,9 +175,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       continue;
     }
     any_begun = true;
-    if (studies.size() > 1) {
-      tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
-    }
+    if (studies.size() > 1) tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
     results::TableWriter table(tables);
     results::Remarks remarks;
     OpenFiles own(options.out.empty() ? std::vector<File>() : own_files(files[i], schemas[i]));
@@ -202,16 +189,11 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       code = ExitCode::stopped_early;
       tell(sentence);
     }
-    for (const std::string& sentence : remarks.doubts) {
-      tell(sentence);
-    }
+    for (const std::string& sentence : remarks.doubts) tell(sentence);
     if (!options.out.empty()) {
       for (const auto& paths : {write_scene(files[i], scene, writing), own.commit(writing),
-                                write_figures(files[i], figures, writing)}) {
-        for (const std::string& path : paths) {
-          places += results::visible(path) + "\n";
-        }
-      }
+                                write_figures(files[i], figures, writing)})
+        for (const std::string& path : paths) places += results::visible(path) + "\n";
     }
   }
   StandardOutput screen;
@@ -223,15 +205,13 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       if (each.path == "-") {
         screen.write(writer);
       } else {
-        writing.attempt(results::visible(each.path),
-                        [&] { output::write_file(each.path, writer, interrupted); });
+        writing.attempt(
+            results::visible(each.path), [&] { output::write_file(each.path, writer, interrupted); });
       }
     }
   }
   if (!takes_standard_output(options)) {
-    if (!places.empty() && !options.quiet) {
-      tables << '\n' << places;
-    }
+    if (!places.empty() && !options.quiet) tables << '\n' << places;
     screen.write_lines([&](std::ostream& out) { out << tables.str(); });
   }
   writing.attempt("standard output", [&] { screen.finish(); });
@@ -272,9 +252,8 @@ ExitCode run(scene::Scene scene, CommandOptions options) {
         "with run, --from and --to apply to frequency responses, but the scene has none: use the verb of the "
         "study's kind");
   }
-  if (options.out.empty()) {
+  if (options.out.empty())
     options.out = (std::filesystem::path("out") / std::filesystem::path(options.scene).stem()).string();
-  }
   return run_studies(scene, scene.studies, options);
 }
 
@@ -282,12 +261,8 @@ ExitCode run(scene::Scene scene, CommandOptions options) {
 
 ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue) {
   scene::Scene scene = resolve(options, catalogue);
-  if (options.verb == "run") {
-    return run(std::move(scene), options);
-  }
-  if (options.type == nullptr) {
-    return check(scene, options);
-  }
+  if (options.verb == "run") return run(std::move(scene), options);
+  if (options.type == nullptr) return check(scene, options);
   const scene::Study study = study_of_verb(scene, options);
   return run_studies(scene, {study}, options);
 }

@@ -88,13 +88,11 @@ void response_grid(benchmark::State& state) {
     };
     a = std::log(0.1), b = std::log(100.0);
     double c = b - golden * (b - a), d = a + golden * (b - a), fc = f(c), fd = f(d);
-    while (b - a > 1e-7) {
-      if (fc < fd) {
+    while (b - a > 1e-7)
+      if (fc < fd)
         b = d, d = c, fd = fc, c = b - golden * (b - a), fc = f(c);
-      } else {
+      else
         a = c, c = d, fc = fd, d = a + golden * (b - a), fd = f(d);
-      }
-    }
   }
   state.counters["responses"] = static_cast<double>(responses);
   state.counters["load"] = std::exp((a + b) / 2);

@@ -21,10 +21,9 @@ struct Point {
 
 /// A smooth fold in the free parameter.
 struct Fold {
-  Vector right_null;  // J v = 0, n, |v| = 1 in scales
-  Vector left_null;   // w J = 0, n, |w| = 1; empty if the linear solver has no transposed solves
-  double curvature =
-      0;  // d2p/ds2: > 0 where the branch lies at larger parameters than the fold, < 0 at smaller
+  Vector right_null;     // J v = 0, n, |v| = 1 in scales
+  Vector left_null;      // w J = 0, n, |w| = 1; empty if the linear solver has no transposed solves
+  double curvature = 0;  // d2p/ds2: > 0 if the branch lies at larger parameters than the fold
 };
 
 /// A branch point. Simple: J has rank n - 1 and F_p lies in its range, so that two smooth branches cross.

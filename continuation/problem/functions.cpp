@@ -60,11 +60,10 @@ class FunctionEvaluator final : public Evaluator, private Operator {
       p_of_J_ = p_;
       return Evaluated::ok;
     }
-    if (f_->jacobian) {
+    if (f_->jacobian)
       f_->jacobian(u_, p_, *J);
-    } else {
+    else
       for (Eigen::Index i = 0; i < u_.size(); ++i) difference(u_[i], f_->scales[i], J->col(i));
-    }
     return J->allFinite() ? Evaluated::ok : Evaluated::outside_domain;
   }
 

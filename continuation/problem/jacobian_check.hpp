@@ -11,8 +11,7 @@ namespace arcslip::continuation {
 struct JacobianError {
   int row = -1, column = -1;
   double given = 0, difference = 0;
-  double relative =
-      0;  // |given - difference| over the largest entry of that column, and over F's own rounding
+  double relative = 0;  // |given - difference| over the largest entry of the column and F's rounding
   std::string message;  // one sentence for the user, empty if all entries agree
 };
 

@@ -20,9 +20,8 @@ enum class Predictor { tangent, secant, cubic };
 struct NewtonOptions {
   double tolerance =
       1e-9;  // of the last correction, relative to |u| in scales; the error is about its square
-  double rounding_level =
-      1e-7;            // a correction that stagnates below this is accepted as rounding; >= tolerance
-  int iterations = 8;  // maximum
+  double rounding_level = 1e-7;  // corrections that stagnate below are accepted as rounding; >= tolerance
+  int iterations = 8;            // maximum
   CorrectorKind corrector = CorrectorKind::pseudo_arclength;
   bool chord = true;               // start with the factors of the previous point
   double chord_contraction = 0.3;  // and keep them while corrections contract at least so fast; in [0, 1)

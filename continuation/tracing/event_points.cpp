@@ -182,9 +182,11 @@ std::optional<Corner> EventLocator::corner(const CurvePoint& from, double length
 }
 
 bool EventLocator::looks_for_kinks() const {
-  return std::any_of(monitors_.begin(), monitors_.end(), [](const Monitor& each) {
-    return each.kind == MonitorKind::kink || (each.quantity && each.divides_at_kinks);
-  });
+  return std::any_of(
+      monitors_.begin(), monitors_.end(),
+      [](const Monitor& each) {
+        return each.kind == MonitorKind::kink || (each.quantity && each.divides_at_kinks);
+      });
 }
 
 std::vector<Corner> EventLocator::corners(const CurvePoint& from, const CurvePoint& to) {

@@ -6,9 +6,8 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr long seldom = 8;  // checks at the 1st, 8th, 64th ... occasion
-constexpr double standstill =
-    1e-3;  // of the longest step: a branch with a wrong Jacobian ends at shorter steps
+constexpr long seldom = 8;           // checks at the 1st, 8th, 64th ... occasion
+constexpr double standstill = 1e-3;  // of the longest step: with a wrong Jacobian shorter ones end the branch
 constexpr long many_rejections = 20;  // which are also more than a quarter of the points
 
 bool is_due(long times) {

@@ -22,8 +22,7 @@ namespace arcslip::elements {
 struct Harmonics {
   int order = 1;     // N >= 1
   bool odd = false;  // odd harmonics only, no mean
-  int period =
-      1;  // of the motion, in periods of the excitation: base frequency = excitation frequency/period
+  int period = 1;    // of the motion, in periods of the excitation; base frequency = its frequency/period
 
   int cosines() const { return odd ? (order + 1) / 2 : order + 1; }
   int sines() const { return odd ? (order + 1) / 2 : order; }

@@ -90,11 +90,10 @@ void Reversals::one_harmonic(In u) {
   found_.push_back({theta, mean + x});
   if (harmonics_.odd) return;
   theta += std::numbers::pi;
-  if (theta < start_ + harmonics_.span()) {
+  if (theta < start_ + harmonics_.span())
     found_.push_back({theta, mean - x});
-  } else {
+  else
     found_.insert(found_.begin(), {theta - 2 * std::numbers::pi, mean - x});
-  }
 }
 
 const std::vector<Reversal>& Reversals::find(In u) {

@@ -16,8 +16,7 @@ namespace {
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double beyond_display =
-    1e6;  // |u| in scales: where it is asked whether the response is bounded at all
+constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
 
 // One branch over the window [from, to], with the data to continue beyond an unbounded peak.
 class Sweep {

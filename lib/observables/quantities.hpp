@@ -46,9 +46,8 @@ struct Quantity {
   std::string_view unit;     // "m", "J"; "" of a flag
   std::string_view meaning;  // one line of Markdown
   std::variant<Number, Flag, List> get;
-  Flag has = nullptr;  // whether the response has it; null: always
-  bool (*in)(const Origin&) =
-      nullptr;  // whether a response of the scene, or element, may have it; null: always
+  Flag has = nullptr;                   // whether the response has it; null: always
+  bool (*in)(const Origin&) = nullptr;  // whether one of the scene, or element, may have it; null: always
 };
 
 using ResponseQuantity = Quantity<ResponsePoint>;

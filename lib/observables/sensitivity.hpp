@@ -8,9 +8,8 @@
 //   [ r_x ]   [ g ]  =  A_x,        dA/dp_k = A_pk - w . F_pk - g r_pk.
 //
 //   at a frequency   r = omega - const: g = dA/domega along the branch.
-//   at a resonance   A is stationary along the branch, so that g = 0 for any row r_x (envelope theorem): it
-//   is the
-//                    tangent, so that the system is regular at folds, too.
+//   at a resonance   A is stationary along the branch, so that g = 0 for any row r_x (envelope theorem):
+//                    the tangent, so that the system is regular at folds, too.
 //   at a corner      r = h, the slip limit of an element (hbm/corner.hpp) that defines the peak. F_x and F_p
 //                    jump along h_x and h_p: g absorbs the jump, and both sides give the same result.
 //

@@ -57,11 +57,10 @@ struct SpecialCurveEnd {
   double over = 0;           // the parameter
   int direction = 1;         // of the parameter, where it stopped
   bool left_window = false;  // of the frequency
-  bool vanishes =
-      false;             // at a corner that the branch over the frequency touches from one side, or surpassed
-  bool closed = false;   // the curve returned to its start
-  bool goes_on = false;  // another curve starts or ends there
-  std::string unbounded{};  // why, where the response grows without bound
+  bool vanishes = false;     // at a corner that the branch touches from one side, or surpassed
+  bool closed = false;       // the curve returned to its start
+  bool goes_on = false;      // another curve starts or ends there
+  std::string unbounded{};   // why, where the response grows without bound
 };
 
 /// The record of one curve, in order of arclength.

@@ -17,8 +17,8 @@ using continuation::Vector;
 
 constexpr double near_corner = 1e-3;  // relative: where a corner is looked for
 constexpr double at_corner = 1e-6;    // of mu F_n: where two corners meet
-constexpr double besides[] = {1e-6, 1e-5, 1e-4,
-                              1e-3};  // of the parameter: from one part of the curve to the next
+// Of the parameter: from one part of the curve to the next.
+constexpr double besides[] = {1e-6, 1e-5, 1e-4, 1e-3};
 constexpr double least_change =
     1e-12;                           // of the parameter, from a corner to the smooth part that begins there
 constexpr double zero_slope = 1e-6;  // of the slope on the other side of a corner
@@ -139,8 +139,9 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(co
              std::abs(point.x[n] / at.x[n] - 1);
     };
     const auto nearest = [&](const std::vector<SpecialPoint>& points) {
-      return std::min_element(points.begin(), points.end(),
-                              [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      return std::min_element(
+          points.begin(), points.end(),
+          [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     };
     const auto reaches = [&](const SpecialPoint& point) {
       return distance(point) < root_reach * std::sqrt(beside);

@@ -18,10 +18,9 @@ using continuation::StopReason;
 ResponseBranch described(const model::Model& model, const std::string& over) {
   ResponseBranch branch;
   branch.over = over;
-  for (const auto& parameter : model.parameters) {
+  for (const auto& parameter : model.parameters)
     if (parameter.name != "frequency" && parameter.name != over)
       branch.parameters.emplace_back(parameter.name, parameter.value);
-  }
   const auto& h = model.harmonics;
   for (int i = 0; i < h.cosines(); ++i) branch.harmonics.push_back(h.cosine_order(i));
   branch.solver.linear_solver = "dense LU";
@@ -29,8 +28,8 @@ ResponseBranch described(const model::Model& model, const std::string& over) {
 }
 
 bool departs(const std::vector<std::pair<double, double>>& course, double arclength, double amplitude) {
-  const auto after = std::upper_bound(course.begin(), course.end(), arclength,
-                                      [](double s, const auto& point) { return s < point.first; });
+  const auto after = std::upper_bound(
+      course.begin(), course.end(), arclength, [](double s, const auto& point) { return s < point.first; });
   const auto differs = [&](const auto& point) {
     return std::abs(point.second - amplitude) > constant * std::abs(amplitude);
   };

@@ -129,13 +129,12 @@ class InTime {
     Integrator integrator;
     if (!choose(integrator)) return;
     motion_.integrator = integrator.name;
-    if (!integrator.failure.code.empty()) {
+    if (!integrator.failure.code.empty())
       end(Status::failed, integrator.failure, 0, 0, integrator.message);
-    } else if (settings_.method == TimeMethod::shooting || settings_.method == TimeMethod::newmark_shooting) {
+    else if (settings_.method == TimeMethod::shooting || settings_.method == TimeMethod::newmark_shooting)
       shoot(integrator);
-    } else {
+    else
       march(integrator);
-    }
   }
 
   bool choose(Integrator& integrator) {
@@ -166,7 +165,8 @@ class InTime {
   }
 
   Integrator in_steps() {
-    return newmark(equation_, settings_.steps, [this] { return !go_on(progress_.points); });
+    return newmark(
+        equation_, settings_.steps, [this] { return !go_on(progress_.points); });
   }
 
   // Tells of the progress; false where the user stops.

@@ -17,12 +17,11 @@ using continuation::Vector;
 
 constexpr int least_tail = 9;  // orders of the excitation above N looked at: N + 9 at least, 2 N + 9 in all
 constexpr double linear_motion = 1e-13;  // forces left out, relative: below, nothing is neglected
-constexpr double near_a_fold =
-    1e-4;                           // a step along the branch, relative to |u|: beyond, its bend is asked for
-constexpr double at_corner = 1e-6;  // |h| over its size
-constexpr double converging = 0.3;  // second sweep over the first
-constexpr double small_change = 0.1;  // of the response, over its amplitude
-constexpr double cancelled = 0.02;    // |dA| over the change of the response
+constexpr double near_a_fold = 1e-4;     // a step along the branch, relative to |u|: beyond, its bend matters
+constexpr double at_corner = 1e-6;       // |h| over its size
+constexpr double converging = 0.3;       // second sweep over the first
+constexpr double small_change = 0.1;     // of the response, over its amplitude
+constexpr double cancelled = 0.02;       // |dA| over the change of the response
 constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 2e-8 of it
 
 elements::Harmonics widened(const elements::Harmonics& h) {
@@ -31,12 +30,14 @@ elements::Harmonics widened(const elements::Harmonics& h) {
 
 // Whether some element is stiffer in large motions than at rest.
 bool stiffen(const model::Model& model, const Vector& p) {
-  return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
-    const std::vector<double> fields = element.fields(p);
-    for (int i = 0; i < element.law->directions(); ++i)
-      if (element.law->traits(fields, i).stiffness != element.law->stiffness(fields, i, 0)) return true;
-    return false;
-  });
+  return std::any_of(
+      model.elements.begin(), model.elements.end(),
+      [&](const auto& element) {
+        const std::vector<double> fields = element.fields(p);
+        for (int i = 0; i < element.law->directions(); ++i)
+          if (element.law->traits(fields, i).stiffness != element.law->stiffness(fields, i, 0)) return true;
+        return false;
+      });
 }
 
 }  // namespace

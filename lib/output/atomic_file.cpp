@@ -66,9 +66,7 @@ std::string resolved(const std::string& link) {
   std::error_code error;
   for (int links = 0; links < 40; ++links) {
     const std::filesystem::path target = std::filesystem::read_symlink(path, error);
-    if (error) {
-      return path;
-    }
+    if (error) return path;
     path = target.is_absolute() ? target.string() : (folder_of(path) + "/" + target.string());
   }
   fail(link, ELOOP);
@@ -86,9 +84,7 @@ std::pair<std::string, int> unused_name(const std::string& folder, const TryName
     std::string name =
         folder + "/.arcslip-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
     const int error = try_name(name);
-    if (error != EEXIST) {
-      return {std::move(name), error};
-    }
+    if (error != EEXIST) return {std::move(name), error};
   }
   return {"", EEXIST};
 }
@@ -118,49 +114,35 @@ struct AtomicFile::Target {
 };
 
 void AtomicFile::Target::open() {
-  if (path.empty()) {
-    fail("a file without a name", ENOENT);
-  }
+  if (path.empty()) fail("a file without a name", ENOENT);
   struct stat old {};
   const bool exists = ::stat(path.c_str(), &old) == 0;
-  if (!exists && errno != ENOENT) {
-    fail(path, errno);
-  }
-  if (path.back() == '/' || (exists && S_ISDIR(old.st_mode))) {
-    fail(path, EISDIR);
-  }
+  if (!exists && errno != ENOENT) fail(path, errno);
+  if (path.back() == '/' || (exists && S_ISDIR(old.st_mode))) fail(path, EISDIR);
   if (exists && !S_ISREG(old.st_mode)) {
     descriptor = detail::open_special(path, stop);
     return;
   }
-  if (exists && ::access(path.c_str(), W_OK) != 0) {
-    fail(path, errno);
-  }
+  if (exists && ::access(path.c_str(), W_OK) != 0) fail(path, errno);
   final_name = resolved(path);
   open_temporary(0666);
-  if (exists) {
+  if (exists)
     static_cast<void>(::fchmod(descriptor, old.st_mode & 07777));  // may be refused; the content matters more
-  }
 }
 
 void AtomicFile::Target::open_temporary(mode_t mode) {
   const std::string folder = folder_of(final_name);
 #ifdef O_TMPFILE
   descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
-  if (descriptor >= 0 && ::access(unnamed_link(descriptor).c_str(), F_OK) == 0) {
-    return;
-  }
-  if (descriptor >= 0) {  // without /proc it could never be given a name
+  if (descriptor >= 0 && ::access(unnamed_link(descriptor).c_str(), F_OK) == 0) return;
+  if (descriptor >= 0)  // without /proc it could never be given a name
     ::close(std::exchange(descriptor, -1));
-  }
 #endif
   const auto [name, error] = unused_name(folder, [&](const std::string& candidate) {
     descriptor = ::open(candidate.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
     return descriptor < 0 ? errno : 0;
   });
-  if (error != 0) {
-    fail(path, error);
-  }
+  if (error != 0) fail(path, error);
   temporary = name;
 }
 
@@ -173,11 +155,8 @@ void AtomicFile::Target::start_stream() {
 void AtomicFile::Target::commit() {
   stream->flush();
   if (!final_name.empty()) {
-    while (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) {
-      if (errno != EINTR) {
-        fail(path, errno);
-      }
-    }
+    while (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
+      if (errno != EINTR) fail(path, errno);
     if (temporary.empty()) {
       const std::string unnamed = unnamed_link(descriptor);
       const auto [name, error] = unused_name(folder_of(final_name), [&](const std::string& candidate) {
@@ -185,33 +164,21 @@ void AtomicFile::Target::commit() {
                    ? errno
                    : 0;
       });
-      if (error != 0) {
-        fail(path, error);
-      }
+      if (error != 0) fail(path, error);
       temporary = name;
     }
   }
-  if (owns_descriptor && ::close(std::exchange(descriptor, -1)) != 0) {
-    fail(path, errno);
-  }
+  if (owns_descriptor && ::close(std::exchange(descriptor, -1)) != 0) fail(path, errno);
   if (!final_name.empty()) {
-    if (std::rename(temporary.c_str(), final_name.c_str()) != 0) {
-      fail(path, errno);
-    }
+    if (std::rename(temporary.c_str(), final_name.c_str()) != 0) fail(path, errno);
     temporary.clear();
   }
 }
 
 AtomicFile::Target::~Target() {
-  if (stream) {
-    stream->exceptions(std::ios::goodbit);
-  }
-  if (owns_descriptor && descriptor >= 0) {
-    ::close(descriptor);
-  }
-  if (!temporary.empty()) {
-    ::unlink(temporary.c_str());
-  }
+  if (stream) stream->exceptions(std::ios::goodbit);
+  if (owns_descriptor && descriptor >= 0) ::close(descriptor);
+  if (!temporary.empty()) ::unlink(temporary.c_str());
 }
 
 AtomicFile::AtomicFile(std::unique_ptr<Target> target) : target_(std::move(target)) {}
@@ -262,11 +229,10 @@ void write_file(const std::string& path, const std::function<void(std::ostream&)
 
 void check_writable(const std::string& path) {
   struct stat old {};
-  if (::stat(path.c_str(), &old) != 0 || S_ISREG(old.st_mode) || S_ISDIR(old.st_mode)) {
+  if (::stat(path.c_str(), &old) != 0 || S_ISREG(old.st_mode) || S_ISDIR(old.st_mode))
     AtomicFile{path};
-  } else if (::access(path.c_str(), W_OK) != 0) {
+  else if (::access(path.c_str(), W_OK) != 0)
     fail(path, errno);
-  }
 }
 
 std::string written_file(const std::string& path) {
@@ -281,14 +247,9 @@ void clear_temporaries(const std::string& folder) {
   std::error_code error;
   std::vector<std::filesystem::path> paths;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (std::regex_match(entry->path().filename().string(), left_over)) {
-      paths.push_back(entry->path());
-    }
-  }
-  for (const auto& path : paths) {
-    std::filesystem::remove(path, error);
-  }
+       entry.increment(error))
+    if (std::regex_match(entry->path().filename().string(), left_over)) paths.push_back(entry->path());
+  for (const auto& path : paths) std::filesystem::remove(path, error);
 }
 
 }  // namespace arcslip::output

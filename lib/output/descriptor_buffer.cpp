@@ -31,12 +31,8 @@ Patience::Patience(scene::StopRequest stop) : stop_(std::move(stop)) {}
 
 bool Patience::is_at_end() {
   const auto now = std::chrono::steady_clock::now();
-  if (!scene::is_asked(stop_)) {
-    return false;
-  }
-  if (!std::exchange(asked_, true)) {
-    since_ = now;
-  }
+  if (!scene::is_asked(stop_)) return false;
+  if (!std::exchange(asked_, true)) since_ = now;
   return now - since_ > longest_wait;
 }
 
@@ -44,18 +40,12 @@ int open_special(const std::string& path, const scene::StopRequest& stop) {
   Patience patience(stop);
   while (true) {
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-    if (descriptor >= 0) {
-      return descriptor;
-    }
+    if (descriptor >= 0) return descriptor;
     struct stat status {};
     const int error = errno;
     const bool is_pipe = ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
-    if (error != EINTR && !(error == ENXIO && is_pipe)) {
-      throw WriteError(path, error);
-    }
-    if (patience.is_at_end()) {
-      throw WriteError(path, EINTR);
-    }
+    if (error != EINTR && !(error == ENXIO && is_pipe)) throw WriteError(path, error);
+    if (patience.is_at_end()) throw WriteError(path, EINTR);
     ::poll(nullptr, 0, poll_milliseconds);
   }
 }
@@ -70,9 +60,7 @@ DescriptorBuffer::DescriptorBuffer(int descriptor, std::string path, scene::Stop
 
 DescriptorBuffer::int_type DescriptorBuffer::overflow(int_type character) {
   sync();
-  if (!traits_type::eq_int_type(character, traits_type::eof())) {
-    sputc(traits_type::to_char_type(character));
-  }
+  if (!traits_type::eq_int_type(character, traits_type::eof())) sputc(traits_type::to_char_type(character));
   return traits_type::not_eof(character);
 }
 
@@ -88,9 +76,7 @@ int DescriptorBuffer::sync() {
           std::min<std::size_t>(count, PIPE_BUF);  // larger writes could block without checking for a stop
     }
     const auto written = ::write(descriptor_, begin, count);
-    if (written < 0 && errno != EINTR && errno != EAGAIN) {
-      throw WriteError(path_, errno);
-    }
+    if (written < 0 && errno != EINTR && errno != EAGAIN) throw WriteError(path_, errno);
     if (written > 0) {
       begin += written;
       patience_.progress();
@@ -101,11 +87,8 @@ int DescriptorBuffer::sync() {
 
 void DescriptorBuffer::wait() {
   pollfd place{descriptor_, POLLOUT, 0};
-  while (::poll(&place, 1, poll_milliseconds) <= 0) {
-    if (patience_.is_at_end()) {
-      throw WriteError(path_, EINTR);
-    }
-  }
+  while (::poll(&place, 1, poll_milliseconds) <= 0)
+    if (patience_.is_at_end()) throw WriteError(path_, EINTR);
 }
 
 }  // namespace arcslip::output::detail

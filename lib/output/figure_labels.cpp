@@ -19,9 +19,7 @@ struct Box {
     double first = 0;
     double last = 1;
     const auto clip = [&](double step, double room) {  // share * step <= room
-      if (step == 0) {
-        return room >= 0;
-      }
+      if (step == 0) return room >= 0;
       (step < 0 ? first : last) = step < 0 ? std::max(first, room / step) : std::min(last, room / step);
       return first <= last;
     };
@@ -47,11 +45,8 @@ Box box(const LabelWish& wish, LabelSide side, const LabelMetrics& metrics) {
 }
 
 bool meets_line(const Box& box, const std::vector<Position>& line) {
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    if (box.meets_segment(line[i - 1], line[i])) {
-      return true;
-    }
-  }
+  for (std::size_t i = 1; i < line.size(); ++i)
+    if (box.meets_segment(line[i - 1], line[i])) return true;
   return false;
 }
 
@@ -104,9 +99,7 @@ std::vector<LabelSide> place_labels(const std::vector<LabelWish>& wishes,
     };
     const auto* const side = std::find_if(sides.begin(), sides.end(), is_free);
     chosen.push_back(side == sides.end() ? LabelSide::none : *side);
-    if (side != sides.end()) {
-      taken.push_back(box(wish, *side, metrics));
-    }
+    if (side != sides.end()) taken.push_back(box(wish, *side, metrics));
   }
   return chosen;
 }

@@ -39,11 +39,8 @@ bool is_whole(const std::string& path, std::string_view ending) {
 /// Time limit of gnuplot, which draws tens of thousands of points per second.
 std::chrono::milliseconds time_for(const FigureData& data, std::size_t figures) {
   std::size_t points = 0;
-  for (const FigureLine& line : data.lines) {
-    for (const auto& part : line.parts) {
-      points += part.size();
-    }
-  }
+  for (const FigureLine& line : data.lines)
+    for (const auto& part : line.parts) points += part.size();
   return least_time + std::chrono::duration_cast<std::chrono::milliseconds>(points * figures * time_of_point);
 }
 
@@ -55,9 +52,8 @@ std::vector<std::string> images_of(const std::string& script) {
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with(begin) && line.ends_with(end)) {
       const std::string image = line.substr(begin.size(), line.size() - begin.size() - end.size());
-      if (image == file_name(image)) {  // nothing outside of the folder
+      if (image == file_name(image))  // nothing outside of the folder
         images.push_back(image);
-      }
     }
   }
   return images;
@@ -66,9 +62,7 @@ std::vector<std::string> images_of(const std::string& script) {
 /// Removes old figures, which must not accompany new data. Returns their number.
 int remove_images(const std::string& base, const std::vector<std::string>& images) {
   int count = 0;
-  for (const std::string& image : images) {
-    count += std::remove((base + image).c_str()) == 0 ? 1 : 0;
-  }
+  for (const std::string& image : images) count += std::remove((base + image).c_str()) == 0 ? 1 : 0;
   return count;
 }
 
@@ -93,9 +87,7 @@ std::string problem_of(const ProcessResult& result, const std::string& folder, c
   std::string said = result.text;
   said.erase(std::unique(said.begin(), said.end(), [](char a, char b) { return a == '\n' && b == '\n'; }),
              said.end());
-  while (!said.empty() && (said.back() == '\n' || said.back() == ' ')) {
-    said.pop_back();
-  }
+  while (!said.empty() && (said.back() == '\n' || said.back() == ' ')) said.pop_back();
   return said.empty() ? problem : problem + "\n" + said;
 }
 
@@ -107,9 +99,7 @@ std::string file_name(const std::string& name) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                        c == '_' || c == '-' || (c == '.' && !result.empty());
     result += plain ? c : '_';
-    if (result.size() == 100) {
-      break;
-    }
+    if (result.size() == 100) break;
   }
   return result.empty() || result.front() == '-' ? "_" + result : result;
 }
@@ -130,12 +120,12 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
   Figures result;
   result.sources = {base + stem + ".dat", base + stem + ".gp"};
   std::vector<std::string> old = images_of(result.sources[1]);
-  for (const std::string& image : images) {
-    old.insert(old.end(), {image + ".svg", image + ".png"});
-  }
+  for (const std::string& image : images) old.insert(old.end(), {image + ".svg", image + ".png"});
   const int removed = remove_images(base, old);
-  write_file(result.sources[0], [&](std::ostream& out) { write_figure_data(out, data); });
-  write_file(result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, images); });
+  write_file(
+      result.sources[0], [&](std::ostream& out) { write_figure_data(out, data); });
+  write_file(
+      result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, images); });
   const auto problem = [&](const std::string& what) {
     result.problem = what + (removed > 0 && result.images.empty()
                                  ? "; those of an earlier run were removed, since they show other data"
@@ -173,9 +163,8 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
       }
     }
   }
-  if (!all_whole) {
+  if (!all_whole)
     problem(run.end == ProcessEnd::stopped ? interrupted : problem_of(run, folder, stem + ".gp", time));
-  }
   return result;
 }
 

@@ -13,13 +13,11 @@ namespace arcslip::output {
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : results::visible(text)) {
-    if (c == '\'') {
+  for (const char c : results::visible(text))
+    if (c == '\'')
       result += R"('."'".')";  // gnuplot takes a doubled quote at the beginning for an empty text
-    } else {
+    else
       result += c;
-    }
-  }
   return result + "'";
 }
 
@@ -27,9 +25,7 @@ std::string shortened(const std::string& text, int longest) {
   int characters = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool starts_character = (static_cast<unsigned char>(text[i]) & 0xc0) != 0x80;
-    if (starts_character && ++characters > longest) {
-      return text.substr(0, i) + " ...";
-    }
+    if (starts_character && ++characters > longest) return text.substr(0, i) + " ...";
   }
   return text;
 }
@@ -101,17 +97,11 @@ void write_logarithmic_tics(std::ostream& out, char axis, const results::Range& 
 /// and the lower one where there are minima.
 Axis axis_of(const results::FigureColumn& column, bool has_room, bool has_minima = false) {
   const double parts_below = has_minima ? 2 : 1;
-  if (column.scale == results::Scale::percent) {
-    return {{-3, 103}};
-  }
+  if (column.scale == results::Scale::percent) return {{-3, 103}};
   const auto [lower, upper] = column.range;
-  if (!(lower <= upper)) {
-    return {{-1, 1}};
-  }
+  if (!(lower <= upper)) return {{-1, 1}};
   if (column.scale == results::Scale::logarithmic) {
-    if (!has_room && lower < upper) {
-      return {column.range, true};
-    }
+    if (!has_room && lower < upper) return {column.range, true};
     const double spread = std::pow(upper / lower, 0.05);
     return {{lower / std::max(std::pow(spread, parts_below), 1.05), upper * std::max(spread * spread, 1.15)},
             true};
@@ -129,11 +119,10 @@ void write_axis(std::ostream& out, char name, const std::string& label, const Ax
       << (axis.logarithmic ? " 10\n" : "\n") << "set " << name << "label " << quoted(label) << " noenhanced\n"
       << "set " << name << "range [" << rounded(axis.range.lower) << ":" << rounded(axis.range.upper)
       << "]\n";
-  if (axis.logarithmic) {
+  if (axis.logarithmic)
     write_logarithmic_tics(out, name, axis.range);
-  } else {
+  else
     out << "set " << name << "tics autofreq\nunset m" << name << "tics\nset format " << name << " '%g'\n";
-  }
 }
 
 }  // namespace

@@ -62,11 +62,8 @@ std::vector<std::vector<Position>> places(const FigureData& data, const Figure& 
   for (const FigureLine& line : data.lines) {
     for (const std::vector<Record>& part : line.parts) {
       std::vector<Position>& path = lines.emplace_back();
-      for (const Record& values : part) {
-        if (axes.shows(values, figure)) {
-          path.push_back(axes.place(values, figure));
-        }
-      }
+      for (const Record& values : part)
+        if (axes.shows(values, figure)) path.push_back(axes.place(values, figure));
     }
   }
   return lines;
@@ -92,9 +89,7 @@ void write_labels(std::ostream& out, const FigureData& data, const Figure& figur
   const std::vector<LabelSide> sides = place_labels(wishes, places(data, figure, axes));
   out << "unset label\n";
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (sides[i] == LabelSide::none) {
-      continue;
-    }
+    if (sides[i] == LabelSide::none) continue;
     const LabelOffset shift = offset(sides[i]);
     out << "set label " << quoted(wishes[i].text) << " at " << shortest(labels[i].x) << ","
         << shortest(labels[i].y)
@@ -107,9 +102,7 @@ void write_labels(std::ostream& out, const FigureData& data, const Figure& figur
 /// Bands behind the lines, if the figure is over their parameter.
 void write_bands(std::ostream& out, const FigureData& data, const Figure& figure) {
   out << "unset object\n";
-  if (figure.x != 0) {
-    return;
-  }
+  if (figure.x != 0) return;
   for (std::size_t i = 0; i < data.lines.size(); ++i) {
     for (const FigureBand& band : data.lines[i].bands) {
       out << "set object rectangle from " << shortest(band.range.lower) << ", graph 0 to "
@@ -127,9 +120,7 @@ void write_key_title(std::ostream& out, const FigureData& data) {
     return;
   }
   std::size_t longest_entry = 0;
-  for (const FigureLine& line : data.lines) {
-    longest_entry = std::max(longest_entry, line.label.size());
-  }
+  for (const FigureLine& line : data.lines) longest_entry = std::max(longest_entry, line.label.size());
   std::size_t longest_name = 0;
   out << "set key title ";
   const char* separator = "";
@@ -143,8 +134,8 @@ void write_key_title(std::ostream& out, const FigureData& data) {
 }
 
 bool has_mark(const FigureLine& line, std::string_view kind) {
-  return std::any_of(line.marks.begin(), line.marks.end(),
-                     [&](const FigureMark& mark) { return mark.kind == kind; });
+  return std::any_of(
+      line.marks.begin(), line.marks.end(), [&](const FigureMark& mark) { return mark.kind == kind; });
 }
 
 /// Whether a line, or its marks of a kind, has anything to draw in a figure.
@@ -153,23 +144,25 @@ bool is_in(const Figure& figure, const Record& values) {
 }
 
 bool is_in(const Figure& figure, const FigureLine& line) {
-  return std::any_of(line.parts.begin(), line.parts.end(), [&](const std::vector<Record>& part) {
-    return std::any_of(part.begin(), part.end(), [&](const Record& values) { return is_in(figure, values); });
-  });
+  return std::any_of(
+      line.parts.begin(), line.parts.end(),
+      [&](const std::vector<Record>& part) {
+        return std::any_of(
+            part.begin(), part.end(), [&](const Record& values) { return is_in(figure, values); });
+      });
 }
 
 bool is_in(const Figure& figure, const FigureLine& line, std::string_view kind) {
-  return std::any_of(line.marks.begin(), line.marks.end(),
-                     [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
+  return std::any_of(
+      line.marks.begin(), line.marks.end(),
+      [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
 }
 
 /// Key entries of the bands, narrowest first, from one line, as all lines have the same.
 void add_bands_to_key(const FigureData& data, std::vector<std::string>& curves) {
   const auto has_bands = [](const FigureLine& line) { return !line.bands.empty(); };
   const auto line = std::find_if(data.lines.begin(), data.lines.end(), has_bands);
-  if (line == data.lines.end()) {
-    return;
-  }
+  if (line == data.lines.end()) return;
   const std::string colour = data.lines.size() == 1 ? line_colour(0, 1) : other_colour;
   for (std::size_t k = line->bands.size(); k-- > 0;) {
     curves.push_back("NaN with filledcurves " + band_style(k, colour) + " title " +
@@ -208,9 +201,7 @@ void write_plot(std::ostream& out, const FigureData& data, const Figure& figure)
                        "' title '" + std::string(mark_kinds[k]) + "'");
     }
   }
-  if (figure.x == 0) {
-    add_bands_to_key(data, curves);
-  }
+  if (figure.x == 0) add_bands_to_key(data, curves);
   out << "plot ";
   const char* separator = "";
   for (const std::string& curve : curves) {
@@ -226,9 +217,8 @@ std::vector<std::string> image_names(const FigureData& data, const std::string& 
   std::vector<std::string> names;
   for (const Figure& figure : data.figures) {
     std::string own = name + "_" + file_name(figure.name);
-    if (std::find(names.begin(), names.end(), own) != names.end()) {  // differs only in what it cannot hold
+    if (std::find(names.begin(), names.end(), own) != names.end())  // differs only in what it cannot hold
       own += "_" + std::to_string(names.size());
-    }
     names.push_back(own);
   }
   return names;
@@ -244,9 +234,7 @@ void write_figure_data(std::ostream& out, const FigureData& data) {
   for (const FigureLine& line : data.lines) {
     out << "# " << line.heading << '\n';
     for (const auto& part : line.parts) {
-      for (const Record& values : part) {
-        write_record(out, values);
-      }
+      for (const Record& values : part) write_record(out, values);
       out << '\n';
     }
     out << '\n';

@@ -54,9 +54,8 @@ class SpawnSettings {
 class Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) {
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
       throw std::system_error(errno, std::generic_category(), "cannot create a pipe");
-    }
   }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
@@ -78,14 +77,10 @@ class Pipe {
   /// Waits a moment for text. False at the end of it.
   bool read_some(std::string& text) const {
     pollfd place{ends_[0], POLLIN, 0};
-    if (::poll(&place, 1, moment) <= 0) {
-      return true;
-    }
+    if (::poll(&place, 1, moment) <= 0) return true;
     std::array<char, 4096> buffer;
     const auto count = ::read(ends_[0], buffer.data(), buffer.size());
-    if (count > 0 && text.size() < most_text) {
-      text.append(buffer.data(), static_cast<std::size_t>(count));
-    }
+    if (count > 0 && text.size() < most_text) text.append(buffer.data(), static_cast<std::size_t>(count));
     return count > 0 || (count < 0 && errno == EINTR);
   }
 
@@ -100,9 +95,7 @@ ProcessResult run_program(const std::string& program, const std::vector<std::str
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
-  for (std::string& word : words) {
-    argv.push_back(word.data());
-  }
+  for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 
   Pipe pipe;
@@ -115,23 +108,18 @@ ProcessResult run_program(const std::string& program, const std::vector<std::str
     result.end = ProcessEnd::not_found;
     return result;
   }
-  if (error != 0) {
-    throw std::system_error(error, std::generic_category(), "cannot start " + program);
-  }
+  if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start " + program);
   pipe.close_writing();
   const auto began = std::chrono::steady_clock::now();
   bool writes = true;
   int status = 0;
   while (true) {
-    if (writes) {
+    if (writes)
       writes = pipe.read_some(result.text);
-    } else {
+    else
       ::poll(nullptr, 0, moment);
-    }
     // At the end of its output it is about to exit; its children may keep the pipe open longer.
-    if (::waitpid(child, &status, WNOHANG) == child) {
-      break;
-    }
+    if (::waitpid(child, &status, WNOHANG) == child) break;
     const bool stopped = scene::is_asked(limits.stop);
     if (stopped || std::chrono::steady_clock::now() - began > limits.time) {
       result.end = stopped ? ProcessEnd::stopped : ProcessEnd::out_of_time;
@@ -141,9 +129,7 @@ ProcessResult run_program(const std::string& program, const std::vector<std::str
       break;
     }
   }
-  while (writes && pipe.has_text()) {
-    writes = pipe.read_some(result.text);
-  }
+  while (writes && pipe.has_text()) writes = pipe.read_some(result.text);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   return result;

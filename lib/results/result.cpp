@@ -80,9 +80,8 @@ void replay(const Results& results, Sink& sink) {
     const auto in_list = [&](const Schema& other) { return other.list == schema->list; };
     if (std::find_if(results.schemas.begin(), schema, in_list) != schema)
       continue;  // done with the first of them
-    for (const Result& result : results.results) {
+    for (const Result& result : results.results)
       if (in_list(results.schemas[result.schema])) hand(result, result.schema, sink);
-    }
   }
   sink.finish();
 }
@@ -98,11 +97,10 @@ void Collector::curve(const Head& head, std::size_t schema) {
 
 void Collector::rows(std::size_t table, const Rows& rows) {
   Rows& all = results.results.back().tables[table];
-  if (all.count == 0) {
+  if (all.count == 0)
     all = rows;
-  } else {
+  else
     append(rows, all);
-  }
 }
 
 void Collector::end(const End& end) {

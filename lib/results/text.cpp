@@ -17,24 +17,16 @@ struct Character {
 Character first_of(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
-  if (lead < 0x80) {
-    return {lead};
-  }
+  if (lead < 0x80) return {lead};
   const std::size_t size = lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : lead < 0xf5 ? 4 : 0;
-  if (size == 0 || size > text.size()) {
-    return {lead, 1, false};
-  }
+  if (size == 0 || size > text.size()) return {lead, 1, false};
   char32_t code = lead & (0xffu >> (size + 1));
   for (std::size_t i = 1; i < size; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) {
-      return {lead, 1, false};
-    }
+    if ((byte(i) & 0xc0) != 0x80) return {lead, 1, false};
     code = code << 6 | (byte(i) & 0x3fu);
   }
   constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  if (code < least[size] || code > 0x10ffff) {
-    return {lead, 1, false};
-  }
+  if (code < least[size] || code > 0x10ffff) return {lead, 1, false};
   return {code, size};
 }
 
@@ -53,9 +45,7 @@ bool is_shown(char32_t code) {
 
 void add_escape(std::string_view prefix, char32_t code, int digits, std::string& out) {
   out += prefix;
-  for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) {
-    out += "0123456789abcdef"[code >> shift & 15];
-  }
+  for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) out += "0123456789abcdef"[code >> shift & 15];
 }
 
 // A character with known code, unchanged or escaped.
@@ -75,13 +65,12 @@ std::string escaped(std::string_view text, bool keeps_lines) {
   out.reserve(text.size());
   while (!text.empty()) {
     const Character next = first_of(text);
-    if (!next.valid) {
+    if (!next.valid)
       add_escape("\\x", next.code, 2, out);
-    } else if (keeps_lines && next.code == '\n') {
+    else if (keeps_lines && next.code == '\n')
       out += '\n';
-    } else {
+    else
       add_visible(text.substr(0, next.size), next.code, out);
-    }
     text.remove_prefix(next.size);
   }
   return out;
@@ -102,15 +91,14 @@ std::string json_quoted(std::string_view text) {
   std::string out = "\"";
   while (!text.empty()) {
     const Character next = first_of(text);
-    if (!next.valid || within(next.code, 0xd800, 0xdfff)) {
+    if (!next.valid || within(next.code, 0xd800, 0xdfff))
       out += "\xef\xbf\xbd";
-    } else if (const auto at =
-                   next.code < 0x80 ? short_escapes.find(static_cast<char>(next.code)) : short_escapes.npos;
-               at != short_escapes.npos) {
+    else if (const auto at =
+                 next.code < 0x80 ? short_escapes.find(static_cast<char>(next.code)) : short_escapes.npos;
+             at != short_escapes.npos)
       (out += '\\') += names[at];
-    } else {
+    else
       add_visible(text.substr(0, next.size), next.code, out);
-    }
     text.remove_prefix(next.size);
   }
   return out += '"';
@@ -126,9 +114,7 @@ std::string quantity(double value, std::string_view unit) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.10g", value);  // without the last digits' rounding
   std::string text = shortest(std::strtod(digits, nullptr));
-  if (!unit.empty() && unit != "-") {
-    text.append(" ").append(unit);
-  }
+  if (!unit.empty() && unit != "-") text.append(" ").append(unit);
   return text;
 }
 

@@ -6,20 +6,16 @@ namespace arcslip::scene::file {
 namespace {
 
 bool any_value(const std::vector<Part>& parts) {
-  return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.values.front() != 0; });
+  return std::any_of(
+      parts.begin(), parts.end(), [](const Part& part) { return part.values.front() != 0; });
 }
 
 // Marks the degrees of freedom on which parts act. A value of zero does nothing; an element counts as it is.
 void mark(const std::vector<Part>& parts, bool even_zero, std::vector<bool>& acted_on) {
   for (const Part& part : parts) {
-    if (!even_zero && part.values.front() == 0) {
-      continue;
-    }
-    for (const Direction& direction : part.directions) {
-      for (const Term& term : direction) {
-        acted_on[static_cast<std::size_t>(term.dof)] = true;
-      }
-    }
+    if (!even_zero && part.values.front() == 0) continue;
+    for (const Direction& direction : part.directions)
+      for (const Term& term : direction) acted_on[static_cast<std::size_t>(term.dof)] = true;
   }
 }
 
@@ -59,15 +55,13 @@ void check_excitation(const Scene& scene, Faults& faults) {
   }
   const bool oscillates = std::any_of(scene.excitation.begin(), scene.excitation.end(),
                                       [](const Part& force) { return force.harmonic > 0; });
-  if (!oscillates && !scene.excitation.empty()) {
+  if (!oscillates && !scene.excitation.empty())
     faults.add("/excitation", "found constant forces alone, must have a force of a harmonic above 0");
-  }
 }
 
 void check_structure(const Scene& scene, Faults& faults) {
-  if (!any_value(scene.masses)) {
+  if (!any_value(scene.masses))
     faults.add("/structure/masses", "found no mass, must have at least one mass with a value above 0 kg");
-  }
   if (!any_value(scene.springs) && scene.elements.empty()) {
     faults.add(
         "/structure/springs",
@@ -78,9 +72,7 @@ void check_structure(const Scene& scene, Faults& faults) {
   mark(scene.springs, false, acted_on);
   mark(scene.dampers, false, acted_on);
   mark(scene.elements, true, acted_on);
-  if (std::find(acted_on.begin(), acted_on.end(), true) == acted_on.end()) {
-    return;  // reported above
-  }
+  if (std::find(acted_on.begin(), acted_on.end(), true) == acted_on.end()) return;  // reported above
   for (std::size_t i = 0; i < acted_on.size(); ++i) {
     if (!acted_on[i]) {
       faults.add(child("/structure/dofs", i),

@@ -7,9 +7,7 @@ namespace arcslip::scene {
 
 double Combinations::count() const {
   double product = 1;
-  for (const auto& [parameter, values] : lists_) {
-    product *= static_cast<double>(values.size());
-  }
+  for (const auto& [parameter, values] : lists_) product *= static_cast<double>(values.size());
   return product;
 }
 

@@ -48,9 +48,7 @@ bool Faults::full() const {
 }
 
 void Faults::raise() const {
-  if (count_ == 0) {
-    return;
-  }
+  if (count_ == 0) return;
   std::vector<Fault> faults = kept_;
   if (count_ > kept_.size()) {
     faults.push_back(
@@ -62,15 +60,13 @@ void Faults::raise() const {
 std::string child(std::string_view pointer, std::string_view key) {
   std::string result(pointer);
   result += '/';
-  for (const char c : key) {
-    if (c == '~') {
+  for (const char c : key)
+    if (c == '~')
       result += "~0";
-    } else if (c == '/') {
+    else if (c == '/')
       result += "~1";
-    } else {
+    else
       result += c;
-    }
-  }
   return result;
 }
 
@@ -79,9 +75,7 @@ std::string child(std::string_view pointer, std::size_t index) {
 }
 
 std::string number_text(double value) {
-  if (value == 0 && std::signbit(value)) {
-    return "-0.0";  // "-0" is read as an integer, which has no sign
-  }
+  if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" is read as an integer, which has no sign
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
@@ -106,25 +100,18 @@ std::string quoted(std::string_view text) {
 
 std::string shown(std::string_view text) {
   constexpr std::size_t longest = 60;
-  if (text.size() <= longest) {
-    return quoted(text);
-  }
+  if (text.size() <= longest) return quoted(text);
   std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) {
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
     --end;  // not in the middle of a character of UTF-8
-  }
   return quoted(text.substr(0, end)) + "... (" + std::to_string(text.size()) + " bytes)";
 }
 
 std::string listed(std::span<const std::string> words) {
   constexpr std::size_t most = 12;
   std::string result;
-  for (std::size_t i = 0; i < words.size() && i < most; ++i) {
-    result += (i == 0 ? "" : ", ") + shown(words[i]);
-  }
-  if (words.size() > most) {
-    result += ", ... (" + std::to_string(words.size()) + " in all)";
-  }
+  for (std::size_t i = 0; i < words.size() && i < most; ++i) result += (i == 0 ? "" : ", ") + shown(words[i]);
+  if (words.size() > most) result += ", ... (" + std::to_string(words.size()) + " in all)";
   return result;
 }
 
@@ -144,12 +131,8 @@ std::string allowed_text(const Field& field) {
   const bool below = std::isfinite(field.lower), above = std::isfinite(field.upper);
   const std::string lower = (field.lower_open ? "above " : "at least ") + number_text(field.lower);
   const std::string upper = "at most " + number_text(field.upper);
-  if (below && above) {
-    return lower + " and " + upper + unit;
-  }
-  if (below || above) {
-    return (below ? lower : upper) + unit;
-  }
+  if (below && above) return lower + " and " + upper + unit;
+  if (below || above) return (below ? lower : upper) + unit;
   return "a finite number" + (unit.empty() ? unit : " (" + std::string(field.unit) + ")");
 }
 
@@ -173,18 +156,15 @@ char lower_case(char c) {
 // (optimal string alignment distance: Damerau 1964).
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) {
-    last[j] = j;
-  }
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const bool same = lower_case(a[i - 1]) == lower_case(b[j - 1]);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0u : 1u)});
       if (i > 1 && j > 1 && lower_case(a[i - 1]) == lower_case(b[j - 2]) &&
-          lower_case(a[i - 2]) == lower_case(b[j - 1])) {
+          lower_case(a[i - 2]) == lower_case(b[j - 1]))
         row[j] = std::min(row[j], before[j - 2] + 1);
-      }
     }
     std::swap(before, last);
     std::swap(last, row);
@@ -195,16 +175,13 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest(std::string_view word, std::span<const std::string> known) {
-  if (word.size() > longest_word) {
-    return {};
-  }
+  if (word.size() > longest_word) return {};
   std::string best;
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
     const std::size_t longer = std::max(word.size(), candidate.size());
-    if (longer - std::min(word.size(), candidate.size()) >= least) {
+    if (longer - std::min(word.size(), candidate.size()) >= least)
       continue;  // the lengths alone differ by more
-    }
     const std::size_t edits = distance(word, candidate);
     if (edits < least && edits < longer) {  // edits == longer: no letter in common
       least = edits;

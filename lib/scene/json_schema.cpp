@@ -24,9 +24,7 @@ Node of_type(std::string_view type) {
 
 Node list_of(Node item, int least = 0) {
   Object list{{"type", node("array")}, {"items", std::move(item)}};
-  if (least > 0) {
-    list.push_back({"minItems", node(least)});
-  }
+  if (least > 0) list.push_back({"minItems", node(least)});
   return of(std::move(list));
 }
 
@@ -38,36 +36,26 @@ Node map_of(Node value) {
 /// An object with these keys and no others.
 Object object_of(Object properties, const std::vector<std::string>& required) {
   Object object{{"type", node("object")}, {"properties", of(std::move(properties))}};
-  if (!required.empty()) {
-    object.push_back({"required", node(required)});
-  }
+  if (!required.empty()) object.push_back({"required", node(required)});
   object.push_back({"additionalProperties", {false}});
   return object;
 }
 
 void add_bounds(double lower, bool lower_open, double upper, Object& number) {
-  if (std::isfinite(lower)) {
-    number.push_back({lower_open ? "exclusiveMinimum" : "minimum", node(lower)});
-  }
-  if (std::isfinite(upper)) {
-    number.push_back({"maximum", node(upper)});
-  }
+  if (std::isfinite(lower)) number.push_back({lower_open ? "exclusiveMinimum" : "minimum", node(lower)});
+  if (std::isfinite(upper)) number.push_back({"maximum", node(upper)});
 }
 
 std::string with_unit(std::string_view text, std::string_view unit) {
   std::string all(text);
-  if (!unit.empty() && unit != "-") {
-    all.append(" (").append(unit).append(")");
-  }
+  if (!unit.empty() && unit != "-") all.append(" (").append(unit).append(")");
   return all;
 }
 
 Node number_of(const Field& field) {
   Object number{{"type", node("number")}, {"description", node(with_unit(field.help, field.unit))}};
   add_bounds(field.lower, field.lower_open, field.upper, number);
-  if (field.default_value) {
-    number.push_back({"default", node(*field.default_value)});
-  }
+  if (field.default_value) number.push_back({"default", node(*field.default_value)});
   return of(std::move(number));
 }
 
@@ -83,9 +71,8 @@ void add_place(Object& properties) {
 
 Node one_place() {
   Node::List choices;
-  for (const char* key : {"at", "between", "direction"}) {
+  for (const char* key : {"at", "between", "direction"})
     choices.push_back(of({{"required", node(std::vector<std::string>{key})}}));
-  }
   return {std::move(choices)};
 }
 
@@ -150,9 +137,7 @@ Node described_key(const Key& key) {
                            : key.unit == "parameter" ? "the parameter's unit"
                                                      : key.unit;
   value.push_back({"description", node(with_unit(key.help, unit))});
-  if (!key.otherwise.empty()) {
-    value.push_back({"default", read_tree(key.otherwise)});
-  }
+  if (!key.otherwise.empty()) value.push_back({"default", read_tree(key.otherwise)});
   return of(std::move(value));
 }
 
@@ -163,18 +148,14 @@ Node part_of(const PartType& type, bool with_type) {
     properties.push_back({"type", of({{"const", node(type.name())}})});
     required.emplace_back("type");
   }
-  if (type.slots().empty()) {
-    add_place(properties);
-  }
+  if (type.slots().empty()) add_place(properties);
   for (const std::string_view slot : type.slots()) {
     properties.push_back({std::string(slot), place_object()});
     required.emplace_back(slot);
   }
   for (const Key& option : type.options()) {
     properties.push_back({option.name, described_key(option)});
-    if (option.required) {
-      required.push_back(option.name);
-    }
+    if (option.required) required.push_back(option.name);
   }
   if (&type == &force_type()) {
     properties.push_back(
@@ -186,17 +167,12 @@ Node part_of(const PartType& type, bool with_type) {
   }
   for (const Field& field : type.fields({})) {
     properties.push_back({std::string(field.name), number_of(field)});
-    if (!field.default_value && type.options().empty()) {  // options may bring others in its place
+    if (!field.default_value && type.options().empty())  // options may bring others in its place
       required.emplace_back(field.name);
-    }
   }
   Object object = object_of(std::move(properties), required);
-  if (!type.options().empty()) {
-    object.back().value = of_type("number");  // fields that the options bring
-  }
-  if (type.slots().empty()) {
-    object.push_back({"oneOf", one_place()});
-  }
+  if (!type.options().empty()) object.back().value = of_type("number");  // fields that the options bring
+  if (type.slots().empty()) object.push_back({"oneOf", one_place()});
   return of(std::move(object));
 }
 
@@ -212,16 +188,12 @@ Node study_of(const StudyType& type) {
       required.push_back(key.name);
     } else if (const std::vector<std::string> beside = keys_beside(key.type); !beside.empty()) {
       needs.push_back({key.name, node(beside)});
-      for (const std::string& each : beside) {
-        needs.push_back({each, node(std::vector{key.name})});
-      }
+      for (const std::string& each : beside) needs.push_back({each, node(std::vector{key.name})});
     }
   }
   properties.push_back({"for_each", map_of(list_of(of_type("number"), 1))});
   Object study = object_of(std::move(properties), required);
-  if (!needs.empty()) {
-    study.push_back({"dependentRequired", of(std::move(needs))});
-  }
+  if (!needs.empty()) study.push_back({"dependentRequired", of(std::move(needs))});
   study.push_back({"title", node(type.help())});
   return of(std::move(study));
 }
@@ -232,12 +204,8 @@ Node schema_of(const Catalogue& catalogue) {
                    {"springs", list_of(part_of(spring_type(), false))},
                    {"dampers", list_of(part_of(damper_type(), false))}};
   Node::List elements, studies;
-  for (const PartType* type : catalogue.elements) {
-    elements.push_back(part_of(*type, true));
-  }
-  for (const StudyType* type : catalogue.studies) {
-    studies.push_back(study_of(*type));
-  }
+  for (const PartType* type : catalogue.elements) elements.push_back(part_of(*type, true));
+  for (const StudyType* type : catalogue.studies) studies.push_back(study_of(*type));
   Object samples{{"type", node("integer")}, {"default", node(Harmonics{}.samples)}};
   add_bounds(1, false, largest_samples, samples);
   Object order{{"type", node("integer")}, {"default", node(Harmonics{}.order)}};

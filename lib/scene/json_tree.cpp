@@ -87,9 +87,7 @@ class SourceIterator {
 std::string reason_of(std::string_view what) {
   constexpr std::size_t longest = 200;
   const std::size_t syntax = what.find("syntax error ");
-  if (syntax != std::string_view::npos) {
-    what.remove_prefix(syntax);
-  }
+  if (syntax != std::string_view::npos) what.remove_prefix(syntax);
   std::string reason(what.substr(0, longest));
   // it quotes the input, which need not be UTF-8
   std::replace_if(
@@ -114,9 +112,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   bool number_float(long double value, const std::string& digits) override {
     double exact = 0;  // rounded once, from the digits, and not twice by way of long double
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exact);
-    if (result.ec == std::errc::result_out_of_range) {
-      exact = static_cast<double>(value);
-    }
+    if (result.ec == std::errc::result_out_of_range) exact = static_cast<double>(value);
     return std::isfinite(exact) ? add(Node{exact}) : add(Node{Oversized{digits}});
   }
   bool string(std::string& value) override { return add(Node{std::move(value)}); }
@@ -139,12 +135,9 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
       fail(place +
            ": the file is empty, must hold a scene: an object with \"format\": " + quoted(format_name));
     }
-    if (error.id == 406) {  // beyond even long double
+    if (error.id == 406)  // beyond even long double
       fail(place + ": found " + shown(token) + ", a number that is too large, must be a finite number");
-    }
-    if (too_early) {
-      fail(place + ": the file ends too early: " + reason_of(what));
-    }
+    if (too_early) fail(place + ": the file ends too early: " + reason_of(what));
     fail(place + ": this is not JSON: " + reason_of(what) +
          (is_not_finite(token) ? "; a number must be finite (JSON has no NaN and no Infinity)" : ""));
   }
@@ -155,16 +148,14 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
       fail(source_.place() + ": found more than " + std::to_string(largest_count) +
            " values, must be at most that many");
     }
-    if (count_ % between_questions == 0 && is_asked(stop_)) {
+    if (count_ % between_questions == 0 && is_asked(stop_))
       throw Interrupted("interrupted while the scene was read");
-    }
     if (open_.empty()) {
       root_ = std::move(node);
       return &root_;
     }
-    if (auto* list = std::get_if<Node::List>(&open_.back()->value)) {
+    if (auto* list = std::get_if<Node::List>(&open_.back()->value))
       return &list->emplace_back(std::move(node));
-    }
     Node& value = std::get<Node::Object>(open_.back()->value).back().value;
     value = std::move(node);
     return &value;
@@ -198,9 +189,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 Node read_tree(std::string_view text, const StopRequest& stop) {
   Source source(text);
   const std::size_t nul = text.find('\0');  // nlohmann's parser takes it for the end
-  if (nul != std::string_view::npos) {
+  if (nul != std::string_view::npos)
     fail(source.place_of(nul + 1) + ": found a NUL byte, must be JSON in UTF-8, which has none");
-  }
   Node root;
   TreeBuilder builder(source, root, stop);
   Json::sax_parse(SourceIterator(source), SourceIterator(), &builder);
@@ -208,24 +198,16 @@ Node read_tree(std::string_view text, const StopRequest& stop) {
 }
 
 std::string described(const Node& node) {
-  if (const auto* flag = node.get<bool>()) {
-    return *flag ? "true" : "false";
-  }
-  if (const auto* number = node.get<double>()) {
-    return number_text(*number) + " (a number)";
-  }
+  if (const auto* flag = node.get<bool>()) return *flag ? "true" : "false";
+  if (const auto* number = node.get<double>()) return number_text(*number) + " (a number)";
   if (const auto* oversized = node.get<Oversized>()) {
     const std::string& digits = oversized->digits;
     return (digits.size() > 40 ? digits.substr(0, 40) + "... (" + std::to_string(digits.size()) + " digits)"
                                : digits) +
            " (a number that is too large)";
   }
-  if (const auto* text = node.get<std::string>()) {
-    return shown(*text) + " (a string)";
-  }
-  if (node.get<Node::List>() != nullptr) {
-    return "a list";
-  }
+  if (const auto* text = node.get<std::string>()) return shown(*text) + " (a string)";
+  if (node.get<Node::List>() != nullptr) return "a list";
   return node.get<Node::Object>() != nullptr ? "an object" : "null";
 }
 
@@ -239,35 +221,23 @@ constexpr std::size_t line_width = 110;
 std::string on_one_line(const Node& node) {
   std::string text;
   if (const auto* object = node.get<Node::Object>()) {
-    for (const Member& member : *object) {
+    for (const Member& member : *object)
       text += (text.empty() ? "" : ", ") + file::quoted(member.key) + ": " + on_one_line(member.value);
-    }
     return '{' + text + '}';
   }
   if (const auto* list = node.get<Node::List>()) {
-    for (const Node& item : *list) {
-      text += (text.empty() ? "" : ", ") + on_one_line(item);
-    }
+    for (const Node& item : *list) text += (text.empty() ? "" : ", ") + on_one_line(item);
     return '[' + text + ']';
   }
-  if (const auto* string = node.get<std::string>()) {
-    return file::quoted(*string);
-  }
-  if (const auto* number = node.get<double>()) {
-    return number_text(*number);
-  }
-  if (const auto* oversized = node.get<Oversized>()) {
-    return oversized->digits;
-  }
+  if (const auto* string = node.get<std::string>()) return file::quoted(*string);
+  if (const auto* number = node.get<double>()) return number_text(*number);
+  if (const auto* oversized = node.get<Oversized>()) return oversized->digits;
   return node.get<bool>() != nullptr ? (*node.get<bool>() ? "true" : "false") : "null";
 }
 
 bool holds_containers(const Node::List& list) {
-  for (const Node& item : list) {
-    if (item.get<Node::List>() != nullptr || item.get<Node::Object>() != nullptr) {
-      return true;
-    }
-  }
+  for (const Node& item : list)
+    if (item.get<Node::List>() != nullptr || item.get<Node::Object>() != nullptr) return true;
   return false;
 }
 
@@ -334,11 +304,10 @@ void print_items(const Node::List& list, std::size_t indent, std::string& out) {
     out += (i == 0 ? "[" : ",") + margin + "  ";
     const std::string line = on_one_line(list[i]);
     const auto* object = list[i].get<Node::Object>();
-    if (object != nullptr && indent + 2 + line.size() + 1 > line_width) {
+    if (object != nullptr && indent + 2 + line.size() + 1 > line_width)
       print_item(*object, indent + 2, out);
-    } else {
+    else
       out += line;
-    }
   }
   out += margin + ']';
 }
@@ -346,26 +315,24 @@ void print_items(const Node::List& list, std::size_t indent, std::string& out) {
 // `column` is where the value begins; one column is kept for the comma after it.
 void print(const Node& node, std::size_t indent, std::size_t column, std::string& out) {
   const std::string line = on_one_line(node);
-  if (column + line.size() + 1 <= line_width) {
+  if (column + line.size() + 1 <= line_width)
     out += line;
-  } else if (const auto* object = node.get<Node::Object>()) {
+  else if (const auto* object = node.get<Node::Object>())
     print_members(*object, indent, out);
-  } else if (const auto* list = node.get<Node::List>()) {
+  else if (const auto* list = node.get<Node::List>())
     holds_containers(*list) ? print_items(*list, indent, out) : print_leaves(*list, column, column, out);
-  } else {
+  else
     out += line;
-  }
 }
 
 }  // namespace
 
 std::string print_tree(const Node& root) {
   std::string out;
-  if (const auto* object = root.get<Node::Object>(); object != nullptr && !object->empty()) {
+  if (const auto* object = root.get<Node::Object>(); object != nullptr && !object->empty())
     print_members(*object, 0, out);
-  } else {
+  else
     out = on_one_line(root);
-  }
   return out + '\n';
 }
 

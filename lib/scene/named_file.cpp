@@ -11,18 +11,12 @@ namespace arcslip::scene {
 std::vector<NamedFile*> files(Scene& scene) {
   std::vector<NamedFile*> all;
   const auto add = [&](const auto* type, Settings& settings) {
-    if (type == nullptr) {
-      return;
-    }
+    if (type == nullptr) return;
     const auto found = type->files(settings);
     all.insert(all.end(), found.begin(), found.end());
   };
-  for (Part& part : scene.elements) {
-    add(part.type, part.options);
-  }
-  for (Study& study : scene.studies) {
-    add(study.type, study.settings);
-  }
+  for (Part& part : scene.elements) add(part.type, part.options);
+  for (Study& study : scene.studies) add(study.type, study.settings);
   return all;
 }
 
@@ -36,9 +30,8 @@ Scene from_folder(Scene scene, const std::string& folder) {
   const fs::path before = absolute(scene.folder.path), after = absolute(folder);
   for (NamedFile* file : files(scene)) {
     const fs::path path = file->path;
-    if (path.is_relative()) {
+    if (path.is_relative())
       file->path = (before / path).lexically_normal().lexically_proximate(after).generic_string();
-    }
   }
   scene.folder.path = folder;
   return scene;

@@ -26,20 +26,13 @@ auto sections(AnyScene& scene) {
 template <class Value, class AnyScene>
 Slot<Value> find_slot(AnyScene& scene, std::string_view name) {
   const std::size_t dot = name.find('.');
-  if (dot == std::string_view::npos) {
-    return {};
-  }
+  if (dot == std::string_view::npos) return {};
   for (auto* section : sections(scene)) {
     for (auto& part : *section) {
-      if (part.name != name.substr(0, dot)) {
-        continue;
-      }
+      if (part.name != name.substr(0, dot)) continue;
       const std::span<const Field> fields = part.fields();
-      for (std::size_t i = 0; i < fields.size(); ++i) {
-        if (fields[i].name == name.substr(dot + 1)) {
-          return {&fields[i], &part.values[i]};
-        }
-      }
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        if (fields[i].name == name.substr(dot + 1)) return {&fields[i], &part.values[i]};
     }
   }
   return {};
@@ -55,9 +48,7 @@ const Tie* find_tie(const Scene& scene, std::string_view name) {
 template <class Value, class AnyScene>
 std::vector<Slot<Value>> slots_of(AnyScene& scene, std::string_view name) {
   std::vector<std::string> members = {std::string(name)};
-  if (const Tie* tie = find_tie(scene, name)) {
-    members = tie->members;
-  }
+  if (const Tie* tie = find_tie(scene, name)) members = tie->members;
   std::vector<Slot<Value>> slots;
   for (const std::string& member : members) {
     slots.push_back(find_slot<Value>(scene, member));
@@ -74,24 +65,17 @@ std::vector<Slot<Value>> slots_of(AnyScene& scene, std::string_view name) {
 
 std::vector<std::string> parameter_names(const Scene& scene) {
   std::vector<std::string> names;
-  for (const Tie& tie : scene.ties) {
-    names.push_back(tie.name);
-  }
+  for (const Tie& tie : scene.ties) names.push_back(tie.name);
   for (const auto* section : sections(scene)) {
-    for (const Part& part : *section) {
-      for (const Field& field : part.fields()) {
-        names.push_back(part.name + '.' + std::string(field.name));
-      }
-    }
+    for (const Part& part : *section)
+      for (const Field& field : part.fields()) names.push_back(part.name + '.' + std::string(field.name));
   }
   return names;
 }
 
 std::vector<const Field*> parameter_fields(const Scene& scene, std::string_view parameter) {
   std::vector<const Field*> fields;
-  for (const auto& slot : slots_of<const double>(scene, parameter)) {
-    fields.push_back(slot.field);
-  }
+  for (const auto& slot : slots_of<const double>(scene, parameter)) fields.push_back(slot.field);
   return fields;
 }
 
@@ -113,12 +97,8 @@ void set(Scene& scene, std::string_view parameter, double value) {
                            file::bound_fault(*slot.field, value));
     }
   }
-  for (const auto& slot : slots) {
-    *slot.value = value;
-  }
-  for (Study& study : scene.studies) {
-    drop(study, parameter);
-  }
+  for (const auto& slot : slots) *slot.value = value;
+  for (Study& study : scene.studies) drop(study, parameter);
 }
 
 void drop(Study& study, std::string_view parameter) {

@@ -14,57 +14,34 @@ namespace {
 
 const PartType* read_type(const Keys& keys, std::span<const PartType* const> types, Faults& faults) {
   std::vector<std::string> known;
-  for (const PartType* type : types) {
-    known.emplace_back(type->name());
-  }
+  for (const PartType* type : types) known.emplace_back(type->name());
   const std::string wanted = "one of " + listed(known);
   const Location place = keys.require("type", wanted, faults);
   const auto text = read_string(place, wanted, faults);
-  if (!text) {
-    return nullptr;
-  }
-  for (const PartType* type : types) {
-    if (type->name() == *text) {
-      return type;
-    }
-  }
+  if (!text) return nullptr;
+  for (const PartType* type : types)
+    if (type->name() == *text) return type;
   faults.add(place.pointer, "found " + shown(*text) + ", must be " + wanted + hint(*text, known));
   return nullptr;
 }
 
 // The keys of a part. An element whose type is not known may have any.
 std::vector<std::string> keys_of(const Part& part, bool is_element) {
-  if (part.type == nullptr) {
-    return {};
-  }
+  if (part.type == nullptr) return {};
   std::vector<std::string> keys = {"name"};
-  if (is_element) {
-    keys.emplace_back("type");
-  }
+  if (is_element) keys.emplace_back("type");
   const auto slots = part.type->slots();
-  for (const std::string_view slot : slots) {
-    keys.emplace_back(slot);
-  }
-  if (slots.empty()) {
-    keys.insert(keys.end(), {"at", "between", "direction"});
-  }
-  for (const Key& option : part.type->options()) {
-    keys.push_back(option.name);
-  }
-  if (part.type == &force_type()) {
-    keys.emplace_back("harmonic");
-  }
-  for (const Field& field : part.fields()) {
-    keys.emplace_back(field.name);
-  }
+  for (const std::string_view slot : slots) keys.emplace_back(slot);
+  if (slots.empty()) keys.insert(keys.end(), {"at", "between", "direction"});
+  for (const Key& option : part.type->options()) keys.push_back(option.name);
+  if (part.type == &force_type()) keys.emplace_back("harmonic");
+  for (const Field& field : part.fields()) keys.emplace_back(field.name);
   return keys;
 }
 
 Settings read_options(const PartType& type, const Location& place, const Dofs& dofs, const FileSource& source,
                       Faults& faults) {
-  if (type.options().empty()) {
-    return {};
-  }
+  if (type.options().empty()) return {};
   Faults others;  // reported with the keys of the part, which these options decide
   const Names none;
   return type.read_options(
@@ -81,13 +58,9 @@ std::vector<Direction> read_directions(const PartType& type, const Keys& keys, c
   for (const std::string_view slot : type.slots()) {
     const Location place =
         keys.require(slot, "an object with one of \"at\", \"between\", \"direction\"", faults);
-    if (place.node == nullptr) {
-      continue;
-    }
+    if (place.node == nullptr) continue;
     const Keys within(place, {"at", "between", "direction"}, faults);
-    if (const auto direction = read_direction(within, dofs, faults)) {
-      directions.push_back(*direction);
-    }
+    if (const auto direction = read_direction(within, dofs, faults)) directions.push_back(*direction);
   }
   return directions;
 }
@@ -100,9 +73,7 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
     Faults duplicates;  // reported below, once the allowed keys are known from the type
     part.type = read_type(Keys(place, {}, duplicates), types, faults);
   }
-  if (part.type != nullptr) {
-    part.options = read_options(*part.type, place, dofs, source, faults);
-  }
+  if (part.type != nullptr) part.options = read_options(*part.type, place, dofs, source, faults);
   const Keys keys(place, keys_of(part, section_type == nullptr), faults);
   if (!keys.is_object()) {
     names.set_incomplete();
@@ -112,11 +83,10 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
   const auto text = read_string(name, "a string, the name of the part", faults);
   if (text && names.add(*text, name.pointer, faults)) {
     part.name = *text;
-    if (part.type != nullptr) {
+    if (part.type != nullptr)
       names.set_fields(part.name, part.fields());
-    } else {
+    else
       names.set_unknown(part.name);
-    }
   } else if (!text || !objection(*text).empty()) {
     names.set_incomplete();
   }
@@ -125,9 +95,8 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
     return part;
   }
   part.directions = read_directions(*part.type, keys, dofs, faults);
-  if (part.type == &force_type()) {
+  if (part.type == &force_type())
     part.harmonic = read_integer(keys.find("harmonic"), 0, largest_order, faults).value_or(part.harmonic);
-  }
   for (const Field& field : part.fields()) {
     const Location value =
         field.default_value ? keys.find(field.name) : keys.require(field.name, allowed_text(field), faults);
@@ -139,22 +108,15 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
 }  // namespace
 
 std::string objection(const std::string& name) {
-  if (name.empty()) {
-    return "must be a name of at least one character";
-  }
-  if (name == ground) {
-    return "which is reserved for the fixed frame; must be another name";
-  }
-  if (name == "frequency") {
-    return "which is reserved for the excitation frequency; must be another name";
-  }
+  if (name.empty()) return "must be a name of at least one character";
+  if (name == ground) return "which is reserved for the fixed frame; must be another name";
+  if (name == "frequency") return "which is reserved for the excitation frequency; must be another name";
   const auto forbidden = [](char c) {
     const auto code = static_cast<unsigned char>(c);
     return c == '.' || c == '=' || code <= 0x20 || code == 0x7f;
   };
-  if (std::any_of(name.begin(), name.end(), forbidden)) {
+  if (std::any_of(name.begin(), name.end(), forbidden))
     return "must be a name without '.', '=' and white space";
-  }
   return {};
 }
 
@@ -180,11 +142,8 @@ const Field* Names::field(std::string_view parameter, const std::string& pointer
   const std::size_t dot = parameter.find('.');
   const auto part = parts_.find(parameter.substr(0, dot));
   if (dot != std::string_view::npos && part != parts_.end() && part->second) {
-    for (const Field& field : *part->second) {
-      if (field.name == parameter.substr(dot + 1)) {
-        return &field;
-      }
-    }
+    for (const Field& field : *part->second)
+      if (field.name == parameter.substr(dot + 1)) return &field;
   }
   if (faults.full()) {
     faults.add({}, {});
@@ -197,9 +156,7 @@ const Field* Names::field(std::string_view parameter, const std::string& pointer
 
 void Names::set_fields(const std::string& part, std::span<const Field> fields) {
   parts_.emplace(part, fields);
-  for (const Field& field : fields) {
-    fields_.push_back(part + '.' + std::string(field.name));
-  }
+  for (const Field& field : fields) fields_.push_back(part + '.' + std::string(field.name));
 }
 
 void Names::set_unknown(const std::string& part) {
@@ -211,9 +168,7 @@ std::vector<Part> read_parts(const Location& place, const PartType* type,
                              const FileSource& source, Names& names, Faults& faults) {
   std::vector<Part> parts;
   const Node::List* list = read_list(place, "a list of objects", faults);
-  if (place.node != nullptr && list == nullptr) {
-    names.set_incomplete();
-  }
+  if (place.node != nullptr && list == nullptr) names.set_incomplete();
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     parts.push_back(
         read_part({&(*list)[i], child(place.pointer, i)}, type, types, dofs, source, names, faults));
@@ -230,17 +185,14 @@ std::vector<std::string> read_members(const Location& place, const Names& names,
                                       std::unordered_map<std::string, std::string>& used, Faults& faults) {
   std::vector<std::string> members;
   const Node::List* list = read_list(place, members_wanted, faults);
-  if (list != nullptr && list->empty()) {
+  if (list != nullptr && list->empty())
     faults.add(place.pointer, "found an empty list, must be " + std::string(members_wanted));
-  }
   std::string_view unit;
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const Location item{&(*list)[i], child(place.pointer, i)};
     const auto member = read_string(item, "a string, a parameter \"part.field\"", faults);
     const Field* field = member ? names.field(*member, item.pointer, faults) : nullptr;
-    if (field == nullptr) {
-      continue;
-    }
+    if (field == nullptr) continue;
     const auto [first, is_new] = used.emplace(*member, item.pointer);
     if (!is_new) {
       faults.add(item.pointer, "found " + shown(*member) + " again, which is also at " + first->second +
@@ -261,15 +213,11 @@ std::vector<std::string> read_members(const Location& place, const Names& names,
 
 std::vector<Tie> read_ties(const Location& place, Names& names, Faults& faults) {
   std::vector<Tie> ties;
-  if (place.node == nullptr || !Keys(place, {}, faults).is_object()) {
-    return ties;
-  }
+  if (place.node == nullptr || !Keys(place, {}, faults).is_object()) return ties;
   std::unordered_map<std::string, std::string> used;
   std::unordered_map<std::string, int> seen;
   for (const Member& member : *place.node->get<Node::Object>()) {
-    if (seen[member.key]++ > 0) {
-      continue;  // reported as a duplicate key
-    }
+    if (seen[member.key]++ > 0) continue;  // reported as a duplicate key
     const Location item{&member.value, child(place.pointer, member.key)};
     names.add(member.key, item.pointer, faults);
     ties.push_back({member.key, read_members(item, names, used, faults)});
@@ -285,9 +233,7 @@ constexpr std::string_view dofs_wanted = "a list of at least one name";
 // Adds weight * x_name; ground adds nothing. False where the name is not known.
 bool add_term(const std::string& name, double weight, const std::string& pointer, const Dofs& dofs,
               Direction& direction, Faults& faults) {
-  if (name == ground) {
-    return true;
-  }
+  if (name == ground) return true;
   const auto found = dofs.index.find(name);
   if (found == dofs.index.end()) {
     if (faults.full()) {
@@ -300,11 +246,10 @@ bool add_term(const std::string& name, double weight, const std::string& pointer
   }
   const auto same = [&](const Term& term) { return term.dof == found->second; };
   const auto term = std::find_if(direction.begin(), direction.end(), same);
-  if (term == direction.end()) {
+  if (term == direction.end())
     direction.push_back({found->second, weight});
-  } else {
+  else
     term->weight += weight;
-  }
   return true;
 }
 
@@ -316,9 +261,7 @@ bool read_at(const Location& place, const Dofs& dofs, Direction& direction, Faul
 bool read_between(const Location& place, const Dofs& dofs, Direction& direction, Faults& faults) {
   constexpr std::string_view wanted = "a list of two names of degrees of freedom";
   const Node::List* list = read_list(place, wanted, faults);
-  if (list == nullptr) {
-    return false;
-  }
+  if (list == nullptr) return false;
   if (list->size() != 2) {
     faults.add(place.pointer,
                "found a list of " + std::to_string(list->size()) + ", must be " + std::string(wanted));
@@ -336,9 +279,7 @@ bool read_between(const Location& place, const Dofs& dofs, Direction& direction,
 bool read_weights(const Location& place, const Dofs& dofs, Direction& direction, Faults& faults) {
   const std::size_t before = faults.count();
   const Keys keys(place, {}, faults);
-  if (!keys.is_object() || faults.count() > before) {
-    return false;
-  }
+  if (!keys.is_object() || faults.count() > before) return false;
   bool good = true;
   for (const Member& member : *place.node->get<Node::Object>()) {
     const Location item{&member.value, child(place.pointer, member.key)};
@@ -354,9 +295,8 @@ Dofs read_dofs(const Location& place, Faults& faults) {
   Dofs dofs;
   const std::size_t before = faults.count();
   const Node::List* list = read_list(place, dofs_wanted, faults);
-  if (list != nullptr && list->empty()) {
+  if (list != nullptr && list->empty())
     faults.add(place.pointer, "found an empty list, must be " + std::string(dofs_wanted));
-  }
   if (list != nullptr && list->size() > largest_dofs) {
     faults.add(place.pointer, "found " + std::to_string(list->size()) +
                                   " degrees of freedom, must be at most " + std::to_string(largest_dofs) +
@@ -366,9 +306,7 @@ Dofs read_dofs(const Location& place, Faults& faults) {
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const Location item{&(*list)[i], child(place.pointer, i)};
     const auto name = read_string(item, "a string, the name of a degree of freedom", faults);
-    if (!name) {
-      continue;
-    }
+    if (!name) continue;
     const auto first = dofs.index.find(*name);
     if (name->empty()) {
       faults.add(item.pointer, "found \"\", must be a name of at least one character");
@@ -390,11 +328,8 @@ Dofs read_dofs(const Location& place, Faults& faults) {
 
 std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults) {
   std::vector<std::string> given;
-  for (const std::string_view key : {"at", "between", "direction"}) {
-    if (keys.has(key)) {
-      given.emplace_back(key);
-    }
-  }
+  for (const std::string_view key : {"at", "between", "direction"})
+    if (keys.has(key)) given.emplace_back(key);
   if (given.size() != 1) {
     if (keys.is_object()) {
       faults.add(keys.pointer(), "found " + (given.empty() ? "no place" : listed(given) + " together") +
@@ -407,9 +342,7 @@ std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faul
   const bool good = given.front() == "at"        ? read_at(place, dofs, direction, faults)
                     : given.front() == "between" ? read_between(place, dofs, direction, faults)
                                                  : read_weights(place, dofs, direction, faults);
-  if (!good) {
-    return {};
-  }
+  if (!good) return {};
   std::erase_if(direction, [](const Term& term) { return term.weight == 0; });
   if (direction.empty()) {
     faults.add(

@@ -29,18 +29,14 @@ Field frequency_field(FrequencyUnit unit) {
 
 std::vector<std::string> names_of(const Catalogue& catalogue) {
   std::vector<std::string> names;
-  for (const StudyType* type : catalogue.studies) {
-    names.emplace_back(type->name());
-  }
+  for (const StudyType* type : catalogue.studies) names.emplace_back(type->name());
   return names;
 }
 
 // The keys of a study of some kind, in the order in which they are written.
 std::vector<std::string> study_keys(const StudyType& type) {
   std::vector<std::string> names{"name", "kind"};
-  for (const Key& key : type.keys()) {
-    names.push_back(key.name);
-  }
+  for (const Key& key : type.keys()) names.push_back(key.name);
   names.emplace_back("for_each");
   return names;
 }
@@ -50,9 +46,7 @@ std::string kinds_with(std::string_view key, const Catalogue& catalogue) {
   std::vector<std::string> kinds;
   for (const StudyType* type : catalogue.studies) {
     const auto keys = study_keys(*type);
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
-      kinds.emplace_back(type->name());
-    }
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) kinds.emplace_back(type->name());
   }
   return kinds.empty() ? "" : "which belongs to studies of kind " + listed(kinds);
 }
@@ -98,16 +92,12 @@ std::vector<Study> read_studies(const Location& place, FrequencyUnit unit, const
     Study study;
     if (item.node->get<Node::Object>() != nullptr) {
       study.type = read_kind(item, catalogue, faults);
-      if (study.type == nullptr) {
-        continue;  // without its kind its other keys are unknown
-      }
+      if (study.type == nullptr) continue;  // without its kind its other keys are unknown
     }
     const Keys keys(
         item, study.type != nullptr ? study_keys(*study.type) : std::vector<std::string>{"name", "kind"},
         faults, elsewhere);
-    if (!keys.is_object()) {
-      continue;
-    }
+    if (!keys.is_object()) continue;
     const Location name = keys.find("name");
     if (const auto text = read_string(name, "a string, the name of the study", faults)) {
       const auto [first, is_new] = used.emplace(*text, name.pointer);

@@ -47,9 +47,8 @@ class OpenFile {
   // Appends what is there. False at the end of the file, or after an error, which errno tells.
   bool read_some(std::string& text) const {
     pollfd place{descriptor_, POLLIN, 0};
-    if (::poll(&place, 1, poll_milliseconds) <= 0) {  // a pipe may have no writer yet
+    if (::poll(&place, 1, poll_milliseconds) <= 0)  // a pipe may have no writer yet
       return true;
-    }
     const std::size_t before = text.size();
     text.resize(before + chunk);
     errno = 0;
@@ -73,9 +72,8 @@ std::string read_text(std::istream& in) {
     text.resize(before + static_cast<std::size_t>(in.gcount()));
     check_size(text, "scene");
   }
-  if (in.bad() || !in.eof()) {
+  if (in.bad() || !in.eof())
     throw FileError("reading the scene failed after " + std::to_string(text.size()) + " bytes");
-  }
   return text;
 }
 
@@ -89,17 +87,14 @@ std::string read_text(const std::string& path, const StopRequest& stop, const st
   }
   if (fs::is_regular_file(status)) {
     const std::uintmax_t size = fs::file_size(path, error);
-    if (!error && size > largest_size) {
+    if (!error && size > largest_size)
       throw SceneError({{"", "found a file of " + std::to_string(size) + " bytes, " + largest_text(noun)}});
-    }
   }
   const OpenFile file(path);
   std::string text;
   while (file.read_some(text)) {
     check_size(text, noun);
-    if (is_asked(stop)) {
-      throw Interrupted("interrupted while " + results::visible(path) + " was read");
-    }
+    if (is_asked(stop)) throw Interrupted("interrupted while " + results::visible(path) + " was read");
   }
   if (errno != 0) {
     throw FileError(results::visible(path) + ": reading the " + noun + " failed after " +

@@ -49,34 +49,25 @@ Location Keys::find(std::string_view key) const {
 
 Location Keys::require(std::string_view key, const std::string& what, Faults& faults) const {
   Location place = find(key);
-  if (place.node == nullptr && is_object()) {
+  if (place.node == nullptr && is_object())
     faults.add(place.pointer, "found no key " + quoted(key) + ", which is required: must be " + what);
-  }
   return place;
 }
 
 std::vector<const Member*> members(const Location& place, Faults& faults) {
   std::vector<const Member*> all;
-  if (place.node == nullptr || !Keys(place, {}, faults).is_object()) {
-    return all;
-  }
+  if (place.node == nullptr || !Keys(place, {}, faults).is_object()) return all;
   std::unordered_set<std::string_view> seen;
-  for (const Member& member : *place.node->get<Node::Object>()) {
-    if (seen.insert(member.key).second) {  // the second is reported as a duplicate key
+  for (const Member& member : *place.node->get<Node::Object>())
+    if (seen.insert(member.key).second)  // the second is reported as a duplicate key
       all.push_back(&member);
-    }
-  }
   return all;
 }
 
 std::optional<double> read_number(const Location& place, const Field& bounds, Faults& faults) {
-  if (place.node == nullptr) {
-    return {};
-  }
+  if (place.node == nullptr) return {};
   if (const auto* number = place.node->get<double>()) {
-    if (within(bounds, *number)) {
-      return *number;
-    }
+    if (within(bounds, *number)) return *number;
     faults.add(place.pointer, bound_fault(bounds, *number));
   } else if (place.node->get<Oversized>() != nullptr) {
     add_wrong_type(place, "a finite number of at most 1.797e308 in size", faults);
@@ -89,13 +80,10 @@ std::optional<double> read_number(const Location& place, const Field& bounds, Fa
 
 std::optional<int> read_integer(const Location& place, int lower, int upper, Faults& faults,
                                 std::string_view why) {
-  if (place.node == nullptr) {
-    return {};
-  }
+  if (place.node == nullptr) return {};
   const auto* number = place.node->get<double>();
-  if (number != nullptr && *number == std::floor(*number) && *number >= lower && *number <= upper) {
+  if (number != nullptr && *number == std::floor(*number) && *number >= lower && *number <= upper)
     return static_cast<int>(*number);
-  }
   const std::string found = number != nullptr ? number_text(*number) : described(*place.node);
   faults.add(place.pointer, "found " + found + ", must be an integer from " + std::to_string(lower) + " to " +
                                 std::to_string(upper) + std::string(why));
@@ -103,24 +91,16 @@ std::optional<int> read_integer(const Location& place, int lower, int upper, Fau
 }
 
 std::optional<std::string> read_string(const Location& place, std::string_view what, Faults& faults) {
-  if (place.node == nullptr) {
-    return {};
-  }
-  if (const auto* text = place.node->get<std::string>()) {
-    return *text;
-  }
+  if (place.node == nullptr) return {};
+  if (const auto* text = place.node->get<std::string>()) return *text;
   add_wrong_type(place, what, faults);
   return {};
 }
 
 const Node::List* read_list(const Location& place, std::string_view what, Faults& faults) {
-  if (place.node == nullptr) {
-    return nullptr;
-  }
+  if (place.node == nullptr) return nullptr;
   const auto* list = place.node->get<Node::List>();
-  if (list == nullptr) {
-    add_wrong_type(place, what, faults);
-  }
+  if (list == nullptr) add_wrong_type(place, what, faults);
   return list;
 }
 

@@ -68,9 +68,7 @@ template <class Words, class Choice>
 Choice read_choice(const Location& place, const Words& words, Choice otherwise, Faults& faults) {
   const std::vector<std::string> known = texts(words);
   if (const auto text = read_string(place, "one of " + listed(known), faults)) {
-    if (const auto value = value_of<Choice>(words, *text)) {
-      return *value;
-    }
+    if (const auto value = value_of<Choice>(words, *text)) return *value;
     faults.add(place.pointer,
                "found " + shown(*text) + ", must be one of " + listed(known) + hint(*text, known));
   }

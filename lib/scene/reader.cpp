@@ -21,9 +21,8 @@ void read_format(const Keys& keys, Faults& faults) {
   const std::string wanted = quoted(format_name);
   const Location place = keys.require("format", wanted, faults);
   const auto text = read_string(place, wanted, faults);
-  if (text && *text != format_name) {
+  if (text && *text != format_name)
     faults.add(place.pointer, "found " + shown(*text) + ", must be " + wanted);
-  }
 }
 
 Harmonics read_harmonics(const Location& place, Faults& faults) {
@@ -49,9 +48,7 @@ Response read_named_response(const Location& place, const Dofs& dofs, const std:
   constexpr const char* wanted = "a string, the name of the response";
   const Keys keys(place, {"name", "at", "between", "direction"}, faults);
   Response response;
-  if (!keys.is_object()) {
-    return response;
-  }
+  if (!keys.is_object()) return response;
   const Location name = keys.require("name", wanted, faults);
   if (const auto text = read_string(name, wanted, faults)) {
     response.name = *text;
@@ -87,9 +84,8 @@ std::vector<Response> read_responses(const Location& place, const Dofs& dofs, Fa
   }
   std::vector<Response> responses;
   const Node::List& list = *place.node->get<Node::List>();
-  for (std::size_t i = 0; i < list.size(); ++i) {
+  for (std::size_t i = 0; i < list.size(); ++i)
     responses.push_back(read_named_response({&list[i], child(place.pointer, i)}, dofs, responses, faults));
-  }
   if (responses.empty()) {
     faults.add(place.pointer, "found an empty list, must be " + std::string(wanted_response));
     responses.emplace_back();
@@ -102,9 +98,8 @@ std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, const File
   constexpr const char* wanted = "a list of at least one force";
   const Location place = root.require("excitation", wanted, faults);
   std::vector<Part> forces = read_parts(place, &force_type(), {}, dofs, source, names, faults);
-  if (place.node != nullptr && place.node->get<Node::List>() != nullptr && forces.empty()) {
+  if (place.node != nullptr && place.node->get<Node::List>() != nullptr && forces.empty())
     faults.add(place.pointer, std::string("found an empty list, must be ") + wanted);
-  }
   return forces;
 }
 
@@ -114,9 +109,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
                   {"format", "title", "frequency_unit", "structure", "elements", "excitation", "ties",
                    "harmonics", "response", "studies", "$schema"},
                   faults);
-  if (!root.is_object()) {
-    return scene;
-  }
+  if (!root.is_object()) return scene;
   // Faults up to a section: a check that needs sound sections waits until they are.
   const auto is_sound = [&faults](std::size_t before) { return faults.count() == before; };
 
@@ -129,9 +122,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   Names names;
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
   const Keys structure(structure_place, {"dofs", "masses", "springs", "dampers"}, faults);
-  if (!structure.is_object()) {
-    names.set_incomplete();
-  }
+  if (!structure.is_object()) names.set_incomplete();
   const Dofs dofs = read_dofs(structure.require("dofs", "a list of at least one name", faults), faults);
   scene.dofs = dofs.names;
   scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
@@ -139,9 +130,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   scene.dampers = read_parts(structure.find("dampers"), &damper_type(), {}, dofs, source, names, faults);
   scene.elements =
       read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, source, names, faults);
-  if (is_sound(before_parts)) {
-    check_structure(scene, faults);
-  }
+  if (is_sound(before_parts)) check_structure(scene, faults);
 
   const std::size_t before_excitation = faults.count();
   scene.excitation = read_excitation(root, dofs, source, names, faults);
@@ -150,17 +139,13 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   const std::size_t before_ties = faults.count();
   scene.ties = read_ties(root.find("ties"), names, faults);
   const bool ties_sound = is_sound(before_ties);
-  if (is_sound(before_parts)) {
-    check_ties(scene, faults);
-  }
+  if (is_sound(before_parts)) check_ties(scene, faults);
 
   const std::size_t before_harmonics = faults.count();
   scene.harmonics = read_harmonics(root.find("harmonics"), faults);
   if (is_sound(before_harmonics)) {
     check_samples(scene, faults);
-    if (excitation_sound) {
-      check_excitation(scene, faults);
-    }
+    if (excitation_sound) check_excitation(scene, faults);
   }
 
   scene.responses = read_responses(root.find("response"), dofs, faults);
@@ -180,25 +165,17 @@ Scene read_scene(const Node& root, const Catalogue& catalogue, const FileSource&
 // What has been read of a scene before.
 FileSource source_of(Scene scene) {
   FileSource source{scene.folder};
-  for (const NamedFile* file : files(scene)) {
-    source.read.push_back(*file);
-  }
+  for (const NamedFile* file : files(scene)) source.read.push_back(*file);
   return source;
 }
 
 // What the scene itself has.
 Catalogue catalogue_of(const Scene& scene) {
   Catalogue catalogue;
-  for (const Part& part : scene.elements) {
-    if (catalogue.element(part.type->name()) == nullptr) {
-      catalogue.elements.push_back(part.type);
-    }
-  }
-  for (const Study& study : scene.studies) {
-    if (catalogue.study(study.type->name()) == nullptr) {
-      catalogue.studies.push_back(study.type);
-    }
-  }
+  for (const Part& part : scene.elements)
+    if (catalogue.element(part.type->name()) == nullptr) catalogue.elements.push_back(part.type);
+  for (const Study& study : scene.studies)
+    if (catalogue.study(study.type->name()) == nullptr) catalogue.studies.push_back(study.type);
   return catalogue;
 }
 
@@ -235,11 +212,9 @@ void check(const Scene& scene) {
                                                   " for the type " + file::shown(part.type->name()));
     }
   }
-  for (std::size_t i = 0; i < scene.studies.size(); ++i) {
-    if (scene.studies[i].type == nullptr) {
+  for (std::size_t i = 0; i < scene.studies.size(); ++i)
+    if (scene.studies[i].type == nullptr)
       faults.add(file::child("/studies", i), "found no kind, must be a study of some kind");
-    }
-  }
   faults.raise();
   file::read_scene(file::read_tree(write(scene)), file::catalogue_of(scene), file::source_of(scene));
 }
@@ -247,21 +222,18 @@ void check(const Scene& scene) {
 Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::Member>& keys) {
   file::Node root = file::tree(scene);
   for (file::Member& section : std::get<file::Node::Object>(root.value)) {
-    if (section.key != "studies") {
-      continue;
-    }
+    if (section.key != "studies") continue;
     auto& studies = std::get<file::Node::List>(section.value.value);
     auto& object = std::get<file::Node::Object>(studies[study].value);
     for (const file::Member& key : keys) {
       const auto own = std::find_if(object.begin(), object.end(),
                                     [&](const file::Member& member) { return member.key == key.key; });
-      if (key.value.get<std::nullptr_t>() != nullptr) {
+      if (key.value.get<std::nullptr_t>() != nullptr)
         object.erase(own, own == object.end() ? own : own + 1);
-      } else if (own != object.end()) {
+      else if (own != object.end())
         own->value = key.value;
-      } else {
+      else
         object.push_back(key);
-      }
     }
   }
   return file::read_scene(file::read_tree(file::print_tree(root)), file::catalogue_of(scene),

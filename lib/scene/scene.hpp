@@ -53,9 +53,8 @@ struct Tie {
 };
 
 struct Harmonics {
-  int order = 7;  // highest harmonic N of the base frequency, 1 to 2000
-  int period =
-      1;  // of the motion, in periods of the excitation: base frequency = excitation frequency/period
+  int order = 7;   // highest harmonic N of the base frequency, 1 to 2000
+  int period = 1;  // of the motion, in periods of the excitation; base frequency = its frequency/period
   Friction friction = Friction::exact;
   int samples = 512;  // samples per period where friction is sampled
   friend bool operator==(const Harmonics&, const Harmonics&) = default;

@@ -101,20 +101,14 @@ double read_frequency(const Reading& reading) {
 }  // namespace file
 
 const PartType* Catalogue::element(std::string_view name) const {
-  for (const PartType* type : elements) {
-    if (type->name() == name) {
-      return type;
-    }
-  }
+  for (const PartType* type : elements)
+    if (type->name() == name) return type;
   return nullptr;
 }
 
 const StudyType* Catalogue::study(std::string_view name) const {
-  for (const StudyType* type : studies) {
-    if (type->name() == name) {
-      return type;
-    }
-  }
+  for (const StudyType* type : studies)
+    if (type->name() == name) return type;
   return nullptr;
 }
 

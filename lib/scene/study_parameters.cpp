@@ -27,22 +27,20 @@ std::vector<double> read_values(const Location& place, const std::vector<const F
   constexpr std::string_view wanted = "a list of at least one number";
   std::vector<double> values;
   const Node::List* list = read_list(place, wanted, faults);
-  if (list != nullptr && list->empty()) {
+  if (list != nullptr && list->empty())
     faults.add(place.pointer, "found an empty list, must be " + std::string(wanted));
-  }
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const Node& node = (*list)[i];
     const auto* number = node.get<double>();
     const auto bad = std::find_if(fields.begin(), fields.end(), [&](const Field* field) {
       return number == nullptr || !within(*field, *number);
     });
-    if (number != nullptr && bad == fields.end()) {
+    if (number != nullptr && bad == fields.end())
       values.push_back(*number);
-    } else if (bad != fields.end()) {
+    else if (bad != fields.end())
       read_number({&node, child(place.pointer, i)}, **bad, faults);
-    } else {
+    else
       add_wrong_type({&node, child(place.pointer, i)}, "a number", faults);
-    }
   }
   return values;
 }
@@ -53,9 +51,7 @@ Parameters::Parameters(const std::vector<Tie>& all_ties, bool complete, const Na
     : ties(all_ties), ties_complete(complete), names(all_names) {
   for (const Tie& tie : ties) {
     tie_by_name.emplace(tie.name, &tie);
-    for (const std::string& member : tie.members) {
-      tie_of_field.emplace(member, &tie);
-    }
+    for (const std::string& member : tie.members) tie_of_field.emplace(member, &tie);
   }
 }
 
@@ -71,9 +67,8 @@ std::vector<const Field*> fields_of(const std::string& parameter, const std::str
   Faults ignored;
   std::vector<const Field*> fields;
   if (tie != all.tie_by_name.end()) {
-    for (const std::string& member : tie->second->members) {
+    for (const std::string& member : tie->second->members)
       fields.push_back(all.names.field(member, pointer, ignored));
-    }
   } else if (all.names.may_exist(parameter) ||
              (!all.ties_complete && parameter.find('.') == std::string::npos)) {
     return {};  // it may belong to what could not be read
@@ -81,9 +76,7 @@ std::vector<const Field*> fields_of(const std::string& parameter, const std::str
     fields.push_back(field);
   } else if (!faults.full()) {
     std::vector<std::string> known;
-    for (const Tie& each : all.ties) {
-      known.push_back(each.name);
-    }
+    for (const Tie& each : all.ties) known.push_back(each.name);
     known.insert(known.end(), all.names.fields().begin(), all.names.fields().end());
     faults.add(pointer, "found the unknown parameter " + shown(parameter) + ", must be one of " +
                             listed(known) + hint(parameter, known));
@@ -108,18 +101,15 @@ bool is_taken(const std::string& parameter, const std::string& pointer, const st
               Faults& faults) {
   const auto found = std::find_if(taken.begin(), taken.end(),
                                   [&](const Taken& each) { return each.parameter == parameter; });
-  if (found != taken.end()) {
+  if (found != taken.end())
     faults.add(pointer, "found " + shown(parameter) + ", " + found->how + "; must be another parameter");
-  }
   return found != taken.end();
 }
 
 Field read_parameter(const Location& place, const Parameters& all, std::string& parameter, Faults& faults) {
   constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
   const auto over = read_string(place, wanted, faults);
-  if (!over) {
-    return any_number;
-  }
+  if (!over) return any_number;
   parameter = *over;
   if (*over == "frequency") {
     faults.add(
@@ -142,9 +132,8 @@ ValueLists read_value_lists(const Location& place, const Parameters& all, const 
   for (const Member* member : members(place, faults)) {
     const Location item{&member->value, child(place.pointer, member->key)};
     const auto fields = fields_of(member->key, item.pointer, all, faults);
-    if (fields.empty() || !is_taken(member->key, item.pointer, taken, faults)) {
+    if (fields.empty() || !is_taken(member->key, item.pointer, taken, faults))
       lists.emplace_back(member->key, read_values(item, fields, faults));
-    }
   }
   return lists;
 }
@@ -152,9 +141,7 @@ ValueLists read_value_lists(const Location& place, const Parameters& all, const 
 std::pair<double, double> read_pair(const Location& place, const std::string& wanted, const Field& field,
                                     std::string_view what, Faults& faults) {
   const Node::List* list = read_list(place, wanted, faults);
-  if (list == nullptr) {
-    return {};
-  }
+  if (list == nullptr) return {};
   if (list->size() != 2) {
     faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
     return {};

@@ -55,31 +55,23 @@ inline constexpr std::array<std::string_view, 25> result_names = {"kind",
 template <class Words>
 std::vector<std::string> texts(const Words& words) {
   std::vector<std::string> result;
-  for (const auto& word : words) {
-    result.emplace_back(word.text);
-  }
+  for (const auto& word : words) result.emplace_back(word.text);
   return result;
 }
 
 /// The word of a value.
 template <class Words, class Choice>
 constexpr std::string_view word_of(const Words& words, Choice value) {
-  for (const auto& word : words) {
-    if (word.value == value) {
-      return word.text;
-    }
-  }
+  for (const auto& word : words)
+    if (word.value == value) return word.text;
   return {};
 }
 
 /// The value of a word, or none.
 template <class Choice, class Words>
 std::optional<Choice> value_of(const Words& words, std::string_view text) {
-  for (const auto& word : words) {
-    if (word.text == text) {
-      return word.value;
-    }
-  }
+  for (const auto& word : words)
+    if (word.text == text) return word.value;
   return std::nullopt;
 }
 

@@ -28,32 +28,23 @@ Node node(int value) {
 
 Node node(const std::vector<double>& values) {
   Node::List list;
-  for (const double value : values) {
-    list.push_back(node(value));
-  }
+  for (const double value : values) list.push_back(node(value));
   return {std::move(list)};
 }
 
 Node node(const std::vector<std::string>& texts) {
   Node::List list;
-  for (const std::string& text : texts) {
-    list.push_back(node(text));
-  }
+  for (const std::string& text : texts) list.push_back(node(text));
   return {std::move(list)};
 }
 
 Member place_member(const Direction& direction, const std::vector<std::string>& dofs) {
   const auto name = [&](std::size_t i) { return dofs[static_cast<std::size_t>(direction[i].dof)]; };
-  if (direction.size() == 1 && direction[0].weight == 1) {
-    return {"at", node(name(0))};
-  }
-  if (direction.size() == 2 && direction[0].weight == 1 && direction[1].weight == -1) {
+  if (direction.size() == 1 && direction[0].weight == 1) return {"at", node(name(0))};
+  if (direction.size() == 2 && direction[0].weight == 1 && direction[1].weight == -1)
     return {"between", node(std::vector<std::string>{name(0), name(1)})};
-  }
   Node::Object weights;
-  for (std::size_t i = 0; i < direction.size(); ++i) {
-    weights.push_back({name(i), node(direction[i].weight)});
-  }
+  for (std::size_t i = 0; i < direction.size(); ++i) weights.push_back({name(i), node(direction[i].weight)});
   return {"direction", {std::move(weights)}};
 }
 
@@ -70,24 +61,16 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
   Node::List list;
   for (const Part& part : parts) {
     Node::Object object = {{"name", node(part.name)}};
-    if (with_type) {
-      object.push_back({"type", node(part.type->name())});
-    }
+    if (with_type) object.push_back({"type", node(part.type->name())});
     const auto slots = part.type->slots();
-    if (slots.empty()) {
-      object.push_back(place_member(part.directions.front(), dofs));
-    }
-    for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots.empty()) object.push_back(place_member(part.directions.front(), dofs));
+    for (std::size_t i = 0; i < slots.size(); ++i)
       object.push_back({std::string(slots[i]), {Node::Object{place_member(part.directions[i], dofs)}}});
-    }
     part.type->write_options(part.options, scene, object);
-    if (part.type == &force_type()) {
-      object.push_back({"harmonic", node(part.harmonic)});
-    }
+    if (part.type == &force_type()) object.push_back({"harmonic", node(part.harmonic)});
     const std::span<const Field> fields = part.fields();
-    for (std::size_t i = 0; i < fields.size(); ++i) {
+    for (std::size_t i = 0; i < fields.size(); ++i)
       object.push_back({std::string(fields[i].name), node(part.values[i])});
-    }
     list.push_back({std::move(object)});
   }
   return {std::move(list)};
@@ -95,9 +78,7 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
 
 Node ties_node(const std::vector<Tie>& ties) {
   Node::Object object;
-  for (const Tie& tie : ties) {
-    object.push_back({tie.name, node(tie.members)});
-  }
+  for (const Tie& tie : ties) object.push_back({tie.name, node(tie.members)});
   return {std::move(object)};
 }
 
@@ -112,9 +93,7 @@ Node study_node(const Study& study, const Scene& scene) {
   Node::Object object = {{"name", node(study.name)}, {"kind", node(study.type->name())}};
   study.type->write(study.settings, scene, object);
   Node::Object lists;
-  for (const auto& [parameter, values] : study.for_each) {
-    lists.push_back({parameter, node(values)});
-  }
+  for (const auto& [parameter, values] : study.for_each) lists.push_back({parameter, node(values)});
   object.push_back({"for_each", {std::move(lists)}});
   return {std::move(object)};
 }
@@ -123,9 +102,7 @@ Node responses_node(const Scene& scene) {
   Node::List list;
   for (const Response& response : scene.responses) {
     Node::Object object;
-    if (!response.name.empty()) {
-      object.push_back({"name", node(response.name)});
-    }
+    if (!response.name.empty()) object.push_back({"name", node(response.name)});
     object.push_back(place_member(response.direction, scene.dofs));
     list.push_back({std::move(object)});
   }
@@ -135,9 +112,7 @@ Node responses_node(const Scene& scene) {
 
 Node studies_node(const Scene& scene) {
   Node::List list;
-  for (const Study& study : scene.studies) {
-    list.push_back(study_node(study, scene));
-  }
+  for (const Study& study : scene.studies) list.push_back(study_node(study, scene));
   return {std::move(list)};
 }
 
@@ -169,9 +144,7 @@ std::string write(const Scene& scene) {
 std::string hash(const Scene& scene) {
   std::uint64_t state = 0xcbf29ce484222325u;  // FNV-1a, 64 bits (Fowler, Noll, Vo)
   const auto add = [&](const std::string& text) {
-    for (const char c : text) {
-      state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    }
+    for (const char c : text) state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   };
   Scene copy = scene;
   std::vector<std::string> texts;
@@ -181,13 +154,10 @@ std::string hash(const Scene& scene) {
     file->path.clear();
   }
   add(write(copy));
-  for (const std::string& text : texts) {
-    add(text);
-  }
+  for (const std::string& text : texts) add(text);
   std::array<char, 16> digits{};
-  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, state >>= 4) {
+  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, state >>= 4)
     *digit = "0123456789abcdef"[state & 15];
-  }
   return {digits.data(), digits.size()};
 }
 

@@ -17,14 +17,9 @@ std::vector<std::string> friction_elements(std::span<const observables::Response
   std::vector<std::string> names;
   for (const observables::ResponseBranch* branch : branches) {
     for (const observables::ResponsePoint& point : branch->points) {
-      for (const observables::ElementResponse& element : point.elements) {
-        if (element.has_stick) {
-          names.push_back(element.name);
-        }
-      }
-      if (!point.elements.empty()) {
-        return names;  // every point of a scene has the same elements
-      }
+      for (const observables::ElementResponse& element : point.elements)
+        if (element.has_stick) names.push_back(element.name);
+      if (!point.elements.empty()) return names;  // every point of a scene has the same elements
     }
   }
   return names;
@@ -32,11 +27,8 @@ std::vector<std::string> friction_elements(std::span<const observables::Response
 
 // Share of the period in which this element sticks (%); NaN where the point does not know.
 double stick_percent(const observables::ResponsePoint& point, std::string_view element) {
-  for (const observables::ElementResponse& candidate : point.elements) {
-    if (candidate.has_stick && candidate.name == element) {
-      return candidate.stick_percent;
-    }
-  }
+  for (const observables::ElementResponse& candidate : point.elements)
+    if (candidate.has_stick && candidate.name == element) return candidate.stick_percent;
   return std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -55,14 +47,10 @@ constexpr double decade = 10;
 Record record(const scene::Scene& scene, BranchKind kind, const std::vector<std::string>& friction,
               const ResponsePoint& point) {
   Record values;
-  if (kind != BranchKind::responses) {
-    values.push_back(point.over);
-  }
+  if (kind != BranchKind::responses) values.push_back(point.over);
   values.push_back(in_scene_unit(scene, point.omega));
   values.push_back(point.unbounded ? observables::no_value : point.amplitude);
-  for (const std::string& element : friction) {
-    values.push_back(stick_percent(point, element));
-  }
+  for (const std::string& element : friction) values.push_back(stick_percent(point, element));
   return values;
 }
 
@@ -72,9 +60,7 @@ void set_ranges(BranchKind kind, FigureData& data) {
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     FigureColumn& column = data.columns[i];
     column.range = results::full_range(data, i);
-    if (column.scale == Scale::percent || i == frequency_column(kind)) {
-      continue;
-    }
+    if (column.scale == Scale::percent || i == frequency_column(kind)) continue;
     const bool is_amplitude = i == amplitude_column(kind);
     const Range positive = is_amplitude ? results::range_of(data, i, 0) : column.range;
     if (positive.lower > 0 && positive.upper >= positive.lower &&
@@ -87,14 +73,12 @@ void set_ranges(BranchKind kind, FigureData& data) {
 
 void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<std::string>& friction,
                  const std::string& over, FigureData& data) {
-  if (kind != BranchKind::responses) {
+  if (kind != BranchKind::responses)
     data.columns.push_back({results::with_unit(over, over.empty() ? "" : parameter_unit(scene, over))});
-  }
   data.columns.push_back({results::with_unit("frequency", scene::unit_name(scene.frequency_unit))});
   data.columns.push_back({"amplitude (m)"});
-  for (const std::string& element : friction) {
+  for (const std::string& element : friction)
     data.columns.push_back({element + " stick (%)", Scale::percent});
-  }
 }
 
 /// A figure for each friction element, with its stick share on one of the axes.
@@ -149,23 +133,19 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
   FigureData data;
   data.title = scene.title;
   std::vector<const ResponseBranch*> branches;
-  for (const LineOfBranches& each : lines) {
+  for (const LineOfBranches& each : lines)
     branches.insert(branches.end(), each.branches.begin(), each.branches.end());
-  }
   const std::vector<std::string> friction = friction_elements(branches);
   set_columns(scene, kind, friction, branches.empty() ? "" : branches.front()->over, data);
   for (LineOfBranches& each : lines) {
     FigureLine line = std::move(each.line);
     for (const ResponseBranch* branch : each.branches) {
-      if (branch->points.empty()) {
-        continue;
-      }
+      if (branch->points.empty()) continue;
       for (const observables::ResponseEvent& event : branch->events) {
         line.unbounded = line.unbounded || event.point.unbounded;
         if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) !=
-            results::mark_kinds.end()) {
+            results::mark_kinds.end())
           line.marks.push_back({event.kind, record(scene, kind, friction, event.point)});
-        }
       }
       std::vector<Record>& part = line.parts.emplace_back();
       for (const ResponsePoint& point : branch->points) {
@@ -173,9 +153,7 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
         part.push_back(record(scene, kind, friction, point));
       }
     }
-    if (!line.parts.empty()) {
-      data.lines.push_back(std::move(line));
-    }
+    if (!line.parts.empty()) data.lines.push_back(std::move(line));
   }
   set_ranges(kind, data);
   set_figures(kind, friction, data);
@@ -188,15 +166,12 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::span<cons
     auto line = std::find_if(lines.begin(), lines.end(), [&](const LineOfBranches& candidate) {
       return candidate.line.set == branch.set;
     });
-    if (line == lines.end()) {
-      line = lines.insert(line, {line_of(scene, branch.set), {}});
-    }
+    if (line == lines.end()) line = lines.insert(line, {line_of(scene, branch.set), {}});
     line->branches.push_back(&branch);
   }
   FigureData data = figures_of(scene, kind, std::move(lines));
-  for (std::size_t i = 0; !data.lines.empty() && i < data.lines.front().set.size(); ++i) {
+  for (std::size_t i = 0; !data.lines.empty() && i < data.lines.front().set.size(); ++i)
     data.parameters.push_back(data.lines.front().set[i].first);
-  }
   return data;
 }
 
@@ -211,11 +186,8 @@ constexpr std::size_t most_instants = 20'000;
 /// The indices of the friction elements.
 std::vector<std::size_t> friction_of(const scene::Scene& scene) {
   std::vector<std::size_t> indices;
-  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-    if (observables::is_friction_part(scene.elements[e])) {
-      indices.push_back(e);
-    }
-  }
+  for (std::size_t e = 0; e < scene.elements.size(); ++e)
+    if (observables::is_friction_part(scene.elements[e])) indices.push_back(e);
   return indices;
 }
 
@@ -233,12 +205,8 @@ std::vector<Record> records(const time::TimeHistory& history, const std::vector<
   std::vector<Record> all;
   const std::size_t count = history.time.size();
   const std::size_t stride = (count + most_instants - 1) / most_instants;
-  for (std::size_t i = 0; i < count; i += stride) {
-    all.push_back(record(history, friction, i));
-  }
-  if (count > 0 && (count - 1) % stride != 0) {
-    all.push_back(record(history, friction, count - 1));
-  }
+  for (std::size_t i = 0; i < count; i += stride) all.push_back(record(history, friction, i));
+  if (count > 0 && (count - 1) % stride != 0) all.push_back(record(history, friction, count - 1));
   return all;
 }
 
@@ -266,20 +234,13 @@ FigureData figures_of(const scene::Scene& scene, std::span<const Motion> motions
     data.columns.push_back({scene.elements[e].name + " force (N)"});
   }
   for (const Motion& motion : motions) {
-    if (motion.history.time.empty()) {
-      continue;
-    }
-    if (data.parameters.empty()) {
-      for (const auto& [name, value] : motion.set) {
-        data.parameters.push_back(name);
-      }
-    }
+    if (motion.history.time.empty()) continue;
+    if (data.parameters.empty())
+      for (const auto& [name, value] : motion.set) data.parameters.push_back(name);
     data.lines.push_back(line_of(scene, motion.set));
     data.lines.back().parts = {records(motion.history, friction)};
   }
-  for (std::size_t i = 0; i < data.columns.size(); ++i) {
-    data.columns[i].range = results::full_range(data, i);
-  }
+  for (std::size_t i = 0; i < data.columns.size(); ++i) data.columns[i].range = results::full_range(data, i);
   set_figures(scene, friction, data);
   return data;
 }

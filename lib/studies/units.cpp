@@ -21,9 +21,8 @@ std::string assignment(const scene::Scene& scene, const NamedValues& set) {
 
 std::string set_label(const scene::Scene& scene, const NamedValues& set) {
   std::string text;
-  for (const auto& [name, value] : set) {
+  for (const auto& [name, value] : set)
     text.append(text.empty() ? "" : ", ").append(results::quantity(value, parameter_unit(scene, name)));
-  }
   return text;
 }
 

@@ -122,11 +122,10 @@ std::pair<results::Reason, std::string> failure_of(Solved solved, double time) {
 PeriodMotion newmark_periods(Newmark& newmark, const MotionState& start, long count, bool with_history,
                              bool first, const std::function<bool()>& stop) {
   Solved solved = Solved::yes;
-  if (first) {
+  if (first)
     solved = newmark.begin(start);
-  } else {
+  else
     newmark.resume(start);
-  }
   const long steps = count * newmark.steps_per_period();
   Observation observation(newmark, with_history, steps);
   bool stopped = false;

@@ -102,10 +102,10 @@ struct MinimizeOptions {
 
 struct MinimizeResult {
   std::vector<double> x;  // best point: least constraint violation, then lowest value; may be empty
-  double value =
-      std::numeric_limits<double>::infinity();  // f(x); infinity, and x empty, if no evaluation succeeded
-  bool feasible = false;                        // all constraints hold at x, within their tolerances
-  long evaluations = 0;                         // calls of the objective
+  /// f(x); infinity, and x empty, if no evaluation succeeded.
+  double value = std::numeric_limits<double>::infinity();
+  bool feasible = false;  // all constraints hold at x, within their tolerances
+  long evaluations = 0;   // calls of the objective
   double seconds = 0;
   MinimizeReason reason = MinimizeReason::failed;
   std::string message;             // the reason as one sentence, with its numbers

@@ -8,9 +8,8 @@
 //
 //   resonance   dA/ds = 0 along the response (continuation/special_points/stationary.hpp)
 //   corner      onset of slip of an element (hbm/corner.hpp), with slopes of opposite sign on both sides
-//   lower_end, upper_end   the response at the ends of the window; if several extrema of the motion are
-//   nearly
-//                          equally high there, one for each, since A has a kink where two are equal
+//   lower_end, upper_end   the response at the ends of the window; one for each of several extrema of the
+//                          motion nearly equally high there, since A has a kink where two are equal
 //   kink        another kink, such as two equally high extrema of the motion
 //
 // The response is traced anew if a peak cannot be tracked, because it vanishes, splits, leaves the window or

@@ -43,13 +43,15 @@ double slope_on_way(double from, double to, double s) {
 // Whether a new peak is expected at the design of the state, by logarithmic extrapolation of the unwatched
 // peaks from the last response.
 bool PeakAmplitude::came_up() const {
-  return std::any_of(lower_.begin(), lower_.end(), [&](const LowerPeak& peak) {
-    double level = 0;
-    for (std::size_t k = 0; k < traced_.size(); ++k)
-      level += peak.gradient[static_cast<Eigen::Index>(k)] / peak.amplitude * traced_[k] *
-               way(traced_[k], state_.design[k]);
-    return peak.amplitude * std::exp(level) > risen * watched_.peaks * state_.amplitude();
-  });
+  return std::any_of(
+      lower_.begin(), lower_.end(),
+      [&](const LowerPeak& peak) {
+        double level = 0;
+        for (std::size_t k = 0; k < traced_.size(); ++k)
+          level += peak.gradient[static_cast<Eigen::Index>(k)] / peak.amplitude * traced_[k] *
+                   way(traced_[k], state_.design[k]);
+        return peak.amplitude * std::exp(level) > risen * watched_.peaks * state_.amplitude();
+      });
 }
 
 const PeakState& PeakAmplitude::at(std::span<const double> design) {

@@ -30,9 +30,7 @@ std::vector<std::pair<std::string, double>> read_sum(const Location& place, cons
   const std::size_t before = faults.count();
   std::vector<std::pair<std::string, double>> weights;
   std::vector<std::string> known;
-  for (const DesignVariable& variable : problem.over) {
-    known.push_back(variable.name);
-  }
+  for (const DesignVariable& variable : problem.over) known.push_back(variable.name);
   for (const Member* member : members(place, faults)) {
     const Location item{&member->value, child(place.pointer, member->key)};
     if (faults.full()) {
@@ -64,9 +62,8 @@ void read_design(const Reading& reading, OptimumProblem& problem) {
   const Location bounds = keys.require("bounds", std::string(pairs), faults);
   const Node::List* parameters = read_list(over, names, faults);
   const Node::List* ranges = read_list(bounds, pairs, faults);
-  if (parameters != nullptr && parameters->empty()) {
+  if (parameters != nullptr && parameters->empty())
     faults.add(over.pointer, "found an empty list, must be " + std::string(names));
-  }
   if (parameters != nullptr && ranges != nullptr && parameters->size() != ranges->size()) {
     faults.add(bounds.pointer, "found " + std::to_string(ranges->size()) + " for " +
                                    std::to_string(parameters->size()) + " in \"over\", must be " +
@@ -78,9 +75,8 @@ void read_design(const Reading& reading, OptimumProblem& problem) {
     const Field field = read_parameter(item, reading.parameters, variable.name, faults);
     const bool again = std::any_of(problem.over.begin(), problem.over.end(),
                                    [&](const DesignVariable& other) { return other.name == variable.name; });
-    if (again && !variable.name.empty()) {
+    if (again && !variable.name.empty())
       faults.add(item.pointer, "found " + shown(variable.name) + " again, must be named once");
-    }
     if (ranges != nullptr && i < ranges->size()) {
       std::tie(variable.lower, variable.upper) =
           read_pair({&(*ranges)[i], child(bounds.pointer, i)},
@@ -93,16 +89,12 @@ void read_design(const Reading& reading, OptimumProblem& problem) {
 void read_constraints(const Reading& reading, OptimumProblem& problem) {
   const Location place = reading.keys.find("constraints");
   Faults& faults = reading.faults;
-  if (place.node == nullptr) {
-    return;
-  }
+  if (place.node == nullptr) return;
   const Node::List* list = read_list(place, "a list of objects", faults);
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const Location item{&(*list)[i], child(place.pointer, i)};
     const Keys keys(item, {"observable", "sum", "at_least", "at_most"}, faults);
-    if (!keys.is_object()) {
-      continue;
-    }
+    if (!keys.is_object()) continue;
     if (keys.has("observable") == keys.has("sum")) {
       faults.add(item.pointer, keys.has("sum")
                                    ? "found \"observable\" and \"sum\" together, must have one of them"
@@ -130,9 +122,7 @@ constexpr int largest_cases = 1000;
 void add_product(const Location& place, const Reading& reading, OptimumProblem& problem) {
   Faults& faults = reading.faults;
   const auto lists = read_value_lists(place, reading.parameters, taken(problem), faults);
-  if (lists.empty()) {
-    return;
-  }
+  if (lists.empty()) return;
   std::size_t count = 1;
   for (const auto& list : lists) {
     count *= list.second.size();
@@ -168,9 +158,8 @@ DesignCase read_case(const Location& place, const Reading& reading,
     const Location item{&member->value, child(set.pointer, member->key)};
     const std::size_t before = faults.count();
     const Field field = bounds_of(member->key, item.pointer, reading.parameters, faults);
-    if (faults.count() == before && !is_taken(member->key, item.pointer, already, faults)) {
+    if (faults.count() == before && !is_taken(member->key, item.pointer, already, faults))
       one.set.emplace_back(member->key, read_number(item, field, faults).value_or(0));
-    }
   }
   const Field weight{.name = "weight",
                      .unit = "-",
@@ -193,9 +182,7 @@ void read_cases(const Reading& reading, OptimumProblem& problem) {
   constexpr std::string_view wanted =
       "a list of at least one object with the keys \"set\", \"weight\", \"response\", or an object with a "
       "list of values for each of its parameters";
-  if (place.node == nullptr) {
-    return;
-  }
+  if (place.node == nullptr) return;
   const auto* object = place.node->get<Node::Object>();
   const auto* list = place.node->get<Node::List>();
   if (object == nullptr && list == nullptr) {
@@ -212,9 +199,8 @@ void read_cases(const Reading& reading, OptimumProblem& problem) {
   } else {
     const std::vector<scene::Taken> already = taken(problem);
     std::vector<DesignCase> cases;
-    for (std::size_t i = 0; i < list->size(); ++i) {
+    for (std::size_t i = 0; i < list->size(); ++i)
       cases.push_back(read_case({&(*list)[i], child(place.pointer, i)}, reading, already));
-    }
     problem.cases = std::move(cases);
   }
 }
@@ -239,9 +225,7 @@ void read_scatter(const Reading& reading, OptimumProblem& problem) {
 
 void check_criterion(const Reading& reading, const OptimumProblem& problem) {
   const Location place = reading.keys.find("criterion");
-  if (problem.criterion != Criterion::mean) {
-    return;
-  }
+  if (problem.criterion != Criterion::mean) return;
   if (!problem.scatter.empty()) {
     reading.faults.add(
         place.pointer,

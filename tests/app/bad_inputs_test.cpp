@@ -8,9 +8,7 @@ TEST_CASE("each bad input ends with its exit code and a message that says what t
   for (const BadInput& input : bad_inputs()) {
     CAPTURE(input.name);
     const Workplace place;
-    if (!input.file.empty()) {
-      place.write(input.file, input.content());
-    }
+    if (!input.file.empty()) place.write(input.file, input.content());
     const auto before = place.files();
     const std::string scene = place.read("scene.json");
     const Ended ended = run(place, input.arguments, {}, input.output);

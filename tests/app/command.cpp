@@ -173,9 +173,8 @@ TEST_CASE("with one harmonic the folds of examples/duffing_jenkins are those of 
     CHECK(ended.exit_code == 0);
     Json all = Json::array();
     const Json branches = Json::parse(ended.out)["branches"];
-    for (const Json& branch : branches) {
+    for (const Json& branch : branches)
       all.insert(all.end(), branch["events"].begin(), branch["events"].end());
-    }
     return all;
   };
   const auto only = [](const Json& all, const std::string& kind) {
@@ -343,9 +342,7 @@ TEST_CASE(
                                        "--set",       "damper.normal_load=1",
                                        "--set",       "damper.stiffness=1.789e18",
                                        "--json",      "a.json"};
-    if (!quiet.empty()) {
-      arguments.push_back(quiet);
-    }
+    if (!quiet.empty()) arguments.push_back(quiet);
     const Ended ended = run(place, arguments);
     CAPTURE(ended.err);
     CHECK(ended.exit_code == 0);

@@ -77,9 +77,8 @@ TEST_CASE(
     CHECK(ended.signal == (interruption.exit_code < 0 ? interruption.signals.back() : 0));
     CHECK(ended.err.find(interruption.message) != std::string::npos);
     CHECK(place.files() == expected);
-    for (const std::string& file : interruption.files) {
+    for (const std::string& file : interruption.files)
       if (is_result(file)) check_stopped(place.read(file));
-    }
     if (!ended.out.empty() && ended.out.front() == '{') check_stopped(ended.out);
   }
 }
@@ -95,13 +94,11 @@ std::string chain(int dofs) {
     structure["dofs"].push_back(x);
     structure["masses"].push_back({{"name", "m" + n}, {"at", x}, {"value", 1}});
     Json spring = {{"name", "k" + n}, {"value", 1e4}}, damper = {{"name", "c" + n}, {"value", 1}};
-    for (Json* part : {&spring, &damper}) {
-      if (i > 0) {
+    for (Json* part : {&spring, &damper})
+      if (i > 0)
         (*part)["between"] = {x, "x" + std::to_string(i - 1)};
-      } else {
+      else
         (*part)["at"] = x;
-      }
-    }
     structure["springs"].push_back(spring);
     structure["dampers"].push_back(damper);
   }

@@ -29,9 +29,8 @@ const std::vector<Verb> verbs = {
 };
 
 std::string replaced(std::string text, const std::string& word, const std::string& by) {
-  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size())) {
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size()))
     text.replace(at, word.size(), by);
-  }
   return text;
 }
 
@@ -56,12 +55,8 @@ bool mounts() {
 void check_complete(const std::string& file, const std::string& text, const std::string& model) {
   CAPTURE(file, text.substr(0, 200), text.size(), model.size());
   CHECK(std::count(text.begin(), text.end(), '\n') == std::count(model.begin(), model.end(), '\n'));
-  if (file.ends_with(".json")) {
-    CHECK_FALSE(Json::parse(text, nullptr, false).is_discarded());
-  }
-  if (file.ends_with(".csv")) {
-    CHECK(is_whole_table(text));
-  }
+  if (file.ends_with(".json")) CHECK_FALSE(Json::parse(text, nullptr, false).is_discarded());
+  if (file.ends_with(".csv")) CHECK(is_whole_table(text));
 }
 
 }  // namespace
@@ -71,9 +66,7 @@ TEST_CASE("whatever a path is, its failure is told, and costs none of what goes 
     std::map<std::string, std::string> models;
     for (const OutputPath& row : output_paths()) {
       const bool writes_little = verb.name == "optimize";
-      if ((row.needs_mount && !mounts()) || (row.needs_much && writes_little)) {
-        continue;
-      }
+      if ((row.needs_mount && !mounts()) || (row.needs_much && writes_little)) continue;
       CAPTURE(verb.name, row.name);
       const Workplace place;
       run_script(place, row, verb);
@@ -89,12 +82,8 @@ TEST_CASE("whatever a path is, its failure is told, and costs none of what goes 
         }
         check_complete(file, place.read(file), models[file]);
       }
-      if (row.needs_mount) {
-        CHECK(place.read("b").find(".arcslip") == std::string::npos);
-      }
-      for (const std::string& file : place.files()) {
-        CHECK(file.find(".arcslip") == std::string::npos);
-      }
+      if (row.needs_mount) CHECK(place.read("b").find(".arcslip") == std::string::npos);
+      for (const std::string& file : place.files()) CHECK(file.find(".arcslip") == std::string::npos);
     }
   }
 }

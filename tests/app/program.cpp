@@ -22,9 +22,7 @@ namespace fs = std::filesystem;
 
 fs::path temporary_folder() {
   std::string name = (fs::temp_directory_path() / "arcslip_app_XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw std::runtime_error("no temporary folder");
-  }
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   return name;
 }
 
@@ -38,16 +36,10 @@ std::string content(const fs::path& path) {
 /// In the child: from here on only what is safe after a fork, then the program.
 [[noreturn]] void become(const char* folder, const std::array<int, 3>& streams, char* const* argv,
                          const std::vector<std::pair<const char*, const char*>>& environment) {
-  for (int i = 0; i < 3; ++i) {
-    ::dup2(streams[static_cast<std::size_t>(i)], i);
-  }
-  for (const auto& [name, value] : environment) {
-    ::setenv(name, value, 1);
-  }
+  for (int i = 0; i < 3; ++i) ::dup2(streams[static_cast<std::size_t>(i)], i);
+  for (const auto& [name, value] : environment) ::setenv(name, value, 1);
   std::signal(SIGINT, SIG_DFL);  // a test runner in the background may ignore it
-  if (::chdir(folder) == 0) {
-    ::execv(argv[0], argv);
-  }
+  if (::chdir(folder) == 0) ::execv(argv[0], argv);
   ::_exit(127);
 }
 
@@ -72,9 +64,8 @@ std::string Workplace::read(const std::string& name) const {
 
 std::vector<std::string> Workplace::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(path_)) {
+  for (const auto& entry : fs::recursive_directory_iterator(path_))
     names.push_back(fs::relative(entry.path(), path_).string());
-  }
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -86,14 +77,10 @@ Program::Program(const Workplace& place, const std::vector<std::string>& argumen
   std::vector<std::string> words{ARCSLIP_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
-  for (std::string& word : words) {
-    argv.push_back(word.data());
-  }
+  for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   std::vector<std::pair<const char*, const char*>> variables;
-  for (const auto& [name, value] : environment) {
-    variables.emplace_back(name.c_str(), value.c_str());
-  }
+  for (const auto& [name, value] : environment) variables.emplace_back(name.c_str(), value.c_str());
   constexpr int make = O_WRONLY | O_CREAT | O_CLOEXEC;
   const std::string out = output.empty() ? (streams_ / "out").string() : output;
   std::array<int, 3> streams{::open("/dev/null", O_RDONLY | O_CLOEXEC), ::open(out.c_str(), make, 0600),
@@ -109,12 +96,8 @@ Program::Program(const Workplace& place, const std::vector<std::string>& argumen
   }
   const std::string folder = place.path();
   pid_ = ::fork();
-  if (pid_ == 0) {
-    become(folder.c_str(), streams, argv.data(), variables);
-  }
-  for (const int stream : streams) {
-    ::close(stream);
-  }
+  if (pid_ == 0) become(folder.c_str(), streams, argv.data(), variables);
+  for (const int stream : streams) ::close(stream);
 }
 
 Program::~Program() {
@@ -122,9 +105,7 @@ Program::~Program() {
     ::kill(pid_, SIGKILL);
     ::waitpid(pid_, nullptr, 0);
   }
-  if (terminal_ >= 0) {
-    ::close(terminal_);
-  }
+  if (terminal_ >= 0) ::close(terminal_);
   std::error_code ignored;
   fs::remove_all(streams_, ignored);
 }
@@ -135,15 +116,12 @@ void Program::send(int signal) const {
 
 bool Program::handles(int signal) const {
   const std::string self = "/proc/" + std::to_string(::getpid()) + "/comm";
-  if (content("/proc/" + std::to_string(pid_) + "/comm") == content(self)) {
+  if (content("/proc/" + std::to_string(pid_) + "/comm") == content(self))
     return false;  // still ours, with our own answers
-  }
   std::istringstream status(content("/proc/" + std::to_string(pid_) + "/status"));
-  for (std::string word; status >> word;) {
-    if (word == "SigCgt:" && status >> word) {
+  for (std::string word; status >> word;)
+    if (word == "SigCgt:" && status >> word)
       return ((std::stoull(word, nullptr, 16) >> (signal - 1)) & 1) != 0;
-    }
-  }
   return false;
 }
 
@@ -156,9 +134,7 @@ bool Program::is_running() const {
 double Program::processor_seconds() const {
   clockid_t clock{};
   timespec time{};
-  if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) {
-    return 0;
-  }
+  if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
@@ -167,24 +143,20 @@ Ended Program::wait() {
   if (terminal_ >= 0) {  // until its other end is closed
     std::array<char, 4096> buffer;
     for (auto count = ::read(terminal_, buffer.data(), buffer.size()); count > 0;
-         count = ::read(terminal_, buffer.data(), buffer.size())) {
+         count = ::read(terminal_, buffer.data(), buffer.size()))
       result.err.append(buffer.data(), static_cast<std::size_t>(count));
-    }
   }
   int status = 0;
   rusage used{};
   ::wait4(pid_, &status, 0, &used);
   ended_ = true;
   result.kilobytes = used.ru_maxrss;
-  for (const timeval& time : {used.ru_utime, used.ru_stime}) {
+  for (const timeval& time : {used.ru_utime, used.ru_stime})
     result.processor_seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  }
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   result.out = content(streams_ / "out");
-  if (terminal_ < 0) {
-    result.err = content(streams_ / "err");
-  }
+  if (terminal_ < 0) result.err = content(streams_ / "err");
   return result;
 }
 

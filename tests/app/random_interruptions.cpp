@@ -31,9 +31,7 @@ struct Run {
   explicit Run(const RandomInterruption& row, std::vector<std::string> more = {}) {
     Json scene;
     std::ifstream(std::string(ARCSLIP_SOURCE_DIR "/examples/") + row.example) >> scene;
-    if (!row.patch.empty()) {
-      scene.merge_patch(Json::parse(row.patch));
-    }
+    if (!row.patch.empty()) scene.merge_patch(Json::parse(row.patch));
     place.write("scene.json", scene.dump(1));
     for (const std::string& file : row.files) {
       std::filesystem::create_directories((place / file).parent_path());
@@ -42,9 +40,7 @@ struct Run {
     before = place.files();
     more.insert(more.begin(), row.arguments.begin(), row.arguments.end());
     program.emplace(place, more, std::map<std::string, std::string>{{"PATH", "/nonexistent"}});
-    while (program->is_running() && !program->handles(SIGTERM)) {
-      std::this_thread::yield();
-    }
+    while (program->is_running() && !program->handles(SIGTERM)) std::this_thread::yield();
   }
 
   Workplace place;
@@ -53,19 +49,13 @@ struct Run {
 };
 
 bool is_whole(const std::string& name, const std::string& text) {
-  if (name.ends_with(".json")) {
-    return !Json::parse(text, nullptr, false).is_discarded();
-  }
+  if (name.ends_with(".json")) return !Json::parse(text, nullptr, false).is_discarded();
   return name.ends_with(".csv") ? is_whole_table(text) : text.ends_with('\n');
 }
 
 bool says_stopped_by_user(const Json& results) {
-  if (!results.is_structured()) {
-    return false;
-  }
-  if (results.contains("stop") && results["stop"].value("reason", "") == "user") {
-    return true;
-  }
+  if (!results.is_structured()) return false;
+  if (results.contains("stop") && results["stop"].value("reason", "") == "user") return true;
   return std::any_of(results.begin(), results.end(), says_stopped_by_user);
 }
 
@@ -77,18 +67,13 @@ void check_files(const Run& run, const RandomInterruption& row, int exit_code) {
   CHECK((exit_code == 0 ? now == run.before
                         : std::includes(run.before.begin(), run.before.end(), now.begin(), now.end())));
   for (const std::string& file : row.files) {
-    if (exit_code != 0 && !std::binary_search(now.begin(), now.end(), file)) {
-      continue;
-    }
+    if (exit_code != 0 && !std::binary_search(now.begin(), now.end(), file)) continue;
     const std::string text = run.place.read(file);
     CAPTURE(file, text.substr(0, 300), text.size());
     CHECK((text == old_content || is_whole(file, text)));
-    if (exit_code == 0) {
-      CHECK(text != old_content);
-    }
-    if (exit_code == 0 && text != old_content && file.ends_with(".json")) {
+    if (exit_code == 0) CHECK(text != old_content);
+    if (exit_code == 0 && text != old_content && file.ends_with(".json"))
       CHECK_FALSE(says_stopped_by_user(Json::parse(text, nullptr, false)));
-    }
   }
 }
 
@@ -119,16 +104,11 @@ TEST_CASE(
       CAPTURE(ended.err, ended.out.substr(0, 200), was_running);
       CHECK(ended.signal == 0);
       CHECK((ended.exit_code == 0 || ended.exit_code == 3));
-      if (ended.exit_code == 3) {
-        CHECK(ended.err.find("arcslip: ") != std::string::npos);
-      }
-      if (was_running) {
-        CHECK(ended.processor_seconds - worked < 1);
-      }
+      if (ended.exit_code == 3) CHECK(ended.err.find("arcslip: ") != std::string::npos);
+      if (was_running) CHECK(ended.processor_seconds - worked < 1);
       check_files(run, row, ended.exit_code);
-      if (!ended.out.empty() && ended.out.front() == '{') {
+      if (!ended.out.empty() && ended.out.front() == '{')
         CHECK_FALSE(Json::parse(ended.out, nullptr, false).is_discarded());
-      }
     }
   }
 }
@@ -137,9 +117,7 @@ TEST_CASE("a signal before any study is started leaves all files unchanged, and 
   constexpr int moments = 50, most_rounds = 20;
   for (const RandomInterruption& row : random_interruptions()) {
     CAPTURE(row.arguments);
-    if (row.arguments.front() == "check") {
-      continue;
-    }
+    if (row.arguments.front() == "check") continue;
     // The study begins some time after the scene is read, which is nearly all that check does.
     Run reading({{"check", "scene.json", "--quiet"}, row.example, {}, row.patch});
     const auto began = Clock::now();
@@ -153,9 +131,7 @@ TEST_CASE("a signal before any study is started leaves all files unchanged, and 
       const Ended ended = run.program->wait();
       met = ended.err.find("was not started") != std::string::npos &&
             ended.err.find("the results so far") == std::string::npos;
-      if (!met) {
-        continue;
-      }
+      if (!met) continue;
       CAPTURE(ended.err);
       CHECK(ended.exit_code == 3);
       CHECK(ended.err.find("was not started: its files are unchanged") != std::string::npos);
@@ -163,9 +139,7 @@ TEST_CASE("a signal before any study is started leaves all files unchanged, and 
             std::string::npos);
       CHECK(ended.out.empty());
       CHECK(run.place.files() == run.before);
-      for (const std::string& file : row.files) {
-        CHECK(run.place.read(file) == old_content);
-      }
+      for (const std::string& file : row.files) CHECK(run.place.read(file) == old_content);
     }
     CHECK(met);
   }

@@ -37,9 +37,7 @@ bool is_harmless(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
-    if ((byte < 0x20 && byte != '\n') || byte == 0x7f || (byte == 0xc2 && next < 0xa0)) {
-      return false;
-    }
+    if ((byte < 0x20 && byte != '\n') || byte == 0x7f || (byte == 0xc2 && next < 0xa0)) return false;
   }
   return true;
 }
@@ -48,15 +46,13 @@ bool is_harmless(const std::string& text) {
 std::vector<std::string> cells(const std::string& line) {
   std::vector<std::string> all(1);
   bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') {
+  for (const char c : line)
+    if (c == '"')
       quoted = !quoted;
-    } else if (c == ',' && !quoted) {
+    else if (c == ',' && !quoted)
       all.emplace_back();
-    } else if (c != '\r') {
+    else if (c != '\r')
       all.back() += c;
-    }
-  }
   return all;
 }
 

@@ -2,10 +2,9 @@
 // in docs/al_sayed_2011.md, and its checks hold. A check takes one number of a data file:
 //   block, column   which curve (0 is the first), and which of its columns
 //   where           only the rows from .. to of a column; or, with "at", where that column `is` a value
-//   take            first, last, min, max, largest (absolute), range (max - min), at (interpolated), top and
-//   bottom
-//                   (of the parabola through the extreme row and its neighbours, over the column `over`; its
-//                   place is checked too)
+//   take            first, last, min, max, largest (absolute), range (max - min), at (interpolated),
+//                   top and bottom (of the parabola through the extreme row and its neighbours, over the
+//                   column `over`; its place is checked too)
 // and compares it: `is` to `within`, or `at_least` and `at_most`.
 
 #include "catch.hpp"

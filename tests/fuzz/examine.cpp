@@ -218,9 +218,8 @@ class Examination {
                                        {point.energy_friction, "energy of friction"},
                                        {point.energy_viscous, "viscous energy"},
                                        {point.energy_input, "energy put in"},
-                                       {estimate, "truncation estimate"}}) {
+                                       {estimate, "truncation estimate"}})
       if (!std::isfinite(number)) return fault("a number of a point is not finite: " + std::string(name));
-    }
     if (!(point.amplitude >= 0)) fault("an amplitude is negative");
     const double energy = std::abs(point.energy_friction) + std::abs(point.energy_viscous);
     const double least = std::min(point.energy_friction, point.energy_viscous);

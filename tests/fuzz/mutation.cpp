@@ -127,11 +127,10 @@ std::string scaled(const std::string& number, Random& random) {
   const double factor = std::pow(10.0, random.between(-3, 3)) * (random.one_in(8) ? -1 : 1);
   const double value = std::strtod(number.c_str(), nullptr);
   std::array<char, 40> text{};
-  if (random.one_in(2) && std::abs(value) < 1e9 && value == std::floor(value)) {
+  if (random.one_in(2) && std::abs(value) < 1e9 && value == std::floor(value))
     std::snprintf(text.data(), text.size(), "%.0f", value + random.count(-3, 3));
-  } else {
+  else
     std::snprintf(text.data(), text.size(), "%.17g", std::isfinite(value * factor) ? value * factor : value);
-  }
   return text.data();
 }
 

@@ -267,9 +267,8 @@ it can.
 
 )";
   print_head({"what", "pointer", "says"});
-  for (const auto& row : arcslip::scene::test::bad_scenes()) {
+  for (const auto& row : arcslip::scene::test::bad_scenes())
     print_row({plain(row.name), literal(row.pointer), literal(row.message_part)});
-  }
 }
 
 }  // namespace

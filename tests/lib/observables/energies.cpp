@@ -153,13 +153,11 @@ ResponsePoint extreme_energy(double lower, double upper, double sign) {
   const auto energy = [&](double x) { return sign * peak_at(std::exp(x)).energy_friction; };
   double a = std::log(lower), b = std::log(upper), c = a + golden * (b - a), d = b - golden * (b - a);
   double ec = energy(c), ed = energy(d);
-  while (b - a > 1e-2) {
-    if (ec > ed) {
+  while (b - a > 1e-2)
+    if (ec > ed)
       b = d, d = c, ed = ec, c = a + golden * (b - a), ec = energy(c);
-    } else {
+    else
       a = c, c = d, ec = ed, d = b - golden * (b - a), ed = energy(d);
-    }
-  }
   const double m = 0.5 * (a + b), h = 2e-3;
   const double before = energy(m - h), at = energy(m), after = energy(m + h);
   const double x = m + 0.5 * h * (before - after) / (before - 2 * at + after);

@@ -60,12 +60,11 @@ Variant larger(const Scene& s, double factor) {
   variant.amplitude = factor;
   for (Part& force : variant.scene.excitation)
     for (double& value : force.values) value *= factor;
-  for (Part& element : variant.scene.elements) {
+  for (Part& element : variant.scene.elements)
     if (is_friction(element))
       element.values[2] *= factor;
     else
       element.values[0] /= factor * factor;
-  }
   return variant;
 }
 

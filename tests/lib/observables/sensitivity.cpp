@@ -201,12 +201,11 @@ TEST_CASE("random structures: derivatives of peaks, at corners and not, are diff
       scene::set(s, s.elements[0].name + ".normal_load", load);
       const Peaks peaks = peaks_of(s, window_of(s));
       CAPTURE(seed, load);
-      for (const Peak& peak : peaks.all) {
+      for (const Peak& peak : peaks.all)
         if (peak.nonsmooth)
           corners += check_loads(s, peaks, peak);
         else if (load == 1)
           smooth += check_loads(s, peaks, peak);
-      }
     }
   CHECK(smooth >= sized(20, 2));
   if (!test_size::sanitized) CHECK(corners >= 4);

@@ -39,7 +39,8 @@ class FileSizeLimit {
 
 int error_of_writing(const std::string& path) {
   try {
-    write_file(path, [](std::ostream& out) { out << std::string(1 << 20, 'x'); });
+    write_file(
+        path, [](std::ostream& out) { out << std::string(1 << 20, 'x'); });
   } catch (const WriteError& error) {
     CHECK(std::string(error.what()).find("cannot write " + path + ": ") == 0);
     return error.error();
@@ -110,14 +111,11 @@ TEST_CASE(
                                 {"/dev/full", ENOSPC, false}};
   for (const Case& c : cases) {
     CAPTURE(c.path);
-    if (!c.path.empty()) {
-      CHECK(error_of_writing(c.path) == c.error);
-    }
-    if (c.known_before) {
+    if (!c.path.empty()) CHECK(error_of_writing(c.path) == c.error);
+    if (c.known_before)
       CHECK_THROWS_AS(check_writable(c.path), WriteError);
-    } else {
+    else
       CHECK_NOTHROW(check_writable(c.path));
-    }
   }
   CHECK_NOTHROW(check_writable(folder / "new.json"));
   CHECK(folder.files() == 2);
@@ -125,7 +123,8 @@ TEST_CASE(
 
 TEST_CASE("the message of a full disk says what to do") {
   CHECK_THROWS_WITH(
-      write_file("/dev/full", [](std::ostream& out) { out << 'x'; }),
+      write_file(
+          "/dev/full", [](std::ostream& out) { out << 'x'; }),
       "cannot write /dev/full: No space left on device (free some space there or write to another disk)");
 }
 
@@ -177,9 +176,8 @@ TEST_CASE("a link to what is not there yet is followed, link by link, and one in
 TEST_CASE("what killed writers have left is cleared, and nothing else") {
   const TemporaryFolder folder;
   for (const char* name : {".arcslip-17-0.tmp", "a.svg.17.tmp", "b.c.png.4711.tmp", "a.svg", "a.tmp",
-                           "a.svg.x.tmp", ".arcslip-x.tmp", "a.json.17.tmp"}) {
+                           "a.svg.x.tmp", ".arcslip-x.tmp", "a.json.17.tmp"})
     write_file(folder / name, [](std::ostream& out) { out << "x"; });
-  }
   arcslip::output::clear_temporaries(folder.path());
   CHECK(folder.files() == 5);
   CHECK(support::fs::exists(folder / "a.json.17.tmp"));

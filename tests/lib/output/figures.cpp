@@ -74,9 +74,7 @@ TEST_CASE("figures come as whole SVG and PNG, amplitude and stick share") {
 }
 
 TEST_CASE("no name or title runs a command or breaks a figure") {
-  if (!have_gnuplot()) {
-    return;
-  }
+  if (!have_gnuplot()) return;
   const TemporaryFolder folder;
   const std::string evil =
       "'; system('touch broken'); #\n`touch broken` $(touch broken) \" \\ {/=99 x}_a^b @m";
@@ -95,16 +93,12 @@ TEST_CASE("no name or title runs a command or breaks a figure") {
 }
 
 TEST_CASE("results that are hard to draw are drawn") {
-  if (!have_gnuplot()) {
-    return;
-  }
+  if (!have_gnuplot()) return;
   auto zero = support::branch();
   auto one_point = support::branch();
   auto unbounded = support::branch();
   auto no_friction = support::branch();
-  for (auto& point : zero.points) {
-    point.amplitude = 0;
-  }
+  for (auto& point : zero.points) point.amplitude = 0;
   zero.events.clear();
   one_point.points.resize(1);
   unbounded.events[0].point.unbounded = true;
@@ -112,9 +106,7 @@ TEST_CASE("results that are hard to draw are drawn") {
   auto huge = support::branch();
   huge.points[2].amplitude = 1e40;
   huge.points[3].amplitude = 1e-40;
-  for (auto& point : no_friction.points) {
-    point.elements.clear();
-  }
+  for (auto& point : no_friction.points) point.elements.clear();
   const std::vector<std::pair<std::string, std::vector<observables::ResponseBranch>>> cases{
       {"zero", {zero}},
       {"one_point", {one_point}},
@@ -126,9 +118,7 @@ TEST_CASE("results that are hard to draw are drawn") {
     CAPTURE(name);
     const TemporaryFolder folder;
     auto branches = given;
-    for (std::size_t i = 0; i < branches.size(); ++i) {
-      branches[i].set[0].second = static_cast<double>(i);
-    }
+    for (std::size_t i = 0; i < branches.size(); ++i) branches[i].set[0].second = static_cast<double>(i);
     const auto figures = drawn(support::scene(), BranchKind::responses, branches, folder.path(), name);
     CHECK(figures.problem == "");
     CHECK(figures.images.size() == (name == "no_friction" ? 2 : 4));
@@ -136,9 +126,7 @@ TEST_CASE("results that are hard to draw are drawn") {
 }
 
 TEST_CASE("a study over a parameter that is hard to draw is drawn") {
-  if (!have_gnuplot()) {
-    return;
-  }
+  if (!have_gnuplot()) return;
   auto one_point = support::peaks();
   one_point.points.resize(1);
   one_point.events.clear();
@@ -153,12 +141,8 @@ TEST_CASE("a study over a parameter that is hard to draw is drawn") {
   }
   nearly_constant.events.clear();
   auto unbounded = support::peaks();
-  for (auto& point : negative.points) {
-    point.over = -point.over;
-  }
-  for (auto& point : unbounded.points) {
-    point.unbounded = true;
-  }
+  for (auto& point : negative.points) point.over = -point.over;
+  for (auto& point : unbounded.points) point.unbounded = true;
   for (const BranchKind kind : {BranchKind::over_parameter, BranchKind::peaks, BranchKind::folds}) {
     for (const auto& branch : {one_point, at_zero, negative, nearly_constant, unbounded}) {
       CAPTURE(static_cast<int>(kind), branch.points[0].over, branch.points[0].unbounded);
@@ -274,9 +258,7 @@ TEST_CASE("the data of a figure has a block for each line and its marks") {
 }
 
 TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitude over the stick share") {
-  if (!have_gnuplot()) {
-    return;
-  }
+  if (!have_gnuplot()) return;
   const TemporaryFolder folder;
   const auto figures =
       drawn(support::scene(), BranchKind::peaks, std::vector{support::peaks()}, folder.path(), "peaks");
@@ -326,9 +308,7 @@ TEST_CASE("bands lie behind the curve over the parameter, named in the key, and 
   CHECK(over_stick.find("\nunset object\n") != std::string::npos);
   CHECK(over_stick.find("rectangle") == std::string::npos);
   CHECK(over_stick.find("within") == std::string::npos);
-  if (!have_gnuplot()) {
-    return;
-  }
+  if (!have_gnuplot()) return;
   CHECK(figures.problem == "");
   const std::string svg = content(folder / "x_amplitude.svg");
   for (const char* text : {"within 1 %", "within 5 %", "4.0 N"}) {
@@ -405,8 +385,6 @@ TEST_CASE("a label keeps off marks, lines, other labels and the border") {
   CHECK(sides({{{0.5, 0.5}, "3 N"}, {{0.5, 0.501}, "4 N"}}, {}) ==
         std::vector{LabelSide::above, LabelSide::right});
   std::vector<std::vector<output::Position>> hatched;
-  for (int i = 0; i <= 100; ++i) {
-    hatched.push_back({{0, i / 100.0}, {1, i / 100.0}});
-  }
+  for (int i = 0; i <= 100; ++i) hatched.push_back({{0, i / 100.0}, {1, i / 100.0}});
   CHECK(sides({{{0.5, 0.5}, "3 N"}}, hatched) == std::vector{LabelSide::none});
 }

@@ -21,9 +21,7 @@ class RepeatingBuffer : public std::streambuf {
  protected:
   int_type underflow() override {
     const std::size_t count = std::min(repeats_, block_.size());
-    if (count == 0) {
-      return traits_type::eof();
-    }
+    if (count == 0) return traits_type::eof();
     repeats_ -= count;
     setg(block_.data(), block_.data(), block_.data() + count);
     return traits_type::to_int_type(block_.front());
@@ -63,9 +61,7 @@ void add_files(std::vector<BadScene>& rows) {
       {"100 000 nested lists", std::string(100'000, '['), "",
        "line 1, column 65: found lists or objects nested deeper than 64, must be at most 64 deep"});
   std::string objects;
-  for (int i = 0; i < 100'000; ++i) {
-    objects += "{\"a\":";
-  }
+  for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
   rows.push_back({"100 000 nested objects", objects, "", "nested deeper than 64"});
   rows.push_back({"a number of 1 GB", "[1", "",
                   "found more than 67108864 bytes, a scene must be at most 64 MB", 1'000'000'000});
@@ -407,9 +403,8 @@ const std::string& good_scene() {
 std::string good_scene_with(const std::string& piece, const std::string& replacement) {
   std::string text = good_scene();
   const std::size_t at = text.find(piece);
-  if (at == std::string::npos || text.find(piece, at + 1) != std::string::npos) {
+  if (at == std::string::npos || text.find(piece, at + 1) != std::string::npos)
     throw std::logic_error("the good scene must have this once: " + piece);
-  }
   return text.replace(at, piece.size(), replacement);
 }
 
@@ -431,9 +426,7 @@ const std::vector<BadScene>& bad_scenes() {
 }
 
 std::unique_ptr<std::istream> open(const BadScene& bad) {
-  if (bad.repeats > 0) {
-    return std::make_unique<RepeatingStream>(bad.text, bad.repeats);
-  }
+  if (bad.repeats > 0) return std::make_unique<RepeatingStream>(bad.text, bad.repeats);
   return std::make_unique<std::istringstream>(bad.text);
 }
 

@@ -86,9 +86,7 @@ TEST_CASE("a file with seven faults gives these seven in one go") {
     "studies": [{"kind": "frf", "from": 2, "to": 1}]
   })");
   std::vector<std::string> pointers;
-  for (const Fault& fault : faults) {
-    pointers.push_back(fault.pointer);
-  }
+  for (const Fault& fault : faults) pointers.push_back(fault.pointer);
   const std::vector<std::string> expected = {"/titel",
                                              "/structure/masses/0/value",
                                              "/structure/masses/1/name",
@@ -105,9 +103,7 @@ TEST_CASE("all faults of a study over a parameter are told in one go") {
       R"({"kind": "folds", "over": "d.normal_load", "from": -1, "too": 2, "frequency": [0, "2"],
           "for_each": {"d.normal_load": [1], "m.valu": [2]}})"));
   std::vector<std::string> pointers;
-  for (const Fault& fault : faults) {
-    pointers.push_back(fault.pointer);
-  }
+  for (const Fault& fault : faults) pointers.push_back(fault.pointer);
   const std::vector<std::string> expected = {"/studies/0/too",
                                              "/studies/0/from",
                                              "/studies/0/to",
@@ -126,9 +122,7 @@ TEST_CASE("all faults of a study of an optimum are told in one go") {
           "constraints": [{"observable": "frequency"}, {"observable": "frequency", "at_least": 3, "at_most": 2},
                           {"at_most": 1}], "for_each": {"d.normal_load": [1]}})"));
   std::vector<std::string> pointers;
-  for (const Fault& fault : faults) {
-    pointers.push_back(fault.pointer);
-  }
+  for (const Fault& fault : faults) pointers.push_back(fault.pointer);
   const std::vector<std::string> expected = {
       "/studies/0/bounds",        "/studies/0/over/1",        "/studies/0/bounds/1/0",
       "/studies/0/over/2",        "/studies/0/bounds/2/1",    "/studies/0/over/3",
@@ -149,9 +143,7 @@ TEST_CASE("all faults of cases, scatter and search settings are reported at once
           "criterion": "mena", "scatter": {"c.value": [1, 2], "k2.value": [2, 1]},
           "along": "d.stiffness", "from": 0, "to": 2, "for_each": {"d.stiffness": [1], "c.value": [1]}})"));
   std::vector<std::string> pointers;
-  for (const Fault& fault : faults) {
-    pointers.push_back(fault.pointer);
-  }
+  for (const Fault& fault : faults) pointers.push_back(fault.pointer);
   const std::vector<std::string> expected = {"/studies/0/local",
                                              "/studies/0/evaluations",
                                              "/studies/0/seconds",
@@ -212,9 +204,7 @@ TEST_CASE("what follows from a fault that is told is not told again") {
 
 TEST_CASE("of a hundred thousand faults a thousand are listed and the rest are counted") {
   std::string sweep = "{\"m.value\": [-1";
-  for (int i = 1; i < 100'000; ++i) {
-    sweep += ",-1";
-  }
+  for (int i = 1; i < 100'000; ++i) sweep += ",-1";
   const auto faults = faults_of(good_scene_with("{\"d.normal_load\": [1, 2]}", sweep + "]}"));
   REQUIRE(faults.size() == 1001);
   CHECK(faults.back().message == "and 99000 more faults, which are not listed");
@@ -222,9 +212,7 @@ TEST_CASE("of a hundred thousand faults a thousand are listed and the rest are c
 
 TEST_CASE("more than five million values are refused before the memory is full") {
   std::string text = "[0";
-  for (std::size_t i = 0; i < largest_count; ++i) {
-    text += ",0";
-  }
+  for (std::size_t i = 0; i < largest_count; ++i) text += ",0";
   const auto faults = faults_of(text + "]");
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].message.find("found more than 5000000 values, must be at most that many") !=

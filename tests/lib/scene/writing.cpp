@@ -148,9 +148,7 @@ TEST_CASE("a study over a parameter is written with its parameter and its freque
 
 TEST_CASE("no line of a long scene is wider than 110 columns where it can be broken") {
   Scene scene = read_text(full_scene);
-  for (int i = 0; i < 1000; ++i) {
-    scene.studies[1].for_each[0].second.push_back(i / 7.0);
-  }
+  for (int i = 0; i < 1000; ++i) scene.studies[1].for_each[0].second.push_back(i / 7.0);
   const std::string text = write(scene);
   CHECK(read_text(text) == scene);
   std::istringstream lines(text);

@@ -146,9 +146,8 @@ TEST_CASE("numbers in JSON read back exactly") {
     branch.points[i].amplitude = numbers[i];
   }
   const Json json = written(support::scene(), {branch});
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
+  for (std::size_t i = 0; i < numbers.size(); ++i)
     CHECK(json["branches"][0]["points"][i]["amplitude"].get<double>() == numbers[i]);
-  }
 }
 
 TEST_CASE("coefficients come with their harmonics when they are asked for") {
@@ -192,9 +191,7 @@ TEST_CASE("an unbounded amplitude is null and said to be unbounded") {
 
 TEST_CASE("what is not finite never reaches JSON") {
   auto branch = support::branch();
-  for (double& value : branch.points[0].coefficients) {
-    value = std::numeric_limits<double>::infinity();
-  }
+  for (double& value : branch.points[0].coefficients) value = std::numeric_limits<double>::infinity();
   branch.points[0].amplitude = std::nan("");
   branch.points[0].elements[0].slip_angles = {-std::numeric_limits<double>::infinity()};
   branch.stop.limit = std::numeric_limits<double>::infinity();
