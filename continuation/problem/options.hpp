@@ -9,26 +9,16 @@
 
 namespace arcslip::continuation {
 
-/// pseudo_arclength: in the plane through the prediction, normal to the last tangent (Keller 1977).
-/// moore_penrose: by the smallest correction in each iteration, normal to the current tangent.
-enum class CorrectorKind { pseudo_arclength, moore_penrose };
-
-/// tangent: along the last tangent. secant: through the last two points. cubic: Hermite, through the last two
-/// points with their tangents. At the start and beyond kinks all use the tangent.
-enum class Predictor { tangent, secant, cubic };
-
+/// Newton's method in the plane through the prediction, normal to the last tangent (Keller 1977).
 struct NewtonOptions {
-  double tolerance =
-      1e-9;  // of the last correction, relative to |u| in scales; the error is about its square
+  double tolerance = 1e-9;       // of the last correction, relative to |u| in scales; the error is its square
   double rounding_level = 1e-7;  // corrections that stagnate below are accepted as rounding; >= tolerance
   int iterations = 8;            // maximum
-  CorrectorKind corrector = CorrectorKind::pseudo_arclength;
-  bool chord = true;               // start with the factors of the previous point
+  bool chord = true;             // start with the factors of the previous point
   double chord_contraction = 0.3;  // and keep them while corrections contract at least so fast; in [0, 1)
 };
 
 struct StepOptions {
-  Predictor predictor = Predictor::cubic;
   double initial = 0;             // first step in scaled arclength; 0: chosen from `largest_parameter`
   double smallest = 1e-10;        // relative to 1 + |u| in scales
   double largest = 0;             // in scaled arclength; 0: no limit

@@ -47,7 +47,6 @@ Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOpt
       dv_(problem.size() + 1),
       next_(problem.size() + 1),
       trial_(problem.size() + 1),
-      tangent_(problem.size() + 1),
       metric_(problem.size()),
       free_(free),
       parameter_scale_(problem.parameters()[static_cast<std::size_t>(free)].change()) {
@@ -181,10 +180,6 @@ std::optional<std::uint64_t> Corrector::piece_of_residual() const {
 }
 
 // To the smallest of all corrections: dv - <dv, t> t.
-void Corrector::project(Vector& dv) {
-  if (tangent(tangent_)) dv -= dot(dv, tangent_) * tangent_;
-}
-
 bool Corrector::linearize(const Vector& v, const Vector& row) {
   return evaluate(v, Needs::jacobian) && factorize(v, row);
 }
@@ -255,7 +250,7 @@ double Corrector::distance_from_branch(const Vector& v) {
   return std::sqrt(dot(dv_, dv_));
 }
 
-Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, CorrectorKind kind) {
+Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
   Correction result;
   double before = 0;                          // size of the correction that led to v
   std::optional<std::uint64_t> piece_before;  // of F, where that began, if it was small
@@ -273,7 +268,6 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
       return result;
     }
     solve(dv_);
-    if (kind == CorrectorKind::moore_penrose) project(dv_);
     const double now = size(dv_, v);
     if (result.first == 0) result.first = now;
     if (result.contraction == 0 && before > 0) result.contraction = now / before;
@@ -304,7 +298,6 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, C
       trial_ = v + damping * dv_;
       if (!evaluate(trial_, Needs::residual)) continue;
       solve(next_);
-      if (kind == CorrectorKind::moore_penrose) project(next_);
       next = size(next_, trial_);
       if (next <= (1 - damping / 4) * now) break;
     }

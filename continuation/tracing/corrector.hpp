@@ -62,9 +62,7 @@ class Corrector {
 
   /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1.
   /// keep_factors: the present factors are those of a nearby point with a similar row, and are tried first.
-  /// kind: moore_penrose leaves the plane, for the solution nearest to the prediction.
-  Correction correct(Vector& v, const Vector& row, bool keep_factors,
-                     CorrectorKind kind = CorrectorKind::pseudo_arclength);
+  Correction correct(Vector& v, const Vector& row, bool keep_factors);
 
   /// |B^-1 F(v)| in scales with the present factors: the distance of v from the branch, to first order. NaN
   /// if F cannot be evaluated.
@@ -112,7 +110,6 @@ class Corrector {
   void solve(Vector& dv) const;           // dv = -B^-1 (F, 0)
   void back_substitute(Vector& x) const;  // x = B^-1 x; not finite where the linear solver throws
   bool chord(Vector& v, Correction& result);
-  void project(Vector& dv);
   std::optional<std::uint64_t> piece_of_residual() const;
 
   const Problem& problem_;
@@ -121,7 +118,7 @@ class Corrector {
   std::unique_ptr<Evaluator> evaluator_;
   std::unique_ptr<LinearSolver> solver_;
   Borders borders_;
-  Vector p_, weights_, F_p_, dv_, next_, trial_, tangent_;
+  Vector p_, weights_, F_p_, dv_, next_, trial_;
   mutable Vector metric_;  // M x of the last product
   bool has_metric_;
   mutable std::string failure_;

@@ -40,16 +40,11 @@ double StepControl::limited(double ds) const {
 }
 
 void StepControl::predict(Vector& v) const {
-  const Predictor predictor = options_.step.predictor;
-  if (predictor != Predictor::tangent && s_.has_before && s_.step <= largest_extrapolation * s_.last_step) {
-    const double share = s_.step / s_.last_step;
-    if (predictor == Predictor::cubic)
-      hermite(s_.before.v, s_.before.tangent, s_.here.v, s_.here.tangent, s_.last_step, 1 + share, v);
-    else
-      v = s_.here.v + share * (s_.here.v - s_.before.v);
-    return;
-  }
-  v = s_.here.v + s_.step * s_.here.tangent;
+  if (s_.has_before && s_.step <= largest_extrapolation * s_.last_step)
+    hermite(s_.before.v, s_.before.tangent, s_.here.v, s_.here.tangent, s_.last_step,
+            1 + s_.step / s_.last_step, v);
+  else
+    v = s_.here.v + s_.step * s_.here.tangent;
 }
 
 // Growth of the curve's error at equal step length, from the last step to this one: growth, as towards a

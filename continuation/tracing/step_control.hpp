@@ -21,8 +21,7 @@ class StepControl {
   /// A step cut to what the options allow.
   double limited(double ds) const;
 
-  /// By the cubic or the secant of the last two points, or by the tangent after a kink, at the start or far
-  /// out.
+  /// By the cubic through the last two points, or by the tangent after a kink, at the start or far out.
   void predict(Vector& v) const;
 
   /// The step after an accepted one.

@@ -86,7 +86,7 @@ Tracer::Impl::Outcome Tracer::Impl::attempt() {
   trial_.begin();
   control_.predict(end.v);
   main_.border_row(s_.here.tangent, row_);
-  trial_.correction = main_.correct(end.v, row_, s_.factors_fit, options_.newton.corrector);
+  trial_.correction = main_.correct(end.v, row_, s_.factors_fit);
   const Correction& correction = trial_.correction;
   trial_.evaluated = correction.evaluated && main_.failure().empty();
   trial_.failure = main_.failure();
