@@ -69,7 +69,7 @@ void write_constraints(const OptimumProblem& problem, const scene::Scene& /*scen
 void write_cases(const OptimumProblem& problem, const scene::Scene& scene, Node::Object& to) {
   if (problem.cases.empty()) return;
   Node::List list;
-  for (const DesignCase& each : problem.cases) {
+  for (const LoadCase& each : problem.cases) {
     Node::Object object = {{"set", node_of(each.set)}, {"weight", node(each.weight)}};
     if (each.response)
       object.push_back({"response", {Node::Object{place_member(*each.response, scene.dofs)}}});
@@ -87,7 +87,7 @@ void write_scatter(const OptimumProblem& problem, const scene::Scene& /*scene*/,
 
 void drop_from(std::string_view parameter, OptimumProblem& problem) {
   std::erase_if(problem.scatter, [&](const DesignVariable& v) { return v.name == parameter; });
-  for (DesignCase& each : problem.cases)
+  for (LoadCase& each : problem.cases)
     std::erase_if(each.set, [&](const auto& named) { return named.first == parameter; });
 }
 
@@ -268,7 +268,7 @@ std::vector<Taken> taken(const OptimumProblem& problem) {
   std::vector<Taken> all;
   for (const DesignVariable& variable : problem.over)
     all.push_back({variable.name, "which the study is \"over\""});
-  for (const DesignCase& each : problem.cases)
+  for (const LoadCase& each : problem.cases)
     for (const auto& value : each.set) all.push_back({value.first, "which \"cases\" set"});
   for (const DesignVariable& variable : problem.scatter)
     all.push_back({variable.name, "which is in \"scatter\""});

@@ -10,6 +10,7 @@ namespace arcslip::optimize {
 
 const scene::StudyType& optimum_type();  // settings: OptimumSettings
 
+/// Adds them to a catalogue. They outlive all scenes.
 void add_studies(scene::Catalogue& catalogue);
 
 }  // namespace arcslip::optimize

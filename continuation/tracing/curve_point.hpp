@@ -29,7 +29,7 @@ struct CurvePoint {
 };
 
 /// A kink, seen from both sides: the end of the piece before it, and the start of the piece beyond.
-struct Corner {
+struct PassedKink {
   CurvePoint before, beyond;
 };
 

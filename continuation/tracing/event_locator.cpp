@@ -54,7 +54,7 @@ std::vector<LocatedEvent> EventLocator::between(const CurvePoint& from, const Cu
   return gather(&EventLocator::find, from, to);
 }
 
-std::vector<LocatedEvent> EventLocator::across(const Corner& corner) {
+std::vector<LocatedEvent> EventLocator::across(const PassedKink& corner) {
   std::vector<LocatedEvent> found = gather(&EventLocator::at_kink, corner.before, corner.beyond);
   if (angle_between(probe().dot(corner.before.tangent, corner.beyond.tangent)) > smallest_kink)
     for (const Monitor& monitor : monitors_)

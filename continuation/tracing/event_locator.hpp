@@ -43,16 +43,16 @@ class EventLocator {
 
   /// The kink at which the piece of `from` ends, within `length` along its tangent. towards: the direction
   /// beyond, if the signs of determinants are not known. Nothing if none is found.
-  std::optional<Corner> corner(const CurvePoint& from, double length, const Vector& towards);
+  std::optional<PassedKink> corner(const CurvePoint& from, double length, const Vector& towards);
 
   /// Whether any monitor needs the kinks of a step.
   bool looks_for_kinks() const;
 
   /// The kinks of a step that were found, in order from `from`; empty if no monitor needs them.
-  std::vector<Corner> corners(const CurvePoint& from, const CurvePoint& to);
+  std::vector<PassedKink> corners(const CurvePoint& from, const CurvePoint& to);
 
   /// The points of a smooth section at which the part of a quantity changes (Monitor::part), in order.
-  std::vector<Corner> divisions(const CurvePoint& from, const CurvePoint& to);
+  std::vector<PassedKink> divisions(const CurvePoint& from, const CurvePoint& to);
 
   /// The events that became certain with this section, in order of arclength. The caller sets `after`.
   std::vector<LocatedEvent> between(const CurvePoint& from, const CurvePoint& to);
@@ -63,7 +63,7 @@ class EventLocator {
   std::vector<LocatedEvent> past(const CurvePoint& from, const CurvePoint& crossing, const CurvePoint& to);
 
   /// The events at a kink.
-  std::vector<LocatedEvent> across(const Corner& corner);
+  std::vector<LocatedEvent> across(const PassedKink& corner);
 
   /// The branch point between two points of different orientation. Nothing if no branches cross: then `to` is
   /// on another branch. The event belongs to the first branch_point monitor, or has no name.
@@ -89,8 +89,8 @@ class EventLocator {
   std::optional<LocatedEvent> crossing_event(const CurvePoint& from, const CurvePoint& to, const Vector& x,
                                              BranchPoint&& branches);
   LocatedEvent nearer_end(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) const;
-  LocatedEvent kink_event(const Monitor& monitor, const Corner& corner) const;
-  std::optional<Corner> division(const CurvePoint& from, double length);
+  LocatedEvent kink_event(const Monitor& monitor, const PassedKink& corner) const;
+  std::optional<PassedKink> division(const CurvePoint& from, double length);
   bool look_beyond(const CurvePoint& kink, double way, bool is_next_to_it, const Vector& towards,
                    CurvePoint& beyond);
   bool is_event(std::size_t monitor, const LocatedEvent& found);

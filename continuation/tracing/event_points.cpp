@@ -129,7 +129,7 @@ std::optional<LocatedEvent> EventLocator::beyond_crossing(std::size_t monitor, c
   return LocatedEvent{event(monitor, crossing, 0, {}), crossing, crossing.quantities[monitor]};
 }
 
-LocatedEvent EventLocator::kink_event(const Monitor& monitor, const Corner& corner) const {
+LocatedEvent EventLocator::kink_event(const Monitor& monitor, const PassedKink& corner) const {
   LocatedEvent found;
   found.event.monitor = monitor.name;
   found.event.point = point(corner.before, {});
@@ -163,8 +163,8 @@ bool EventLocator::look_beyond(const CurvePoint& kink, double way, bool is_next_
   return beyond.piece != kink.piece && (kink.orientation == 0 || beyond.orientation == kink.orientation);
 }
 
-std::optional<Corner> EventLocator::corner(const CurvePoint& from, double length, const Vector& towards) {
-  Corner corner;
+std::optional<PassedKink> EventLocator::corner(const CurvePoint& from, double length, const Vector& towards) {
+  PassedKink corner;
   Correction correction;
   if (!locate_kink(probe(), from, length, corner.before, correction)) return std::nullopt;
   if (correction.converged)
@@ -189,8 +189,8 @@ bool EventLocator::looks_for_kinks() const {
       });
 }
 
-std::vector<Corner> EventLocator::corners(const CurvePoint& from, const CurvePoint& to) {
-  std::vector<Corner> found;
+std::vector<PassedKink> EventLocator::corners(const CurvePoint& from, const CurvePoint& to) {
+  std::vector<PassedKink> found;
   if (to.piece == from.piece || !looks_for_kinks()) return found;
   const CurvePoint* side = &from;
   for (int k = 0; k < most_kinks && side->piece != to.piece; ++k) {
@@ -205,7 +205,7 @@ std::vector<Corner> EventLocator::corners(const CurvePoint& from, const CurvePoi
   return found;
 }
 
-std::optional<Corner> EventLocator::division(const CurvePoint& from, double length) {
+std::optional<PassedKink> EventLocator::division(const CurvePoint& from, double length) {
   Corrector& probe = this->probe();
   CurvePoint at = from;
   const auto part = [&](const Vector& v) {
@@ -218,7 +218,7 @@ std::optional<Corner> EventLocator::division(const CurvePoint& from, double leng
     }
     return all;
   };
-  Corner found;
+  PassedKink found;
   Correction correction;
   const auto is_inside = [&](const Vector& v) { return part(v) == from.part; };
   if (!locate_kink(probe, from, length, found.before, correction, is_inside)) return std::nullopt;
@@ -241,8 +241,8 @@ std::optional<Corner> EventLocator::division(const CurvePoint& from, double leng
   return std::nullopt;
 }
 
-std::vector<Corner> EventLocator::divisions(const CurvePoint& from, const CurvePoint& to) {
-  std::vector<Corner> found;
+std::vector<PassedKink> EventLocator::divisions(const CurvePoint& from, const CurvePoint& to) {
+  std::vector<PassedKink> found;
   const CurvePoint* side = &from;
   for (int k = 0; k < most_kinks && side->piece == to.piece && side->part != to.part; ++k) {
     const double length = continuation::distance(probe(), side->v, to.v);

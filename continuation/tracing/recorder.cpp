@@ -47,7 +47,7 @@ void Recorder::warn_of_undefined(const CurvePoint& place) {
 bool Recorder::events_of(Trial& trial) {
   bool go_on = true;
   const CurvePoint* from = &s_.here;
-  for (const Corner& corner : trial.corners) {
+  for (const PassedKink& corner : trial.corners) {
     if (!go_on || terminal_) break;
     go_on = pass(*from, corner);
     from = &corner.beyond;
@@ -63,7 +63,7 @@ bool Recorder::events_of(Trial& trial) {
 
 // Moves to a kink, from the start of a section, and across it. A visible corner becomes a point of
 // the branch.
-bool Recorder::pass(const CurvePoint& from, const Corner& corner) {
+bool Recorder::pass(const CurvePoint& from, const PassedKink& corner) {
   const CurvePoint& kink = corner.before;
   bool go_on = report(events_.between(from, kink));
   if (!go_on || terminal_) return go_on;

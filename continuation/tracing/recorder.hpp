@@ -43,7 +43,7 @@ class Recorder {
   bool show_last_point();
 
  private:
-  bool pass(const CurvePoint& from, const Corner& corner);
+  bool pass(const CurvePoint& from, const PassedKink& corner);
   bool report(std::vector<LocatedEvent>&& found);
   const Event* add(Event&& event);
 

@@ -251,7 +251,7 @@ bool Tracer::Impl::measure() {
 
 // Divides the step into sections with constant Monitor::part.
 void Tracer::Impl::divide() {
-  std::vector<Corner> all;
+  std::vector<PassedKink> all;
   std::size_t k = 0;
   trial_.all_sections(s_.here, [&](const CurvePoint& from, const CurvePoint& to) {
     auto found = events_.divisions(from, to);

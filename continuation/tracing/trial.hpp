@@ -20,7 +20,7 @@ struct Trial {
   double length = 0;                     // arclength of the step, by way of its corners
   double turn = 0;                       // rad, of the tangent
   bool kink = false;                     // it crosses a kink that is no corner of it
-  std::vector<Corner> corners;           // on the way, in order
+  std::vector<PassedKink> corners;       // on the way, in order
   std::optional<LocatedEvent> crossing;  // the branch point on the way
   double curve_error = 0;                // of the cubics along it, relative to the tolerance
   bool other_piece_between = false;      // unnoticed by its sections
@@ -46,7 +46,7 @@ struct Trial {
   template <class F>
   bool all_sections(const CurvePoint& here, F&& f) const {
     const CurvePoint* from = &here;
-    for (const Corner& corner : corners) {
+    for (const PassedKink& corner : corners) {
       if (!f(*from, corner.before)) return false;
       from = &corner.beyond;
     }

@@ -20,7 +20,7 @@ struct FrequencyRange {
 };
 
 /// One branch, or several if an unbounded resonance divides it. A branch that ends early is reported with
-/// its reason.
+/// its reason. Throws std::invalid_argument unless from < to. Threads may share the scene.
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
                                                const ProgressCallback& progress = {});
 

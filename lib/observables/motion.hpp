@@ -2,7 +2,7 @@
 // Results of time studies: a motion and its observables, as plain data.
 
 #include <arcslip/observables/response.hpp>
-#include <arcslip/time/motion.hpp>
+#include <arcslip/time/time_history.hpp>
 
 #include <complex>
 #include <optional>

@@ -271,7 +271,7 @@ class InTime {
     motion_.energy = {motion.energy.input * share, motion.energy.friction * share,
                       motion.energy.viscous * share, motion.energy.stored * share};
     std::size_t k = 0;
-    for (const time::Element& element : equation_.elements) {
+    for (const time::TimeElement& element : equation_.elements) {
       if (!element.law->has_contact() || k == motion.friction.size()) continue;
       const time::FrictionShare& friction = motion.friction[k++];
       motion_.elements.push_back({element.name, 100 * friction.stick_share, friction.energy * share});

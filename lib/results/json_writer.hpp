@@ -18,6 +18,7 @@ namespace arcslip::results {
 /// first table are written as they arrive, those of others are kept until the result ends.
 class JsonWriter : public Sink {
  public:
+  /// The stream outlives this; its state tells whether writing succeeded.
   explicit JsonWriter(std::ostream& out);
   ~JsonWriter() override;
 

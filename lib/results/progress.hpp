@@ -19,7 +19,8 @@ struct Progress {
   double best = std::numeric_limits<double>::quiet_NaN();  // of a search: the lowest amplitude so far, m
 };
 
-/// Returns false to stop: the computation then ends with reasons::user.
+/// Returns false to stop: the computation then ends with reasons::user. Called in the thread of the
+/// computation; an exception it throws is passed on.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 }  // namespace arcslip::results

@@ -96,6 +96,8 @@ struct End {
   std::string text{};   // for people, lines
 };
 
+/// Receives results: begin, then curve, rows and end for each result, and finish. Belongs to one thread. An
+/// exception of a sink ends the study and is passed on.
 class Sink {
  public:
   virtual ~Sink() = default;

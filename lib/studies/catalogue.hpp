@@ -20,7 +20,8 @@ const scene::StudyType& point();  // responses at one frequency; observables::Po
 /// All of them.
 scene::Catalogue catalogue();
 
-/// The results of every study of a scene.
+/// The results of every study of a scene, which threads may share. A study that ends early is reported with
+/// its reason; exceptions of the callback and of the sink are passed on.
 results::Results run(const scene::Scene& scene, const scene::RunOptions& options = {});
 /// The same, each passed to the sink as soon as it is computed, and not kept; studies with results in the
 /// same list of a document are run consecutively.

@@ -20,7 +20,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 /// One nonlinear element with its numbers.
-struct Element {
+struct TimeElement {
   std::string name;
   std::shared_ptr<const elements::Law> law;
   std::vector<double> fields;
@@ -38,7 +38,7 @@ struct HarmonicForce {
 struct EquationOfMotion {
   double omega = 0;  // base frequency, rad/s: n is an order of it
   Matrix M, C, K;    // dofs x dofs; kg, N s/m, N/m
-  std::vector<Element> elements;
+  std::vector<TimeElement> elements;
   std::vector<HarmonicForce> forces;
   Vector response;                     // direction whose motion is observed
   int memory = 0;                      // numbers in MotionState::z

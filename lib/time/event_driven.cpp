@@ -11,7 +11,7 @@ namespace {
 
 double elastic_and_kinetic(const EquationOfMotion& equation, const MotionState& state) {
   double energy = 0.5 * state.v.dot(equation.M * state.v) + 0.5 * state.x.dot(equation.K * state.x);
-  for (const Element& element : equation.elements)
+  for (const TimeElement& element : equation.elements)
     energy += element.law->stored(element.fields, element.directions.transpose() * state.x,
                                   state.z.segment(element.memory, element.law->memory()));
   return energy;
@@ -60,7 +60,7 @@ class Recorder {
  public:
   Recorder(const EquationOfMotion& equation, const March& march, std::span<const double> instants)
       : equation_(equation), march_(march), instants_(instants) {
-    for (const Element& element : equation.elements) {
+    for (const TimeElement& element : equation.elements) {
       records_.push_back({element.law->has_contact() ? static_cast<int>(motion_.friction.size()) : -1, 0});
       if (element.law->has_contact()) motion_.friction.push_back({element.name});
       motion_.history.elements.push_back({element.name, {}, {}, {}});

@@ -20,8 +20,8 @@
 // those of what it follows from there on; the forces are continuous, so that nothing jumps. Source:
 // docs/theory/09-event-driven.md.
 
-#include <arcslip/time/motion.hpp>
 #include <arcslip/time/period_map.hpp>
+#include <arcslip/time/time_history.hpp>
 
 #include <functional>
 #include <memory>

@@ -20,7 +20,7 @@ MotionState state_of(const hbm::HbmProblem& problem, elements::In u, const conti
   const auto evaluator = problem.hbm_evaluator();
   evaluator->move_to(u, p, continuation::Needs::residual);
   for (std::size_t e = 0; e < equation.elements.size(); ++e) {
-    const Element& element = equation.elements[e];
+    const TimeElement& element = equation.elements[e];
     const auto& h = problem.harmonics();
     const Vector q = element.directions.transpose() * state.x;
     Vector f(q.size());

@@ -18,10 +18,11 @@ constexpr int largest_bisections = 60, largest_halvings = 10;
 
 }  // namespace
 
-ImplicitElements::ImplicitElements(std::vector<Element> elements, int dofs) : elements_(std::move(elements)) {
+ImplicitElements::ImplicitElements(std::vector<TimeElement> elements, int dofs)
+    : elements_(std::move(elements)) {
   Eigen::Index directions = 0, tangents = 0;
   int memory = 0;
-  for (const Element& element : elements_) {
+  for (const TimeElement& element : elements_) {
     const int own = element.law->directions();
     first_.push_back(directions);
     ends_.emplace_back(own, element.law->memory());
@@ -55,7 +56,7 @@ void ImplicitElements::begin_at(const Vector& q, const Vector& z) {
   z_ = z;
   dz_.setZero();
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Element& element = elements_[e];
+    const TimeElement& element = elements_[e];
     const auto d = element.directions.cols(), m = ends_[e].dz.size();
     element.law->begin(element.fields, q_.segment(first_[e], d), z_.segment(element.memory, m), ends_[e]);
     force_.segment(first_[e], d) = ends_[e].f;
@@ -68,7 +69,7 @@ void ImplicitElements::evaluate(const Vector& y) {
   dq_.noalias() = D_.transpose() * y;
   Eigen::Index at = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Element& element = elements_[e];
+    const TimeElement& element = elements_[e];
     elements::StepEnd& end = ends_[e];
     const auto d = end.f.size(), m = end.dz.size(), i = first_[e];
     element.law->step(element.fields, {q_.segment(i, d), z_.segment(element.memory, m), force_.segment(i, d)},
@@ -204,7 +205,7 @@ void ImplicitElements::accept() {
 double ImplicitElements::energy() const {
   double sum = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Element& element = elements_[e];
+    const TimeElement& element = elements_[e];
     sum += element.law->stored(element.fields, q_.segment(first_[e], element.directions.cols()),
                                z_.segment(element.memory, ends_[e].dz.size()));
   }
@@ -215,7 +216,7 @@ void ImplicitElements::force_change(const Matrix& dx, const Matrix& dz, Matrix& 
   dq_columns_.noalias() = D_.transpose() * dx;
   df.resize(dq_columns_.rows(), dq_columns_.cols());
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Element& element = elements_[e];
+    const TimeElement& element = elements_[e];
     const auto d = element.directions.cols(), m = ends_[e].dz.size(), i = first_[e];
     elements::StepEnd& at = starts_[e];
     auto z = moved_.head(m);

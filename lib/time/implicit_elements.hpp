@@ -30,7 +30,7 @@ class ImplicitElements {
  public:
   static constexpr int largest_iterations = 60;
 
-  ImplicitElements(std::vector<Element> elements, int dofs);
+  ImplicitElements(std::vector<TimeElement> elements, int dofs);
 
   void set_matrix(const Matrix& A);
   /// The state in which the next step begins. A slider beyond its limit is drawn after.
@@ -52,7 +52,7 @@ class ImplicitElements {
   const elements::StepEnd& end(std::size_t element) const { return ends_[element]; }
   const Vector& memory_change() const { return dz_; }
 
-  const std::vector<Element>& elements() const { return elements_; }
+  const std::vector<TimeElement>& elements() const { return elements_; }
   const Matrix& directions() const { return D_; }  // dofs x directions of all elements
   /// The first of an element's among these.
   Eigen::Index first_direction(std::size_t element) const { return first_[element]; }
@@ -71,7 +71,7 @@ class ImplicitElements {
   double search(const Vector& y, double slope);
   double halve(const Vector& y, double size);
 
-  std::vector<Element> elements_;
+  std::vector<TimeElement> elements_;
   std::vector<Eigen::Index> first_;
   std::vector<elements::StepEnd> ends_, starts_;  // of the step; of the state before the last accept()
   bool convex_ = true;

@@ -20,7 +20,7 @@ std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
   std::vector<Contact> contacts;
   Eigen::Index row = 0;
   for (std::size_t e = 0; e < equation.elements.size(); ++e) {
-    const Element& element = equation.elements[e];
+    const TimeElement& element = equation.elements[e];
     auto automata = element.law->automata(element.fields);
     if (!automata || !element.law->symmetric_step())
       throw NotPiecewiseLinear(
@@ -74,7 +74,7 @@ void March::begin(const MotionState& start, double time, bool derivatives) {
     V_.middleCols(1 + n, n).setIdentity();
     Z_.rightCols(memory).setIdentity();
   }
-  for (const Element& element : equation_.elements) {
+  for (const TimeElement& element : equation_.elements) {
     const int own = element.law->memory();
     elements::StepEnd at(element.law->directions(), own);
     Vector z = Z_.col(0).segment(element.memory, own);

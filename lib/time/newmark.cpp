@@ -68,8 +68,8 @@ Solved Newmark::begin(const MotionState& state) {
 // Along massless_ the forces balance: by the displacement without damping, by the velocity with damping.
 Solved Newmark::place_massless() {
   if (undamped_.cols() > 0) {
-    std::vector<Element> seen = equation_.elements;
-    for (Element& element : seen) element.directions = undamped_.transpose() * element.directions;
+    std::vector<TimeElement> seen = equation_.elements;
+    for (TimeElement& element : seen) element.directions = undamped_.transpose() * element.directions;
     ImplicitElements along(seen, static_cast<int>(undamped_.cols()));
     along.set_matrix(undamped_.transpose() * equation_.K * undamped_);
     const Vector q = elements_.directions().transpose() * state_.x;

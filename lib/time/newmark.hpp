@@ -21,7 +21,7 @@
 // Source: Newmark 1959; docs/theory/10-newmark.md.
 
 #include <arcslip/time/implicit_elements.hpp>
-#include <arcslip/time/motion.hpp>
+#include <arcslip/time/time_history.hpp>
 
 namespace arcslip::time {
 

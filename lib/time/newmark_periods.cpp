@@ -16,7 +16,7 @@ class Observation {
   Observation(const Newmark& newmark, bool with_history, long steps)
       : newmark_(newmark), with_history_(with_history) {
     const auto& equation = newmark.equation();
-    for (const Element& element : equation.elements) {
+    for (const TimeElement& element : equation.elements) {
       if (element.law->has_contact()) result_.friction.emplace_back();
       if (with_history) result_.history.elements.push_back({element.name, {}, {}, {}});
     }
@@ -79,7 +79,7 @@ class Observation {
     history.velocity.push_back(v_);
     const ImplicitElements& elements = newmark_.elements();
     for (std::size_t e = 0; e < history.elements.size(); ++e) {
-      const Element& element = elements.elements()[e];
+      const TimeElement& element = elements.elements()[e];
       ElementTimeHistory& of = history.elements[e];
       of.displacement.push_back(element.directions.col(0).dot(newmark_.state().x));
       of.force.push_back(elements.force()[elements.first_direction(e)]);
@@ -160,7 +160,7 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   map.monodromy = Matrix::Identity(size, size);
   newmark.resume(start);
   std::vector<Reach> reaches;
-  for (const Element& element : equation.elements)
+  for (const TimeElement& element : equation.elements)
     for (int k = 0; k < element.law->memory(); ++k) {
       const int along = element.law->slider_direction(k);
       if (along < 0) continue;

@@ -2,8 +2,8 @@
 // A motion over some periods of the excitation, independent of the integrator, and transients that are
 // integrated period by period until they are steady.
 
-#include <arcslip/time/motion.hpp>
 #include <arcslip/time/reasons.hpp>
+#include <arcslip/time/time_history.hpp>
 
 #include <functional>
 #include <optional>

@@ -21,7 +21,7 @@ constexpr int deflation_iterations = 40;
 
 class Certifier {
  public:
-  Certifier(Cases& cases, std::span<const double> lower, std::span<const double> upper,
+  Certifier(LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
             std::vector<ActiveLimit> limits, const std::function<double()>& margin)
       : cases_(cases),
         margin_(margin),
@@ -216,7 +216,7 @@ class Certifier {
       add("deflation", u, peak.omega());
   }
 
-  Cases& cases_;
+  LoadCases& cases_;
   const std::function<double()>& margin_;
   std::function<bool()> go_on_{};
   std::span<const double> lower_, upper_;
@@ -233,7 +233,7 @@ class Certifier {
 
 }  // namespace
 
-Certificate certify(Cases& cases, std::span<const double> lower, std::span<const double> upper,
+Certificate certify(LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
                     std::vector<ActiveLimit> limits, const std::function<double()>& margin,
                     const std::function<bool()>& go_on) {
   return Certifier(cases, lower, upper, std::move(limits), margin).run(go_on);

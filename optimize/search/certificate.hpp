@@ -2,7 +2,7 @@
 // Optimality certificate: first-order conditions, curvature and tolerance ranges of the optimum of V, the
 // amplitude or the criterion over several cases (cases.hpp).
 
-#include <arcslip/optimize/search/cases.hpp>
+#include <arcslip/optimize/search/load_cases.hpp>
 
 #include <Eigen/Core>
 
@@ -80,7 +80,7 @@ struct Certificate {
 /// Certifies the current design of the cases as the optimum; the cases move to other designs meanwhile.
 /// go_on: called between the parts; false ends the certificate early. limits: the active ones. margin: the
 /// largest c(p) of all limits at the current design; none: no limits.
-Certificate certify(Cases& cases, std::span<const double> lower, std::span<const double> upper,
+Certificate certify(LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
                     std::vector<ActiveLimit> limits = {}, const std::function<double()>& margin = {},
                     const std::function<bool()>& go_on = {});
 

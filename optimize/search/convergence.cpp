@@ -16,25 +16,25 @@ constexpr std::size_t patience = 25;            // evaluations without a gain, f
 
 }  // namespace
 
-Balance balance_here(Trials& trials) {
-  const DesignSpace& space = trials.space();
-  return balance(trials.cases(), space.lower(), space.upper(), trials.formulation().active());
+Balance balance_here(DesignEvaluations& designs) {
+  const DesignSpace& space = designs.space();
+  return balance(designs.cases(), space.lower(), space.upper(), designs.formulation().active());
 }
 
-Convergence::Convergence(Trials& trials, const Settings& settings)
-    : trials_(trials),
+Convergence::Convergence(DesignEvaluations& designs, const Settings& settings)
+    : designs_(designs),
       settings_(settings),
       known_(count()),
       gained_(count()),
-      gained_value_(trials.best().value),
-      gained_excess_(trials.best().excess) {}
+      gained_value_(designs.best().value),
+      gained_excess_(designs.best().excess) {}
 
 Convergence::Ends Convergence::test() {
-  const Best& best = trials_.best();
+  const Best& best = designs_.best();
   idle_ = count() > known_ ? 0 : idle_ + 1;
   known_ = count();
   if (settings_.smooth && gradient_vanishes()) {
-    trials_.call_best();
+    designs_.call_best();
     return Ends::vanishes;
   }
   const bool within = best.excess == 0;
@@ -52,33 +52,33 @@ Convergence::Ends Convergence::test() {
 }
 
 bool Convergence::is_settled() {
-  const Best& best = trials_.best();
-  const double value = trials_.cases().value();
+  const Best& best = designs_.best();
+  const double value = designs_.cases().value();
   if (!std::isfinite(value) || value > (1 + as_good_within_limits) * best.value || best.excess > 0 ||
-      trials_.formulation().excess() > 0)
+      designs_.formulation().excess() > 0)
     return false;
-  Balance left = balance_here(trials_);
+  Balance left = balance_here(designs_);
   if (candidate_.design.empty() || left.stationarity < candidate_.left.stationarity)
-    candidate_ = {trials_.cases().state(0).design, std::move(left)};
+    candidate_ = {designs_.cases().state(0).design, std::move(left)};
   return candidate_.left.stationarity <= settled_share * most_stationarity &&
          candidate_.left.complementarity <= settled_share * most_complementarity;
 }
 
 void Convergence::take_candidate() {
   if (candidate_.design.empty() || !is_stationary(candidate_.left)) return;
-  Cases& cases = trials_.cases();
+  LoadCases& cases = designs_.cases();
   cases.at(candidate_.design);
-  if (cases.value() <= (1 + as_good_within_limits) * trials_.best().value &&
-      trials_.formulation().excess() == 0)
-    trials_.call_best();
+  if (cases.value() <= (1 + as_good_within_limits) * designs_.best().value &&
+      designs_.formulation().excess() == 0)
+    designs_.call_best();
 }
 
 // At the best design so far: a flat place that is worse is none.
 bool Convergence::gradient_vanishes() {
-  Cases& cases = trials_.cases();
-  const DesignSpace& space = trials_.space();
+  LoadCases& cases = designs_.cases();
+  const DesignSpace& space = designs_.space();
   const double value = cases.value();
-  if (!std::isfinite(value) || value > (1 + as_good) * trials_.best().value) return false;
+  if (!std::isfinite(value) || value > (1 + as_good) * designs_.best().value) return false;
   for (std::size_t c = 0; c < cases.size(); ++c)
     if (cases.state(c).peaks.size() > 1) return false;
   const std::vector<double>& design = cases.state(0).design;

@@ -3,8 +3,8 @@
 // lack of progress. Not installed.
 
 #include <arcslip/optimize/nlopt/minimize.hpp>
+#include <arcslip/optimize/search/design_evaluations.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
-#include <arcslip/optimize/search/trials.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -14,7 +14,7 @@ namespace arcslip::optimize {
 inline constexpr double small_gradient = 1e-8;  // of d ln V / dy: smaller ones are rounding
 
 /// The balance of gradients where the cases stand.
-Balance balance_here(Trials& trials);
+Balance balance_here(DesignEvaluations& designs);
 
 class Convergence {
  public:
@@ -31,8 +31,8 @@ class Convergence {
     std::size_t parameters;
   };
 
-  /// Of a run from where the trials stand, which outlive this.
-  Convergence(Trials& trials, const Settings& settings);
+  /// Of a run from where the designs stand, which outlive this.
+  Convergence(DesignEvaluations& designs, const Settings& settings);
 
   /// After each call of the algorithm.
   Ends test();
@@ -47,9 +47,9 @@ class Convergence {
  private:
   bool gradient_vanishes();
   bool is_settled();
-  std::size_t count() const { return trials_.evaluations().size(); }
+  std::size_t count() const { return designs_.evaluations().size(); }
 
-  Trials& trials_;
+  DesignEvaluations& designs_;
   Settings settings_;
   struct Candidate {
     std::vector<double> design;

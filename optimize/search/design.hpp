@@ -39,11 +39,11 @@ struct LinearLimit {
 };
 
 /// A load case of the design: an excitation level, a sample of uncertain parameters, a response location.
-struct DesignCase {
+struct LoadCase {
   std::vector<std::pair<std::string, double>> set;  // parameters and their values
   double weight = 1;                                // of its amplitude, > 0
   std::optional<scene::Direction> response{};       // none: the scene's
-  friend bool operator==(const DesignCase&, const DesignCase&) = default;
+  friend bool operator==(const LoadCase&, const LoadCase&) = default;
 };
 
 /// The criterion to minimize: the largest weighted amplitude of all cases, or their weighted mean.

@@ -20,7 +20,7 @@ constexpr double as_active = 1e-6;   // of limits on observables, relative: one 
 
 }  // namespace
 
-Formulation::Formulation(const OptimumProblem& problem, const DesignSpace& space, Cases& cases)
+Formulation::Formulation(const OptimumProblem& problem, const DesignSpace& space, LoadCases& cases)
     : space_(space), cases_(cases) {
   for (const ObservableLimit& limit : problem.limits) {
     const auto add = [&](double sign, double bound) {

@@ -8,8 +8,8 @@
 // linear limits.
 
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
-#include <arcslip/optimize/search/cases.hpp>
 #include <arcslip/optimize/search/design_space.hpp>
+#include <arcslip/optimize/search/load_cases.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -48,7 +48,7 @@ class ConstraintPeaks {
 class Formulation {
  public:
   /// Throws OptionsError for an unknown observable and reversed limits. Refers to its arguments.
-  Formulation(const OptimumProblem& problem, const DesignSpace& space, Cases& cases);
+  Formulation(const OptimumProblem& problem, const DesignSpace& space, LoadCases& cases);
 
   /// The problem for a run from the current design of the cases, all finite. reference: V_0. move: moves the
   /// cases to the design of y. y: the start; levels are added to it. Refers to this object.
@@ -84,7 +84,7 @@ class Formulation {
   void add_limits(NonlinearProgram& problem, std::size_t n);
 
   const DesignSpace& space_;
-  Cases& cases_;
+  LoadCases& cases_;
   std::vector<Limited> limits_;
   std::vector<ConstraintPeaks> constraints_;  // of each case
   std::function<void(std::span<const double>)> move_;

@@ -106,7 +106,7 @@ bool is_stationary(const Balance& balance) {
   return balance.stationarity <= most_stationarity && balance.complementarity <= most_complementarity;
 }
 
-Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper,
+Balance balance(const LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
                 std::vector<ActiveLimit> limits) {
   Balance result;
   const std::vector<double>& design = cases.state(0).design;

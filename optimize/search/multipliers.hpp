@@ -37,7 +37,7 @@ struct Balance {
 bool is_stationary(const Balance& balance);
 
 /// The balance at the current design of the cases, V finite.
-Balance balance(const Cases& cases, std::span<const double> lower, std::span<const double> upper,
+Balance balance(const LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
                 std::vector<ActiveLimit> limits);
 
 /// m >= 0 that minimizes |G m| such that the entries of each group add up to its share (> 0, groups counted

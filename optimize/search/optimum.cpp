@@ -42,7 +42,7 @@ Search::Search(const scene::Scene& scene, const OptimumProblem& problem, const O
       asked_(algorithm(options.algorithm.empty() ? std::string(default_algorithm) : options.algorithm)),
       algorithm_(asked_),
       watch_(options.seconds, options.go_on),
-      trials_(scene, problem, options, watch_, asked_.global) {
+      designs_(scene, problem, options, watch_, asked_.global) {
   result_.algorithm = asked_.name;
 }
 
@@ -70,9 +70,9 @@ Optimum Search::run() {
         text("; the lowest amplitude is ", result_.amplitude, " m at ", space().text(result_.design));
     if (!result_.feasible) result_.stop.message += text(", where a limit is exceeded by ", best().excess);
   }
-  result_.evaluations = std::move(trials_.evaluations());
-  result_.evaluations.insert(result_.evaluations.end(), trials_.elsewhere().begin(),
-                             trials_.elsewhere().end());
+  result_.evaluations = std::move(designs_.evaluations());
+  result_.evaluations.insert(result_.evaluations.end(), designs_.elsewhere().begin(),
+                             designs_.elsewhere().end());
   result_.work = cases().work();
   add(work_elsewhere_, result_.work);
   result_.seconds = watch_.seconds();
@@ -94,7 +94,7 @@ void Search::search() {
     begin();
     for (int round = 0; !ended_; ++round) {
       const auto before = std::pair(result_.status, result_.stop);
-      trials_.begin("the search");
+      designs_.begin("the search");
       minimize_once();
       if (watch_.stopped()) return;
       if (result_.status == Status::failed && best().value == stuck_value_ &&
@@ -110,8 +110,8 @@ void Search::search() {
 }
 
 void Search::begin() {
-  trials_.begin("the initial design");
-  const SearchStart start = find_start(trials_, start_, result_.notes);
+  designs_.begin("the initial design");
+  const SearchStart start = find_start(designs_, start_, result_.notes);
   ended_ = !start.found;
   if (start.found) {
     start_ = start.design;
@@ -137,13 +137,13 @@ bool Search::interrupted() {
 }
 
 void Search::minimize_once() {
-  Formulation& formulation = trials_.formulation();
+  Formulation& formulation = designs_.formulation();
   round_.responses = cases().work().responses;
   round_.value = std::min(cases().value(), best().value);
   round_.excess = best().excess;
   std::vector<double> y = space().scaled(start_);
   const NonlinearProgram problem =
-      formulation.problem(y, algorithm_, reference_, [this](auto at) { trials_.move_to(at); });
+      formulation.problem(y, algorithm_, reference_, [this](auto at) { designs_.move_to(at); });
   result_.epigraph = result_.epigraph || (formulation.epigraph() && algorithm_.name == asked_.name);
 
   MinimizeOptions options;
@@ -160,7 +160,7 @@ void Search::minimize_once() {
   options.evaluations = std::max(1, options_.evaluations - static_cast<int>(count()) + known);
   if (refinements_ > 0) options.evaluations = std::min(options.evaluations, most_in_refinement);
   const bool smooth = algorithm_.name[1] == 'D' && !formulation.epigraph() && problem.constraints.empty();
-  Convergence convergence(trials_, {smooth, limited_, refinements_ > 0, algorithm_.global, start_.size()});
+  Convergence convergence(designs_, {smooth, limited_, refinements_ > 0, algorithm_.global, start_.size()});
   Ends by = Ends::no;
   options.progress = [&](const MinimizeProgress&) {
     by = convergence.test();
@@ -202,14 +202,14 @@ bool Search::verify() {
                           : round_.excess > 0 || best().value < (1 - gain) * round_.value;
   const double seen = best().value;
   start_ = best().design;
-  trials_.begin("the verification");
+  designs_.begin("the verification");
   cases().trace(start_, observables::Steps::curve);
   for (std::size_t c = 0; c < cases().size(); ++c)
     if (const PeakState& state = cases().state(c); !state.complete)
-      note(trials_.where(c) + "the response at " + space().text(start_) +
+      note(designs_.where(c) + "the response at " + space().text(start_) +
            " ends within the window: " + state.message);
   const double now = cases().value();
-  Formulation& formulation = trials_.formulation();
+  Formulation& formulation = designs_.formulation();
   const double exceeded = formulation.excess();
   const bool higher = !(std::abs(now / seen - 1) <= seen_before);
   const bool beyond = exceeded > best().excess + limit_tolerance;
@@ -220,7 +220,7 @@ bool Search::verify() {
   note(text("at ", space().text(start_), " a new peak ",
             higher ? text("of ", now, " m appeared, higher than the highest tracked peak of ", seen, " m")
                    : text("appeared at which a limit is exceeded by ", exceeded)));
-  trials_.call_best();
+  designs_.call_best();
   if (++new_peaks_ > 1) retreat();
   return !ended_;
 }
@@ -230,11 +230,11 @@ bool Search::verify() {
 // better; these are evaluated again with new responses: first designs that are far apart, and without
 // progress those in between, since the jump may be close.
 void Search::retreat() {
-  trials_.trace_all();
+  designs_.trace_all();
   std::vector<std::tuple<double, double, std::vector<double>>> tried;  // excess, V, design
   for (std::size_t i = 0; i < count(); ++i)
-    tried.emplace_back(trials_.excesses()[i], trials_.evaluations()[i].amplitude,
-                       trials_.evaluations()[i].design);
+    tried.emplace_back(designs_.excesses()[i], designs_.evaluations()[i].amplitude,
+                       designs_.evaluations()[i].design);
   std::erase_if(tried, [](const auto& each) { return std::isnan(std::get<1>(each)); });
   std::sort(tried.begin(), tried.end());
   std::vector<std::vector<double>> looked_at{best().design};
@@ -250,7 +250,7 @@ void Search::retreat() {
       if (known) continue;
       looked_at.push_back(design);
       ++retreats;
-      trials_.evaluate(design, true);
+      designs_.evaluate(design, true);
     }
   }
   start_ = best().design;
@@ -283,8 +283,8 @@ bool Search::release() {
   std::optional<std::vector<double>> from;
   double least = infinity;
   for (const std::vector<double>& design : designs) {
-    trials_.evaluate(design, true);
-    const double excess = trials_.formulation().excess();
+    designs_.evaluate(design, true);
+    const double excess = designs_.formulation().excess();
     if (!std::isfinite(cases().value()) || !(excess < least)) continue;
     from = design;
     least = excess;
@@ -299,18 +299,18 @@ bool Search::release() {
 }
 
 bool Search::add_worst_scatter() {
-  if (!trials_.scenarios().scatter() || result_.status != Status::complete || best().design.empty())
+  if (!designs_.scenarios().scatter() || result_.status != Status::complete || best().design.empty())
     return false;
   start_ = best().design;
   if (!cases().stand_at(start_)) cases().trace(start_);
   ++result_.scatter_rounds;
-  trials_.begin("the worst-case search");
-  const std::vector<Scenario> worse = trials_.worse_scatter();
+  designs_.begin("the worst-case search");
+  const std::vector<Scenario> worse = designs_.worse_scatter();
   if (interrupted() || worse.empty()) return false;
-  for (const Scenario& each : worse) trials_.add(each);
+  for (const Scenario& each : worse) designs_.add(each);
   stuck_value_ = infinity;
   if (result_.scatter_rounds < options_.scatter_rounds) return true;
-  trials_.evaluate(start_);
+  designs_.evaluate(start_);
   result_.status = Status::stopped;
   result_.stop.reason = reasons::scatter_limit;
   result_.stop.message = text("the worst case of the uncertain parameters still increased after ",

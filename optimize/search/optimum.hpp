@@ -45,7 +45,7 @@ struct OptimumProblem {
   double frequency_from = 0, frequency_to = 0;  // window, in the scene's unit
   std::vector<ObservableLimit> limits{};
   std::vector<LinearLimit> linear_limits{};
-  std::vector<DesignCase> cases{};  // none: one case, the scene itself
+  std::vector<LoadCase> cases{};  // none: one case, the scene itself
   Criterion criterion = Criterion::worst;
   std::vector<DesignVariable> scatter{};  // uncertain parameters; the worst case within these bounds counts
   friend bool operator==(const OptimumProblem&, const OptimumProblem&) = default;
@@ -94,7 +94,7 @@ struct Evaluation {
 };
 
 /// A case at the optimum; with scatter, a case with values of the uncertain parameters.
-struct CaseResult {
+struct LoadCaseResult {
   std::size_t of = 0;                                   // index in OptimumProblem::cases; 0 without cases
   std::vector<std::pair<std::string, double>> set;      // parameters set by that case
   std::vector<std::pair<std::string, double>> scatter;  // values of the uncertain parameters
@@ -111,9 +111,10 @@ struct Optimum {
   /// not_stationary: most_stationarity, most_complementarity. Complete: the certificate is complete and its
   /// conditions hold.
   observables::Stop stop;
-  std::vector<double> design;        // best so far; empty if there is none
-  double amplitude = 0;              // criterion there, m: A_max for one case of weight 1
-  std::vector<CaseResult> cases;     // of the problem, each with some values of the scatter; then those added
+  std::vector<double> design;  // best so far; empty if there is none
+  double amplitude = 0;        // criterion there, m: A_max for one case of weight 1
+  std::vector<LoadCaseResult>
+      cases;                         // of the problem, each with some values of the scatter; then those added
   observables::ResponsePoint point;  // at the highest peak of the case of highest w_c A_c
   bool feasible = false;             // all limits hold at `design`
   std::string algorithm;

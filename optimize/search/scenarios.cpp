@@ -21,13 +21,13 @@ bool contains(const std::vector<DesignVariable>& variables, const std::string& n
       [&](const DesignVariable& variable) { return variable.name == name; });
 }
 
-scene::Scene with_case(scene::Scene scene, const DesignCase& each) {
+scene::Scene with_case(scene::Scene scene, const LoadCase& each) {
   for (const auto& [name, value] : each.set) scene::set(scene, name, value);
   if (each.response) scene.responses = {{"", *each.response}};
   return scene;
 }
 
-void check(const DesignCase& each, const scene::Scene& scene, const OptimumProblem& problem) {
+void check(const LoadCase& each, const scene::Scene& scene, const OptimumProblem& problem) {
   if (!(each.weight > 0 && std::isfinite(each.weight)))
     throw OptionsError(text("the weight of a case is ", each.weight, ", must be above 0"));
   for (const auto& [name, value] : each.set) {
@@ -53,7 +53,7 @@ void check(const DesignCase& each, const scene::Scene& scene, const OptimumProbl
 
 Scenarios::Scenarios(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space)
     : scene_(scene), problem_(problem), space_(space), cases_(problem.cases) {
-  for (const DesignCase& each : cases_) check(each, scene, problem);
+  for (const LoadCase& each : cases_) check(each, scene, problem);
   if (cases_.empty()) cases_.emplace_back();
   const double unit = scene::to_rad_per_s(scene.frequency_unit);
   window_ = {problem.frequency_from * unit, problem.frequency_to * unit};
@@ -110,7 +110,7 @@ std::vector<Scenario> Scenarios::first() const {
 }
 
 std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario, observables::GoOn go_on) const {
-  const DesignCase& of = cases_[scenario.of];
+  const LoadCase& of = cases_[scenario.of];
   auto model = space_.model();
   if (!of.set.empty() || of.response || box_) {
     scene::Scene scene = with_case(scene_, of);
@@ -122,8 +122,8 @@ std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario, observ
                                          problem_.limits.empty() ? Watched{} : watched_for_limits);
 }
 
-CaseResult Scenarios::result(const Scenario& scenario) const {
-  CaseResult result;
+LoadCaseResult Scenarios::result(const Scenario& scenario) const {
+  LoadCaseResult result;
   result.of = scenario.of;
   result.set = cases_[scenario.of].set;
   for (std::size_t k = 0; k < scenario.scatter.size(); ++k)

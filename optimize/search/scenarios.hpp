@@ -32,7 +32,7 @@ class Scenarios {
   std::size_t size() const { return cases_.size(); }
   double weight(const Scenario& scenario) const { return cases_[scenario.of].weight; }
   std::unique_ptr<PeakAmplitude> peaks(const Scenario& scenario, observables::GoOn go_on) const;
-  CaseResult result(const Scenario& scenario) const;
+  LoadCaseResult result(const Scenario& scenario) const;
 
   /// "in case 2 with k.value = 3: ", or nothing for one case without scatter.
   std::string text(const Scenario& scenario) const;
@@ -58,7 +58,7 @@ class Scenarios {
   const scene::Scene& scene_;
   const OptimumProblem& problem_;
   const DesignSpace& space_;
-  std::vector<DesignCase> cases_;  // at least one
+  std::vector<LoadCase> cases_;  // at least one
   std::optional<DesignSpace> box_;
   observables::FrequencyWindow window_;
 };

@@ -3,8 +3,8 @@
 // the first-order conditions of a minimum hold there. Not installed.
 
 #include <arcslip/optimize/nlopt/minimize.hpp>
+#include <arcslip/optimize/search/design_evaluations.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
-#include <arcslip/optimize/search/trials.hpp>
 
 #include <limits>
 #include <optional>
@@ -26,10 +26,10 @@ class Search {
   Optimum run();
 
  private:
-  Cases& cases() { return trials_.cases(); }
-  const DesignSpace& space() const { return trials_.space(); }
-  const Best& best() const { return trials_.best(); }
-  std::size_t count() { return trials_.evaluations().size(); }
+  LoadCases& cases() { return designs_.cases(); }
+  const DesignSpace& space() const { return designs_.space(); }
+  const Best& best() const { return designs_.best(); }
+  std::size_t count() { return designs_.evaluations().size(); }
   std::string after();  // " after 12 evaluations"
   void note(std::string sentence);
 
@@ -92,7 +92,7 @@ class Search {
   const Algorithm asked_;  // requested
   Algorithm algorithm_;    // current
   Watch watch_;
-  Trials trials_;
+  DesignEvaluations designs_;
   Optimum result_;
   std::vector<double> start_;
   double reference_ = 1;  // V at the start

@@ -45,7 +45,7 @@ bool Search::goes_on() {
   }
   left_.reset();
   if (result_.status == Status::complete && interrupted()) return false;
-  trials_.recall_best();
+  designs_.recall_best();
   if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
     return false;
   if (best().excess > 0) {
@@ -58,14 +58,14 @@ bool Search::goes_on() {
   }
   if (result_.stop.reason == reasons::flat) return false;
   if (!stand_at_best()) return false;
-  if (const Balance left = balance_here(trials_); !is_stationary(left)) return refine(left);
+  if (const Balance left = balance_here(designs_); !is_stationary(left)) return refine(left);
   if (look_elsewhere()) return true;
   if (interrupted() || !options_.certificate || !stand_at_best()) return false;
-  trials_.begin("the certificate");
+  designs_.begin("the certificate");
   describe();
   result_.certificate = certify(
-      cases(), space().lower(), space().upper(), trials_.formulation().active(),
-      [this] { return trials_.formulation().margin(); }, [this] { return watch_.go_on(); });
+      cases(), space().lower(), space().upper(), designs_.formulation().active(),
+      [this] { return designs_.formulation().margin(); }, [this] { return watch_.go_on(); });
   return !interrupted() && passed_lower();
 }
 
@@ -112,7 +112,7 @@ std::string Search::jump(const Balance& left) {
   const std::string there = "; a little beyond, at " + space().text(design) + ", ";
   if (cases().value() > (1 + jumps) * best().value)
     return there + text("the amplitude jumps to ", cases().value(), " m");
-  if (const double exceeded = trials_.formulation().excess(); exceeded > limit_jumps)
+  if (const double exceeded = designs_.formulation().excess(); exceeded > limit_jumps)
     return there + text("a peak appears at which a limit is exceeded by ", exceeded);
   else if (exceeded > limit_bends)
     return there +
@@ -124,12 +124,12 @@ std::string Search::jump(const Balance& left) {
 
 bool Search::find_feasible() {
   if (std::exchange(sought_feasible_, true)) return false;
-  trials_.begin("the search for a feasible design");
+  designs_.begin("the search for a feasible design");
   const std::string exceeds = space().text(best().design);
   for (int k = 0; k < space().attempts() + space().samples() && best().excess > 0; ++k) {
     if (!watch_.go_on()) return false;
-    trials_.evaluate(k < space().attempts() ? space().attempt(k) : space().sample(k - space().attempts()),
-                     true);
+    designs_.evaluate(k < space().attempts() ? space().attempt(k) : space().sample(k - space().attempts()),
+                      true);
   }
   if (best().excess > 0) return false;
   go_from(best().design);
@@ -166,7 +166,7 @@ Optimum Search::search_from(const Beginning& beginning) {
   options.certificate = options.elsewhere = false;
   std::exception_ptr thrown;
   options.progress = [&](OptimumProgress now) {
-    now.evaluations += static_cast<int>(count() + trials_.elsewhere().size());
+    now.evaluations += static_cast<int>(count() + designs_.elsewhere().size());
     now.best = std::min(now.best, best().value);
     now.phase = watch_.phase();
     try {
@@ -180,7 +180,7 @@ Optimum Search::search_from(const Beginning& beginning) {
   options.go_on = [this] { return watch_.go_on(); };
   Optimum found = optimum(there, problem_, options);
   if (thrown) std::rethrow_exception(thrown);
-  trials_.elsewhere().insert(trials_.elsewhere().end(), found.evaluations.begin(), found.evaluations.end());
+  designs_.elsewhere().insert(designs_.elsewhere().end(), found.evaluations.begin(), found.evaluations.end());
   add(found.work, work_elsewhere_);
   return found;
 }
@@ -188,7 +188,7 @@ Optimum Search::search_from(const Beginning& beginning) {
 bool Search::look_elsewhere() {
   if (!limited_ || !options_.elsewhere || asked_.global || std::exchange(sought_elsewhere_, true))
     return false;
-  trials_.begin("the search elsewhere");
+  designs_.begin("the search elsewhere");
   const std::vector<double> here = best().design;
   const bool within = best().excess == 0;
   double least = within ? (1 - gain) * best().value : infinity;
@@ -206,7 +206,7 @@ bool Search::look_elsewhere() {
     lower = found.design;
   }
   if (lower.empty() || watch_.stopped()) return false;
-  trials_.evaluate(lower, true);
+  designs_.evaluate(lower, true);
   if (!std::isfinite(cases().value())) return false;
   note("the search reached " + space().text(here) +
        (within ? ", and continued from the lower " : ", where a limit is exceeded, and continued from ") +
@@ -227,8 +227,8 @@ std::vector<std::vector<double>> Search::lowest_elsewhere() {
   for (const std::vector<double>& design : samples) {
     if (static_cast<int>(count()) >= options_.evaluations) break;
     if (!watch_.go_on()) return {};
-    trials_.evaluate(design, true);
-    if (std::isfinite(cases().value()) && trials_.formulation().excess() == 0)
+    designs_.evaluate(design, true);
+    if (std::isfinite(cases().value()) && designs_.formulation().excess() == 0)
       found.push_back({design, cases().value()});
   }
   std::sort(found.begin(), found.end(),
@@ -250,7 +250,7 @@ bool Search::passed_lower() {
   if (lower.empty()) return false;
   const double value = best().value;
   const std::string left = space().text(best().design);
-  trials_.evaluate(lower, true);
+  designs_.evaluate(lower, true);
   if (best().excess > 0 || !(best().value < (1 - gain) * value)) return false;
   if (restarts_++ == most_restarts) {
     result_.status = Status::stopped;
@@ -274,7 +274,7 @@ void Search::describe() {
   double most = 0;
   for (std::size_t c = 0; c < best().cases.size(); ++c) {
     const auto& [state, problem] = best().cases[c];
-    CaseResult each = trials_.scenarios().result(trials_.scenario(c));
+    LoadCaseResult each = designs_.scenarios().result(designs_.scenario(c));
     each.amplitude = state.amplitude();
     each.point = cases().peaks(c).observe(state, problem);
     if (cases().weight(c) * each.amplitude > most) {
@@ -289,7 +289,7 @@ void Search::describe() {
           cases().groups() > 1 || cases().weight(c) * result_.cases[c].amplitude >= (1 - active) * most;
     return;
   }
-  for (const ActivePeak& peak : balance_here(trials_).active) {
+  for (const ActivePeak& peak : balance_here(designs_).active) {
     result_.cases[peak.in_case].active = true;
     result_.cases[peak.in_case].multiplier += peak.multiplier;
   }

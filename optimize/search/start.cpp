@@ -10,7 +10,7 @@ namespace {
 
 constexpr double no_influence = 1e-12;  // d ln A / d ln p of less is none
 
-bool is_flat(const Cases& cases, std::size_t c) {
+bool is_flat(const LoadCases& cases, std::size_t c) {
   const PeakState& state = cases.state(c);
   const Peak& highest = state.peaks[state.highest];
   for (std::size_t k = 0; k < state.design.size(); ++k)
@@ -23,13 +23,13 @@ bool is_flat(const Cases& cases, std::size_t c) {
 }
 
 // At the current design of the cases.
-StartFault fault(Trials& trials) {
-  const Cases& cases = trials.cases();
+StartFault fault(DesignEvaluations& designs) {
+  const LoadCases& cases = designs.cases();
   for (std::size_t c = 0; c < cases.size(); ++c) {
     const PeakState& state = cases.state(c);
-    if (state.unbounded) return {reasons::unbounded, trials.where(c) + state.message};
+    if (state.unbounded) return {reasons::unbounded, designs.where(c) + state.message};
     if (state.peaks.empty())
-      return {reasons::no_response, trials.where(c) + "no response was found there: " + state.message};
+      return {reasons::no_response, designs.where(c) + "no response was found there: " + state.message};
   }
   for (std::size_t g = 0; g < cases.groups(); ++g)
     if (!is_flat(cases, cases.highest_of(g))) return {};
@@ -38,13 +38,14 @@ StartFault fault(Trials& trials) {
 
 }  // namespace
 
-SearchStart find_start(Trials& trials, const std::vector<double>& given, std::vector<std::string>& notes) {
-  const DesignSpace& space = trials.space();
+SearchStart find_start(DesignEvaluations& designs, const std::vector<double>& given,
+                       std::vector<std::string>& notes) {
+  const DesignSpace& space = designs.space();
   SearchStart start;
   for (int attempt = -1; attempt < space.attempts(); ++attempt) {
     start.design = attempt < 0 ? given : space.attempt(attempt);
-    trials.evaluate(start.design, attempt >= 0);
-    const StartFault here = fault(trials);
+    designs.evaluate(start.design, attempt >= 0);
+    const StartFault here = fault(designs);
     if (attempt < 0) start.fault = here;
     if (here.reason.code.empty()) {
       if (attempt >= 0)
@@ -53,7 +54,7 @@ SearchStart find_start(Trials& trials, const std::vector<double>& given, std::ve
       start.found = true;
       return start;
     }
-    if (!trials.watch().go_on()) break;
+    if (!designs.watch().go_on()) break;
   }
   start.design = given;
   return start;
@@ -93,7 +94,7 @@ double closest_to_slip(PeakAmplitude& peaks, const observables::ResponsePoint& p
 
 }  // namespace
 
-std::optional<std::vector<double>> released(const Cases& cases, std::span<const int> over,
+std::optional<std::vector<double>> released(const LoadCases& cases, std::span<const int> over,
                                             std::span<const double> lower, double share) {
   std::optional<std::vector<double>> design;
   for (std::size_t k = 0; k < over.size(); ++k) {

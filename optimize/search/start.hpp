@@ -1,8 +1,8 @@
 #pragma once
 // SearchStart of a search. Not installed.
 
-#include <arcslip/optimize/search/cases.hpp>
-#include <arcslip/optimize/search/trials.hpp>
+#include <arcslip/optimize/search/design_evaluations.hpp>
+#include <arcslip/optimize/search/load_cases.hpp>
 #include <arcslip/results/reason.hpp>
 
 #include <optional>
@@ -27,7 +27,8 @@ struct SearchStart {
 
 /// A design with finite V that depends on the parameters: the given one, or one on the diagonal of the
 /// bounds, with a note. None after an interruption.
-SearchStart find_start(Trials& trials, const std::vector<double>& given, std::vector<std::string>& notes);
+SearchStart find_start(DesignEvaluations& designs, const std::vector<double>& given,
+                       std::vector<std::string>& notes);
 
 // Dampers that stick. Not installed.
 //
@@ -42,7 +43,7 @@ inline constexpr double most_dissipation = 0.5;  // of k_d X
 /// The current design of the cases, with each parameter without influence on the highest peaks that is the
 /// friction coefficient or the normal load of an element sticking at one of them lowered to p = share k_d X,
 /// or to its lower bound. over: the design parameters in the model. nullopt: no such parameter.
-std::optional<std::vector<double>> released(const Cases& cases, std::span<const int> over,
+std::optional<std::vector<double>> released(const LoadCases& cases, std::span<const int> over,
                                             std::span<const double> lower, double share = most_dissipation);
 
 }  // namespace arcslip::optimize

@@ -59,7 +59,7 @@ void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> re
 // A line for each case that has a curve, whatever the cases set.
 struct CaseLines {
   results::FigureData data;
-  std::vector<const CaseResult*> cases;  // of the lines
+  std::vector<const LoadCaseResult*> cases;  // of the lines
 };
 
 CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, const OptimumResult& result,
@@ -70,7 +70,7 @@ CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, co
   std::vector<std::vector<std::string>> names;
   CaseLines found;
   for (const CaseCurves& curves : result.curves) {
-    const CaseResult& each = result.optimum.cases[curves.of];
+    const LoadCaseResult& each = result.optimum.cases[curves.of];
     std::vector<ResponseBranch>& own = all.emplace_back(curves.*branches);
     const bool any = std::any_of(own.begin(), own.end(), [](auto& branch) { return !branch.points.empty(); });
     if (!any) continue;
@@ -129,7 +129,7 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseL
     for (const auto& part : line.parts)
       for (const auto& record : part) places.insert(record[0]);
   double sum = 0;
-  for (const CaseResult* each : lines.cases) sum += each->weight;
+  for (const LoadCaseResult* each : lines.cases) sum += each->weight;
   results::FigureLine criterion;
   const std::string best = value_label(scene, result.problem, result.optimum.design[0]);
   criterion.label = (mean ? "mean, least at " : "worst, least at ") + best;

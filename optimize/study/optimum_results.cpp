@@ -73,35 +73,35 @@ TableOf<Evaluation> course(const scene::Scene& scene, const OptimumProblem& prob
   return table;
 }
 
-TableOf<CaseResult> cases(const scene::Scene& scene, const OptimumProblem& problem) {
-  TableOf<CaseResult> table;
+TableOf<LoadCaseResult> cases(const scene::Scene& scene, const OptimumProblem& problem) {
+  TableOf<LoadCaseResult> table;
   table.add({"set"}, "", "parameters set by the case",
-            [&scene](const CaseResult& at) { return studies::named(scene, at.set); });
+            [&scene](const LoadCaseResult& at) { return studies::named(scene, at.set); });
   if (!problem.scatter.empty()) {
     table.add(
         {"scatter"}, "", "values of the uncertain parameters",
-        [&scene](const CaseResult& at) { return studies::named(scene, at.scatter); });
+        [&scene](const LoadCaseResult& at) { return studies::named(scene, at.scatter); });
     table.add({"of"}, "", "which of the study's cases it belongs to, from 1",
-              [](const CaseResult& at) { return at.of + 1; });
+              [](const LoadCaseResult& at) { return at.of + 1; });
   }
   table.add(
       {"response"}, "", "the response of the case, if it has its own",
-      [&scene, &problem](const CaseResult& at) {
+      [&scene, &problem](const LoadCaseResult& at) {
         return at.of < problem.cases.size() && problem.cases[at.of].response
                    ? std::optional(place_of(scene, *problem.cases[at.of].response))
                    : std::nullopt;
       });
   table.add(
-      {"weight"}, "", "of its amplitude", [](const CaseResult& at) { return at.weight; });
+      {"weight"}, "", "of its amplitude", [](const LoadCaseResult& at) { return at.weight; });
   table.add(
       {"active"}, "", "as high as the highest, within 1e-6 (mean: always)",
-      [](const CaseResult& at) { return at.active; });
+      [](const LoadCaseResult& at) { return at.active; });
   table.add(
       {"multiplier"}, "", "share in the balance of gradients",
-      [](const CaseResult& at) { return at.multiplier; });
+      [](const LoadCaseResult& at) { return at.multiplier; });
   table.add(
-      {"amplitude"}, "m", "without the weight", [](const CaseResult& at) { return at.amplitude; });
-  table.add(responses(scene), [](const CaseResult& at) { return &at.point; });
+      {"amplitude"}, "m", "without the weight", [](const LoadCaseResult& at) { return at.amplitude; });
+  table.add(responses(scene), [](const LoadCaseResult& at) { return &at.point; });
   return table;
 }
 
@@ -284,7 +284,7 @@ TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumProblem& pr
 
 studies::Described<OptimumResult> described_optima(const scene::Scene& scene, const OptimumProblem& problem) {
   const auto of_course = std::make_shared<const TableOf<Evaluation>>(course(scene, problem));
-  const auto of_cases = std::make_shared<const TableOf<CaseResult>>(cases(scene, problem));
+  const auto of_cases = std::make_shared<const TableOf<LoadCaseResult>>(cases(scene, problem));
   results::Schema schema{.format = "arcslip-optimum-1",
                          .list = "optima",
                          .noun = "search",

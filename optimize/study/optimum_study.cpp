@@ -173,7 +173,7 @@ double OptimumResult::difference_of_amplitude() const {
   return std::abs(optimum.amplitude / direct.point.amplitude - 1);
 }
 
-scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of) {
+scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const LoadCaseResult& of) {
   for (const auto* values : {&of.set, &of.scatter})
     for (const auto& [name, value] : *values) scene::set(scene, name, value);
   if (of.of < problem.cases.size())
@@ -182,9 +182,9 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const C
 }
 
 OptimumProblem with_distinct_cases(OptimumProblem problem) {
-  std::vector<DesignCase> cases;
-  for (DesignCase& each : problem.cases) {
-    const auto same = std::find_if(cases.begin(), cases.end(), [&](const DesignCase& other) {
+  std::vector<LoadCase> cases;
+  for (LoadCase& each : problem.cases) {
+    const auto same = std::find_if(cases.begin(), cases.end(), [&](const LoadCase& other) {
       return other.set == each.set && other.response == each.response;
     });
     if (same == cases.end())

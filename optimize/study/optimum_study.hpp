@@ -71,7 +71,7 @@ struct OptimumResult {
 };
 
 /// The scene in a case of a problem, with the values of its uncertain parameters.
-scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const CaseResult& of);
+scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const LoadCaseResult& of);
 
 /// Merges identical cases, as after an option has overridden the parameter in which they differ, with the
 /// largest of their weights (worst) or their sum (mean).

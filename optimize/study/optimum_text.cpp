@@ -195,7 +195,7 @@ void append(std::string& text, const std::string& more) {
   if (!more.empty()) text.append(text.empty() ? "" : ", ").append(more);
 }
 
-const scene::Direction* response(const OptimumProblem& problem, const CaseResult& of) {
+const scene::Direction* response(const OptimumProblem& problem, const LoadCaseResult& of) {
   const bool has = of.of < problem.cases.size() && problem.cases[of.of].response;
   return has ? &*problem.cases[of.of].response : nullptr;
 }
@@ -212,7 +212,7 @@ std::string direction_text(const scene::Scene& scene, const scene::Direction& di
   return text;
 }
 
-std::string case_text(const scene::Scene& scene, const OptimumProblem& problem, const CaseResult& of) {
+std::string case_text(const scene::Scene& scene, const OptimumProblem& problem, const LoadCaseResult& of) {
   std::string text = studies::assignment(scene, of.set);
   append(text, studies::assignment(scene, of.scatter));
   if (const auto* direction = response(problem, of))
@@ -220,7 +220,7 @@ std::string case_text(const scene::Scene& scene, const OptimumProblem& problem, 
   return text.empty() ? "the scene as it is" : text;
 }
 
-std::string case_label(const scene::Scene& scene, const OptimumProblem& problem, const CaseResult& of) {
+std::string case_label(const scene::Scene& scene, const OptimumProblem& problem, const LoadCaseResult& of) {
   std::string text = studies::set_label(scene, of.set);
   append(text, studies::set_label(scene, of.scatter));
   if (const auto* direction = response(problem, of)) append(text, direction_text(scene, *direction));

@@ -18,10 +18,10 @@ std::string text_of(const scene::Scene& scene, const OptimumCurveResult& result)
 
 /// "force.cosine = 1 N, k.value = 3 N/m, response at blade 2", including scatter; "the scene as it is" if it
 /// changes nothing.
-std::string case_text(const scene::Scene& scene, const OptimumProblem& problem, const CaseResult& of);
+std::string case_text(const scene::Scene& scene, const OptimumProblem& problem, const LoadCaseResult& of);
 
 /// The same for a figure with the names in its key: "1 N, 3 N/m, blade 2"; "as it is".
-std::string case_label(const scene::Scene& scene, const OptimumProblem& problem, const CaseResult& of);
+std::string case_label(const scene::Scene& scene, const OptimumProblem& problem, const LoadCaseResult& of);
 
 /// The response location: "blade 2", "blade 1 - blade 2".
 std::string direction_text(const scene::Scene& scene, const scene::Direction& direction);

@@ -134,10 +134,10 @@ void add_product(const Location& place, const Reading& reading, OptimumProblem& 
       return;
     }
   }
-  std::vector<DesignCase> cases(1);
+  std::vector<LoadCase> cases(1);
   for (const auto& [parameter, values] : lists) {
-    std::vector<DesignCase> longer;
-    for (const DesignCase& each : cases) {
+    std::vector<LoadCase> longer;
+    for (const LoadCase& each : cases) {
       for (const double value : values) {
         longer.push_back(each);
         longer.back().set.emplace_back(parameter, value);
@@ -148,10 +148,9 @@ void add_product(const Location& place, const Reading& reading, OptimumProblem& 
   problem.cases = std::move(cases);
 }
 
-DesignCase read_case(const Location& place, const Reading& reading,
-                     const std::vector<scene::Taken>& already) {
+LoadCase read_case(const Location& place, const Reading& reading, const std::vector<scene::Taken>& already) {
   Faults& faults = reading.faults;
-  DesignCase one;
+  LoadCase one;
   const Keys keys(place, {"set", "weight", "response"}, faults);
   const Location set = keys.find("set"), response = keys.find("response");
   for (const Member* member : members(set, faults)) {
@@ -198,7 +197,7 @@ void read_cases(const Reading& reading, OptimumProblem& problem) {
                                   std::to_string(largest_cases));
   } else {
     const std::vector<scene::Taken> already = taken(problem);
-    std::vector<DesignCase> cases;
+    std::vector<LoadCase> cases;
     for (std::size_t i = 0; i < list->size(); ++i)
       cases.push_back(read_case({&(*list)[i], child(place.pointer, i)}, reading, already));
     problem.cases = std::move(cases);

@@ -26,7 +26,7 @@ double peak_at(double p, double f0) {
   return paper_optimum::peak(p, pi * f0 / 4);
 }
 
-optimize::OptimumProblem over_load_in(const std::vector<optimize::DesignCase>& cases,
+optimize::OptimumProblem over_load_in(const std::vector<optimize::LoadCase>& cases,
                                       Criterion criterion = Criterion::worst) {
   optimize::OptimumProblem problem = over_load;
   problem.cases = cases;
@@ -262,7 +262,7 @@ TEST_CASE("bounds within which a case is unbounded everywhere leave nothing to b
 
 TEST_CASE("cases that make no sense are told") {
   const scene::Scene s = closed_form();
-  const auto error_of = [&](const optimize::DesignCase& one) {
+  const auto error_of = [&](const optimize::LoadCase& one) {
     try {
       optimize::optimum(s, over_load_in({{}, one}));
     } catch (const std::exception& e) {

@@ -5,8 +5,8 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/optimize/search/design_evaluations.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
-#include <arcslip/optimize/search/trials.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -172,7 +172,7 @@ inline Lowest grid(const Search& search, std::uint64_t seed, int designs) {
   Lowest lowest;
   optimize::Watch watch(0, {});
   const optimize::OptimumOptions options;
-  optimize::Trials trials(search.scene, search.problem, options, watch, false);
+  optimize::DesignEvaluations evaluations(search.scene, search.problem, options, watch, false);
   for (int i = 0; i < designs; ++i) {
     std::vector<double> design;
     for (const auto& variable : search.problem.over) {
@@ -180,8 +180,8 @@ inline Lowest grid(const Search& search, std::uint64_t seed, int designs) {
           search.problem.over.size() == 1 ? static_cast<double>(i) / (designs - 1) : random.share();
       design.push_back(variable.lower * std::pow(variable.upper / variable.lower, share));
     }
-    trials.evaluate(design, true);
-    if (trials.formulation().excess() == 0) lowest.take(trials.cases().value(), "grid", design);
+    evaluations.evaluate(design, true);
+    if (evaluations.formulation().excess() == 0) lowest.take(evaluations.cases().value(), "grid", design);
   }
   return lowest;
 }

@@ -4,7 +4,7 @@
 
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/search/cases.hpp>
+#include <arcslip/optimize/search/load_cases.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
 
 #include <cmath>
@@ -153,7 +153,7 @@ TEST_CASE("the gradient of both criteria is the difference of new responses") {
   const std::vector<double> loads = {1.3, 2.1};
   const double hertz = scene::to_rad_per_s(s.frequency_unit);
   for (const Criterion criterion : {Criterion::worst, Criterion::mean}) {
-    optimize::Cases cases(criterion);
+    optimize::LoadCases cases(criterion);
     for (const double force : {0.7, 1.4}) {
       const auto model = std::make_shared<const model::Model>(model::build(forced(s, force)));
       const std::vector<int> over = {model::parameter_index(*model, "d0.normal_load"),

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -43,6 +44,31 @@ std::string rows(const scene::StudyType& type) {
             " | " + key.help + " |\n";
   }
   return text;
+}
+
+std::string allowed(const scene::Field& field) {
+  if (std::isinf(field.lower)) return "any number";
+  std::ostringstream text;
+  text << (field.lower_open ? "above " : "at least ") << field.lower;
+  if (!std::isinf(field.upper)) text << ", at most " << field.upper;
+  return text.str();
+}
+
+/// What docs/scene.md says of the fields of a part.
+std::string rows(const std::string& part, const scene::PartType& type) {
+  std::ostringstream text;
+  bool first = true;
+  for (const scene::Field& field : type.fields({})) {
+    text << "| " << (first ? part + " " : "") << "| `" << field.name << "` | "
+         << (field.unit == "-" ? "" : std::string(field.unit) + " ") << "| " << allowed(field) << " | ";
+    if (field.default_value)
+      text << *field.default_value;
+    else
+      text << "required";
+    text << " | " << field.help << " |\n";
+    first = false;
+  }
+  return text.str();
 }
 
 /// A study of each kind over what a scene with one damper has.
@@ -83,6 +109,19 @@ TEST_CASE("the documentation of scenes has a row for every key of every kind of 
     CHECK(text.str().find(wanted) != std::string::npos);
     CHECK(text.str().find("### `" + std::string(type->name()) + "`") != std::string::npos);
   }
+}
+
+TEST_CASE("the documentation of scenes has a row for every field of every part") {
+  std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/scene.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::string wanted = rows("mass", scene::mass_type()) + rows("spring", scene::spring_type()) +
+                       rows("damper", scene::damper_type());
+  for (const scene::PartType* law : all_kinds().elements)
+    wanted += rows("element of `\"type\": \"" + std::string(law->name()) + "\"`", *law);
+  wanted += rows("force", scene::force_type());
+  INFO("the table of parts is to be:\n" << wanted);
+  CHECK(text.str().find(wanted) != std::string::npos);
 }
 
 TEST_CASE("a study is written with the keys of its kind, in their order, and read as it was") {

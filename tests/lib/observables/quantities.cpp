@@ -139,6 +139,7 @@ TEST_CASE("the parameter of a study has no name by which points have a quantity"
     const std::string_view top = each.path.substr(0, each.path.find('.'));
     if (top == "frequency") continue;  // which no parameter of a scene is called
     CAPTURE(std::string(top));
+    INFO("\"" << top << "\" is to be one of result_names in scene/words.hpp");
     CHECK(std::count(scene::file::result_names.begin(), scene::file::result_names.end(), top) == 1);
   }
 }

@@ -80,9 +80,9 @@ TEST_CASE(
     const OptimumProblem problem = problem_after_set(criterion);
     CHECK(problem.scatter == std::vector<DesignVariable>{{"load", 1, 2}});
     REQUIRE(problem.cases.size() == 3);
-    CHECK(problem.cases[0] == DesignCase{Set{{"load", 1}}, criterion == Criterion::worst ? 3.0 : 5.0, {}});
-    CHECK(problem.cases[1] == DesignCase{Set{{"load", 2}}, 4, {}});
-    CHECK(problem.cases[2] == DesignCase{Set{{"load", 1}}, 5, Direction{{0, 2}}});
+    CHECK(problem.cases[0] == LoadCase{Set{{"load", 1}}, criterion == Criterion::worst ? 3.0 : 5.0, {}});
+    CHECK(problem.cases[1] == LoadCase{Set{{"load", 2}}, 4, {}});
+    CHECK(problem.cases[2] == LoadCase{Set{{"load", 1}}, 5, Direction{{0, 2}}});
   }
 }
 

@@ -82,11 +82,11 @@ TEST_CASE("lists of values for cases make their product, the last list fastest")
   REQUIRE(scene.studies[8].name == "levels");
   const auto& cases = scene.studies[8].settings.as<arcslip::optimize::OptimumSettings>().problem.cases;
   REQUIRE(cases.size() == 6);
-  using arcslip::optimize::DesignCase;
+  using arcslip::optimize::LoadCase;
   using Set = std::vector<std::pair<std::string, double>>;
-  CHECK(cases[0] == DesignCase{Set{{"f.sine", 1}, {"n.stiffness", 0}}, 1, {}});
-  CHECK(cases[2] == DesignCase{Set{{"f.sine", 1}, {"n.stiffness", 1e20}}, 1, {}});
-  CHECK(cases[3] == DesignCase{Set{{"f.sine", 2}, {"n.stiffness", 0}}, 1, {}});
+  CHECK(cases[0] == LoadCase{Set{{"f.sine", 1}, {"n.stiffness", 0}}, 1, {}});
+  CHECK(cases[2] == LoadCase{Set{{"f.sine", 1}, {"n.stiffness", 1e20}}, 1, {}});
+  CHECK(cases[3] == LoadCase{Set{{"f.sine", 2}, {"n.stiffness", 0}}, 1, {}});
 }
 
 TEST_CASE("a study of an optimum is written with its cases, scatter and along") {

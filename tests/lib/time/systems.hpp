@@ -42,7 +42,7 @@ inline void add_damper(EquationOfMotion& equation, const Vector& direction, doub
 }
 
 /// Of such an element.
-inline double limit_of(const time::Element& damper) {
+inline double limit_of(const time::TimeElement& damper) {
   return damper.fields[1] * damper.fields[2];
 }
 

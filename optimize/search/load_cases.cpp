@@ -1,4 +1,4 @@
-#include <arcslip/optimize/search/cases.hpp>
+#include <arcslip/optimize/search/load_cases.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,20 +6,20 @@
 
 namespace arcslip::optimize {
 
-void Cases::add(std::unique_ptr<PeakAmplitude> peaks, double weight) {
+void LoadCases::add(std::unique_ptr<PeakAmplitude> peaks, double weight) {
   all_.push_back({std::move(peaks), weight});
   sum_ += weight;
 }
 
-void Cases::at(std::span<const double> design) {
+void LoadCases::at(std::span<const double> design) {
   for (const Each& each : all_) each.peaks->at(design);
 }
 
-void Cases::trace(std::span<const double> design, observables::Steps steps) {
+void LoadCases::trace(std::span<const double> design, observables::Steps steps) {
   for (const Each& each : all_) each.peaks->trace(design, steps);
 }
 
-bool Cases::stand_at(std::span<const double> design) const {
+bool LoadCases::stand_at(std::span<const double> design) const {
   return std::all_of(
       all_.begin(), all_.end(),
       [&](const Each& each) {
@@ -28,27 +28,27 @@ bool Cases::stand_at(std::span<const double> design) const {
       });
 }
 
-bool Cases::are_traced() const {
+bool LoadCases::are_traced() const {
   return std::all_of(
       all_.begin(), all_.end(), [](const Each& each) { return each.peaks->state().traced; });
 }
 
-double Cases::weight(std::size_t c) const {
+double LoadCases::weight(std::size_t c) const {
   return criterion_ == Criterion::mean ? all_[c].weight / sum_ : all_[c].weight;
 }
 
-std::size_t Cases::highest() const {
+std::size_t LoadCases::highest() const {
   std::size_t most = 0;
   for (std::size_t c = 1; c < size(); ++c)
     if (height(c) > height(most)) most = c;
   return most;
 }
 
-std::size_t Cases::highest_of(std::size_t group) const {
+std::size_t LoadCases::highest_of(std::size_t group) const {
   return criterion_ == Criterion::mean ? group : highest();
 }
 
-double Cases::value() const {
+double LoadCases::value() const {
   double sum = 0, most = 0;
   for (std::size_t c = 0; c < size(); ++c) {
     const double here = height(c);
@@ -59,7 +59,7 @@ double Cases::value() const {
   return criterion_ == Criterion::mean ? sum : most;
 }
 
-Vector Cases::gradient() const {
+Vector LoadCases::gradient() const {
   Vector sum = Vector::Zero(static_cast<Eigen::Index>(state(0).design.size()));
   for (std::size_t g = 0; g < groups(); ++g) {
     const std::size_t c = highest_of(g);
@@ -68,7 +68,7 @@ Vector Cases::gradient() const {
   return sum;
 }
 
-PeakWork Cases::work() const {
+PeakWork LoadCases::work() const {
   PeakWork sum;
   for (const Each& each : all_) {
     const PeakWork& work = each.peaks->work();

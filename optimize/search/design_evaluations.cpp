@@ -1,4 +1,4 @@
-#include <arcslip/optimize/search/trials.hpp>
+#include <arcslip/optimize/search/design_evaluations.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
 
@@ -25,8 +25,8 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-Trials::Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
-               Watch& watch, bool far_apart)
+DesignEvaluations::DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem,
+                                     const OptimumOptions& options, Watch& watch, bool far_apart)
     : options_(options),
       watch_(watch),
       space_(scene, problem),
@@ -37,14 +37,14 @@ Trials::Trials(const scene::Scene& scene, const OptimumProblem& problem, const O
   for (const Scenario& each : scenarios_.first()) add(each);
 }
 
-void Trials::add(const Scenario& scenario) {
+void DesignEvaluations::add(const Scenario& scenario) {
   all_.push_back(scenario);
   cases_.add(scenarios_.peaks(scenario, [this] { return watch_.go_on_within(); }),
              scenarios_.weight(scenario));
   best_.excess = best_traced_.excess = std::numeric_limits<double>::infinity();
 }
 
-void Trials::evaluate(std::span<const double> design, bool trace) {
+void DesignEvaluations::evaluate(std::span<const double> design, bool trace) {
   if (!trace && cases_.stand_at(design)) return;
   trace = trace || trace_all_;
   const int responses = cases_.work().responses;
@@ -64,7 +64,7 @@ void Trials::evaluate(std::span<const double> design, bool trace) {
   tell();
 }
 
-void Trials::tell() {
+void DesignEvaluations::tell() {
   if (!options_.progress) return;
   if (evaluations_.empty()) return;
   const Evaluation& last = evaluations_.back();
@@ -76,12 +76,12 @@ void Trials::tell() {
     watch_.stop();
 }
 
-void Trials::begin(const char* phase) {
+void DesignEvaluations::begin(const char* phase) {
   watch_.begin(phase);
   tell();
 }
 
-void Trials::move_to(std::span<const double> y) {
+void DesignEvaluations::move_to(std::span<const double> y) {
   const std::vector<double> here = space_.scaled(cases_.state(0).design);
   if (!std::equal(here.begin(), here.end(), y.begin())) evaluate(space_.design(y));
   for (std::size_t c = 0; c < cases_.size(); ++c) {
@@ -92,7 +92,7 @@ void Trials::move_to(std::span<const double> y) {
   }
 }
 
-std::vector<Scenario> Trials::worse_scatter() {
+std::vector<Scenario> DesignEvaluations::worse_scatter() {
   std::vector<Scenario> found;
   const std::vector<double> design = cases_.state(0).design;
   for (std::size_t of = 0; of < scenarios_.size(); ++of) {
@@ -118,19 +118,19 @@ std::vector<Scenario> Trials::worse_scatter() {
   return found;
 }
 
-Best Trials::here() {
+Best DesignEvaluations::here() {
   Best here{cases_.state(0).design, cases_.value(), formulation_.excess()};
   for (std::size_t c = 0; c < cases_.size(); ++c)
     here.cases.push_back({cases_.state(c), cases_.peaks(c).problem()});
   return here;
 }
 
-void Trials::call_best() {
+void DesignEvaluations::call_best() {
   best_ = here();
   if (best_traced_.design == best_.design) best_traced_ = best_;
 }
 
-void Trials::recall_best() {
+void DesignEvaluations::recall_best() {
   const auto is_better = [&](const Best& other) {
     return other.excess < best_.excess ||
            (other.excess == best_.excess && other.value < (1 - worth) * best_.value);

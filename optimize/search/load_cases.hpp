@@ -17,9 +17,9 @@
 
 namespace arcslip::optimize {
 
-class Cases {
+class LoadCases {
  public:
-  explicit Cases(Criterion criterion) : criterion_(criterion) {}
+  explicit LoadCases(Criterion criterion) : criterion_(criterion) {}
 
   /// weight: above 0. All cases have the same design parameters.
   void add(std::unique_ptr<PeakAmplitude> peaks, double weight);

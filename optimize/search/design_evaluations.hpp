@@ -2,8 +2,8 @@
 // The design evaluations of a search: V (cases.hpp) at each, the best so far, progress and interruption.
 // Not installed.
 
-#include <arcslip/optimize/search/cases.hpp>
 #include <arcslip/optimize/search/formulation.hpp>
+#include <arcslip/optimize/search/load_cases.hpp>
 #include <arcslip/optimize/search/scenarios.hpp>
 #include <arcslip/optimize/search/watch.hpp>
 
@@ -29,13 +29,13 @@ struct Best {
   std::vector<Seen> cases{};
 };
 
-class Trials {
+class DesignEvaluations {
  public:
   /// Starts with the initial scenarios. far_apart: for a global search, whose distant designs may miss a new
   /// peak: the responses of a new best design are traced. Throws as optimum() does. Refers to its arguments.
   /// Functions that move the cases throw Interrupted if the watch ends them.
-  Trials(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
-         Watch& watch, bool far_apart);
+  DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
+                    Watch& watch, bool far_apart);
 
   /// Adds a case and resets the best design.
   void add(const Scenario& scenario);
@@ -66,7 +66,7 @@ class Trials {
   const Scenarios& scenarios() const { return scenarios_; }
   const Scenario& scenario(std::size_t c) const { return all_[c]; }
   std::string where(std::size_t c) const { return scenarios_.text(all_[c]); }  // "in case 2: "
-  Cases& cases() { return cases_; }
+  LoadCases& cases() { return cases_; }
   Formulation& formulation() { return formulation_; }
   std::vector<Evaluation>& evaluations() { return evaluations_; }
   /// The violation of the limits in each of them; infinity without a response.
@@ -75,7 +75,7 @@ class Trials {
   std::vector<Evaluation>& elsewhere() { return elsewhere_; }
 
  private:
-  Trials(const Trials&) = delete;
+  DesignEvaluations(const DesignEvaluations&) = delete;
   void tell();
   Best here();
 
@@ -83,7 +83,7 @@ class Trials {
   Watch& watch_;
   DesignSpace space_;
   Scenarios scenarios_;
-  Cases cases_;
+  LoadCases cases_;
   std::vector<Scenario> all_;  // of the cases
   Formulation formulation_;
   std::vector<Evaluation> evaluations_, elsewhere_;
