@@ -1,5 +1,5 @@
 #pragma once
-// Branches of F(u, p) = 0: all that a program needs that traces them.
+// Branches of F(u, p) = 0: everything a program needs to trace them.
 
 #include <arcslip/continuation/diagrams/deflation.hpp>
 #include <arcslip/continuation/diagrams/diagram.hpp>

@@ -7,8 +7,7 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double empty_step = 1e-14;
-
+constexpr double empty_step = 1e-14;  // relative arclength: two points at one place
 void reverse(Point& point) {
   point.tangent = -point.tangent;
   point.arclength = -point.arclength;

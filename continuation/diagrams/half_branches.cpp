@@ -10,12 +10,12 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double longest_entry = 1e-3, shortest_entry = 1e-6;  // h, relative to 1 + |u|
-constexpr double entry_reduction = 0.25;
-constexpr double entry_error = 0.25;  // of the distance to the nearest other half-branch
-constexpr double entry_turn = 0.3;    // of the angle to it
-constexpr double beside_segment = 0.05;
-constexpr double same_point = 1e-2;  // of h
-constexpr int oblique_probes = 8;    // directions in which pieces are searched for
+constexpr double entry_reduction = 0.25;                       // of the step, until it is on the half-branch
+constexpr double entry_error = 0.25;     // of the distance to the nearest other half-branch
+constexpr double entry_turn = 0.3;       // of the angle to it
+constexpr double beside_segment = 0.05;  // of a segment, beyond its ends: still beside it
+constexpr double same_point = 1e-2;      // of h
+constexpr int oblique_probes = 8;        // directions in which pieces are searched for
 
 }  // namespace
 

@@ -28,9 +28,9 @@ constexpr int largest_spectrum = 500;
 
 /// The monitors of s_1 to s_n, each named "hopf", to be used together. Copies may serve several traces at the
 /// same time. The data of an event is Hopf, with omega > 0 and a + ib normalized by |a|^2 + |b|^2 = 1,
-/// a . b = 0, |a| >= |b| in the scales of the problem, and a positive largest component of a. Throws
-/// std::invalid_argument for more than largest_spectrum unknowns. A Jacobian that is an operator, or a QR
-/// that does not converge, ends the branch (StopReason::monitor_failed).
+/// a . b = 0, |a| >= |b| in the scales of the problem, and the component of a largest in scales positive.
+/// Throws std::invalid_argument for more than largest_spectrum unknowns. A Jacobian that is an operator, or a
+/// QR that does not converge, ends the branch (StopReason::monitor_failed).
 std::vector<Monitor> hopf_monitors(const Problem& problem);
 
 /// J, dense or sparse, as a dense matrix. Throws std::invalid_argument for an operator.

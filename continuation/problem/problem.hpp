@@ -56,8 +56,8 @@ struct Parameter {
   double change() const { return scale > 0 ? scale : 1; }
 };
 
-/// Evaluates F at one point at a time. Mutable, one for each thread. Owns all buffers: it must not allocate
-/// memory after its construction.
+/// Evaluates F at one point at a time. Mutable, one for each thread. It should own all its buffers, so
+/// that evaluations do not allocate.
 class Evaluator {
  public:
   virtual ~Evaluator() = default;

@@ -16,10 +16,10 @@ namespace {
 constexpr double smallest_distance = 1e-7;  // of two branches, relative, that Newton's method resolves
 constexpr double displacement = 1e-9;       // relative, over which F changes by rounding only
 constexpr int displacements = 8;
-constexpr double divergence = 2;       // of Newton's corrections, from one to the next
-constexpr double double_point = 1e-8;  // distance in scales from a further rank loss of A
-constexpr double rounding = 1e-14;     // of a correction, relative: converged
-constexpr double rounding_safety = 20;
+constexpr double divergence = 2;         // of Newton's corrections, from one to the next
+constexpr double double_point = 1e-8;    // distance in scales from a further rank loss of A
+constexpr double rounding = 1e-14;       // of a correction, relative: converged
+constexpr double rounding_safety = 20;   // times the spread of repeated evaluations
 constexpr double smallest_share = 1e-9;  // ratio of the form's eigenvalues: their error
 constexpr double smallest_slope = 1e-6;  // dp/ds != 0, in scales
 

@@ -28,8 +28,8 @@ bool Neighbours::over(const Site& here, int k) {
   return take(here, h, [&](double distance) { p_[k] = here.p()[k] + distance; });
 }
 
-template <class CurvePoint>
-bool Neighbours::take(const Site& here, double h, CurvePoint&& place) {
+template <class PlaceAt>
+bool Neighbours::take(const Site& here, double h, PlaceAt&& place) {
   here_ = &here;
   const auto found = difference_within_piece(h, [&](std::size_t i, double distance) {
     place(distance);

@@ -32,8 +32,8 @@ class Neighbours {
   double parameter_derivative(In w, int k);  // w . dF_pk
 
  private:
-  template <class CurvePoint>
-  bool take(const Site& here, double h, CurvePoint&& place);
+  template <class PlaceAt>
+  bool take(const Site& here, double h, PlaceAt&& place);
 
   const InnerProblem& inner_;
   Vector scales_;

@@ -28,9 +28,8 @@ constexpr double smallest_damping = 1.0 / 256;
 constexpr double undamped = 1e-2;      // smaller corrections are not damped, and tested at the next point
 constexpr double divergence = 2;       // of such corrections, from one to the next
 constexpr double linear_share = 1e-2;  // of a small Newton correction in the next one: not quadratic
-constexpr double smallest_relevant_state = 1e-6;  // in scales: below this, corrections are absolute
-constexpr double smallest_relevant_parameter = 1e-3;
-
+constexpr double smallest_relevant_state = 1e-6;      // in scales: below this, corrections are absolute
+constexpr double smallest_relevant_parameter = 1e-3;  // of its scale: below, corrections of p are absolute
 }  // namespace
 
 Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOptions& options, Counts& counts,
@@ -179,7 +178,6 @@ std::optional<std::uint64_t> Corrector::piece_of_residual() const {
   }
 }
 
-// To the smallest of all corrections: dv - <dv, t> t.
 bool Corrector::linearize(const Vector& v, const Vector& row) {
   return evaluate(v, Needs::jacobian) && factorize(v, row);
 }

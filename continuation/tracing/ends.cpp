@@ -45,7 +45,7 @@ std::optional<Exit> leaves(const Window& window, const CurvePoint& from, const C
   return {};
 }
 
-std::optional<Exit> leaves(const Window& window, const CurvePoint& here, Trial& trial) {
+std::optional<Exit> cut_at_exit(const Window& window, const CurvePoint& here, Trial& trial) {
   const CurvePoint* from = &here;
   for (std::size_t k = 0; k < trial.corners.size(); ++k) {
     const CurvePoint& to = trial.corners[k].before;
@@ -60,8 +60,8 @@ std::optional<Exit> leaves(const Window& window, const CurvePoint& here, Trial& 
   return leaves(window, *from, end, end.arclength - from->arclength, trial.kink && trial.corners.empty());
 }
 
-bool draw_back(Corrector& with, const CurvePoint& from, const Exit& exit, int orientation, CurvePoint& place,
-               Vector& row) {
+bool correct_to_bound(Corrector& with, const CurvePoint& from, const Exit& exit, int orientation,
+                      CurvePoint& place, Vector& row) {
   const Eigen::Index n = place.v.size() - 1;
   const double length = distance(with, from.v, place.v);
   Vector guess(n + 1);
@@ -83,7 +83,8 @@ bool draw_back(Corrector& with, const CurvePoint& from, const Exit& exit, int or
   return true;
 }
 
-bool runs_along(const Corrector& in, const CurvePoint& before, const CurvePoint& here, double bound) {
+bool approaches_asymptotically(const Corrector& in, const CurvePoint& before, const CurvePoint& here,
+                               double bound) {
   const Eigen::Index n = here.v.size() - 1;
   const auto change = [&](const CurvePoint& at) {
     return std::abs(bound - at.v[n]) * in.norm_u(at.tangent) / std::abs(at.tangent[n]);
@@ -128,8 +129,8 @@ constexpr double rounding_share = 10;  // of the corrector's: closer solutions a
 
 }  // namespace
 
-bool may_come_home(const Corrector& in, const CurvePoint& start, const CurvePoint& from, const CurvePoint& to,
-                   double length, double largest_angle, Vector& v) {
+bool may_close(const Corrector& in, const CurvePoint& start, const CurvePoint& from, const CurvePoint& to,
+               double length, double largest_angle, Vector& v) {
   if (from.arclength == 0) return false;
   const auto ahead = [&](const Vector& place) { return in.dot(start.v - place, start.tangent); };
   double lower = 0, upper = 1, a = ahead(from.v), b = ahead(to.v);
@@ -146,7 +147,7 @@ bool may_come_home(const Corrector& in, const CurvePoint& start, const CurvePoin
   return distance(in, v, start.v) <= beside * length;
 }
 
-double rounding_of_home(const Corrector& in, const CurvePoint& start, double rounding_level) {
+double closing_tolerance(const Corrector& in, const CurvePoint& start, double rounding_level) {
   const double p = std::abs(start.v[start.v.size() - 1]) / in.parameter_scale();
   return rounding_share * rounding_level * (1 + in.norm_u(start.v) + p);
 }

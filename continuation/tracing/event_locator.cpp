@@ -17,7 +17,7 @@ constexpr double smallest_kink = 1e-4;  // rad
 
 // An extremum between two points that is not searched for lies within the intersection of the tangents to the
 // quantity at both ends.
-double farthest_extreme(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) {
+double farthest_extremum(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) {
   const double a = from.monitors[monitor], b = to.monitors[monitor], length = to.arclength - from.arclength;
   const double q = from.quantities[monitor], next = to.quantities[monitor];
   return q + a * std::clamp((next - q - b * length) / (a - b), 0.0, length);
@@ -102,7 +102,7 @@ void EventLocator::follow(std::size_t monitor, Find by, const CurvePoint& from, 
     const int side = from.monitors[monitor] > 0 ? 1 : -1;
     const bool wanted = changes(monitor, from, to, monitors_[monitor].crossing);
     auto event = wanted ? (this->*by)(monitor, from, to) : std::nullopt;
-    const double extreme = event ? event->quantity : farthest_extreme(monitor, from, to);
+    const double extreme = event ? event->quantity : farthest_extremum(monitor, from, to);
     judge(course, extreme, certain);
     if (course.waiting && course.side != side) {
       course.waiting.reset();

@@ -30,7 +30,7 @@ void JacobianWatch::look_at(const Vector& v) {
                                "): tangents and events are equally wrong, and the branch may end early");
 }
 
-void JacobianWatch::look_at_some() {
+void JacobianWatch::check_some() {
   if (is_due(s_.branch.counts.points)) look_at(s_.here.v);
 }
 
@@ -45,7 +45,7 @@ std::string JacobianWatch::doubt(const Vector& v) {
   return s_.jacobian_doubt.empty() ? std::string() : "; " + s_.jacobian_doubt;
 }
 
-bool JacobianWatch::gets_on() const {
+bool JacobianWatch::can_continue() const {
   if (s_.jacobian_doubt.empty()) return true;
   const Counts& counts = s_.branch.counts;
   return s_.step >= standstill * s_.longest &&

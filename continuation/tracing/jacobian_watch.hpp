@@ -19,7 +19,7 @@ class JacobianWatch {
   void look_at(const Vector& v);
 
   /// The same at the last point, if it is the 1st, 8th, 64th ... of the branch.
-  void look_at_some();
+  void check_some();
 
   /// A correction to v did not converge quadratically: checks there and at the last point, at the 1st, 8th,
   /// 64th ... occasion.
@@ -29,7 +29,7 @@ class JacobianWatch {
   std::string doubt(const Vector& v);
 
   /// False where the Jacobian is wrong and steps get short, or many are rejected.
-  bool gets_on() const;
+  bool can_continue() const;
 
  private:
   const Problem& problem_;

@@ -6,8 +6,8 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double pair_safety = 8, extreme_safety = 2;  // times the measured bend of a slope
-constexpr double unresolved_share = 1.0 / 50;          // of the step first found unresolved: minimum
+constexpr double pair_safety = 8, extremum_safety = 2;  // times the measured bend of a slope
+constexpr double unresolved_share = 1.0 / 50;           // of the step first found unresolved: minimum
 constexpr double quantity_rounding = 1e-9;  // relative changes of a quantity below this are ignored
 constexpr double middle_share = 0.7;  // of the maximum error of the curve: its value in the middle of a step
 constexpr double smallest_relevant_curve = 1e-6;  // |u| in scales: below, the curve's error is absolute
@@ -17,9 +17,9 @@ constexpr double unknown_curve_error = 1 / 0.3;   // where the problem cannot be
 // line between them, has no more zeros than a and b imply, even with a safety factor on bend of either sign:
 // none between slopes of one sign, if bend <= (sqrt|a| + sqrt|b|)^2, and one if it is monotonic,
 // bend <= |a| + |b|.
-bool is_told(double a, double b, double bend) {
+bool is_resolved(double a, double b, double bend) {
   const double sum = std::abs(a) + std::abs(b);
-  return a * b > 0 ? pair_safety * bend <= sum + 2 * std::sqrt(a * b) : extreme_safety * bend <= sum;
+  return a * b > 0 ? pair_safety * bend <= sum + 2 * std::sqrt(a * b) : extremum_safety * bend <= sum;
 }
 
 }  // namespace
@@ -52,24 +52,24 @@ double Resolution::curve_error(const CurvePoint& from, Trial& trial, const Curve
   return std::isfinite(error) ? error : unknown_curve_error;
 }
 
-bool Resolution::hides_a_piece(const Trial& trial) {
+bool Resolution::misses_kinks(const Trial& trial) {
   if (!trial.other_piece_between || stretch_is_short(unresolved_share)) return false;
   begin_stretch(trial.length);
   return true;
 }
 
-bool Resolution::tells_quantities(Trial& trial) {
+bool Resolution::resolves_quantities(Trial& trial) {
   trial.chord_error = 0;
   if (stretch_is_short(unresolved_share)) return true;
   const bool all = trial.all_sections(
-      s_.here, [&](const CurvePoint& from, const CurvePoint& to) { return tells(from, to, trial); });
+      s_.here, [&](const CurvePoint& from, const CurvePoint& to) { return resolves(from, to, trial); });
   if (!all) begin_stretch(trial.length);
   return all;
 }
 
 // The same for one section. The bend of the slope between its ends follows from the change of the quantity,
 // and from the preceding slope.
-bool Resolution::tells(const CurvePoint& from, const CurvePoint& to, Trial& trial) const {
+bool Resolution::resolves(const CurvePoint& from, const CurvePoint& to, Trial& trial) const {
   const double length = to.arclength - from.arclength;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!monitors_[m].quantity) continue;
@@ -90,7 +90,7 @@ bool Resolution::tells(const CurvePoint& from, const CurvePoint& to, Trial& tria
     if (chord_error > trial.chord_error) trial.chord_error = chord_error;
     const double typical = std::max(std::abs(to.quantities[m]),
                                     monitors_[m].quantity_is_parameter ? main_.parameter_scale() : 0.0);
-    if ((!is_told(a, b, bend) || chord_error > 1) && size > quantity_rounding * typical) {
+    if ((!is_resolved(a, b, bend) || chord_error > 1) && size > quantity_rounding * typical) {
       trial.unresolved = m;
       return false;
     }

@@ -30,13 +30,13 @@ class Resolution {
   /// Whether the step contains kinks that were not found, two between ends on one piece or one that is hard
   /// to locate: then it is shortened, down to a limit, as the cubic may touch another piece where the branch
   /// does not.
-  bool hides_a_piece(const Trial& trial);
+  bool misses_kinks(const Trial& trial);
 
   /// Whether each monitored quantity has no more extrema in the step than implied by its slopes at the ends
   /// of the sections. Next to a kink a slope may bend however short the step: within one stretch of the
   /// branch the step is shortened to a fixed fraction of the first one at most. Fills chord_error and
   /// unresolved.
-  bool tells_quantities(Trial& trial);
+  bool resolves_quantities(Trial& trial);
 
   /// Whether steps have been shortened enough in an unresolved stretch of the branch.
   bool stretch_is_short(double share) const;
@@ -44,7 +44,7 @@ class Resolution {
 
  private:
   double curve_error(const CurvePoint& from, Trial& trial, const CurvePoint& to);
-  bool tells(const CurvePoint& from, const CurvePoint& to, Trial& trial) const;
+  bool resolves(const CurvePoint& from, const CurvePoint& to, Trial& trial) const;
   double chord_departure(const CurvePoint& from, const CurvePoint& to, std::size_t m, double length) const;
 
   const Options& options_;

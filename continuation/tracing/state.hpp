@@ -39,7 +39,7 @@ struct State {
   double curve_error = 0;          // of the curve there, relative to its tolerance
   int rejections = 0;              // since here.arclength passed trouble_end
   double trouble_end = -1;
-  double unresolved_end = -1, unresolved_step = 0;  // a section whose slopes did not determine its quantities
+  double unresolved_end = -1, unresolved_step = 0;  // a stretch whose slopes did not determine its quantities
   struct Turn {  // a rejected turn of the tangent: its angle, the step, and the arclength beyond it
     double angle = 0, step = 0, end = -1;
   } turn;

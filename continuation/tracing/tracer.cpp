@@ -15,7 +15,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double rejection = 0.25;             // of the step after a rejection
-constexpr int rejections_before_a_corner = 2;  // in one section of the branch
+constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
 constexpr double parameter_overrun = 1.5;      // of the largest |dp| of a step
 constexpr double parameter_rounding = 1e-9;    // relative changes of p below this give no direction
 // A turn of which this share remains in a step shortened by this factor is a kink.
@@ -125,9 +125,9 @@ Tracer::Impl::Outcome Tracer::Impl::attempt() {
   if (!measure()) return refuse(Rejected::singular, 0, 0);
   resolution_.measure_curve(trial_);
   divide();
-  if (trial_.curve_error > 1 || resolution_.hides_a_piece(trial_))
+  if (trial_.curve_error > 1 || resolution_.misses_kinks(trial_))
     return refuse(Rejected::curve, trial_.curve_error, 1, Outcome::unresolved);
-  if (!resolution_.tells_quantities(trial_)) return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
+  if (!resolution_.resolves_quantities(trial_)) return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
   return take(trial_.kink ? s_.turn.step * kink_step : control_.after(trial_));
 }
 
@@ -141,7 +141,7 @@ Tracer::Impl::Outcome Tracer::Impl::refuse(Rejected why, double value, double li
 // Whether a further step is to be tried; otherwise the branch has ended.
 bool Tracer::Impl::may_try() {
   if (options_.go_on && !options_.go_on()) return end(StopReason::user, 1, 1, "stopped by the caller");
-  if (!jacobian_.gets_on())
+  if (!jacobian_.can_continue())
     return end(StopReason::wrong_jacobian, s_.jacobian_error, largest_jacobian_error,
                "the branch cannot be continued: " + s_.jacobian_doubt);
   const double smallest = control_.smallest();
@@ -265,8 +265,9 @@ void Tracer::Impl::divide() {
 // Accepts the step; or ends the branch, at the bound of the window or at its start.
 Tracer::Impl::Outcome Tracer::Impl::take(double next_step) {
   trial_.end.arclength = s_.here.arclength + trial_.length;
-  if (const auto exit = leaves({options_.lower, options_.upper}, s_.here, trial_)) return end_at_bound(*exit);
-  if (const auto closed = come_home()) return *closed;
+  if (const auto exit = cut_at_exit({options_.lower, options_.upper}, s_.here, trial_))
+    return end_at_bound(*exit);
+  if (const auto closed = close_loop()) return *closed;
   s_.longest = std::max(s_.longest, trial_.length);
   trial_.evaluated = true;
   s_.has_before = !trial_.kink || !trial_.corners.empty();
@@ -277,7 +278,7 @@ Tracer::Impl::Outcome Tracer::Impl::take(double next_step) {
   for (const double bound : {options_.lower, options_.upper})
     if (std::abs(bound - s_.here.v[n_]) <= endless_tail * scale &&
         std::abs(bound - s_.before.v[n_]) <= tail_before * scale &&
-        runs_along(main_, s_.before, s_.here, bound)) {
+        approaches_asymptotically(main_, s_.before, s_.here, bound)) {
       end_in_tail(bound);
       return Outcome::ended;
     }
@@ -293,11 +294,11 @@ Tracer::Impl::Outcome Tracer::Impl::end_at_bound(const Exit& exit) {
   const bool crossed = crossing && from.arclength + exit.share * (place.arclength - from.arclength) >
                                        crossing->place.arclength;
   const int orientation = crossed ? place.orientation : s_.here.orientation;
-  if (!draw_back(main_, from, exit, orientation, place, row_) || !measure()) {
+  if (!correct_to_bound(main_, from, exit, orientation, place, row_) || !measure()) {
     const double left = std::abs(bound - s_.here.v[n_]), scale = main_.parameter_scale();
     if (left > singular_bound * std::max(std::abs(bound), scale))
       return refuse(Rejected::end_of_window, left, 0);
-    if (!runs_along(main_, s_.before, s_.here, bound)) {
+    if (!approaches_asymptotically(main_, s_.before, s_.here, bound)) {
       end(StopReason::boundary, s_.here.v[n_], bound,
           "reached the end of the window at " + text(bound) + ", a singular point");
     } else if (left > endless_tail * scale) {
@@ -314,11 +315,11 @@ Tracer::Impl::Outcome Tracer::Impl::end_at_bound(const Exit& exit) {
 }
 
 // Where the step comes back to the start, or to a kink at which the branch began: there it ends.
-std::optional<Tracer::Impl::Outcome> Tracer::Impl::come_home() {
+std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
   CurvePoint& place = trial_.end;
-  const double rounding = rounding_of_home(main_, s_.start, options_.newton.rounding_level);
+  const double rounding = closing_tolerance(main_, s_.start, options_.newton.rounding_level);
   if (!trial_.kink &&
-      may_come_home(main_, s_.start, s_.here, place, trial_.length, options_.step.largest_angle, v_)) {
+      may_close(main_, s_.start, s_.here, place, trial_.length, options_.step.largest_angle, v_)) {
     // The nearby branch is that of the start if it has the same solution in the start's plane.
     v_ += main_.dot(s_.start.v - v_, s_.start.tangent) * s_.start.tangent;
     main_.border_row(s_.start.tangent, row_);
@@ -360,7 +361,7 @@ bool Tracer::Impl::accept() {
   else
     s_.before = trial_.corners.back().beyond;
   std::swap(s_.here, place);
-  jacobian_.look_at_some();
+  jacobian_.check_some();
   if (!go_on || !record_.show_last_point()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }

@@ -42,6 +42,7 @@ class Tracer {
   Tracer(std::shared_ptr<const Problem> problem, State state, const Options& options,
          std::vector<Monitor> monitors = {}, Observer observer = {});
 
+  /// A moved-from tracer may only be assigned to or destroyed.
   Tracer(Tracer&&) noexcept;
   Tracer& operator=(Tracer&&) noexcept;
   ~Tracer();

@@ -62,7 +62,7 @@ bool Tracer::Impl::step_beyond_corner() {
   if (trial_.curve_error > 1) return false;
   trial_.curve_error = 0;  // the next step is not chosen by it
   divide();
-  return resolution_.tells_quantities(trial_) && take(s_.step) != Outcome::rejected;
+  return resolution_.resolves_quantities(trial_) && take(s_.step) != Outcome::rejected;
 }
 
 }  // namespace arcslip::continuation

@@ -56,7 +56,7 @@ class Tracer::Impl {
   void divide();
   Outcome take(double next_step);
   Outcome end_at_bound(const Exit& exit);
-  std::optional<Outcome> come_home();
+  std::optional<Outcome> close_loop();
   bool accept();
 
   bool corner();  // tracer_corners.cpp

@@ -17,9 +17,9 @@ namespace arcslip::continuation {
 struct Trial {
   CurvePoint end;
   Correction correction;
-  double length = 0;                     // arclength of the step, by way of its corners
-  double turn = 0;                       // rad, of the tangent
-  bool kink = false;                     // it crosses a kink that is no corner of it
+  double length = 0;  // arclength of the step, by way of its corners
+  double turn = 0;    // rad, of the tangent
+  bool kink = false;  // the tangent jumps in it: at one of its corners, or at a kink that was not located
   std::vector<PassedKink> corners;       // on the way, in order
   std::optional<LocatedEvent> crossing;  // the branch point on the way
   double curve_error = 0;                // of the cubics along it, relative to the tolerance
@@ -31,9 +31,10 @@ struct Trial {
   std::string failure;                   // in its words
 
   void begin() {
-    crossing.reset();
+    length = turn = curve_error = chord_error = 0;
+    kink = other_piece_between = false;
     corners.clear();
-    curve_error = 0;
+    crossing.reset();
   }
 
   /// Where the last of its smooth sections begins.

@@ -3,8 +3,8 @@
 //
 //   f = f_q q + f_z z + f_0        z: one number of memory, or none
 //   z rests, or follows: z = z_q q + z_0, where f_z is 0. For a slider, the force along its direction is the
-//   force that moves it. a guard  g = q . q + v . q' + z z + c  is at least 0 in its mode, which is left when
-//   g falls below 0
+//   force that moves it.
+//   A guard g = q . q + v . q' + z z + c is at least 0 in its mode, which is left when g falls below 0.
 //
 // An empty row means 0. f_q is symmetric. When a following memory comes to rest, the displacement it follows
 // must be at rest, z_q q' = 0, as with a guard on that velocity: the derivatives of a motion rely on this.

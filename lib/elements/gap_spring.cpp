@@ -27,7 +27,7 @@ constexpr scene::Field all_fields[] = {
      .unit = "m",
      .lower = 0,
      .upper = infinity,
-     .help = "displacement at the onset of contact"},
+     .help = "displacement at the onset of contact; force = stiffness * (displacement - gap) beyond it"},
 };
 
 class GapElement final : public Element {

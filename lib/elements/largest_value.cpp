@@ -6,9 +6,9 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double near_the_largest = 0.98;
-constexpr int newton_steps = 8;
-constexpr double settled = 1e-8;  // rad: the value there is right to the square of it
+constexpr double near_the_largest = 0.98;  // of the highest sample: extrema below it cannot be the largest
+constexpr int newton_steps = 8;            // quadratic from a sample next to an extremum
+constexpr double settled = 1e-8;           // rad: the value there is right to the square of it
 
 }  // namespace
 

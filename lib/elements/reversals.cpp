@@ -6,8 +6,8 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr int deepest = 14;
-constexpr int newton_steps = 60;
+constexpr int deepest = 14;       // halvings of a sampling step
+constexpr int newton_steps = 60;  // with bisection where Newton leaves the bracket
 constexpr double settled = 3e-9;  // rad
 
 // Newton's method for a monotonic function in a bracket, with bisection if it leaves the bracket. The last

@@ -7,8 +7,7 @@
 namespace arcslip::observables {
 namespace {
 
-constexpr double same_height = 1e-13;
-
+constexpr double same_height = 1e-13;  // relative: extrema that differ by rounding
 }  // namespace
 
 Extreme Amplitude::of(elements::In x) {

@@ -214,8 +214,8 @@ constexpr ElementQuantity of_element[] = {
     {"equivalent_damping", "N s/m", "`out_of_phase` over the velocity",
      element<&Element::equivalent_damping>},
     {"maxima.force", "N",
-     "friction elements, where the response has `maxima`: maximum of the truncated Fourier series of the "
-     "force",
+     "friction elements, where the response has `maxima`: largest absolute value of the truncated "
+     "Fourier series of the force",
      largest_of<&ForceMaxima::force>, has_element_maxima, is_friction_part},
     {"maxima.cosine", "N", "likewise, of the cosine terms", largest_of<&ForceMaxima::cosine>,
      has_element_maxima, is_friction_part},

@@ -10,7 +10,7 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double neutral = 1e-10;
+constexpr double neutral = 1e-10;  // |multiplier| above 1 by less is rounding
 constexpr double at_rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double singular = 64 * std::numeric_limits<double>::epsilon();
 constexpr double least_step = 1.0 / 32;

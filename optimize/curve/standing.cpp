@@ -13,7 +13,7 @@ using continuation::Matrix;
 using continuation::Needs;
 
 constexpr int most_corrections = 20;
-constexpr double corrected = 1e-11;
+constexpr double corrected = 1e-11;         // relative: the last correction of z
 constexpr double largest_correction = 0.5;  // of y and tau
 constexpr double same_frequency = 0.02;     // relative
 constexpr double beside = 1e-2;             // of y: where an amplitude is compared with that at a minimum

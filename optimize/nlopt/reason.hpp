@@ -15,9 +15,9 @@ namespace arcslip::optimize {
 ///   target            f(x) <= target at an x that satisfies the constraints.
 /// Stopped (the result is the best so far):
 ///   evaluation_limit  the limit of evaluations was reached.
-///   time_limit        the time limit was reached; checked after each call, so that a slow call may exceed
-///   it. user              the progress callback returned false. rounding          rounding errors prevent
-///   further progress. The result is often accurate to rounding.
+///   time_limit        the time limit was reached; checked after each call, so a slow call may exceed it.
+///   user              the progress callback returned false.
+///   rounding          rounding errors prevent further progress; the result is often accurate to rounding.
 ///                     Causes: tolerances below rounding, a wrong gradient.
 /// Failed (the result is the best so far, if there is one):
 ///   objective_failed  the objective, a constraint or the progress callback threw; the message has what().

@@ -17,11 +17,11 @@ namespace {
 
 using continuation::StopReason;
 
-constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
-constexpr double at_limit = 1e-6;       // of mu F_n: a peak nearer to a stick limit sits at its corner
-constexpr double small_difference = 1e-6;
-constexpr double same_instant = 0.3;   // rad: of one extreme at two designs, one after the other
-constexpr double same_extreme = 1e-8;  // relative, of amplitude and gradient
+constexpr double beyond_display = 1e6;     // |u| in scales: where it is asked whether the response is bounded
+constexpr double at_limit = 1e-6;          // of mu F_n: a peak nearer to a stick limit sits at its corner
+constexpr double small_difference = 1e-6;  // relative, of finite differences in the design
+constexpr double same_instant = 0.3;       // rad: of one extreme at two designs, one after the other
+constexpr double same_extreme = 1e-8;      // relative, of amplitude and gradient
 
 }  // namespace
 

@@ -6,8 +6,6 @@
 namespace arcslip::optimize {
 namespace {
 
-constexpr double gain = 1e-7;                   // relative, of a value that counts as lower
-constexpr double gain_outside = 0.5;            // of the excess of a limit, relative
 constexpr double as_good = 1e-13;               // relative: values that differ by rounding
 constexpr double as_good_within_limits = 1e-7;  // the same, and by what the tolerance of a limit gains
 constexpr double settled_share = 0.1;           // of the tolerances of a minimum: where a refinement ends
@@ -73,7 +71,7 @@ void Convergence::take_candidate() {
     designs_.call_best();
 }
 
-// At the best design so far: a flat place that is worse is none.
+// Only at a design as good as the best so far: a worse stationary point does not end the run.
 bool Convergence::gradient_vanishes() {
   LoadCases& cases = designs_.cases();
   const DesignSpace& space = designs_.space();

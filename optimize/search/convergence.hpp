@@ -11,6 +11,8 @@
 
 namespace arcslip::optimize {
 
+inline constexpr double gain = 1e-7;            // relative: a value lower by less is no progress
+inline constexpr double gain_outside = 0.5;     // the same of the excess of a limit
 inline constexpr double small_gradient = 1e-8;  // of d ln V / dy: smaller ones are rounding
 
 /// The balance of gradients where the cases stand.

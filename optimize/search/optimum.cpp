@@ -25,12 +25,10 @@ using Ends = Convergence::Ends;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double seen_before = 1e-8;  // relative: a response higher by more than this has an unwatched peak
 constexpr int most_rounds = 12;
-constexpr double gain = 1e-7;              // relative: progress of a round that justifies another one
-constexpr std::size_t most_retreats = 12;  // designs evaluated again, for each distance
-constexpr std::array apart_by = {1e-2, 1e-3, 1e-4, 1e-5};             // of the range of a variable
+constexpr std::size_t most_retreats = 12;                  // designs evaluated again, for each distance
+constexpr std::array apart_by = {1e-2, 1e-3, 1e-4, 1e-5};  // of the range of a variable
 constexpr std::array slipping = {most_dissipation, 0.75, 0.9, 0.97};  // of k_d X: slip limits after a release
-constexpr double gain_outside = 0.5;     // of the violation of the limits, relative
-constexpr int most_in_refinement = 200;  // evaluations of one algorithm
+constexpr int most_in_refinement = 200;                               // evaluations of one algorithm
 
 }  // namespace
 

@@ -101,20 +101,20 @@ class Search {
     double value = std::numeric_limits<double>::infinity(), excess = value;  // the best before it
     bool new_peak = false;                                                   // in its last response
   } round_;
-  int new_peaks_ = 0;                                             // rounds that ended with one
-  double stuck_value_ = std::numeric_limits<double>::infinity();  // lowest one from which stuck dampers were
-                                                                  // released
-  double refined_ = 0;                                            // V at the last refinement
-  std::size_t refinements_ = 0;                                   // by other algorithms
-  int restarts_ = 0;                                              // from lower designs next to a minimum
-  bool sought_feasible_ = false;                                  // by designs sampled over the bounds
-  bool sought_elsewhere_ = false;                                 // by further searches
+  int new_peaks_ = 0;  // rounds that ended with one
+  /// The lowest V at which stuck dampers were released.
+  double stuck_value_ = std::numeric_limits<double>::infinity();
+  double refined_ = 0;             // V at the last refinement
+  std::size_t refinements_ = 0;    // by other algorithms
+  int restarts_ = 0;               // from lower designs next to a minimum
+  bool sought_feasible_ = false;   // by designs sampled over the bounds
+  bool sought_elsewhere_ = false;  // by further searches
   struct Minimum {
     double value;
     observables::Status status;
     observables::Stop stop;
   };
-  std::optional<Minimum> left_{};  // the minimum from which further searches led elsewhere
+  std::optional<Minimum> minimum_left_{};  // the minimum from which further searches led elsewhere
   PeakWork work_elsewhere_{};
   bool ended_ = false;
 };

@@ -21,7 +21,6 @@ using observables::Status;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_restarts = 5;
-constexpr double gain = 1e-7;                  // relative, that is worth going on from another design
 constexpr double beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
 constexpr double limit_jumps = 2e-3;           // of a limit, relative
 constexpr double limit_bends = 1e-6;           // the same: far above what curvature makes of it so near
@@ -38,12 +37,12 @@ constexpr std::array ladder = {"LD_CCSAQ", "LD_SLSQP", "LN_COBYLA", "LD_SLSQP"};
 }  // namespace
 
 bool Search::goes_on() {
-  if (left_ && result_.status == Status::failed && best().value == left_->value &&
+  if (minimum_left_ && result_.status == Status::failed && best().value == minimum_left_->value &&
       result_.stop.reason != reasons::objective_failed) {  // it led to nothing
-    result_.status = left_->status;
-    result_.stop = left_->stop;
+    result_.status = minimum_left_->status;
+    result_.stop = minimum_left_->stop;
   }
-  left_.reset();
+  minimum_left_.reset();
   if (result_.status == Status::complete && interrupted()) return false;
   designs_.recall_best();
   if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
@@ -211,7 +210,7 @@ bool Search::look_elsewhere() {
   note("the search reached " + space().text(here) +
        (within ? ", and continued from the lower " : ", where a limit is exceeded, and continued from ") +
        space().text(lower) + " found elsewhere");
-  left_ = {best().value, result_.status, result_.stop};
+  minimum_left_ = {best().value, result_.status, result_.stop};
   go_from(lower);  // a limit that is active may be exceeded there, by rounding
   return true;
 }

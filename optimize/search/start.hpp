@@ -1,5 +1,5 @@
 #pragma once
-// SearchStart of a search. Not installed.
+// The start of a search. Not installed.
 
 #include <arcslip/optimize/search/design_evaluations.hpp>
 #include <arcslip/optimize/search/load_cases.hpp>

@@ -51,7 +51,7 @@ TEST_CASE(
   const auto drawn_to = [&](double u, double share, int orientation) -> std::optional<double> {
     CurvePoint from = place(0, 0, 0, 1), beyond = place(u, 1, 0, 1);
     from.piece = beyond.piece = 0;
-    if (!draw_back(with, from, {share, share}, orientation, beyond, row)) return {};
+    if (!correct_to_bound(with, from, {share, share}, orientation, beyond, row)) return {};
     return beyond.v[0];
   };
   CHECK(drawn_to(0, 0.7, -1) == 0);

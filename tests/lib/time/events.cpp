@@ -37,7 +37,7 @@ MotionState small_steps(const EquationOfMotion& equation, MotionState s, double 
   Vector f;
   const auto acceleration = [&](double t, const Vector& x, const Vector& v) -> Vector {
     equation.force(t, f);
-    for (const Element& e : equation.elements) {
+    for (const TimeElement& e : equation.elements) {
       const Vector d = e.directions;
       const double force = e.fields[0] * (d.dot(x) - s.z[e.memory]), limit = systems::limit_of(e);
       f -= std::clamp(force, -limit, limit) * d;
@@ -52,7 +52,7 @@ MotionState small_steps(const EquationOfMotion& equation, MotionState s, double 
     const Vector a4 = acceleration(t + h, s.x + h * v3, v4);
     s.x += h / 6 * (s.v + 2 * v2 + 2 * v3 + v4);
     s.v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-    for (const Element& e : equation.elements) {
+    for (const TimeElement& e : equation.elements) {
       const double q = Vector(e.directions).dot(s.x), reach = systems::limit_of(e) / e.fields[0];
       s.z[e.memory] = std::clamp(s.z[e.memory], q - reach, q + reach);
     }

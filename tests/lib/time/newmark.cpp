@@ -170,7 +170,7 @@ TEST_CASE("many coupled dampers in one huge step are solved whatever the guess")
       const double stiffness = std::exp(6 * normal(random)), limit = std::exp(2 * normal(random));
       add_damper(dampers, D.col(e), stiffness, limit);
     }
-    const std::vector<Element>& elements = dampers.elements;
+    const std::vector<TimeElement>& elements = dampers.elements;
     ImplicitElements all(elements, n);
     const Matrix A = R * R.transpose() + 1e-3 * Matrix::Identity(n, n);
     all.set_matrix(A);
@@ -181,14 +181,14 @@ TEST_CASE("many coupled dampers in one huge step are solved whatever the guess")
     REQUIRE(all.solve(b, y) == Solved::yes);
     Vector balance = b - A * y;
     for (int e = 0; e < count; ++e) {
-      const Element& element = elements[static_cast<std::size_t>(e)];
+      const TimeElement& element = elements[static_cast<std::size_t>(e)];
       const double limit = systems::limit_of(element);
       balance -= D.col(e) * std::clamp(element.fields[0] * D.col(e).dot(y), -limit, limit);
     }
     const double size = (A.cwiseAbs() * y.cwiseAbs()).maxCoeff() + b.cwiseAbs().maxCoeff() + 1;
     const double stiffest = 1 + D.cwiseAbs().maxCoeff() * D.cwiseAbs().maxCoeff() * y.cwiseAbs().maxCoeff();
     double stiffness = 0;
-    for (const Element& element : elements) stiffness = std::max(stiffness, element.fields[0]);
+    for (const TimeElement& element : elements) stiffness = std::max(stiffness, element.fields[0]);
     CHECK(balance.cwiseAbs().maxCoeff() < 1e-11 * (size + stiffest * stiffness));
   }
 }
