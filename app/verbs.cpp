@@ -132,9 +132,8 @@ std::vector<File> own_files(const StudyFiles& files, const results::Schema& sche
 }
 
 bool are_of_one_list(std::span<const results::Schema> schemas) {
-  return std::all_of(
-      schemas.begin(), schemas.end(),
-      [&](const results::Schema& schema) { return schema.list == schemas.front().list; });
+  return std::all_of(schemas.begin(), schemas.end(),
+                     [&](const results::Schema& schema) { return schema.list == schemas.front().list; });
 }
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
@@ -205,8 +204,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       if (each.path == "-") {
         screen.write(writer);
       } else {
-        writing.attempt(
-            results::visible(each.path), [&] { output::write_file(each.path, writer, interrupted); });
+        writing.attempt(results::visible(each.path),
+                        [&] { output::write_file(each.path, writer, interrupted); });
       }
     }
   }

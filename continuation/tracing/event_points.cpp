@@ -182,11 +182,9 @@ std::optional<PassedKink> EventLocator::corner(const CurvePoint& from, double le
 }
 
 bool EventLocator::looks_for_kinks() const {
-  return std::any_of(
-      monitors_.begin(), monitors_.end(),
-      [](const Monitor& each) {
-        return each.kind == MonitorKind::kink || (each.quantity && each.divides_at_kinks);
-      });
+  return std::any_of(monitors_.begin(), monitors_.end(), [](const Monitor& each) {
+    return each.kind == MonitorKind::kink || (each.quantity && each.divides_at_kinks);
+  });
 }
 
 std::vector<PassedKink> EventLocator::corners(const CurvePoint& from, const CurvePoint& to) {

@@ -39,9 +39,8 @@ State before_the_start(const Start& start) {
 }
 
 bool looks_for_branch_points(const std::vector<Monitor>& monitors) {
-  return std::any_of(
-      monitors.begin(), monitors.end(),
-      [](const Monitor& each) { return each.kind == MonitorKind::branch_point; });
+  return std::any_of(monitors.begin(), monitors.end(),
+                     [](const Monitor& each) { return each.kind == MonitorKind::branch_point; });
 }
 
 }  // namespace

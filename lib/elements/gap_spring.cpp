@@ -183,11 +183,9 @@ class GapCorners final : public Corners {
   static double sign(const Corner& corner) { return corner.guard == 1 ? 1 : -1; }
   // An image of one that is there, in a motion of a shorter period.
   bool is_listed(const std::vector<Corner>& all, const Corner& corner, In w) const {
-    return std::any_of(
-        all.begin(), all.end(),
-        [&](const Corner& other) {
-          return other.guard == corner.guard && is_image(h_, w, corner.angles[0] - other.angles[0], 1);
-        });
+    return std::any_of(all.begin(), all.end(), [&](const Corner& other) {
+      return other.guard == corner.guard && is_image(h_, w, corner.angles[0] - other.angles[0], 1);
+    });
   }
 
   Harmonics h_;

@@ -79,11 +79,10 @@ void LinearParts::force(int n, ComplexVector& f) const {
 
 bool LinearParts::depend_on(int k) const {
   return k == model::frequency ||
-         std::any_of(
-             parts_.begin(), parts_.end(), [k](const PartInY& part) { return part.parameter == k; }) ||
-         std::any_of(
-             forces_.begin(), forces_.end(),
-             [k](const ForceInY& force) { return force.cosine == k || force.sine == k; });
+         std::any_of(parts_.begin(), parts_.end(),
+                     [k](const PartInY& part) { return part.parameter == k; }) ||
+         std::any_of(forces_.begin(), forces_.end(),
+                     [k](const ForceInY& force) { return force.cosine == k || force.sine == k; });
 }
 
 void LinearParts::differentiate(int k, int n, const ComplexVector& y, double force_factor,

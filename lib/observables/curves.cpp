@@ -100,9 +100,8 @@ class Curves {
   }
 
   bool is_looked_at(double share) const {
-    return std::any_of(
-        looked_at_.begin(), looked_at_.end(),
-        [&](double other) { return std::abs(other - share) < least_apart; });
+    return std::any_of(looked_at_.begin(), looked_at_.end(),
+                       [&](double other) { return std::abs(other - share) < least_apart; });
   }
 
   // share: of the range, 0 at its beginning.
@@ -188,16 +187,14 @@ class Curves {
 
   // A failed curve is covered by one traced through all of it from the other side.
   void drop_parts_of(const SpecialCurveTracer& tracer, const SpecialCurve& curve) {
-    std::erase_if(
-        found_,
-        [&](const Found& earlier) {
-          const auto& points = earlier.curve.points;
-          const auto passes = [&](const SpecialCurve::At& at) {
-            return tracer.passes(curve, tracer.point_of(at));
-          };
-          return !points.empty() && passes(points.front()) && passes(points[points.size() / 2]) &&
-                 passes(points.back());
-        });
+    std::erase_if(found_, [&](const Found& earlier) {
+      const auto& points = earlier.curve.points;
+      const auto passes = [&](const SpecialCurve::At& at) {
+        return tracer.passes(curve, tracer.point_of(at));
+      };
+      return !points.empty() && passes(points.front()) && passes(points[points.size() / 2]) &&
+             passes(points.back());
+    });
   }
 
   // Where several elements start to slip at once, a curve may have to be traced from both sides.
@@ -208,13 +205,11 @@ class Curves {
       if (found.curve.begin) ends.push_back(&*found.curve.begin);
       ends.push_back(&found.curve.end);
     }
-    std::erase_if(
-        ends,
-        [](const SpecialCurveEnd* end) {
-          const bool fails =
-              end->stop.reason == StopReason::step_too_small || end->stop.reason == StopReason::event;
-          return !fails || end->vanishes || end->left_window || end->closed || !end->unbounded.empty();
-        });
+    std::erase_if(ends, [](const SpecialCurveEnd* end) {
+      const bool fails =
+          end->stop.reason == StopReason::step_too_small || end->stop.reason == StopReason::event;
+      return !fails || end->vanishes || end->left_window || end->closed || !end->unbounded.empty();
+    });
     const auto near = [](double a, double b) { return std::abs(a - b) <= meeting * std::abs(b); };
     for (SpecialCurveEnd* end : ends)
       end->goes_on = std::any_of(ends.begin(), ends.end(), [&](const SpecialCurveEnd* other) {

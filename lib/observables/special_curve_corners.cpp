@@ -139,9 +139,8 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(co
              std::abs(point.x[n] / at.x[n] - 1);
     };
     const auto nearest = [&](const std::vector<SpecialPoint>& points) {
-      return std::min_element(
-          points.begin(), points.end(),
-          [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      return std::min_element(points.begin(), points.end(),
+                              [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     };
     const auto reaches = [&](const SpecialPoint& point) {
       return distance(point) < root_reach * std::sqrt(beside);

@@ -126,14 +126,12 @@ bool SpecialCurveTracer::comes_back(std::size_t begin) {
 
 // Whether an event came up before, at the same place.
 bool SpecialCurveTracer::is_repeated(const SpecialCurve::EventAt& event) const {
-  return std::any_of(
-      result_.events.begin(), result_.events.end(),
-      [&](const auto& other) {
-        const auto &a = other.event.point, &b = event.event.point;
-        return other.arclength < event.arclength && other.event.kind == event.event.kind &&
-               std::abs(a.omega - b.omega) <= same_frequency * b.omega &&
-               std::abs(a.over - b.over) <= same_frequency * std::abs(b.over);
-      });
+  return std::any_of(result_.events.begin(), result_.events.end(), [&](const auto& other) {
+    const auto &a = other.event.point, &b = event.event.point;
+    return other.arclength < event.arclength && other.event.kind == event.event.kind &&
+           std::abs(a.omega - b.omega) <= same_frequency * b.omega &&
+           std::abs(a.over - b.over) <= same_frequency * std::abs(b.over);
+  });
 }
 
 void SpecialCurveTracer::end_at(std::size_t count, bool closed) {
@@ -150,11 +148,9 @@ void SpecialCurveTracer::end_at(std::size_t count, bool closed) {
     }
   const bool beyond = closed && count < points.size();
   const double last_point = points[count - 1].arclength, end = beyond ? points[count].arclength : last_point;
-  std::erase_if(
-      result_.events,
-      [&](const auto& each) {
-        return each.arclength > end || (each.arclength > last_point && is_repeated(each));
-      });
+  std::erase_if(result_.events, [&](const auto& each) {
+    return each.arclength > end || (each.arclength > last_point && is_repeated(each));
+  });
   std::erase_if(result_.turns, [&](double turn) { return turn > end; });
   points.resize(count);
   if (beyond) {

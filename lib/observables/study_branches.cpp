@@ -28,8 +28,8 @@ ResponseBranch described(const model::Model& model, const std::string& over) {
 }
 
 bool departs(const std::vector<std::pair<double, double>>& course, double arclength, double amplitude) {
-  const auto after = std::upper_bound(
-      course.begin(), course.end(), arclength, [](double s, const auto& point) { return s < point.first; });
+  const auto after = std::upper_bound(course.begin(), course.end(), arclength,
+                                      [](double s, const auto& point) { return s < point.first; });
   const auto differs = [&](const auto& point) {
     return std::abs(point.second - amplitude) > constant * std::abs(amplitude);
   };

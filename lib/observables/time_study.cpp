@@ -165,8 +165,7 @@ class InTime {
   }
 
   Integrator in_steps() {
-    return newmark(
-        equation_, settings_.steps, [this] { return !go_on(progress_.points); });
+    return newmark(equation_, settings_.steps, [this] { return !go_on(progress_.points); });
   }
 
   // Tells of the progress; false where the user stops.

@@ -30,14 +30,12 @@ elements::Harmonics widened(const elements::Harmonics& h) {
 
 // Whether some element is stiffer in large motions than at rest.
 bool stiffen(const model::Model& model, const Vector& p) {
-  return std::any_of(
-      model.elements.begin(), model.elements.end(),
-      [&](const auto& element) {
-        const std::vector<double> fields = element.fields(p);
-        for (int i = 0; i < element.law->directions(); ++i)
-          if (element.law->traits(fields, i).stiffness != element.law->stiffness(fields, i, 0)) return true;
-        return false;
-      });
+  return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
+    const std::vector<double> fields = element.fields(p);
+    for (int i = 0; i < element.law->directions(); ++i)
+      if (element.law->traits(fields, i).stiffness != element.law->stiffness(fields, i, 0)) return true;
+    return false;
+  });
 }
 
 }  // namespace

@@ -122,10 +122,8 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
   std::vector<std::string> old = images_of(result.sources[1]);
   for (const std::string& image : images) old.insert(old.end(), {image + ".svg", image + ".png"});
   const int removed = remove_images(base, old);
-  write_file(
-      result.sources[0], [&](std::ostream& out) { write_figure_data(out, data); });
-  write_file(
-      result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, images); });
+  write_file(result.sources[0], [&](std::ostream& out) { write_figure_data(out, data); });
+  write_file(result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, images); });
   const auto problem = [&](const std::string& what) {
     result.problem = what + (removed > 0 && result.images.empty()
                                  ? "; those of an earlier run were removed, since they show other data"

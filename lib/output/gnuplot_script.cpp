@@ -134,8 +134,8 @@ void write_key_title(std::ostream& out, const FigureData& data) {
 }
 
 bool has_mark(const FigureLine& line, std::string_view kind) {
-  return std::any_of(
-      line.marks.begin(), line.marks.end(), [&](const FigureMark& mark) { return mark.kind == kind; });
+  return std::any_of(line.marks.begin(), line.marks.end(),
+                     [&](const FigureMark& mark) { return mark.kind == kind; });
 }
 
 /// Whether a line, or its marks of a kind, has anything to draw in a figure.
@@ -144,18 +144,14 @@ bool is_in(const Figure& figure, const Record& values) {
 }
 
 bool is_in(const Figure& figure, const FigureLine& line) {
-  return std::any_of(
-      line.parts.begin(), line.parts.end(),
-      [&](const std::vector<Record>& part) {
-        return std::any_of(
-            part.begin(), part.end(), [&](const Record& values) { return is_in(figure, values); });
-      });
+  return std::any_of(line.parts.begin(), line.parts.end(), [&](const std::vector<Record>& part) {
+    return std::any_of(part.begin(), part.end(), [&](const Record& values) { return is_in(figure, values); });
+  });
 }
 
 bool is_in(const Figure& figure, const FigureLine& line, std::string_view kind) {
-  return std::any_of(
-      line.marks.begin(), line.marks.end(),
-      [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
+  return std::any_of(line.marks.begin(), line.marks.end(),
+                     [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
 }
 
 /// Key entries of the bands, narrowest first, from one line, as all lines have the same.

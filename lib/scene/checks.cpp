@@ -6,8 +6,7 @@ namespace arcslip::scene::file {
 namespace {
 
 bool any_value(const std::vector<Part>& parts) {
-  return std::any_of(
-      parts.begin(), parts.end(), [](const Part& part) { return part.values.front() != 0; });
+  return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.values.front() != 0; });
 }
 
 // Marks the degrees of freedom on which parts act. A value of zero does nothing; an element counts as it is.

@@ -22,17 +22,14 @@ bool has_maxima(const ResponseBranch& branch) {
 struct Tables {
   Tables(const scene::Scene& scene, const std::string& over, bool maxima, bool coefficients)
       : points(responses(scene, {over, maxima, coefficients})) {
-    events.add(
-        {"kind"}, "", "`peak`, `fold` and so on", [](const ResponseEvent& event) { return event.kind; });
-    events.add(
-        {"nonsmooth"}, "", "at a kink of the branch",
-        [](const ResponseEvent& event) { return event.nonsmooth; });
-    events.add(
-        {"located"}, "", "false: replaced by the nearest point",
-        [](const ResponseEvent& event) { return event.located; });
-    events.add(
-        {"after"}, "", "index of the preceding point",
-        [](const ResponseEvent& event) { return event.after; });
+    events.add({"kind"}, "", "`peak`, `fold` and so on",
+               [](const ResponseEvent& event) { return event.kind; });
+    events.add({"nonsmooth"}, "", "at a kink of the branch",
+               [](const ResponseEvent& event) { return event.nonsmooth; });
+    events.add({"located"}, "", "false: replaced by the nearest point",
+               [](const ResponseEvent& event) { return event.located; });
+    events.add({"after"}, "", "index of the preceding point",
+               [](const ResponseEvent& event) { return event.after; });
     events.add(responses(scene, {over, true, coefficients}),
                [](const ResponseEvent& event) { return &event.point; });
   }

@@ -64,9 +64,8 @@ void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::
 results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked& asked) {
   results::TableOf<ResponsePoint> table;
   if (!asked.over.empty())
-    table.add(
-        {asked.over}, parameter_unit(scene, asked.over), "the continuation parameter",
-        [](const ResponsePoint& response) { return response.over; });
+    table.add({asked.over}, parameter_unit(scene, asked.over), "the continuation parameter",
+              [](const ResponsePoint& response) { return response.over; });
   add(
       observables::response_quantities(), scene, scene, asked, {},
       [](const ResponsePoint& response) { return &response; }, table);

@@ -22,17 +22,13 @@ struct Instant {
 results::TableOf<Instant> history(const scene::Scene& scene) {
   results::TableOf<Instant> table;
   const auto add = [&](std::vector<std::string> path, const char* unit, const char* help, auto list_of) {
-    table.add(
-        std::move(path), unit, help,
-        [list_of](const Instant& at) {
-          const std::vector<double>* list = list_of(*at.history);
-          return list && at.i < list->size() ? std::optional((*list)[at.i]) : std::nullopt;
-        });
+    table.add(std::move(path), unit, help, [list_of](const Instant& at) {
+      const std::vector<double>* list = list_of(*at.history);
+      return list && at.i < list->size() ? std::optional((*list)[at.i]) : std::nullopt;
+    });
   };
-  add(
-      {"time"}, "s", "from the start of the recorded periods", [](const auto& of) { return &of.time; });
-  add(
-      {"displacement"}, "m", "of the response", [](const auto& of) { return &of.displacement; });
+  add({"time"}, "s", "from the start of the recorded periods", [](const auto& of) { return &of.time; });
+  add({"displacement"}, "m", "of the response", [](const auto& of) { return &of.displacement; });
   add({"velocity"}, "m/s", "of the response", [](const auto& of) { return &of.velocity; });
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
     const std::string& name = scene.elements[e].name;

@@ -35,17 +35,14 @@ struct Instant {
 results::TableOf<Instant> history(const scene::Scene& scene) {
   using observables::ElementHistory;
   results::TableOf<Instant> table;
-  table.add(
-      {"time"}, "s", "of the period",
-      [](const Instant& at) { return at.history->angle[at.i] / at.history->base_frequency; });
-  table.add(
-      {"angle"}, "rad", "base frequency times the time",
-      [](const Instant& at) { return at.history->angle[at.i]; });
-  table.add(
-      {"displacement"}, "m", "of the response",
-      [](const Instant& at) { return at.history->displacement[at.i]; });
-  table.add(
-      {"velocity"}, "m/s", "of the response", [](const Instant& at) { return at.history->velocity[at.i]; });
+  table.add({"time"}, "s", "of the period",
+            [](const Instant& at) { return at.history->angle[at.i] / at.history->base_frequency; });
+  table.add({"angle"}, "rad", "base frequency times the time",
+            [](const Instant& at) { return at.history->angle[at.i]; });
+  table.add({"displacement"}, "m", "of the response",
+            [](const Instant& at) { return at.history->displacement[at.i]; });
+  table.add({"velocity"}, "m/s", "of the response",
+            [](const Instant& at) { return at.history->velocity[at.i]; });
   const auto add = [&](std::size_t e, const char* key, const char* unit, const char* help,
                        std::vector<double> ElementHistory::*member) {
     table.add({"elements", scene.elements[e].name, key}, unit, help,

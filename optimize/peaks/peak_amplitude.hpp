@@ -158,6 +158,8 @@ class PeakAmplitude {
   void watch();
   Follower& follower(std::size_t peak);
   bool follow(std::size_t peak, std::span<const double> to, Peak& followed);
+  /// Takes the tracked peaks of a design as its state.
+  void move_to(std::span<const double> design, std::vector<Peak>&& tracked);
   bool holds(std::size_t peak, const continuation::Vector& x);
   bool came_up() const;
 

@@ -43,15 +43,13 @@ double slope_on_way(double from, double to, double s) {
 // Whether a new peak is expected at the design of the state, by logarithmic extrapolation of the unwatched
 // peaks from the last response.
 bool PeakAmplitude::came_up() const {
-  return std::any_of(
-      lower_.begin(), lower_.end(),
-      [&](const LowerPeak& peak) {
-        double level = 0;
-        for (std::size_t k = 0; k < traced_.size(); ++k)
-          level += peak.gradient[static_cast<Eigen::Index>(k)] / peak.amplitude * traced_[k] *
-                   way(traced_[k], state_.design[k]);
-        return peak.amplitude * std::exp(level) > risen * watched_.peaks * state_.amplitude();
-      });
+  return std::any_of(lower_.begin(), lower_.end(), [&](const LowerPeak& peak) {
+    double level = 0;
+    for (std::size_t k = 0; k < traced_.size(); ++k)
+      level += peak.gradient[static_cast<Eigen::Index>(k)] / peak.amplitude * traced_[k] *
+               way(traced_[k], state_.design[k]);
+    return peak.amplitude * std::exp(level) > risen * watched_.peaks * state_.amplitude();
+  });
 }
 
 const PeakState& PeakAmplitude::at(std::span<const double> design) {
@@ -65,13 +63,17 @@ const PeakState& PeakAmplitude::at(std::span<const double> design) {
   std::vector<Peak> moved = state_.peaks;
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (!follow(i, design, moved[i])) return trace(design);
+  move_to(design, std::move(moved));
+  return came_up() ? trace(design) : state_;
+}
+
+void PeakAmplitude::move_to(std::span<const double> design, std::vector<Peak>&& tracked) {
   state_.design.assign(design.begin(), design.end());
   state_.traced = false;
-  state_.peaks = std::move(moved);
+  state_.peaks = std::move(tracked);
   ++work_.followed;
   for (std::size_t i = 0; i < state_.peaks.size(); ++i)
     if (state_.peaks[i].amplitude > state_.peaks[state_.highest].amplitude) state_.highest = i;
-  return came_up() ? trace(design) : state_;
 }
 
 bool PeakAmplitude::follow_to(std::span<const double> design, std::span<const std::size_t> needed) {
@@ -82,12 +84,7 @@ bool PeakAmplitude::follow_to(std::span<const double> design, std::span<const st
     if (std::find(needed.begin(), needed.end(), i) != needed.end()) return false;
     moved[i].kind = PeakKind::kink;
   }
-  state_.design.assign(design.begin(), design.end());
-  state_.traced = false;
-  state_.peaks = std::move(moved);
-  ++work_.followed;
-  for (std::size_t i = 0; i < state_.peaks.size(); ++i)
-    if (state_.peaks[i].amplitude > state_.peaks[state_.highest].amplitude) state_.highest = i;
+  move_to(design, std::move(moved));
   return true;
 }
 

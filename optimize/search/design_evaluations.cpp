@@ -16,11 +16,9 @@ constexpr double same_scatter = 1e-9;  // relative: values that were there befor
 constexpr double worth = 1e-7;         // relative: a lower amplitude that is worth going back for
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::equal(
-      a.begin(), a.end(), b.begin(), b.end(),
-      [](double x, double y) {
-        return std::abs(x - y) <= same_scatter * std::max(std::abs(x), std::abs(y));
-      });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+    return std::abs(x - y) <= same_scatter * std::max(std::abs(x), std::abs(y));
+  });
 }
 
 }  // namespace

@@ -98,8 +98,7 @@ void Formulation::add_limits(NonlinearProgram& problem, std::size_t n) {
   for (const Limited& each : limits_)
     for (std::size_t c = 0; c < cases_.size(); ++c)
       for (std::size_t k = 0; k < constraints_[c].size(); ++k)
-        problem.constraints.push_back({each.name,
-                                       [this, n, c, k, &each](auto x, auto g) {
+        problem.constraints.push_back({each.name, [this, n, c, k, &each](auto x, auto g) {
                                          move_(x.first(n));
                                          std::fill(g.begin(), g.end(), 0.0);
                                          if (cases_.state(c).unbounded) return 1.0;

@@ -20,17 +20,14 @@ void LoadCases::trace(std::span<const double> design, observables::Steps steps) 
 }
 
 bool LoadCases::stand_at(std::span<const double> design) const {
-  return std::all_of(
-      all_.begin(), all_.end(),
-      [&](const Each& each) {
-        return std::equal(design.begin(), design.end(), each.peaks->state().design.begin(),
-                          each.peaks->state().design.end());
-      });
+  return std::all_of(all_.begin(), all_.end(), [&](const Each& each) {
+    return std::equal(design.begin(), design.end(), each.peaks->state().design.begin(),
+                      each.peaks->state().design.end());
+  });
 }
 
 bool LoadCases::are_traced() const {
-  return std::all_of(
-      all_.begin(), all_.end(), [](const Each& each) { return each.peaks->state().traced; });
+  return std::all_of(all_.begin(), all_.end(), [](const Each& each) { return each.peaks->state().traced; });
 }
 
 double LoadCases::weight(std::size_t c) const {

@@ -16,9 +16,8 @@ constexpr std::size_t most_with_corners = 3;  // parameters whose corners are al
 constexpr std::size_t most_corners = 64;      // that are looked at
 
 bool contains(const std::vector<DesignVariable>& variables, const std::string& name) {
-  return std::any_of(
-      variables.begin(), variables.end(),
-      [&](const DesignVariable& variable) { return variable.name == name; });
+  return std::any_of(variables.begin(), variables.end(),
+                     [&](const DesignVariable& variable) { return variable.name == name; });
 }
 
 scene::Scene with_case(scene::Scene scene, const LoadCase& each) {

@@ -65,13 +65,11 @@ namespace {
 constexpr double as_high = 1e-6;  // relative: a peak nearer to the highest is one of them
 
 bool moves_highest(const PeakState& state, std::size_t k) {
-  return std::any_of(
-      state.peaks.begin(), state.peaks.end(),
-      [&](const Peak& peak) {
-        return peak.amplitude >= (1 - as_high) * state.amplitude() &&
-               std::abs(peak.gradient[static_cast<Eigen::Index>(k)] * state.design[k]) >
-                   no_influence * peak.amplitude;
-      });
+  return std::any_of(state.peaks.begin(), state.peaks.end(), [&](const Peak& peak) {
+    return peak.amplitude >= (1 - as_high) * state.amplitude() &&
+           std::abs(peak.gradient[static_cast<Eigen::Index>(k)] * state.design[k]) >
+               no_influence * peak.amplitude;
+  });
 }
 
 // The largest ratio of the force to its limit among the elements that stick at a peak and whose limit depends

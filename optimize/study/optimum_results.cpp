@@ -59,9 +59,8 @@ Object place_of(const scene::Scene& scene, const scene::Direction& direction) {
 template <class Item, class Get>
 void add_design(const scene::Scene& scene, const OptimumProblem& problem, Get design, TableOf<Item>& table) {
   for (std::size_t k = 0; k < problem.over.size(); ++k)
-    table.add(
-        {problem.over[k].name}, studies::parameter_unit(scene, problem.over[k].name), "of the design",
-        [design, k](const Item& item) { return design(item)[k]; });
+    table.add({problem.over[k].name}, studies::parameter_unit(scene, problem.over[k].name), "of the design",
+              [design, k](const Item& item) { return design(item)[k]; });
 }
 
 TableOf<Evaluation> course(const scene::Scene& scene, const OptimumProblem& problem) {
@@ -78,29 +77,23 @@ TableOf<LoadCaseResult> cases(const scene::Scene& scene, const OptimumProblem& p
   table.add({"set"}, "", "parameters set by the case",
             [&scene](const LoadCaseResult& at) { return studies::named(scene, at.set); });
   if (!problem.scatter.empty()) {
-    table.add(
-        {"scatter"}, "", "values of the uncertain parameters",
-        [&scene](const LoadCaseResult& at) { return studies::named(scene, at.scatter); });
+    table.add({"scatter"}, "", "values of the uncertain parameters",
+              [&scene](const LoadCaseResult& at) { return studies::named(scene, at.scatter); });
     table.add({"of"}, "", "which of the study's cases it belongs to, from 1",
               [](const LoadCaseResult& at) { return at.of + 1; });
   }
-  table.add(
-      {"response"}, "", "the response of the case, if it has its own",
-      [&scene, &problem](const LoadCaseResult& at) {
-        return at.of < problem.cases.size() && problem.cases[at.of].response
-                   ? std::optional(place_of(scene, *problem.cases[at.of].response))
-                   : std::nullopt;
-      });
-  table.add(
-      {"weight"}, "", "of its amplitude", [](const LoadCaseResult& at) { return at.weight; });
-  table.add(
-      {"active"}, "", "as high as the highest, within 1e-6 (mean: always)",
-      [](const LoadCaseResult& at) { return at.active; });
-  table.add(
-      {"multiplier"}, "", "share in the balance of gradients",
-      [](const LoadCaseResult& at) { return at.multiplier; });
-  table.add(
-      {"amplitude"}, "m", "without the weight", [](const LoadCaseResult& at) { return at.amplitude; });
+  table.add({"response"}, "", "the response of the case, if it has its own",
+            [&scene, &problem](const LoadCaseResult& at) {
+              return at.of < problem.cases.size() && problem.cases[at.of].response
+                         ? std::optional(place_of(scene, *problem.cases[at.of].response))
+                         : std::nullopt;
+            });
+  table.add({"weight"}, "", "of its amplitude", [](const LoadCaseResult& at) { return at.weight; });
+  table.add({"active"}, "", "as high as the highest, within 1e-6 (mean: always)",
+            [](const LoadCaseResult& at) { return at.active; });
+  table.add({"multiplier"}, "", "Lagrange multiplier",
+            [](const LoadCaseResult& at) { return at.multiplier; });
+  table.add({"amplitude"}, "m", "without the weight", [](const LoadCaseResult& at) { return at.amplitude; });
   table.add(responses(scene), [](const LoadCaseResult& at) { return &at.point; });
   return table;
 }
@@ -224,9 +217,8 @@ std::string doubt(const OptimumResult& result) {
 TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumProblem& problem,
                              const std::string& along) {
   TableOf<OptimumPoint> table;
-  table.add(
-      {along}, studies::parameter_unit(scene, along), "the continuation parameter",
-      [](const OptimumPoint& at) { return at.along; });
+  table.add({along}, studies::parameter_unit(scene, along), "the continuation parameter",
+            [](const OptimumPoint& at) { return at.along; });
   add_design(
       scene, problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
   table.add({"amplitude"}, "m", "A_max", [](const OptimumPoint& at) { return at.amplitude; });
@@ -240,13 +232,11 @@ TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumProblem& pr
     return peaks;
   });
   for (std::size_t k = 0; k < problem.over.size(); ++k)
-    table.add(
-        {"at_bound", problem.over[k].name}, "", "`lower`, `inside`, `upper`",
-        [k](const OptimumPoint& at) {
-          return k < at.at_bound.size() ? std::optional(place_at_bound(at.at_bound[k])) : std::nullopt;
-        });
-  table.add(
-      {"minimum"}, "", "false: a saddle", [](const OptimumPoint& at) { return at.minimum; });
+    table.add({"at_bound", problem.over[k].name}, "", "`lower`, `inside`, `upper`",
+              [k](const OptimumPoint& at) {
+                return k < at.at_bound.size() ? std::optional(place_at_bound(at.at_bound[k])) : std::nullopt;
+              });
+  table.add({"minimum"}, "", "false: a saddle", [](const OptimumPoint& at) { return at.minimum; });
   table.add(responses(scene), [](const OptimumPoint& at) { return &at.response; });
   return table;
 }
@@ -257,25 +247,19 @@ TableOf<OptimumEvent> events(const scene::Scene& scene, const OptimumProblem& pr
     return event.omega > 0 ? std::optional(value) : std::nullopt;
   };
   TableOf<OptimumEvent> table;
-  table.add(
-      {"kind"}, "", "what changes", [](const OptimumEvent& event) { return event.kind; });
-  table.add(
-      {"parameter"}, "", "of a bound",
-      [](const OptimumEvent& event) {
-        return event.parameter.empty() ? std::nullopt : std::optional(event.parameter);
-      });
-  table.add(
-      {"frequency"}, std::string(scene::unit_name(scene.frequency_unit)), "of the peak that changes",
-      [of_peak, &scene](const OptimumEvent& event) {
-        return of_peak(event, studies::in_scene_unit(scene, event.omega));
-      });
-  table.add(
-      {"omega"}, "rad/s", "of the peak that changes",
-      [of_peak](const OptimumEvent& event) { return of_peak(event, event.omega); });
-  table.add(
-      {"nonsmooth"}, "", "at another event", [](const OptimumEvent& event) { return event.nonsmooth; });
-  table.add(
-      {"after"}, "", "index of the preceding point", [](const OptimumEvent& event) { return event.after; });
+  table.add({"kind"}, "", "what changes", [](const OptimumEvent& event) { return event.kind; });
+  table.add({"parameter"}, "", "of a bound", [](const OptimumEvent& event) {
+    return event.parameter.empty() ? std::nullopt : std::optional(event.parameter);
+  });
+  table.add({"frequency"}, std::string(scene::unit_name(scene.frequency_unit)), "of the peak that changes",
+            [of_peak, &scene](const OptimumEvent& event) {
+              return of_peak(event, studies::in_scene_unit(scene, event.omega));
+            });
+  table.add({"omega"}, "rad/s", "of the peak that changes",
+            [of_peak](const OptimumEvent& event) { return of_peak(event, event.omega); });
+  table.add({"nonsmooth"}, "", "at another event", [](const OptimumEvent& event) { return event.nonsmooth; });
+  table.add({"after"}, "", "index of the preceding point",
+            [](const OptimumEvent& event) { return event.after; });
   table.add(points(scene, problem, along), [](const OptimumEvent& event) { return &event.point; }, {"point"});
   return table;
 }

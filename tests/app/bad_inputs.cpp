@@ -239,25 +239,18 @@ std::vector<BadInput> make() {
       printed_on("/dev/full", "a full disk below the help", {"--help"},
                  "cannot write standard output: No space left on device"),
       // scenes
-      scene(
-          "an empty scene", "the file is empty", [] { return ""; }),
-      scene(
-          "a truncated scene", "bad.json: line 1, column 37: the file ends too early",
-          [] { return R"({"format": "arcslip-scene-1", "struc)"; }),
-      scene(
-          "nesting 100 000 deep", "nested deeper than 64", [] { return std::string(100'000, '['); }),
-      scene(
-          "a number of more than 64 MB", "found a file of 67108866 bytes, a scene must be at most 64 MB",
-          [] { return "[" + std::string((64u << 20) + 1, '1'); }),
-      scene(
-          "a number of 10 MB", "a number that is too large",
-          [] { return "[" + std::string(10'000'000, '1') + "]"; }),
-      scene(
-          "a negative mass", "bad.json: /structure/masses/0/value: found -1.24",
-          [] { return scene_with(structure("-1.24", "100"), study("1", "2")); }),
-      scene(
-          "NaN", "a number must be finite (JSON has no NaN and no Infinity)",
-          [] { return scene_with(structure("NaN", "100"), study("1", "2")); }),
+      scene("an empty scene", "the file is empty", [] { return ""; }),
+      scene("a truncated scene", "bad.json: line 1, column 37: the file ends too early",
+            [] { return R"({"format": "arcslip-scene-1", "struc)"; }),
+      scene("nesting 100 000 deep", "nested deeper than 64", [] { return std::string(100'000, '['); }),
+      scene("a number of more than 64 MB", "found a file of 67108866 bytes, a scene must be at most 64 MB",
+            [] { return "[" + std::string((64u << 20) + 1, '1'); }),
+      scene("a number of 10 MB", "a number that is too large",
+            [] { return "[" + std::string(10'000'000, '1') + "]"; }),
+      scene("a negative mass", "bad.json: /structure/masses/0/value: found -1.24",
+            [] { return scene_with(structure("-1.24", "100"), study("1", "2")); }),
+      scene("NaN", "a number must be finite (JSON has no NaN and no Infinity)",
+            [] { return scene_with(structure("NaN", "100"), study("1", "2")); }),
       scene(
           "two parts of one name", "bad.json: /structure/springs/0/name: found the name \"m\" again",
           [] {
@@ -273,10 +266,9 @@ std::vector<BadInput> make() {
                 R"({"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}], "springs": [{"name": "k", "at": "y", "value": 100}]})",
                 study("1", "2"));
           }),
-      scene(
-          "no stiffness at all",
-          "bad.json: /structure/springs: found no stiffness, must have at least one spring",
-          [] { return scene_with(structure("1", "0"), study("1", "2")); }),
+      scene("no stiffness at all",
+            "bad.json: /structure/springs: found no stiffness, must have at least one spring",
+            [] { return scene_with(structure("1", "0"), study("1", "2")); }),
       scene(
           "a study over a parameter that is not there",
           "bad.json: /studies/0/over: found the unknown parameter \"k.valeu\"",
@@ -285,9 +277,8 @@ std::vector<BadInput> make() {
                 structure("1", "100"),
                 R"(, "studies": [{"kind": "trace", "over": "k.valeu", "from": 1, "to": 2, "frequency": 1}])");
           }),
-      scene(
-          "a study that ends before it begins", "bad.json: /studies/0/to: found 1, must be above \"from\"",
-          [] { return scene_with(structure("1", "100"), study("2", "1")); }),
+      scene("a study that ends before it begins", "bad.json: /studies/0/to: found 1, must be above \"from\"",
+            [] { return scene_with(structure("1", "100"), study("2", "1")); }),
   };
 }
 

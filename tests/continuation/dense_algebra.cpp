@@ -15,12 +15,10 @@ using Eigen::Index;
 constexpr double rounding = 1e-13;
 
 Matrix numbers(Index rows, Index columns, double phase = 0) {
-  return Matrix::NullaryExpr(
-      rows, columns,
-      [&](Index i, Index j) {
-        return std::sin(1.3 * static_cast<double>(i * i) + 2.1 * static_cast<double>(j) +
-                        0.7 * static_cast<double>(i * j) + phase);
-      });
+  return Matrix::NullaryExpr(rows, columns, [&](Index i, Index j) {
+    return std::sin(1.3 * static_cast<double>(i * i) + 2.1 * static_cast<double>(j) +
+                    0.7 * static_cast<double>(i * j) + phase);
+  });
 }
 
 // K of a chain of n masses between two walls: 2 - 2 cos(k pi / (n + 1)).

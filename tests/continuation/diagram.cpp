@@ -40,8 +40,7 @@ TEST_CASE("begun on the parabola, the pitchfork's diagram is the same") {
   CHECK(diagram.complete);
   REQUIRE(diagram.branches.size() == 2);
   check_order(diagram);
-  CHECK(largest(
-            diagram.branches[0].branch, [](double u, double l) { return u * u - l; }) < 1e-12);
+  CHECK(largest(diagram.branches[0].branch, [](double u, double l) { return u * u - l; }) < 1e-12);
   CHECK(largest(diagram.branches[1].branch, [](double u, double) { return u; }) < 1e-12);
   CHECK(diagram.branches[1].branch.stop.reason == StopReason::boundary);
   CHECK(diagram.branches[1].begin.reason == StopReason::boundary);

@@ -67,9 +67,8 @@ inline void check_order(const Diagram& diagram) {
 }
 
 inline bool all_traced(const Junction& junction) {
-  return std::all_of(
-      junction.half_branches.begin(), junction.half_branches.end(),
-      [](const HalfBranch& half) { return half.branch >= 0; });
+  return std::all_of(junction.half_branches.begin(), junction.half_branches.end(),
+                     [](const HalfBranch& half) { return half.branch >= 0; });
 }
 
 }  // namespace problems

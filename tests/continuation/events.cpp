@@ -109,8 +109,7 @@ TEST_CASE("the peak of q = 1 - (p - p0)^2 is one event, however its slope errs b
 }
 
 TEST_CASE("a slope that only errs makes no events") {
-  const auto line = from_functions(
-      1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   const Monitor noise{"noise", [](const Accepted& now) { return 1e-12 * std::sin(1e17 * now.parameter); },
                       Crossing::any, [](const Accepted&) { return 1.0; }};
   const Branch branch = trace(line, {Vector{{1.0}}, Vector{{1.0}}, 0, 1}, window(1, 1.001), {noise});

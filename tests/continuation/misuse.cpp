@@ -15,8 +15,7 @@ using namespace problems;
 namespace {
 
 std::shared_ptr<const Problem> line(double lower = -1e300, double upper = 1e300) {
-  return from_functions(
-      1, {{"p", "", 0, 1, lower, upper}}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  return from_functions(1, {{"p", "", 0, 1, lower, upper}}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
 }
 
 Start start_at(double p) {

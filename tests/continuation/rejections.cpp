@@ -14,8 +14,7 @@ struct Log {
   Branch branch;
   std::vector<Rejection> all;
   long count(Rejected why) const {
-    return std::count_if(
-        all.begin(), all.end(), [=](const Rejection& each) { return each.why == why; });
+    return std::count_if(all.begin(), all.end(), [=](const Rejection& each) { return each.why == why; });
   }
 };
 
@@ -59,8 +58,8 @@ TEST_CASE("each rejected step is told, with its place and its reason") {
 
 TEST_CASE("a step that a quantity forbids names its monitor") {
   const auto q = [](double p) { return 1 + 1 / (1 + 400 * p * p); };
-  const auto problem = from_functions(
-      1, {parameter("p", 0)}, [=](In u, In p, Out F) { F[0] = u[0] - q(p[0]); });
+  const auto problem =
+      from_functions(1, {parameter("p", 0)}, [=](In u, In p, Out F) { F[0] = u[0] - q(p[0]); });
   Monitor peak{.name = "peak", .value = [](const Accepted& now) { return now.tangent[0]; }};
   peak.quantity = [](const Accepted& now) { return now.u[0]; };
   Options options = window(-1, 1);

@@ -84,8 +84,7 @@ TEST_CASE("what is not a state is refused, and a state of another problem too") 
 }
 
 TEST_CASE("a monitor that is infinite at a point, as decibels at rest are, leaves a state that can be read") {
-  const auto line = from_functions(
-      1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   const Monitor decibels{"dB", [](const Accepted& now) { return 20 * std::log10(std::abs(now.u[0])); }};
   check_resumed(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 2), {decibels});
   const Monitor undefined{"0/0", [](const Accepted& now) { return now.u[0] > 0.5 ? std::nan("") : 1.0; }};
@@ -93,8 +92,7 @@ TEST_CASE("a monitor that is infinite at a point, as decibels at rest are, leave
 }
 
 TEST_CASE("warnings are part of a state, and a state from before there were any is read") {
-  const auto line = from_functions(
-      1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   const Monitor undefined{"0/0", [](const Accepted& now) { return now.u[0] > 0.1 ? std::nan("") : 1.0; }};
   Tracer tracer(line, {Vector{{0.0}}, Vector{{0.0}}, 0, 1}, window(0, 2), {undefined});
   for (int k = 0; k < 30; ++k) tracer.step();
@@ -135,9 +133,9 @@ TEST_CASE("a state whose free parameter the problem does not have is refused") {
 
 TEST_CASE("a trace that is saved at each point is the one that is not, as is one that is resumed from each") {
   const auto sparse = from_functions(rod(30));
-  const auto bent = from_functions(
-      1, {parameter("p", 0)},
-      [](In u, In p, Out F) { F[0] = u[0] * u[0] * u[0] - 2 * u[0] - p[0] + 0.1 * std::sin(5 * u[0]); });
+  const auto bent = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) {
+    F[0] = u[0] * u[0] * u[0] - 2 * u[0] - p[0] + 0.1 * std::sin(5 * u[0]);
+  });
   const auto gap = from_functions({.size = 2,
                                    .parameters = {{"p", ""}},
                                    .residual =

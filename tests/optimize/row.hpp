@@ -17,12 +17,10 @@ inline arcslip::scene::Scene row(int masses, int dampers, int order) {
   };
   const auto at = [](int i) { return "\"x" + std::to_string(i) + "\""; };
   const auto link = [&](const std::string& name, const std::string& value) {
-    return list(
-        masses,
-        [&, name, value](int i) {
-          return "{\"name\": \"" + name + std::to_string(i) + "\", \"between\": [" + at(i) + ", " +
-                 (i > 0 ? at(i - 1) : "\"ground\"") + "], \"value\": " + value + "}";
-        });
+    return list(masses, [&, name, value](int i) {
+      return "{\"name\": \"" + name + std::to_string(i) + "\", \"between\": [" + at(i) + ", " +
+             (i > 0 ? at(i - 1) : "\"ground\"") + "], \"value\": " + value + "}";
+    });
   };
   const auto mass = [&](int i) {
     return "{\"name\": \"m" + std::to_string(i) + "\", \"at\": " + at(i) + ", \"value\": 1}";

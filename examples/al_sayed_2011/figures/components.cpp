@@ -55,20 +55,20 @@ const Column per_displacement_in{"F_p/x, fundamental (N/m)",
                                  [](const ResponsePoint& p) { return p.forces.total().in_phase; }};
 const Column per_displacement_out{"F_o/x, fundamental (N/m)",
                                   [](const ResponsePoint& p) { return p.forces.total().out_of_phase; }};
-const Column per_displacement_in_maxima{
-    "F_p/x, largest values (N/m)",
-    [](const ResponsePoint& p) { return p.maxima.force_per_displacement.in_phase; }};
-const Column per_displacement_out_maxima{
-    "F_o/x, largest values (N/m)",
-    [](const ResponsePoint& p) { return p.maxima.force_per_displacement.out_of_phase; }};
+const Column per_displacement_in_maxima{"F_p/x, largest values (N/m)", [](const ResponsePoint& p) {
+                                          return p.maxima.force_per_displacement.in_phase;
+                                        }};
+const Column per_displacement_out_maxima{"F_o/x, largest values (N/m)", [](const ResponsePoint& p) {
+                                           return p.maxima.force_per_displacement.out_of_phase;
+                                         }};
 
 const Column contact_part{"contact, fundamental (N/m)",
                           [](const ResponsePoint& p) { return p.forces.contact.out_of_phase; }};
 const Column viscous_part{"viscous, fundamental (N/m)",
                           [](const ResponsePoint& p) { return p.forces.viscous; }};
-const Column contact_part_maxima{
-    "contact, largest values (N/m)",
-    [](const ResponsePoint& p) { return p.elements.front().maxima.cosine / p.amplitude; }};
+const Column contact_part_maxima{"contact, largest values (N/m)", [](const ResponsePoint& p) {
+                                   return p.elements.front().maxima.cosine / p.amplitude;
+                                 }};
 const Column viscous_part_maxima{"viscous, largest values (N/m)", [](const ResponsePoint& p) {
                                    return p.maxima.force_per_displacement.out_of_phase -
                                           contact_part_maxima.of(p);

@@ -25,19 +25,17 @@ void write_row(std::ostream& out, const DataFile& data, const std::vector<double
 }  // namespace
 
 void write(const DataFile& data, const std::string& folder) {
-  arcslip::output::write_file(
-      folder + "/" + data.name + ".dat",
-      [&](std::ostream& out) {
-        out << "# " << data.title << "\n# scene: " << data.scene << '\n';
-        for (std::size_t i = 0; i < data.columns.size(); ++i)
-          out << "# " << i + 1 << ' ' << data.columns[i] << '\n';
-        const char* separator = "";
-        for (const Block& block : data.blocks) {
-          out << separator << '"' << block.label << "\"\n";
-          for (const auto& row : block.rows) write_row(out, data, row);
-          separator = "\n\n";
-        }
-      });
+  arcslip::output::write_file(folder + "/" + data.name + ".dat", [&](std::ostream& out) {
+    out << "# " << data.title << "\n# scene: " << data.scene << '\n';
+    for (std::size_t i = 0; i < data.columns.size(); ++i)
+      out << "# " << i + 1 << ' ' << data.columns[i] << '\n';
+    const char* separator = "";
+    for (const Block& block : data.blocks) {
+      out << separator << '"' << block.label << "\"\n";
+      for (const auto& row : block.rows) write_row(out, data, row);
+      separator = "\n\n";
+    }
+  });
 }
 
 }  // namespace figures

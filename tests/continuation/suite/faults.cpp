@@ -102,9 +102,7 @@ TEST_CASE("one failed evaluation costs a shorter step and no more") {
 }
 
 TEST_CASE("a problem without unknowns is refused where it is made") {
-  CHECK_THROWS_AS(from_functions(
-                      0, {parameter("p", 0)}, [](In, In, Out) {}),
-                  std::invalid_argument);
+  CHECK_THROWS_AS(from_functions(0, {parameter("p", 0)}, [](In, In, Out) {}), std::invalid_argument);
 }
 
 TEST_CASE("start_failed: a start far from all solutions is said") {

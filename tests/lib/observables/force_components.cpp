@@ -258,8 +258,7 @@ TEST_CASE("the out-of-phase force per displacement is greatest near half stick, 
     const auto curve = peaks_over_load(scenes::paper(55), damping > 0 ? 0.01 : 2, 500, damping);
     REQUIRE(curve.status == observables::Status::complete);
     CAPTURE(damping);
-    const auto fundamental = greatest(
-        curve, [](const auto& p) { return p.forces.total().out_of_phase; });
+    const auto fundamental = greatest(curve, [](const auto& p) { return p.forces.total().out_of_phase; });
     const auto maxima =
         greatest(curve, [](const auto& p) { return p.maxima.force_per_displacement.out_of_phase; });
     const auto least = reference::exact("optima")[damping > 0 ? 1 : 0];

@@ -30,11 +30,9 @@ std::uint64_t scenes_of_each_kind() {
 }
 
 bool has_peak_between(const ResponseBranch& branch, double lower, double upper) {
-  return std::any_of(
-      branch.events.begin(), branch.events.end(),
-      [&](const auto& event) {
-        return event.kind == "peak" && event.point.omega >= lower && event.point.omega <= upper;
-      });
+  return std::any_of(branch.events.begin(), branch.events.end(), [&](const auto& event) {
+    return event.kind == "peak" && event.point.omega >= lower && event.point.omega <= upper;
+  });
 }
 
 // A point above both of its neighbours has a peak between them.

@@ -62,9 +62,8 @@ bool is_sampled(const scene::Scene& s) {
 }
 
 bool has_cubic_spring(const scene::Scene& s) {
-  return std::any_of(
-      s.elements.begin(), s.elements.end(),
-      [](const auto& element) { return element.type == &elements::cubic_spring(); });
+  return std::any_of(s.elements.begin(), s.elements.end(),
+                     [](const auto& element) { return element.type == &elements::cubic_spring(); });
 }
 
 std::vector<invariances::Variant> variants(const scene::Scene& s, std::uint64_t seed) {

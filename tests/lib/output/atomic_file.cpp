@@ -39,8 +39,7 @@ class FileSizeLimit {
 
 int error_of_writing(const std::string& path) {
   try {
-    write_file(
-        path, [](std::ostream& out) { out << std::string(1 << 20, 'x'); });
+    write_file(path, [](std::ostream& out) { out << std::string(1 << 20, 'x'); });
   } catch (const WriteError& error) {
     CHECK(std::string(error.what()).find("cannot write " + path + ": ") == 0);
     return error.error();
@@ -123,8 +122,7 @@ TEST_CASE(
 
 TEST_CASE("the message of a full disk says what to do") {
   CHECK_THROWS_WITH(
-      write_file(
-          "/dev/full", [](std::ostream& out) { out << 'x'; }),
+      write_file("/dev/full", [](std::ostream& out) { out << 'x'; }),
       "cannot write /dev/full: No space left on device (free some space there or write to another disk)");
 }
 

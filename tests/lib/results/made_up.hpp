@@ -22,20 +22,13 @@ struct Item {
 
 inline TableOf<Item> table() {
   TableOf<Item> table;
-  table.add(
-      {"x"}, "m", "a number", [](const Item& item) { return item.number; });
-  table.add(
-      {"i"}, "", "a whole number", [](const Item& item) { return item.whole; });
-  table.add(
-      {"yes"}, "", "a flag", [](const Item& item) { return item.flag; });
-  table.add(
-      {"word"}, "", "a text", [](const Item& item) { return item.text; });
-  table.add(
-      {"list"}, "", "a list", [](const Item& item) { return item.list; });
-  table.add(
-      {"elements", "d", "load"}, "N", "within", [](const Item& item) { return item.inner; });
-  table.add(
-      {"elements", "d", "deep", "er"}, "", "within", [](const Item& item) { return item.inner; });
+  table.add({"x"}, "m", "a number", [](const Item& item) { return item.number; });
+  table.add({"i"}, "", "a whole number", [](const Item& item) { return item.whole; });
+  table.add({"yes"}, "", "a flag", [](const Item& item) { return item.flag; });
+  table.add({"word"}, "", "a text", [](const Item& item) { return item.text; });
+  table.add({"list"}, "", "a list", [](const Item& item) { return item.list; });
+  table.add({"elements", "d", "load"}, "N", "within", [](const Item& item) { return item.inner; });
+  table.add({"elements", "d", "deep", "er"}, "", "within", [](const Item& item) { return item.inner; });
   table.add({"last"}, "", "behind a group", [](const Item& item) { return 2 * item.number; });
   return table;
 }
@@ -61,8 +54,7 @@ inline Results results() {
        {table().rows(items), table().rows(std::vector{items[1]})},
        {Status::complete, {{"reason", "end"}, {"value", 1.0}}, {{"best", Object{{"x", 1.5, "m"}}}}}});
   TableOf<Item> some;
-  some.add(
-      {"x"}, "m", "", [](const Item& item) { return item.number; });
+  some.add({"x"}, "m", "", [](const Item& item) { return item.number; });
   some.add({"elements", "d", "load"}, "N", "", [](const Item& item) { return item.inner.value_or(7); });
   all.results.push_back({1, {}, {some.rows(items)}, {Status::failed, {{"reason", "other"}}}});
   return all;
