@@ -6,9 +6,8 @@
 //   force that moves it.
 //   A guard g = q . q + v . q' + z z + c is at least 0 in its mode, which is left when g falls below 0.
 //
-// An empty row means 0. f_q is symmetric. When a following memory comes to rest, the displacement it follows
-// must be at rest, z_q q' = 0, as with a guard on that velocity: the derivatives of a motion rely on this.
-// Only sliders dissipate.
+// An empty row means 0. Only sliders dissipate. A guard with a velocity that ends a following mode is on the
+// velocity of its memory, z_q q', which is thus at rest there.
 //
 // The first mode is the initial one; it is left at once if a guard is below 0 there.
 

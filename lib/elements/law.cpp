@@ -1,5 +1,6 @@
 #include <arcslip/elements/law.hpp>
 
+#include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/jenkins.hpp>
@@ -16,7 +17,7 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(), &cubic_spring(), &gap_spring()};
+  return {&jenkins(), &contact_2d(), &cubic_spring(), &gap_spring()};
 }
 
 }  // namespace arcslip::elements

@@ -34,13 +34,13 @@ void Moments::add(int q, double c, double s) {
 }
 
 void Moments::add_interval(double length, const std::complex<double>* z_sum,
-                           const std::complex<double>* z_half) {
+                           const std::complex<double>* z_half, double w) {
   double* c = c_.data() + count_ - 1;
   double* s = s_.data() + count_ - 1;
   const int stride = harmonics_.stride();
-  c[0] += length;
+  c[0] += w * length;
   for (int q = 1; q < count_; ++q) {
-    const double chord = 2 * z_half[q * stride].imag() * inverse_[q];
+    const double chord = 2 * w * z_half[q * stride].imag() * inverse_[q];
     c[q] += chord * z_sum[q * stride].real();
     s[q] += chord * z_sum[q * stride].imag();
   }
@@ -52,6 +52,14 @@ void Moments::close() {
     c_[zero - q] = c_[zero + q];
     s_[zero - q] = -s_[zero + q];
   }
+}
+
+void Moments::integral(Out l) const {
+  const double* c = c_.data() + count_ - 1;
+  const double* s = s_.data() + count_ - 1;
+  for (int i = 0; i < harmonics_.cosines(); ++i) l[i] = c[harmonics_.cosine_order(i) / harmonics_.stride()];
+  for (int j = 0; j < harmonics_.sines(); ++j)
+    l[harmonics_.cosines() + j] = s[harmonics_.sine_order(j) / harmonics_.stride()];
 }
 
 void Moments::times(In u, double factor, Out y) const {

@@ -46,10 +46,10 @@ class Extremes {
   std::vector<double> slope_, roots_;
 };
 
-// Motion of a slider's element over the period, and where the slider went.
+// The bounds of a slider over the period, and where it went.
 struct Range {
   bool up = false, down = false;
-  double high = -INFINITY, low = INFINITY;
+  double high = -INFINITY, low = INFINITY;  // of the lower and of the upper bound
   Eigen::RowVectorXd dhigh, dlow;
 
   // A slipping slider must slip back in a periodic motion: one that does not counts as sticking for shooting.
@@ -216,10 +216,12 @@ PeriodMap EventDriven::map(const MotionState& start, double to) {
         range.down = range.down || contacts[i].mode().way <= 0;
       }
       if (!range.resting()) continue;
-      const Vector& d = contacts[i].along[static_cast<std::size_t>(contacts[i].slider)];
-      extremes.visit(piece, d, march_->s(), range.low, range.high, [&](double s, double q) {
-        if (q > range.high) range.high = q, range.dhigh = piece.along(d, s);
-        if (q < range.low) range.low = q, range.dlow = piece.along(d, s);
+      const Vector &lower = contacts[i].lower, &upper = contacts[i].upper;
+      extremes.visit(piece, lower, march_->s(), -INFINITY, range.high, [&](double s, double bound) {
+        if (bound > range.high) range.high = bound, range.dhigh = piece.along(lower, s);
+      });
+      extremes.visit(piece, upper, march_->s(), range.low, INFINITY, [&](double s, double bound) {
+        if (bound < range.low) range.low = bound, range.dlow = piece.along(upper, s);
       });
     }
     march_->finish();

@@ -43,12 +43,21 @@ double largest_over(const continuation::Cholesky& mass, const Matrix& A) {
 Matrix bound(const LinearMotion::Part& part, double sign) {
   const Eigen::Index d = part.directions.cols();
   Vector most = Vector::Zero(d);
-  for (const Matrix& T : part.stiffnesses)
+  for (const Matrix& stiffness : part.stiffnesses)
     for (Eigen::Index i = 0; i < d; ++i) {
+      const Matrix T = 0.5 * (stiffness + stiffness.transpose());
       const double beside = T.row(i).cwiseAbs().sum() - std::abs(T(i, i));
       most[i] = std::max(most[i], sign * T(i, i) + beside);
     }
   return sign * most.asDiagonal();
+}
+
+// The largest norm of the skew parts of its stiffnesses, in the norm that M makes.
+double largest_skew(const continuation::Cholesky& mass, const LinearMotion::Part& part) {
+  double most = 0;
+  for (const Matrix& T : part.stiffnesses) most = std::max(most, 0.5 * (T - T.transpose()).norm());
+  if (most == 0) return 0;
+  return most * largest_over(mass, part.directions * part.directions.transpose());
 }
 
 }  // namespace
@@ -61,15 +70,17 @@ LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> p
   stiffness_ = mass_.solve(equation.K);
   damping_ = mass_.solve(equation.C);
   Matrix stiffest = equation.K, softest = equation.K;
+  double skew = 0;
   for (const Part& part : parts_) {
     over_mass_.push_back(mass_.solve(part.directions));
     const Eigen::Index d = part.directions.cols();
     in_modes_.push_back(Matrix::Zero(d, d));
     stiffest += part.directions * bound(part, 1) * part.directions.transpose();
     softest += part.directions * bound(part, -1) * part.directions.transpose();
+    skew += largest_skew(mass_, part);
   }
-  // Whatever the modes, K' lies between these two.
-  double fastest = std::sqrt(std::max(largest_over(mass_, softest), largest_over(mass_, stiffest))) +
+  // Whatever the modes, the symmetric part of K' lies between these two.
+  double fastest = std::sqrt(std::max(largest_over(mass_, softest), largest_over(mass_, stiffest)) + skew) +
                    largest_over(mass_, equation.C);
   for (const HarmonicForce& force : equation.forces)
     fastest = std::max(fastest, force.harmonic * equation.omega);

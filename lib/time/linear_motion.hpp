@@ -6,9 +6,9 @@
 //
 // T_e: the stiffness of the modes that the elements are in. h rho <= 1 with rho = max(Omega + gamma, n
 // omega): Omega^2 and gamma are the largest |eigenvalues| of K' and C over M in any modes, n omega the
-// fastest force. This takes symmetric T_e. In the energy norm the terms fall at least like 1/k!, so that
-// `order` of them leave less than 1e-18 of the motion, whether it is damped, undamped, free of springs or in
-// resonance: there is neither a particular solution nor a matrix exponential.
+// fastest force; the norms of the skew parts of T_e add to Omega^2. In the energy norm the terms fall at
+// least like 1/k!, so that `order` of them leave less than 1e-18 of the motion, whether it is damped,
+// undamped, free of springs or in resonance: there is neither a particular solution nor a matrix exponential.
 //
 // Several columns run together: the first is the motion, the others, without the force, its variations.
 

@@ -22,16 +22,19 @@ std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
   for (std::size_t e = 0; e < equation.elements.size(); ++e) {
     const TimeElement& element = equation.elements[e];
     auto automata = element.law->automata(element.fields);
-    if (!automata || !element.law->symmetric_step())
-      throw NotPiecewiseLinear(
-          "event-driven integration requires piecewise linear laws with symmetric stiffness: the element \"" +
-          element.name + "\" is not");
+    if (!automata)
+      throw NotPiecewiseLinear("event-driven integration requires piecewise linear laws: the element \"" +
+                               element.name + "\" is not");
     for (auto& automaton : *automata) {
       const int k = automaton.memory;
       std::vector<Vector> along(element.directions.colwise().begin(), element.directions.colwise().end());
+      const int slider = k < 0 ? -1 : element.law->slider_direction(k);
+      const auto bound = [&](int side) -> Vector {
+        if (slider < 0) return {};
+        return element.directions * element.law->slider_bound(element.fields, k, side).transpose();
+      };
       contacts.push_back({static_cast<int>(e), std::move(automaton), element.directions, std::move(along),
-                          row, k < 0 ? -1 : element.memory + k,
-                          k < 0 ? -1 : element.law->slider_direction(k)});
+                          row, k < 0 ? -1 : element.memory + k, slider, bound(-1), bound(1)});
       row += element.directions.cols();
     }
   }
@@ -152,7 +155,7 @@ void March::locate() {
       if (!s || (event_ && *s >= s_)) continue;
       s_ = *s;
       switching_ = i;
-      next_mode_ = guard.to;
+      leaving_ = &guard;
       event_ = {t_ + s_ * h_, contact.element, contact.mode().name,
                 contact.automaton.modes[static_cast<std::size_t>(guard.to)].name};
     }
@@ -169,16 +172,30 @@ void March::finish() {
   if (!event_) return;
   ++events_;
   Contact& contact = contacts_[switching_];
-  if (contact.follows()) {
-    const elements::Mode& mode = contact.mode();
-    auto z = Z_.row(contact.memory);
-    z.setZero();
-    for (std::size_t k = 0; k < contact.along.size(); ++k)
-      z.noalias() += mode.z_q[static_cast<Eigen::Index>(k)] * contact.along[k].transpose() * X_;
-    z[0] += mode.z_0;
-  }
-  contact.now = next_mode_;
+  if (contact.follows()) settle(contact);
+  contact.now = leaving_->to;
   enter(contact);
+}
+
+// The memory that followed, at the instant of the event. Where that instant moves, by -dg/g', z moves along.
+void March::settle(const Contact& contact) {
+  const elements::Mode& mode = contact.mode();
+  auto z = Z_.row(contact.memory);
+  z.setZero();
+  double rate = 0, guard_rate = 0;
+  if (V_.cols() > 1) change_.setZero(V_.cols());
+  for (std::size_t k = 0; k < contact.along.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const Vector& d = contact.along[k];
+    z.noalias() += mode.z_q[at] * d.transpose() * X_;
+    if (V_.cols() == 1 || leaving_->v.size() > 0) continue;
+    const double by_q = (leaving_->q.size() > 0 ? leaving_->q[at] : 0) + leaving_->z * mode.z_q[at];
+    rate += mode.z_q[at] * d.dot(V_.col(0));
+    guard_rate += by_q * d.dot(V_.col(0));
+    change_.noalias() += by_q * d.transpose() * X_;
+  }
+  if (rate != 0 && guard_rate != 0) z.tail(z.size() - 1) -= rate / guard_rate * change_.tail(z.size() - 1);
+  z[0] += mode.z_0;
 }
 
 double March::memory(const Contact& contact, const Vector& q) const {

@@ -18,6 +18,7 @@ struct Contact {
   Eigen::Index row;           // of its first direction among those of all
   int memory;                 // in MotionState::z; -1: none
   int slider;                 // the direction that this memory follows; -1: it is no slider
+  Vector lower, upper;        // its bounds move with lower . x and upper . x
   int now = 0;                // index of the mode
 
   const elements::Mode& mode() const { return automaton.modes[static_cast<std::size_t>(now)]; }
@@ -59,16 +60,18 @@ class March {
  private:
   void locate();
   void enter(Contact& contact);  // its mode
+  void settle(const Contact& contact);
 
   const EquationOfMotion& equation_;
   EventLimits limits_;
   std::vector<Contact> contacts_;
   LinearMotion linear_;
   Matrix X_, V_, Z_, g_;  // dofs, dofs, memory, directions; times columns
+  Eigen::RowVectorXd change_;
   double t_ = 0, from_ = 0, h_ = 0, s_ = 0, end_ = 0;
   std::optional<ContactEvent> event_;
   std::size_t switching_ = 0;
-  int next_mode_ = 0;
+  const elements::Guard* leaving_ = nullptr;
   bool recorded_ = false, moved_ = false;
   long events_ = 0, pieces_ = 0;
   EndReason reason_ = EndReason::reached;

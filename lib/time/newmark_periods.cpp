@@ -148,8 +148,8 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   const Eigen::Index n = equation.dofs(), size = 2 * n + equation.memory;
   struct Reach {
     int slider;
-    Vector direction;
-    double high, low;
+    Vector lower, upper;  // its bounds move with lower . x and upper . x
+    double high, low;     // of the lower and of the upper one
     Eigen::RowVectorXd d_high, d_low;
     bool up, down;  // slips that way
 
@@ -164,11 +164,14 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
     for (int k = 0; k < element.law->memory(); ++k) {
       const int along = element.law->slider_direction(k);
       if (along < 0) continue;
-      const Vector d = element.directions.col(along);
-      const double q = d.dot(start.x);
-      const Eigen::RowVectorXd dq = d.transpose() * map.monodromy.topRows(n);
+      const auto bound = [&](int side) -> Vector {
+        return element.directions * element.law->slider_bound(element.fields, k, side).transpose();
+      };
+      const Vector lower = bound(-1), upper = bound(1);
+      const auto change = map.monodromy.topRows(n);
       const bool free = element.law->traits(element.fields, along).limit == 0;
-      reaches.push_back({element.memory + k, d, q, q, dq, dq, free, free});
+      reaches.push_back({element.memory + k, lower, upper, lower.dot(start.x), upper.dot(start.x),
+                         lower.transpose() * change, upper.transpose() * change, free, free});
     }
   for (long k = 0; k < newmark.steps_per_period(); ++k) {
     const Solved solved = newmark.step();
@@ -185,13 +188,13 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
       reach.up = reach.up || slip > 0;
       reach.down = reach.down || slip < 0;
       if (!reach.rests()) continue;
-      const double q = reach.direction.dot(newmark.state().x);
-      if (q > reach.high) {
-        reach.high = q;
-        reach.d_high = reach.direction.transpose() * map.monodromy.topRows(n);
-      } else if (q < reach.low) {
-        reach.low = q;
-        reach.d_low = reach.direction.transpose() * map.monodromy.topRows(n);
+      if (const double bound = reach.lower.dot(state.x); bound > reach.high) {
+        reach.high = bound;
+        reach.d_high = reach.lower.transpose() * map.monodromy.topRows(n);
+      }
+      if (const double bound = reach.upper.dot(state.x); bound < reach.low) {
+        reach.low = bound;
+        reach.d_low = reach.upper.transpose() * map.monodromy.topRows(n);
       }
     }
   }

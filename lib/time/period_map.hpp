@@ -10,8 +10,8 @@
 namespace arcslip::time {
 
 /// A slider that stuck throughout, or slipped in one direction only: in a periodic motion it sticks. Its
-/// offset is arbitrary, so that a periodic motion has to fix it: at the centre of the element's motion, (max
-/// q + min q)/2, the limit from the slipping side.
+/// offset is arbitrary, so that a periodic motion has to fix it: at the centre of the interval that its
+/// bounds leave free, (max lower + min upper)/2, the limit from the slipping side.
 struct RestingSlider {
   int slider = 0;
   double centre = 0;              // m

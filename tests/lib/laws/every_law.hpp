@@ -44,6 +44,8 @@ struct State {
   }
   elements::StepEnd step(const VectorXd& dq) const {
     elements::StepEnd end(law.directions(), law.memory());
+    for (MatrixXd* m : {&end.f_q, &end.z_q}) m->setRandom();  // of a step before
+    if (law.memory() > 0) end.dz.setRandom(), end.z_z.setRandom(), end.f_z.setRandom();
     law.step(fields, {q, z, f}, dq, end);
     return end;
   }

@@ -6,6 +6,7 @@
 #include "lib/laws/polynomial.hpp"
 #include "lib/laws/renamed_jenkins.hpp"
 
+#include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 
@@ -25,9 +26,15 @@ struct Example {
 };
 
 const Example all[] = {
-    {elements::jenkins(), {2, 0.5, 1}, 1e-7}, {renamed, {0.5, 1, 2}, 1e-7},
-    {elements::cubic_spring(), {0.7}, 1e-7},  {coupled, {0.7}, 1e-7},
-    {elements::gap_spring(), {3, 0.2}, 1e-6}, {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
+    {elements::jenkins(), {2, 0.5, 1}, 1e-7},
+    {renamed, {0.5, 1, 2}, 1e-7},
+    {elements::cubic_spring(), {0.7}, 1e-7},
+    {coupled, {0.7}, 1e-7},
+    {elements::gap_spring(), {3, 0.2}, 1e-6},
+    {elements::contact_2d(), {2, 1.5, 0.5, 1}, 1e-6},
+    {elements::contact_2d(), {2, 1.5, 0.5, -0.3}, 1e-6},
+    {elements::contact_2d(), {2, 0, 0.5, 1}, 1e-7},
+    {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
     {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},
 };
 

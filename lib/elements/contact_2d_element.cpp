@@ -1,0 +1,223 @@
+#include <arcslip/elements/contact_2d.hpp>
+
+#include <arcslip/elements/moments.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace arcslip::elements {
+namespace {
+
+enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load, field_count };
+
+constexpr double kappa = 1 / std::numbers::pi;
+
+// How a rest w changes: dw = phi . du_t + normal phi . du_n + by_field . dfields.
+struct RestChange {
+  double normal = 0;
+  double by_field[field_count] = {};
+};
+
+class Contact2dElement final : public Element {
+ public:
+  explicit Contact2dElement(const Harmonics& h)
+      : h_(h),
+        phases_(h),
+        closed_(h),
+        stick_(h),
+        slip_(h),
+        by_field_(2 * h.size(), field_count),
+        n_(h.size()),
+        g_(h.size()),
+        phi_(h.size()),
+        F_(2 * h.size()),
+        J_(2 * h.size(), 2 * h.size()),
+        middle_(static_cast<std::size_t>(2 * h.order + 1)),
+        half_(middle_.size()) {}
+
+  void move_to(In u, Fields fields, bool jacobian) override {
+    const Eigen::Index c = h_.size();
+    const auto u_t = u.head(c), u_n = u.tail(c);
+    law_ = contact_law(fields);
+    const auto& phases = phases_.find(u_t, u_n, law_);
+    F_.setZero();
+    by_field_.setZero();
+    if (jacobian) J_.setZero();
+    n_ = law_.k_n * u_n;
+    n_[0] += law_.N_0;
+    normal(u_n, jacobian);
+    if (phases_.full_stick())
+      full_stick(u_t, u_n, jacobian);
+    else if (!phases_.closed().empty())
+      tangential(phases, u_t, u_n, jacobian);
+  }
+
+  const Eigen::VectorXd& force() const override { return F_; }
+  const Eigen::MatrixXd& jacobian() const override { return J_; }
+  void field_derivative(int field, Out dF) const override { dF = by_field_.col(field); }
+  std::uint64_t piece() const override { return phases_.sequence(); }
+
+  bool friction(FrictionState& state) const override {
+    phases_.tell(state);
+    return true;
+  }
+
+ private:
+  auto tangential_rows(int field) { return by_field_.col(field).head(h_.size()); }
+  auto normal_rows(int field) { return by_field_.col(field).tail(h_.size()); }
+
+  void normal(In u_n, bool jacobian) {
+    const Eigen::Index c = h_.size();
+    auto F = F_.tail(c);
+    if (!phases_.opens()) {
+      F = n_;
+      normal_rows(normal_stiffness) = u_n;
+      normal_rows(normal_load)[0] = 1;
+      if (jacobian) J_.bottomRightCorner(c, c).diagonal().setConstant(law_.k_n);
+    } else {
+      closed_.clear();
+      for (const auto& [begin, end] : phases_.closed()) {
+        set_powers(begin, end);
+        closed_.add_interval(end - begin, middle_.data(), half_.data());
+      }
+      closed_.close();
+      closed_.times(n_, kappa, F);
+      F[0] *= 0.5;
+      auto by_stiffness = normal_rows(normal_stiffness), by_load = normal_rows(normal_load);
+      closed_.times(u_n, kappa, by_stiffness);
+      by_stiffness[0] *= 0.5;
+      closed_.integral(by_load);
+      by_load *= kappa;
+      by_load[0] *= 0.5;
+      if (jacobian) {
+        auto J = J_.bottomRightCorner(c, c);
+        closed_.add_to(J, kappa * law_.k_n);
+        J.row(0) *= 0.5;
+      }
+    }
+    F[0] -= std::max(law_.N_0, 0.0);
+    if (law_.N_0 > 0) normal_rows(normal_load)[0] -= 1;
+  }
+
+  // Sets phi_ too.
+  RestChange change(const SliderRest& rest, In u_t, In u_n) {
+    RestChange at;
+    const Values x_n = series_values(h_, u_n, rest.theta);
+    series_basis(h_, rest.theta, phi_);
+    if (rest.at == SliderRest::At::closing) {
+      const double rate = series_values(h_, u_t, rest.theta).d1 / x_n.d1;
+      at.normal = -rate;
+      at.by_field[normal_stiffness] = -rate * x_n.x / law_.k_n;
+      at.by_field[normal_load] = -rate / law_.k_n;
+      return at;
+    }
+    const double s = rest.sign(), N = law_.N_0 + law_.k_n * x_n.x;
+    at.normal = s * law_.mu * law_.k_n / law_.k_t;
+    at.by_field[tangential_stiffness] = -s * law_.mu * N / (law_.k_t * law_.k_t);
+    at.by_field[normal_stiffness] = s * law_.mu * x_n.x / law_.k_t;
+    at.by_field[friction_coefficient] = s * N / law_.k_t;
+    at.by_field[normal_load] = s * law_.mu / law_.k_t;
+    return at;
+  }
+
+  void full_stick(In u_t, In u_n, bool jacobian) {
+    const Eigen::Index c = h_.size();
+    const double k = law_.k_t, w = 0.5 * (phases_.largest_lower().x + phases_.smallest_upper().x);
+    auto F = F_.head(c);
+    F = u_t;
+    F[0] -= w;
+    tangential_rows(tangential_stiffness) = F;
+    F *= k;
+    if (jacobian) J_.topLeftCorner(c, c).diagonal().setConstant(k);
+    const SliderRest ends[] = {{SliderRest::At::lower_reversal, phases_.largest_lower().theta, 0},
+                               {SliderRest::At::upper_reversal, phases_.smallest_upper().theta, 0}};
+    for (const SliderRest& end : ends) {
+      const RestChange dw = change(end, u_t, u_n);
+      for (int field = 0; field < field_count; ++field)
+        tangential_rows(field)[0] -= 0.5 * k * dw.by_field[field];
+      if (!jacobian) continue;
+      J_.row(0).head(c) -= 0.5 * k * phi_.transpose();
+      J_.row(0).tail(c) -= 0.5 * k * dw.normal * phi_.transpose();
+    }
+  }
+
+  void tangential(const std::vector<ContactPhase>& phases, In u_t, In u_n, bool jacobian) {
+    const Eigen::Index c = h_.size();
+    const double k = law_.k_t;
+    auto F = F_.head(c);
+    auto by_stiffness = tangential_rows(tangential_stiffness);
+    auto J_t = J_.topLeftCorner(c, c), J_n = J_.topRightCorner(c, c);
+    stick_.clear();
+    slip_.clear();
+    for (const ContactPhase& phase : phases) {
+      if (phase.state == ContactPhase::State::open) continue;
+      set_powers(phase.begin, phase.end);
+      const double length = phase.end - phase.begin;
+      if (phase.state == ContactPhase::State::slip) {
+        slip_.add_interval(length, middle_.data(), half_.data(), phase.sign);
+        continue;
+      }
+      stick_.add_interval(length, middle_.data(), half_.data());
+      integrate_basis(length);
+      const RestChange dw = change(phase.rest, u_t, u_n);
+      F -= kappa * phase.rest.w * g_;
+      for (int field = 0; field < field_count; ++field)
+        tangential_rows(field) -= kappa * k * dw.by_field[field] * g_;
+      if (!jacobian) continue;
+      g_ *= kappa * k;
+      J_t.noalias() -= g_ * phi_.transpose();
+      phi_ *= dw.normal;
+      J_n.noalias() -= g_ * phi_.transpose();
+    }
+    stick_.close();
+    slip_.close();
+    stick_.times(u_t, kappa, F);
+    by_stiffness += F;
+    F *= k;
+    slip_.times(n_, kappa * law_.mu, F);
+    slip_.times(n_, kappa, tangential_rows(friction_coefficient));
+    slip_.times(u_n, kappa * law_.mu, tangential_rows(normal_stiffness));
+    slip_.integral(g_);
+    tangential_rows(normal_load) += kappa * law_.mu * g_;
+    if (jacobian) {
+      stick_.add_to(J_t, kappa * k);
+      slip_.add_to(J_n, kappa * law_.mu * law_.k_n);
+      J_.row(0).head(2 * c) *= 0.5;
+    }
+    F[0] *= 0.5;
+    for (int field = 0; field < field_count; ++field) tangential_rows(field)[0] *= 0.5;
+  }
+
+  void set_powers(double begin, double end) {
+    powers(0.5 * (begin + end), static_cast<int>(middle_.size()), middle_.data());
+    powers(0.5 * (end - begin), static_cast<int>(half_.size()), half_.data());
+  }
+  // phi over the interval of these powers.
+  void integrate_basis(double length) {
+    g_[0] = length;
+    for (int n = 1; n <= h_.order; ++n) {
+      const auto at = static_cast<std::size_t>(n);
+      const double chord = 2 * half_[at].imag() / n;
+      g_[h_.cosine_index(n)] = chord * middle_[at].real();
+      g_[h_.sine_index(n)] = chord * middle_[at].imag();
+    }
+  }
+
+  Harmonics h_;
+  ContactLaw law_{};
+  ContactPhases phases_;
+  Moments closed_, stick_, slip_;
+  Eigen::MatrixXd by_field_;
+  Eigen::VectorXd n_, g_, phi_, F_;
+  Eigen::MatrixXd J_;
+  std::vector<std::complex<double>> middle_, half_;
+};
+
+}  // namespace
+
+std::unique_ptr<Element> make_contact_2d(const Harmonics& harmonics) {
+  return std::make_unique<Contact2dElement>(harmonics);
+}
+
+}  // namespace arcslip::elements

@@ -1,0 +1,214 @@
+#include <arcslip/elements/contact_phases.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace arcslip::elements {
+namespace {
+
+constexpr double turn_angle = 2 * std::numbers::pi;
+constexpr double same_angle = 1e-6;  // rad: reversals of both bounds, where the load is constant
+constexpr double never = std::numeric_limits<double>::infinity();
+
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t code(const ContactPhase& phase) {
+  const int state = static_cast<int>(phase.state), rest = static_cast<int>(phase.rest.at);
+  return static_cast<std::uint64_t>(1 + state + 3 * (rest + 3 * (1 + static_cast<int>(phase.sign))));
+}
+
+}  // namespace
+
+ContactPhases::ContactPhases(const Harmonics& harmonics) : harmonics_(harmonics), reversals_(harmonics) {
+  const auto most = static_cast<std::size_t>(2 * harmonics.order + 2);
+  lower_.u.resize(harmonics.size());
+  upper_.u.resize(harmonics.size());
+  for (auto* turns : {&lower_.turns, &upper_.turns, &load_turns_}) turns->reserve(2 * most);
+  closed_.reserve(most);
+  phases_.reserve(8 * most);
+}
+
+Reversal ContactPhases::Bound::turn(long i) const {
+  const long n = static_cast<long>(turns.size());
+  const long turns_before = i >= 0 ? i / n : -((n - 1 - i) / n);
+  Reversal at = turns[static_cast<std::size_t>(i - turns_before * n)];
+  at.theta += static_cast<double>(turns_before) * turn_angle;
+  return at;
+}
+
+long ContactPhases::Bound::piece(double theta) const {
+  const double before = std::floor((theta - turns.front().theta) / turn_angle);
+  const double angle = theta - before * turn_angle;
+  const auto after = std::upper_bound(turns.begin(), turns.end(), angle,
+                                      [](double t, const Reversal& at) { return t < at.theta; });
+  return static_cast<long>(before) * static_cast<long>(turns.size()) + (after - turns.begin()) - 1;
+}
+
+// The intervals where N > 0, between the reversals that enclose their ends.
+void ContactPhases::find_closed(In u_n, const ContactLaw& law) {
+  closed_.clear();
+  opens_ = false;
+  load_turns_.clear();
+  if (law.k_n > 0) load_turns_ = reversals_.find(u_n);
+  const double level = -law.N_0 / law.k_n;
+  const auto always = [&](bool closed) {
+    opens_ = !closed;
+    if (closed) closed_.emplace_back(0, turn_angle);
+  };
+  if (load_turns_.empty()) return always(law.N_0 + law.k_n * u_n[0] > 0);
+  const auto is_closed = [&](const Reversal& at) { return at.x > level; };
+  if (std::all_of(load_turns_.begin(), load_turns_.end(), is_closed)) return always(true);
+  if (std::none_of(load_turns_.begin(), load_turns_.end(), is_closed)) return always(false);
+  opens_ = true;
+  double last_end = -never;
+  for (std::size_t i = 0; i < load_turns_.size(); ++i) {
+    const Reversal from = load_turns_[i];
+    Reversal to = load_turns_[i + 1 == load_turns_.size() ? 0 : i + 1];
+    if (i + 1 == load_turns_.size()) to.theta += turn_angle;
+    if (is_closed(from) == is_closed(to)) continue;
+    const double at = reversals_.crossing(u_n, from, to, level);
+    if (is_closed(to))
+      closed_.emplace_back(at, never);
+    else if (closed_.empty())
+      last_end = at + turn_angle;
+    else
+      closed_.back().second = at;
+  }
+  if (closed_.back().second == never) closed_.back().second = last_end;
+}
+
+const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const ContactLaw& law) {
+  phases_.clear();
+  full_stick_ = false;
+  frictionless_ = !(law.mu > 0);
+  find_closed(u_n, law);
+  const double ratio = law.mu * law.k_n / law.k_t, h = law.mu * law.N_0 / law.k_t;
+  lower_.u = u_t - ratio * u_n;
+  upper_.u = u_t + ratio * u_n;
+  lower_.u[0] -= h;
+  upper_.u[0] += h;
+  lower_.turns.clear();
+  upper_.turns.clear();
+  if (closed_.empty()) {
+    phases_.push_back({ContactPhase::State::open, 0, turn_angle});
+    return phases_;
+  }
+  lower_.turns = reversals_.find(lower_.u);
+  upper_.turns = reversals_.find(upper_.u);
+  if (opens_) {
+    for (std::size_t i = 0; i < closed_.size(); ++i) {
+      const auto [begin, end] = closed_[i];
+      sweep({SliderRest::At::closing, begin, series_values(harmonics_, u_t, begin).x}, end);
+      const double next = i + 1 < closed_.size() ? closed_[i + 1].first : closed_[0].first + turn_angle;
+      phases_.push_back({ContactPhase::State::open, end, next});
+    }
+    return phases_;
+  }
+  const auto less = [](const Reversal& a, const Reversal& b) { return a.x < b.x; };
+  largest_lower_ = {0, lower_.u[0]};
+  smallest_upper_ = {0, upper_.u[0]};
+  if (!lower_.turns.empty())
+    largest_lower_ = *std::max_element(lower_.turns.begin(), lower_.turns.end(), less);
+  if (!upper_.turns.empty())
+    smallest_upper_ = *std::min_element(upper_.turns.begin(), upper_.turns.end(), less);
+  full_stick_ = largest_lower_.x <= smallest_upper_.x;
+  if (full_stick_) {
+    ContactPhase phase{ContactPhase::State::stick, 0, turn_angle};
+    phase.rest.w = 0.5 * (largest_lower_.x + smallest_upper_.x);
+    phases_.push_back(phase);
+  } else {
+    // w <= b < a since the upper bound was at b, and a at the largest value of the lower one.
+    sweep({SliderRest::At::lower_reversal, largest_lower_.theta, largest_lower_.x},
+          largest_lower_.theta + turn_angle);
+  }
+  return phases_;
+}
+
+// Where the bound reaches w from the side it comes from.
+ContactPhases::Onset ContactPhases::onset(const Bound& bound, bool upwards, double begin, double end,
+                                          double w) const {
+  if (bound.turns.empty()) return {never, 0};
+  for (long i = bound.piece(begin);; ++i) {
+    const Reversal from = bound.turn(i), to = bound.turn(i + 1);
+    if (from.theta >= end) return {never, 0};
+    if ((to.x > from.x) != upwards || (upwards ? to.x <= w : to.x >= w)) continue;
+    const double at = std::max(reversals_.crossing(bound.u, from, to, w), begin);
+    return {at < end ? at : never, i};
+  }
+}
+
+// Slip, until its bound turns or the contact opens. rest: where it ends.
+void ContactPhases::slip(double sign, Onset from, double end, SliderRest& rest) {
+  const Reversal turn = (sign > 0 ? lower_ : upper_).turn(from.piece + 1);
+  rest = {sign > 0 ? SliderRest::At::lower_reversal : SliderRest::At::upper_reversal,
+          std::min(turn.theta, end), turn.x};
+  phases_.push_back({ContactPhase::State::slip, from.theta, rest.theta, sign});
+}
+
+// From the rest, or from a closing, to the end of contact or of the period.
+void ContactPhases::sweep(SliderRest rest, double end) {
+  if (rest.at == SliderRest::At::closing) {
+    const long below = lower_.turns.empty() ? 0 : lower_.piece(rest.theta);
+    const long above = upper_.turns.empty() ? 0 : upper_.piece(rest.theta);
+    if (!lower_.turns.empty() && lower_.rises(below))
+      slip(1, {rest.theta, below}, end, rest);
+    else if (!upper_.turns.empty() && !upper_.rises(above))
+      slip(-1, {rest.theta, above}, end, rest);
+  }
+  while (rest.theta < end) {
+    const Onset up = onset(lower_, true, rest.theta, end, rest.w);
+    const Onset down = onset(upper_, false, rest.theta, end, rest.w);
+    const Onset& first = up.theta <= down.theta ? up : down;
+    const double until = std::min(first.theta, end);
+    phases_.push_back({ContactPhase::State::stick, rest.theta, until, 0, rest});
+    if (first.theta == never) return;
+    slip(up.theta <= down.theta ? 1 : -1, first, end, rest);
+  }
+}
+
+std::uint64_t ContactPhases::sequence() const {
+  if (frictionless_) return (opens_ ? 1 : 0) + 2 * closed_.size();
+  if (full_stick_) {  // its centre follows both extremes
+    const auto after_a = [&](double theta) {
+      const double after = theta - largest_lower_.theta;
+      return after < 0 ? after + turn_angle : after;
+    };
+    const double b = after_a(smallest_upper_.theta);
+    std::uint64_t between = 0, beyond = 0;
+    for (const Reversal& at : lower_.turns)
+      if (after_a(at.theta) > same_angle && after_a(at.theta) < b - same_angle) ++between;
+    for (const Reversal& at : upper_.turns)
+      if (after_a(at.theta) > b + same_angle && after_a(at.theta) < turn_angle - same_angle) ++beyond;
+    return 2 + between + 4096 * beyond;
+  }
+  std::uint64_t sum = 1;
+  for (std::size_t i = 0; i < phases_.size(); ++i) {
+    const ContactPhase& next = phases_[i + 1 == phases_.size() ? 0 : i + 1];
+    sum += mixed(64 * code(phases_[i]) + code(next));
+  }
+  return sum;
+}
+
+void ContactPhases::tell(FrictionState& state) const {
+  state.slip_onsets.clear();
+  state.slip_ends.clear();
+  double stuck = 0;
+  const auto wrapped = [](double angle) { return angle - std::floor(angle / turn_angle) * turn_angle; };
+  for (const ContactPhase& phase : phases_) {
+    if (phase.state == ContactPhase::State::stick) stuck += phase.end - phase.begin;
+    if (phase.state != ContactPhase::State::slip || phase.sign == 0) continue;
+    state.slip_onsets.push_back(wrapped(phase.begin));
+    state.slip_ends.push_back(wrapped(phase.end));
+  }
+  std::sort(state.slip_onsets.begin(), state.slip_onsets.end());
+  std::sort(state.slip_ends.begin(), state.slip_ends.end());
+  state.stick_share = full_stick_ ? 1 : stuck / turn_angle;
+}
+
+}  // namespace arcslip::elements

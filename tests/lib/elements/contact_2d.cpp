@@ -1,0 +1,178 @@
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/laws/every_law.hpp"
+
+#include <arcslip/continuation/problem/jacobian_check.hpp>
+#include <arcslip/elements/contact_2d.hpp>
+#include <arcslip/elements/gap_spring.hpp>
+#include <arcslip/elements/jenkins.hpp>
+#include <arcslip/hbm/corner.hpp>
+#include <arcslip/observables/responses_at.hpp>
+#include <arcslip/observables/time_study.hpp>
+#include <arcslip/time/shooting.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace arcslip;
+using continuation::Vector;
+using Eigen::MatrixXd;
+using std::numbers::pi;
+
+namespace {
+
+// Two coupled coordinates on a contact, M = 1, C = 2, K = [1e4 1500; 1500 2e4], forces f_t, f_n times cos 95
+// t and -8 N along the normal direction.
+scene::Scene pad(int order, double f_t, double f_n) {
+  std::ostringstream text;
+  text.precision(17);
+  text << R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["t", "n"],
+      "masses": [{"name": "m_t", "at": "t", "value": 1}, {"name": "m_n", "at": "n", "value": 1}],
+      "springs": [{"name": "s_t", "at": "t", "value": 8500}, {"name": "s_n", "at": "n", "value": 18500},
+                  {"name": "s", "direction": {"t": 1, "n": 1}, "value": 1500}],
+      "dampers": [{"name": "d_t", "at": "t", "value": 2}, {"name": "d_n", "at": "n", "value": 2}]},
+    "elements": [{"name": "pad", "type": "contact_2d", "tangential": {"at": "t"}, "normal": {"at": "n"},
+      "tangential_stiffness": 6e3, "normal_stiffness": 9e3, "friction_coefficient": 0.4, "normal_load": 8}],
+    "response": [{"name": "t", "at": "t"}, {"name": "n", "at": "n"}],
+    "excitation": [{"name": "f_t", "at": "t", "cosine": )"
+       << f_t << R"(}, {"name": "f_n", "at": "n", "cosine": )" << f_n
+       << R"(}, {"name": "load", "at": "n", "cosine": -8, "harmonic": 0}], "harmonics": {"order": )" << order
+       << R"(}, "studies": [{"name": "frf", "kind": "frf", "from": 60, "to": 180}]})";
+  return scenes::parse(text.str());
+}
+
+struct Force {
+  Vector F;
+  MatrixXd J, by_field;
+  std::uint64_t piece = 0;
+  elements::FrictionState friction;
+};
+
+Force evaluate(const elements::Law& law, const elements::Harmonics& h, const Vector& u,
+               const std::vector<double>& fields) {
+  const auto element = law.element(h, {});
+  element->move_to(u, fields, true);
+  Force at{element->force(), element->jacobian(), MatrixXd(u.size(), fields.size()), element->piece(), {}};
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    element->field_derivative(static_cast<int>(k), at.by_field.col(static_cast<Eigen::Index>(k)));
+  element->friction(at.friction);
+  return at;
+}
+
+Vector random_motion(const elements::Harmonics& h, double tangential, double normal, unsigned seed) {
+  std::mt19937 bits(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  Vector u(2 * h.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) u[i] = (i < h.size() ? tangential : normal) * number(bits);
+  return u;
+}
+
+}  // namespace
+
+TEST_CASE("a contact under a load that varies comes to the motions of a march with all digits printed") {
+  // max x_t where it is known, open and stick share, of an independent march
+  struct Case {
+    double f_t, f_n, x_t, open, stick, error;
+  };
+  const Case cases[] = {{5, 3, 2.877543173e-3, 0, 0.2284116876, 3e-9},
+                        {20, 12, 2.004842575e-2, 0.3246971631, 0.0727003611, 5e-9},
+                        {60, 36, 0, 0.5298996792, 0.0679040881, 3e-8},
+                        {5, 60, 3.176953612e-4, 0.5293812621, 0.4668064197, 3e-8}};
+  for (const Case& each : cases) {
+    CAPTURE(each.f_t, each.f_n);
+    const auto exact = observables::motion_in_time(pad(5, each.f_t, each.f_n), {.frequency = 95});
+    REQUIRE(exact.status == observables::Status::complete);
+    CHECK(exact.integrator == "event-driven");
+    if (each.x_t > 0) CHECK(std::abs(exact.amplitude / each.x_t - 1) < 1e-8);
+    CHECK(std::abs(exact.elements[0].stick_percent / 100 - each.stick) < 1e-9);
+    double last = 1;
+    for (const int order : {3, 7, 15, 27, 55, 101}) {
+      const auto found = observables::point_responses(pad(order, each.f_t, each.f_n), {.frequency = 95});
+      REQUIRE(found.size() == 1);
+      last = std::abs(found[0].point.amplitude / exact.amplitude - 1);
+      CAPTURE(order, last);
+      CHECK(last < 0.2 * std::pow(order, -3.0));
+    }
+    CHECK(last < each.error);
+  }
+}
+
+TEST_CASE("under a constant load a contact is a Jenkins element and a linear spring") {
+  const elements::Harmonics h{9, false};
+  for (unsigned seed = 1; seed < 30; ++seed) {
+    CAPTURE(seed);
+    for (const double size : {0.2, 1.0, 5.0}) {
+      Vector u = random_motion(h, size, 0, seed);
+      const Vector motion = u.head(h.size());
+      const Force jenkins = evaluate(elements::jenkins(), h, motion, {2, 0.5, 3});
+      for (const double stiffness : {0.0, 1.5}) {
+        const Force contact = evaluate(elements::contact_2d(), h, u, {2, stiffness, 0.5, 3});
+        const Eigen::Index c = h.size();
+        CHECK((contact.F.head(c) - jenkins.F).norm() < 1e-12 * (1 + jenkins.F.norm()));
+        CHECK((contact.J.topLeftCorner(c, c) - jenkins.J).norm() < 1e-12 * jenkins.J.norm());
+        CHECK((contact.by_field.col(0).head(c) - jenkins.by_field.col(0)).norm() < 1e-12 * (1 + size));
+        CHECK((contact.by_field.col(2).head(c) - jenkins.by_field.col(1)).norm() < 1e-12 * (1 + size));
+        CHECK((contact.by_field.col(3).head(c) - jenkins.by_field.col(2)).norm() < 1e-12 * (1 + size));
+        CHECK(contact.F.tail(c).norm() < 1e-14);
+        CHECK((contact.J.bottomRightCorner(c, c) - stiffness * MatrixXd::Identity(c, c)).norm() == 0);
+        CHECK(std::abs(contact.friction.stick_share - jenkins.friction.stick_share) < 1e-12);
+      }
+    }
+  }
+}
+
+TEST_CASE("without friction a contact is a gap spring along its normal, for any load") {
+  const elements::Harmonics h{7, false};
+  const Eigen::Index c = h.size();
+  for (unsigned seed = 1; seed < 30; ++seed) {
+    const Vector u = random_motion(h, 1, 1, seed);
+    const Force gap = evaluate(elements::gap_spring(), h, u.tail(c), {3, 0.4});
+    const Force contact = evaluate(elements::contact_2d(), h, u, {2, 3, 0, -1.2});
+    CHECK(contact.F.head(c).norm() == 0);
+    CHECK((contact.F.tail(c) - gap.F).norm() < 1e-12);
+    CHECK((contact.J.bottomRightCorner(c, c) - gap.J).norm() < 1e-12);
+    CHECK(contact.J.topRows(c).norm() == 0);
+    // Its derivative by the friction coefficient is one-sided.
+    // Stick lasts for a time that goes with its root.
+    for (const double slight : {1e-5, 1e-7, 1e-9}) {
+      const Force at = evaluate(elements::contact_2d(), h, u, {2, 3, slight, -1.2});
+      CHECK((at.F.head(c) / slight - contact.by_field.col(2).head(c)).norm() < 20 * std::sqrt(slight));
+    }
+  }
+}
+
+TEST_CASE("the Jacobian of a contact is exact in every sequence of stick, slip and separation") {
+  const std::vector<double> loads = {-2, -0.3, 0, 0.3, 1, 3, 10};
+  std::vector<std::uint64_t> pieces;
+  for (const double load : loads)
+    for (const double tangential : {0.05, 0.3, 1.0, 5.0})
+      for (unsigned seed = 1; seed < 12; ++seed) {
+        const std::vector<double> fields = {2, 1.5, 0.6, load};
+        const elements::Harmonics h{4, false};
+        const Vector u = random_motion(h, tangential, 1, seed);
+        const Force at = evaluate(elements::contact_2d(), h, u, fields);
+        CAPTURE(load, tangential, seed);
+        pieces.push_back(at.piece);
+        const auto force = [&](const Vector& there) {
+          return evaluate(elements::contact_2d(), h, there, fields).F;
+        };
+        const MatrixXd D = every_law::differences(force, u, 1e-6);
+        CHECK((D - at.J).cwiseAbs().maxCoeff() < 2e-7);
+        for (std::size_t k = 0; k < fields.size(); ++k) {
+          const auto along = [&](const Vector& value) {
+            std::vector<double> other = fields;
+            other[k] = value[0];
+            return evaluate(elements::contact_2d(), h, u, other).F;
+          };
+          if (load == 0 && k == 3) continue;  // the preload, and with it what balances it, begins there
+          const MatrixXd by_field = every_law::differences(along, Vector::Constant(1, fields[k]), 1e-6);
+          CAPTURE(k);
+          CHECK((by_field - at.by_field.col(static_cast<Eigen::Index>(k))).cwiseAbs().maxCoeff() < 2e-7);
+        }
+      }
+  std::sort(pieces.begin(), pieces.end());
+  CHECK(std::unique(pieces.begin(), pieces.end()) - pieces.begin() > 60);
+}
