@@ -54,6 +54,7 @@ class Contact2d final : public PlainLaw {
 
   bool antisymmetric() const override { return false; }
   bool has_contact() const override { return true; }
+  bool has_normal_load() const override { return true; }
   Traits traits(Fields fields, int direction) const override {
     const ContactLaw law = contact_law(fields);
     const double limit = law.mu * std::max(law.N_0, 0.0);
@@ -74,6 +75,9 @@ class Contact2d final : public PlainLaw {
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {
     return make_contact_2d(harmonics);
+  }
+  std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
+    return make_contact_2d_corners(harmonics);
   }
 
   Eigen::MatrixXd force_at(const Harmonics& h, In u, Fields fields, Angles angles) const override {

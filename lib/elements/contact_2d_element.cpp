@@ -60,6 +60,14 @@ class Contact2dElement final : public Element {
 
   bool friction(FrictionState& state) const override {
     phases_.tell(state);
+    double high = n_[0], low = n_[0];
+    for (const Reversal& turn : phases_.reversals_of_load()) {
+      const double N = law_.N_0 + law_.k_n * turn.x;
+      high = std::max(high, N);
+      low = std::min(low, N);
+    }
+    state.load_max = std::max(high, 0.0);
+    state.load_min = std::max(low, 0.0);
     return true;
   }
 

@@ -9,7 +9,8 @@ namespace arcslip::elements {
 namespace {
 
 constexpr double turn_angle = 2 * std::numbers::pi;
-constexpr double same_angle = 1e-6;  // rad: reversals of both bounds, where the load is constant
+constexpr double same_angle = 1e-6;   // rad: reversals of both bounds, where the load is constant
+constexpr double same_value = 1e-12;  // of the size of the motion
 constexpr double never = std::numeric_limits<double>::infinity();
 
 std::uint64_t mixed(std::uint64_t x) {
@@ -117,6 +118,7 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
     largest_lower_ = *std::max_element(lower_.turns.begin(), lower_.turns.end(), less);
   if (!upper_.turns.empty())
     smallest_upper_ = *std::min_element(upper_.turns.begin(), upper_.turns.end(), less);
+  choose_nearest();
   full_stick_ = largest_lower_.x <= smallest_upper_.x;
   if (full_stick_) {
     ContactPhase phase{ContactPhase::State::stick, 0, turn_angle};
@@ -128,6 +130,24 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
           largest_lower_.theta + turn_angle);
   }
   return phases_;
+}
+
+// A motion of a part of the period has its extremes several times, equal but for rounding: the nearest two.
+void ContactPhases::choose_nearest() {
+  const double same =
+      same_value * (series_bound(harmonics_, lower_.u, 0) + series_bound(harmonics_, upper_.u, 0));
+  const double a = largest_lower_.x, b = smallest_upper_.x;
+  double nearest = never;
+  for (const Reversal& lower : lower_.turns)
+    for (const Reversal& upper : upper_.turns) {
+      if (lower.x < a - same || upper.x > b + same) continue;
+      double apart = upper.theta - lower.theta;
+      if (apart < 0) apart += turn_angle;
+      if (apart >= nearest - same_angle) continue;
+      nearest = apart;
+      largest_lower_.theta = lower.theta;
+      smallest_upper_.theta = upper.theta;
+    }
 }
 
 // Where the bound reaches w from the side it comes from.
@@ -198,10 +218,11 @@ std::uint64_t ContactPhases::sequence() const {
 void ContactPhases::tell(FrictionState& state) const {
   state.slip_onsets.clear();
   state.slip_ends.clear();
-  double stuck = 0;
+  double stuck = 0, open = 0;
   const auto wrapped = [](double angle) { return angle - std::floor(angle / turn_angle) * turn_angle; };
   for (const ContactPhase& phase : phases_) {
     if (phase.state == ContactPhase::State::stick) stuck += phase.end - phase.begin;
+    if (phase.state == ContactPhase::State::open) open += phase.end - phase.begin;
     if (phase.state != ContactPhase::State::slip || phase.sign == 0) continue;
     state.slip_onsets.push_back(wrapped(phase.begin));
     state.slip_ends.push_back(wrapped(phase.end));
@@ -209,6 +230,7 @@ void ContactPhases::tell(FrictionState& state) const {
   std::sort(state.slip_onsets.begin(), state.slip_onsets.end());
   std::sort(state.slip_ends.begin(), state.slip_ends.end());
   state.stick_share = full_stick_ ? 1 : stuck / turn_angle;
+  state.open_share = closed_.empty() ? 1 : open / turn_angle;
 }
 
 }  // namespace arcslip::elements

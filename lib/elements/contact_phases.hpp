@@ -82,6 +82,7 @@ class ContactPhases {
     long piece;
   };
 
+  void choose_nearest();
   void find_closed(In u_n, const ContactLaw& law);
   Onset onset(const Bound& bound, bool upwards, double begin, double end, double w) const;
   void sweep(SliderRest rest, double end);

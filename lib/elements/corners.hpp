@@ -4,7 +4,7 @@
 // or changes with the square root of h.
 //
 // h depends on angles theta_i, each defined by an equation a_i = 0, such as w'(theta) = 0 for a reversal.
-// There h is stationary with respect to the angles, so that grad h is the partial derivative.
+// There h is stationary with respect to the angle of a reversal, but not to every angle.
 
 #include <arcslip/elements/series.hpp>
 
@@ -36,14 +36,12 @@ class Corners {
 
   virtual ~Corners() = default;
 
-  /// How many each corner has.
-  virtual int angles() const = 0;
   /// At any angles.
   virtual void equations(const Corner& corner, In w, Fields fields, Equations& at) = 0;
   /// The scale of h at this motion, in the unit of h.
   virtual double size(const Corner& corner, In w, Fields fields) = 0;
   /// Corrects approximate angles to those of w. False: w has no such corner.
-  virtual bool polish(Corner& corner, In w) = 0;
+  virtual bool polish(Corner& corner, In w, Fields fields) = 0;
   /// The corners with |h| <= tolerance times its scale; one of those related by a symmetry of w.
   virtual std::vector<Corner> near(In w, Fields fields, double tolerance) = 0;
 };

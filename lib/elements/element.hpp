@@ -17,9 +17,11 @@ namespace arcslip::elements {
 
 /// Contact of a friction element over one period.
 struct FrictionState {
-  double stick_share = 0;           // 0 to 1
-  std::vector<double> slip_onsets;  // rad in [0, 2 pi), ascending
-  std::vector<double> slip_ends;    // rad in [0, 2 pi), ascending: the reversals where slip ends
+  double stick_share = 0;             // 0 to 1
+  std::vector<double> slip_onsets;    // rad in [0, 2 pi), ascending
+  std::vector<double> slip_ends;      // rad in [0, 2 pi), ascending: the reversals where slip ends
+  double open_share = 0;              // 0 to 1
+  double load_max = 0, load_min = 0;  // of the normal load, N, where Law::has_normal_load()
 };
 
 /// For one set of harmonics; owns its buffers. move_to() does not allocate.

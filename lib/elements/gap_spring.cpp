@@ -146,7 +146,6 @@ class GapCorners final : public Corners {
  public:
   explicit GapCorners(const Harmonics& h) : h_(h), reversals_(h), phi_(h.size()) {}
 
-  int angles() const override { return 1; }
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
     const double k = sign(corner) * fields[stiffness_field];
     const Values values = series_values(h_, w, corner.angles[0]);
@@ -162,7 +161,7 @@ class GapCorners final : public Corners {
     const double mean = h_.odd ? 0 : std::abs(w[0]);
     return fields[stiffness_field] * (series_bound(h_, w, 0) + mean);
   }
-  bool polish(Corner& corner, In w) override {
+  bool polish(Corner& corner, In w, Fields) override {
     return polish_reversal(h_, w, sign(corner), corner.angles[0]);
   }
   std::vector<Corner> near(In w, Fields fields, double tolerance) override {

@@ -31,8 +31,6 @@ class JenkinsCorners final : public Corners {
  public:
   explicit JenkinsCorners(const Harmonics& h) : h_(h), phi_(h.size()) {}
 
-  int angles() const override { return 2; }
-
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
     const Signs sign = signs_of(corner);
     const double k = fields[0], p = fields[1] * fields[2], factor = 0.5 * sign.slip * k;
@@ -54,7 +52,7 @@ class JenkinsCorners final : public Corners {
 
   double size(const Corner&, In w, Fields fields) override { return size(w, fields); }
 
-  bool polish(Corner& corner, In w) override {
+  bool polish(Corner& corner, In w, Fields) override {
     const Signs sign = signs_of(corner);
     return polish_reversal(h_, w, sign.anchor, corner.angles[0]) &&
            polish_reversal(h_, w, sign.slip, corner.angles[1]);

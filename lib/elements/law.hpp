@@ -111,6 +111,8 @@ class Law {
   virtual bool antisymmetric() const = 0;
   /// Whether it sticks and slips: Element::friction().
   virtual bool has_contact() const { return false; }
+  /// Whether it has a normal load that varies, and may open.
+  virtual bool has_normal_load() const { return false; }
   /// Whether it dissipates energy in a periodic motion.
   virtual bool dissipative() const { return has_contact(); }
   virtual Traits traits(Fields fields, int direction) const = 0;

@@ -1,5 +1,6 @@
 #include <arcslip/hbm/corner.hpp>
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
 #include <cmath>
@@ -22,8 +23,7 @@ class ElementCorners {
       : part_(problem.model().elements[static_cast<std::size_t>(element)]),
         map_(problem.map_of(static_cast<std::size_t>(element))),
         corners_(part_.law->corners(problem.harmonics())),
-        at_(map_.size(), corners_ ? corners_->angles() : 0,
-            static_cast<Eigen::Index>(part_.parameters.size())),
+        at_(map_.size(), 0, static_cast<Eigen::Index>(part_.parameters.size())),
         w_(map_.size()),
         fields_(part_.parameters.size()) {}
 
@@ -38,8 +38,20 @@ class ElementCorners {
 
   // h and the equations of its angles. The reference holds until the next call.
   const elements::Corners::Equations& equations(const elements::Corner& corner, In u, In p) {
-    at(u, p).equations(corner, w_, fields_, at_);
+    at(u, p);
+    const auto angles = static_cast<int>(corner.angles.size());
+    if (at_.by_angle.cols() != angles) at_ = {map_.size(), angles, static_cast<Eigen::Index>(fields_.size())};
+    corners_->equations(corner, w_, fields_, at_);
     return at_;
+  }
+  // h after these, with the angles eliminated: its row becomes that of the total derivatives.
+  void eliminate_angles() {
+    const Eigen::Index angles = at_.by_angle.cols();
+    if (at_.by_angle.row(0).isZero(0)) return;
+    const Vector by_equation =
+        continuation::solve(at_.by_angle.bottomRows(angles).transpose(), at_.by_angle.row(0).transpose());
+    at_.by_motion.row(0) -= by_equation.transpose() * at_.by_motion.bottomRows(angles);
+    at_.by_field.row(0) -= by_equation.transpose() * at_.by_field.bottomRows(angles);
   }
   // d(row)/dp_k after these.
   double parameter_derivative(Eigen::Index row, int k) const {
@@ -143,7 +155,7 @@ class CornerProblem final : public continuation::Problem {
 
 std::optional<double> corner_excess(const HbmProblem& problem, Corner& corner, In u, In p) {
   ElementCorners corners(problem, corner.element);
-  if (!corners.at(u, p).polish(corner, corners.motion())) return {};
+  if (!corners.at(u, p).polish(corner, corners.motion(), corners.fields())) return {};
   return corners.equations(corner, u, p).values[0];
 }
 
@@ -156,6 +168,7 @@ double corner_size(const HbmProblem& problem, const Corner& corner, In u, In p) 
 void corner_gradient(const HbmProblem& problem, const Corner& corner, In u, In p, Out dh) {
   ElementCorners corners(problem, corner.element);
   corners.equations(corner, u, p);
+  corners.eliminate_angles();
   corners.gradient(0, dh);
 }
 
@@ -179,6 +192,7 @@ void corner_direction(const HbmProblem& problem, const Corner& corner, In u, In 
 double corner_derivative(const HbmProblem& problem, const Corner& corner, In u, In p, int k) {
   ElementCorners corners(problem, corner.element);
   corners.equations(corner, u, p);
+  corners.eliminate_angles();
   return corners.parameter_derivative(0, k);
 }
 

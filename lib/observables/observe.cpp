@@ -118,6 +118,10 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
     }
     if (response.has_stick) {
       response.stick_percent = 100 * state.stick_share;
+      response.has_normal_load = law.has_normal_load();
+      response.open_percent = 100 * state.open_share;
+      response.normal_load_max = state.load_max;
+      response.normal_load_min = state.load_min;
       response.slip_angles = state.slip_onsets;
       response.reversal_angles = state.slip_ends;
       set_contact_angles(h, at.element_motion(e), response);

@@ -88,6 +88,10 @@ bool is_friction(const Element& element) {
   return element.has_stick;
 }
 
+bool has_normal_load(const Element& element) {
+  return element.has_normal_load;
+}
+
 bool has_element_maxima(const Element& element) {
   return !std::isnan(element.maxima.force);
 }
@@ -98,6 +102,10 @@ bool has_nonlinear_spring(const Point& point) {
 
 bool has_one_friction_element(const Point& point) {
   return std::count_if(point.elements.begin(), point.elements.end(), is_friction) == 1;
+}
+
+bool is_part_with_normal_load(const scene::Part& part) {
+  return elements::law_of(part)->has_normal_load();
 }
 
 }  // namespace
@@ -195,6 +203,13 @@ constexpr ResponseQuantity of_response[] = {
 constexpr ElementQuantity of_element[] = {
     {"stick_percent", "%", "friction elements: share of the period in stick",
      element<&Element::stick_percent>, is_friction, is_friction_part},
+    {"open_percent", "%",
+     "contacts with a normal direction: share of the period in separation; slip is the rest",
+     element<&Element::open_percent>, has_normal_load, is_part_with_normal_load},
+    {"normal_load_max", "N", "likewise, the largest normal load of the period",
+     element<&Element::normal_load_max>, has_normal_load, is_part_with_normal_load},
+    {"normal_load_min", "N", "likewise, the smallest normal load; 0 in separation",
+     element<&Element::normal_load_min>, has_normal_load, is_part_with_normal_load},
     {"slip_angles", "rad", "friction elements: onset of each slip phase", angles<&Element::slip_angles>,
      is_friction, is_friction_part},
     {"reversal_angles", "rad", "friction elements: end of each slip phase", angles<&Element::reversal_angles>,

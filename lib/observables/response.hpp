@@ -35,6 +35,10 @@ struct ElementResponse {
   std::vector<double> reversal_angles;  // end of each slip phase, rad in [0, 2 pi)
   double energy = 0;                    // dissipated per period, J
 
+  // With a normal load that varies: the share of the period in separation, 0 to 100, and that load, N.
+  bool has_normal_load = false;
+  double open_percent = 0, normal_load_max = 0, normal_load_min = 0;
+
   // With one stick and one slip phase in each half period: theta_0 in [0, 2 pi), the angle of the largest
   // displacement of the element, where stick starts; theta_star in (theta_0, theta_0 + 2 pi), the next onset
   // of slip, rad. For antisymmetric motion stick_percent = 100 (theta_star - theta_0)/pi.

@@ -1,6 +1,7 @@
 #include <arcslip/observables/unbounded.hpp>
 
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/energies.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +53,11 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
   // Work of the forces: those of the excitation and of the sliders, on the motion u, over pi and its
   // amplitude.
   const auto& h = problem.harmonics();
-  double amplitude = 0, sliders = 0;
+  double amplitude = 0, friction = 0;
   bool restoring = false;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const auto& element = model.elements[e];
+    double sliders = 0;
     for (std::size_t i = 0; i < element.directions.size(); ++i) {
       const auto q = evaluator->element_motion(e).segment(static_cast<Eigen::Index>(i) * h.size(), h.size());
       const double size = q.norm();
@@ -65,6 +67,13 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
       // The motion is almost wholly in the resonant harmonic n: it goes to and fro n times in a period.
       sliders += largest_order(h, q) * traits.far_work / std::numbers::pi * size;
     }
+    // A normal load that grows with the motion makes it more.
+    const Eigen::Index displacements = static_cast<Eigen::Index>(element.directions.size()) * h.size();
+    if (element.law->has_contact() && element.directions.size() > 1)
+      sliders = std::max(sliders, element_energy(h, evaluator->element_motion(e),
+                                                 evaluator->element(e).force().head(displacements)) /
+                                      std::numbers::pi);
+    friction += sliders;
   }
   if (model.elements.empty()) amplitude = u.norm();
   continuation::Vector f(u.size());
@@ -80,7 +89,7 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
     result.input += n * std::abs(work);
   }
   result.input /= amplitude;
-  result.dissipation = sliders / amplitude;
+  result.dissipation = friction / amplitude;
   const bool damped = viscous > negligible * result.input * amplitude;
   result.unbounded = !damped && !restoring && result.dissipation <= result.input * (1 + negligible);
   if (result.unbounded) {

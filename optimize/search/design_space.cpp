@@ -151,10 +151,13 @@ PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const
   }
   for (std::size_t e = 0; e < model_->elements.size(); ++e)
     for (const std::string_view path :
-         {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping"}) {
+         {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping", "open_percent",
+          "normal_load_max", "normal_load_min"}) {
       const auto& element = model_->elements[e];
       const bool is_of_friction = path == "stick_percent" || path == "energy";
+      const bool is_of_load = path == "open_percent" || path.starts_with("normal_load");
       if ((is_of_friction && !element.law->has_contact()) ||
+          (is_of_load && !element.law->has_normal_load()) ||
           !is_wanted(element.name + "." + std::string(path)))
         continue;
       return [e, get = std::get<ElementQuantity::Number>(observables::element_quantity(path).get)](

@@ -2,15 +2,19 @@
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/every_law.hpp"
+#include "lib/time/beside_exact.hpp"
 
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/jenkins.hpp>
+#include <arcslip/elements/largest_value.hpp>
 #include <arcslip/hbm/corner.hpp>
-#include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/time/shooting.hpp>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include <cmath>
 #include <numbers>
@@ -90,9 +94,9 @@ TEST_CASE("a contact under a load that varies comes to the motions of a march wi
     CHECK(std::abs(exact.elements[0].stick_percent / 100 - each.stick) < 1e-9);
     double last = 1;
     for (const int order : {3, 7, 15, 27, 55, 101}) {
-      const auto found = observables::point_responses(pad(order, each.f_t, each.f_n), {.frequency = 95});
-      REQUIRE(found.size() == 1);
-      last = std::abs(found[0].point.amplitude / exact.amplitude - 1);
+      const auto balanced = beside_exact::balanced(pad(order, each.f_t, each.f_n), 95);
+      elements::LargestValue largest(balanced.problem->harmonics());
+      last = std::abs(largest.of(balanced.u.head(2 * order + 1)) / exact.amplitude - 1);
       CAPTURE(order, last);
       CHECK(last < 0.2 * std::pow(order, -3.0));
     }
@@ -175,4 +179,98 @@ TEST_CASE("the Jacobian of a contact is exact in every sequence of stick, slip a
       }
   std::sort(pieces.begin(), pieces.end());
   CHECK(std::unique(pieces.begin(), pieces.end()) - pieces.begin() > 60);
+}
+
+TEST_CASE(
+    "the corners of a contact have the gradients of their differences, and lie where the piece changes") {
+  // Along a random way two motions of different phases have corners between them.
+  const elements::Harmonics h{3, false};
+  const auto corners = elements::contact_2d().corners(h);
+  const std::vector<double> fields = {2, 1.5, 0.6, 0.7};
+  std::vector<int> guards;
+  int met = 0;
+  for (unsigned seed = 1; seed < 200; ++seed) {
+    const double size = seed % 4 == 0 ? 0.1 : 1;
+    const Vector from = random_motion(h, size, size, seed),
+                 to = from + random_motion(h, 0.1, 0.1, seed + 1000);
+    const auto at = [&](double s) -> Vector { return from + s * (to - from); };
+    const auto piece = [&](double s) { return evaluate(elements::contact_2d(), h, at(s), fields).piece; };
+    double low = 0, high = 1;
+    if (piece(low) == piece(high)) continue;
+    while (high - low > 1e-13) (piece(0.5 * (low + high)) == piece(low) ? low : high) = 0.5 * (low + high);
+    const Vector w = at(low);
+    const auto found = corners->near(w, fields, 1e-9);
+    const bool both_slip = found.empty();
+    CAPTURE(seed, low, piece(low), piece(high));
+    if (both_slip) continue;  // of a phase of zero length after closing: no corner
+    ++met;
+    for (const auto& corner : found) {
+      guards.push_back(corner.guard);
+      const auto angles = static_cast<int>(corner.angles.size());
+      elements::Corners::Equations equations(w.size(), angles, 4);
+      corners->equations(corner, w, fields, equations);
+      CHECK(equations.values.cwiseAbs().maxCoeff() < 1e-8);
+      const auto values = [&](const elements::Corner& moved, const Vector& u, const std::vector<double>& f) {
+        elements::Corners::Equations there(u.size(), angles, 4);
+        corners->equations(moved, u, f, there);
+        return Vector(there.values);
+      };
+      const MatrixXd by_motion =
+          every_law::differences([&](const Vector& u) { return values(corner, u, fields); }, w, 1e-6);
+      CHECK((by_motion - equations.by_motion).cwiseAbs().maxCoeff() < 1e-7);
+      const Vector theta = Eigen::Map<const Vector>(corner.angles.data(), angles);
+      const MatrixXd by_angle = every_law::differences(
+          [&](const Vector& t) {
+            return values({corner.guard, {t.begin(), t.end()}}, w, fields);
+          },
+          theta, 1e-6);
+      CHECK((by_angle - equations.by_angle).cwiseAbs().maxCoeff() < 1e-7);
+      const Vector f = Eigen::Map<const Vector>(fields.data(), 4);
+      const MatrixXd by_field = every_law::differences(
+          [&](const Vector& g) {
+            return values(corner, w, {g.begin(), g.end()});
+          },
+          f, 1e-6);
+      CHECK((by_field - equations.by_field).cwiseAbs().maxCoeff() < 1e-7);
+      elements::Corner near = corner;
+      for (double& angle : near.angles) angle += 1e-3;
+      REQUIRE(corners->polish(near, w, fields));
+      for (std::size_t i = 0; i < near.angles.size(); ++i)
+        CHECK(std::abs(near.angles[i] - corner.angles[i]) < 1e-8);
+    }
+  }
+  CHECK(met > 60);
+  std::sort(guards.begin(), guards.end());
+  CHECK(std::unique(guards.begin(), guards.end()) - guards.begin() == 8);
+}
+
+TEST_CASE("at a birth of slip the Jacobian of a contact jumps along the corner's gradient, by rank one") {
+  const elements::Harmonics h{3, false};
+  const auto corners = elements::contact_2d().corners(h);
+  const std::vector<double> fields = {2, 1.5, 0.6, 0.7};
+  int jumps = 0;
+  for (unsigned seed = 1; seed < 200; ++seed) {
+    const Vector from = random_motion(h, 1, 1, seed), to = from + random_motion(h, 0.1, 0.1, seed + 1000);
+    const auto at = [&](double s) -> Vector { return from + s * (to - from); };
+    const auto piece = [&](double s) { return evaluate(elements::contact_2d(), h, at(s), fields).piece; };
+    double low = 0, high = 1;
+    if (piece(low) == piece(high)) continue;
+    while (high - low > 1e-13) (piece(0.5 * (low + high)) == piece(low) ? low : high) = 0.5 * (low + high);
+    const auto found = corners->near(at(low), fields, 1e-9);
+    if (found.size() != 1 || found[0].guard < 2) continue;
+    const MatrixXd jump = evaluate(elements::contact_2d(), h, at(high), fields).J -
+                          evaluate(elements::contact_2d(), h, at(low), fields).J;
+    const Eigen::JacobiSVD<MatrixXd> svd(jump, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    if (svd.singularValues()[0] < 1e-3) continue;
+    ++jumps;
+    elements::Corners::Equations equations(2 * h.size(), 2, 4);
+    corners->equations(found[0], at(low), fields, equations);
+    const Eigen::RowVectorXd dh =
+        equations.by_motion.row(0) - equations.by_angle.row(0) * equations.by_angle.bottomRows(2).inverse() *
+                                         equations.by_motion.bottomRows(2);
+    CAPTURE(seed, found[0].guard);
+    CHECK(svd.singularValues()[1] < 1e-4 * svd.singularValues()[0]);
+    CHECK(std::abs(svd.matrixV().col(0).dot(dh.transpose())) > (1 - 1e-6) * dh.norm());
+  }
+  CHECK(jumps > 10);
 }

@@ -1,0 +1,241 @@
+// Corners of a contact with a varying normal load: guards 0 and 1 of its load, 2 to 7 of its slider.
+#include <arcslip/elements/contact_2d.hpp>
+
+#include <arcslip/elements/reversal_angle.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace arcslip::elements {
+namespace {
+
+constexpr double same_place = 1e-9;  // rad
+constexpr double next_to_be = 1e-3;  // of the range of a bound: reversals next to be the highest or lowest
+
+enum { separation, closing, first_onset };
+
+// Onset of slip of the sign given, of a slider that rests since it was left.
+struct SlipOnset {
+  SliderRest::At rest;
+  double slip;
+};
+
+int guard_of(SlipOnset onset) {
+  return first_onset + static_cast<int>(onset.rest) + (onset.slip > 0 ? 3 : 0);
+}
+
+SlipOnset onset_of(const Corner& corner) {
+  const int k = corner.guard - first_onset;
+  return {static_cast<SliderRest::At>(k % 3), k >= 3 ? 1.0 : -1.0};
+}
+
+// w at a rest is x_t + sign h; the bound that slips with sign s is x_t - s h.
+double sign_of(SliderRest::At rest) {
+  return SliderRest{rest}.sign();
+}
+
+class Contact2dCorners final : public Corners {
+ public:
+  explicit Contact2dCorners(const Harmonics& h) : h_(h), c_(h.size()), phi_(c_), derivative_(c_) {}
+
+  void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
+    set(contact_law(fields), w);
+    at.values.setZero();
+    for (Eigen::MatrixXd* m : {&at.by_motion, &at.by_angle, &at.by_field}) m->setZero();
+    if (corner.guard < first_onset) {
+      const double side = corner.guard == closing ? 1 : -1;
+      add_load(side, corner.angles[0], 0, 0, at);
+      add_slope(0, 1, corner.angles[0], 0, 1, at);
+      return;
+    }
+    const SlipOnset onset = onset_of(corner);
+    const double k = 0.5 * onset.slip * law_.k_t;
+    add_bound(k, -onset.slip, corner.angles[1], 1, at);
+    add_bound(-k, sign_of(onset.rest), corner.angles[0], 0, at);
+    at.by_field(0, 0) += at.values[0] / law_.k_t;
+    add_slope(1, -onset.slip, corner.angles[1], 1, 2, at);
+    if (onset.rest == SliderRest::At::closing)
+      add_load(1, corner.angles[0], 0, 1, at);
+    else
+      add_slope(1, sign_of(onset.rest), corner.angles[0], 0, 1, at);
+  }
+
+  double size(const Corner&, In w, Fields fields) override {
+    const ContactLaw law = contact_law(fields);
+    const double normal = law.k_n * (std::abs(w[c_]) + series_bound(h_, w.tail(c_), 0));
+    return std::max(std::abs(law.N_0) + normal, law.k_t * series_bound(h_, w.head(c_), 0));
+  }
+
+  bool polish(Corner& corner, In w, Fields fields) override {
+    set(contact_law(fields), w);
+    if (corner.guard < first_onset)
+      return polish_reversal(h_, w.tail(c_), corner.guard == closing ? 1 : -1, corner.angles[0]);
+    const SlipOnset onset = onset_of(corner);
+    if (!polish_reversal(h_, bound(-onset.slip), onset.slip, corner.angles[1])) return false;
+    if (onset.rest != SliderRest::At::closing)
+      return polish_reversal(h_, bound(sign_of(onset.rest)), -sign_of(onset.rest), corner.angles[0]);
+    return polish_closing(corner.angles[0], w);
+  }
+
+  std::vector<Corner> near(In w, Fields fields, double tolerance) override {
+    std::vector<Corner> found;
+    ContactPhases search(h_);
+    const ContactLaw law = contact_law(fields);
+    const auto& phases = search.find(w.head(c_), w.tail(c_), law);
+    Equations at(w.size(), 2, static_cast<Eigen::Index>(fields.size()));
+    const auto add = [&](int guard, std::vector<double> angles) {
+      Corner corner{guard, std::move(angles)};
+      at = {w.size(), static_cast<int>(corner.angles.size()), static_cast<Eigen::Index>(fields.size())};
+      equations(corner, w, fields, at);
+      if (std::abs(at.values[0]) <= tolerance * size(corner, w, fields) && !is_listed(found, corner, w))
+        found.push_back(std::move(corner));
+    };
+    for (const Reversal& turn : search.reversals_of_load())
+      add(series_values(h_, w.tail(c_), turn.theta).d2 < 0 ? closing : separation, {turn.theta});
+    if (!(law.mu > 0)) return found;
+    if (search.full_stick()) {
+      add_of_stick(search, add);
+      return found;
+    }
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+      const ContactPhase& phase = phases[i];
+      if (phase.state != ContactPhase::State::stick) continue;
+      const ContactPhase &next = phases[(i + 1) % phases.size()], &then = phases[(i + 2) % phases.size()];
+      const auto add_onset = [&](double slip, double theta) {
+        add(guard_of({phase.rest.at, slip}), {phase.rest.theta, theta});
+      };
+      if (next.state == ContactPhase::State::slip && then.state != ContactPhase::State::open) {
+        const double turns = next.begin < phase.begin ? 2 * std::numbers::pi : 0;
+        add_onset(next.sign, next.end + turns);
+      }
+      for (const double slip : {1.0, -1.0})
+        for (const Reversal& turn : slip > 0 ? search.reversals_of_lower() : search.reversals_of_upper()) {
+          double theta = turn.theta;
+          while (theta <= phase.begin + same_place) theta += 2 * std::numbers::pi;
+          while (theta - 2 * std::numbers::pi > phase.begin + same_place) theta -= 2 * std::numbers::pi;
+          const double bend = series_values(h_, bound(-slip), theta).d2;
+          if (theta < phase.end - same_place && slip * bend < 0) add_onset(slip, theta);
+        }
+    }
+    return found;
+  }
+
+ private:
+  using Equations = Corners::Equations;
+
+  void set(const ContactLaw& law, In w) {
+    law_ = law;
+    w_ = w;
+    const double ratio = law.k_t > 0 ? law.mu * law.k_n / law.k_t : 0;
+    lower_ = w.head(c_) - ratio * w.tail(c_);
+    upper_ = w.head(c_) + ratio * w.tail(c_);
+  }
+  // x_t + sign h but for a constant; the same as x_t where sign is 0.
+  const Eigen::VectorXd& bound(double sign) const { return sign < 0 ? lower_ : upper_; }
+
+  // factor (x_t + sign mu N/k_t) at an angle, to h.
+  void add_bound(double factor, double sign, double theta, int angle, Equations& at) {
+    const Values t = series_values(h_, w_.head(c_), theta), n = series_values(h_, w_.tail(c_), theta);
+    const double N = law_.N_0 + law_.k_n * n.x, by_N = factor * sign * law_.mu / law_.k_t;
+    series_basis(h_, theta, phi_);
+    at.values[0] += factor * t.x + by_N * N;
+    at.by_motion.row(0).head(c_) += factor * phi_.transpose();
+    at.by_motion.row(0).tail(c_) += by_N * law_.k_n * phi_.transpose();
+    at.by_angle(0, angle) += factor * t.d1 + by_N * law_.k_n * n.d1;
+    at.by_field(0, 0) -= by_N * N / law_.k_t;
+    at.by_field(0, 1) += by_N * n.x;
+    at.by_field(0, 2) += factor * sign * N / law_.k_t;
+    at.by_field(0, 3) += by_N;
+  }
+  // side N at an angle, to a row.
+  void add_load(double side, double theta, int angle, int row, Equations& at) {
+    const Values n = series_values(h_, w_.tail(c_), theta);
+    series_basis(h_, theta, phi_);
+    at.values[row] += side * (law_.N_0 + law_.k_n * n.x);
+    at.by_motion.row(row).tail(c_) += side * law_.k_n * phi_.transpose();
+    at.by_angle(row, angle) += side * law_.k_n * n.d1;
+    at.by_field(row, 1) += side * n.x;
+    at.by_field(row, 3) += side;
+  }
+  // The slope of tangential x_t + sign mu k_n/k_t x_n, or of x_n, at an angle.
+  void add_slope(double tangential, double sign, double theta, int angle, int row, Equations& at) {
+    const double normal = tangential == 0 ? 1 : sign * law_.mu * law_.k_n / law_.k_t;
+    const Values t = series_values(h_, w_.head(c_), theta), n = series_values(h_, w_.tail(c_), theta);
+    derivative_[0] = 0;
+    for (int k = 1; k <= h_.order; ++k) {
+      derivative_[h_.cosine_index(k)] = -k * std::sin(k * theta);
+      derivative_[h_.sine_index(k)] = k * std::cos(k * theta);
+    }
+    at.values[row] += tangential * t.d1 + normal * n.d1;
+    at.by_motion.row(row).head(c_) += tangential * derivative_.transpose();
+    at.by_motion.row(row).tail(c_) += normal * derivative_.transpose();
+    at.by_angle(row, angle) += tangential * t.d2 + normal * n.d2;
+    if (tangential == 0) return;
+    at.by_field(row, 0) -= normal / law_.k_t * n.d1;
+    at.by_field(row, 1) += sign * law_.mu / law_.k_t * n.d1;
+    at.by_field(row, 2) += sign * law_.k_n / law_.k_t * n.d1;
+  }
+
+  bool polish_closing(double& theta, In w) const {
+    const double begin = theta;
+    for (int i = 0; i < 20; ++i) {
+      const Values n = series_values(h_, w.tail(c_), theta);
+      if (!(n.d1 > 0)) return false;
+      const double step = -(law_.N_0 / law_.k_n + n.x) / n.d1;
+      theta += step;
+      if (!(std::abs(theta - begin) <= 0.3)) return false;
+      if (std::abs(step) <= 1e-14) break;
+    }
+    return true;
+  }
+
+  // Between the largest of the lower bound and the smallest of the upper one, and those next to be these.
+  template <class Add>
+  void add_of_stick(const ContactPhases& search, Add&& add) const {
+    const Reversal low = search.largest_lower(), high = search.smallest_upper();
+    const auto &lower = search.reversals_of_lower(), &upper = search.reversals_of_upper();
+    if (lower.empty() || upper.empty()) return;
+    const double near = next_to_be * (series_bound(h_, lower_, 0) + series_bound(h_, upper_, 0));
+    std::vector<double> tops, bottoms;
+    for (const Reversal& at : lower)
+      if (at.x >= low.x - near) tops.push_back(at.theta);
+    for (const Reversal& at : upper)
+      if (at.x <= high.x + near) bottoms.push_back(at.theta);
+    for (std::size_t i = 0; i < tops.size(); ++i) {
+      for (const double bottom : bottoms)
+        add(guard_of({SliderRest::At::upper_reversal, 1}), {bottom, tops[i]});
+      for (std::size_t j = 0; j < i; ++j)
+        add(guard_of({SliderRest::At::lower_reversal, 1}), {tops[j], tops[i]});
+    }
+    for (std::size_t i = 0; i < bottoms.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        add(guard_of({SliderRest::At::upper_reversal, -1}), {bottoms[j], bottoms[i]});
+  }
+
+  // The same corner, or an image of it in a motion of a shorter period.
+  bool is_listed(const std::vector<Corner>& all, const Corner& corner, In w) const {
+    return std::any_of(all.begin(), all.end(), [&](const Corner& other) {
+      if (other.guard != corner.guard) return false;
+      const double turn = corner.angles[0] - other.angles[0];
+      for (std::size_t i = 1; i < corner.angles.size(); ++i) {
+        const double apart = corner.angles[i] - other.angles[i] - turn;
+        if (std::abs(std::remainder(apart, 2 * std::numbers::pi)) > same_place) return false;
+      }
+      return is_image(h_, w.head(c_), turn, 1) && is_image(h_, w.tail(c_), turn, 1);
+    });
+  }
+
+  Harmonics h_;
+  Eigen::Index c_;
+  ContactLaw law_{};
+  Eigen::VectorXd w_, lower_, upper_, phi_, derivative_;
+};
+
+}  // namespace
+
+std::unique_ptr<Corners> make_contact_2d_corners(const Harmonics& harmonics) {
+  return std::make_unique<Contact2dCorners>(harmonics);
+}
+
+}  // namespace arcslip::elements
