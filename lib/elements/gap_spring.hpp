@@ -1,22 +1,28 @@
 #pragma once
-// A unilateral spring with a gap: f = k (q - g) for q > g, else 0.
+// A spring behind a gap: f = k (q - g) for q > g, else 0. With "two_sided": true there is one on each side,
 //
-// Exact: the angles where q(theta) = g are found, and with the integrals G of phi phi^T and l of phi over all
-// contact phases (moments.hpp),
+//   f = k max(q - g, 0) - k max(-q - g, 0),   antisymmetric
 //
-//   F = k A,   A = kappa (G u - g l),   dF/du = kappa k G,   dF/dk = A,   dF/dg = -kappa k l
+// A negative gap is a preload: the spring is compressed by -g at rest, where the structure is in equilibrium
+// with it. What acts is the change of its force,
 //
-// kappa = 1/pi (mean row 1/(2 pi)). The motion of the ends of contact does not enter, since f is continuous
-// there. Where q just touches g, a contact phase of length s appears or vanishes: J is continuous and varies
-// with s, the square root of the penetration.
+//   f = k max(q - g, 0) - k max(-g, 0),
 //
-// Fields: stiffness k (N/m), gap g (m), at least 0.
+// k q in contact, and k g where it is lost. Two preloaded springs balance each other: the stiffness is 2 k as
+// long as both touch, |q| < -g, and k beyond.
+//
+// Coefficients are exact (piecewise_linear.hpp). Fields: stiffness k (N/m), gap g (m).
 
 #include <arcslip/elements/law.hpp>
 
 namespace arcslip::elements {
 
+struct GapSpringOptions {
+  bool two_sided = false;
+  friend bool operator==(const GapSpringOptions&, const GapSpringOptions&) = default;
+};
+
 /// "gap_spring".
-const PlainLaw& gap_spring();
+const LawType& gap_spring();
 
 }  // namespace arcslip::elements

@@ -34,13 +34,13 @@ void Moments::add(int q, double c, double s) {
 }
 
 void Moments::add_interval(double length, const std::complex<double>* z_sum,
-                           const std::complex<double>* z_half, double w) {
+                           const std::complex<double>* z_half, double weight) {
   double* c = c_.data() + count_ - 1;
   double* s = s_.data() + count_ - 1;
   const int stride = harmonics_.stride();
-  c[0] += w * length;
+  c[0] += weight * length;
   for (int q = 1; q < count_; ++q) {
-    const double chord = 2 * w * z_half[q * stride].imag() * inverse_[q];
+    const double chord = 2 * weight * z_half[q * stride].imag() * inverse_[q];
     c[q] += chord * z_sum[q * stride].real();
     s[q] += chord * z_sum[q * stride].imag();
   }

@@ -18,11 +18,11 @@ class Moments {
   int count() const { return count_; }
   void clear();
   void add(int q, double c, double s);
-  /// Adds the integral over [begin, end] with constant w. z_sum = exp(i k s), z_half = exp(i k d), k = 0 ..
+  /// Adds the integral over [begin, end] with a constant w. z_sum = exp(i k s), z_half = exp(i k d), k = 0 ..
   /// 2N, at the middle s and the half length d: C_k = 2 w sin(k d) cos(k s)/k, which loses no digits on short
   /// pieces.
   void add_interval(double length, const std::complex<double>* z_sum, const std::complex<double>* z_half,
-                    double w = 1);
+                    double weight = 1);
   /// Call after the last add: sets the entries of negative index.
   void close();
 

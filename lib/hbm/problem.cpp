@@ -149,16 +149,33 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   options.go_on = go_on;
   const auto branch = continuation::trace(problem, {Vector::Zero(problem->size()), p, factor, 1}, options);
   if (branch.stop.reason != continuation::StopReason::boundary) return {};
-  if (!problem->model().antisymmetric && branch.points.back().parameter < 0) return {};
-  return branch.points.back().parameter * branch.points.back().u;
+  const double end = branch.points.back().parameter;
+  if (end != 1 && !(end == -1 && problem->model().antisymmetric))
+    return {};  // from a kink it may lead nowhere
+  return end * branch.points.back().u;
 }
 
-// Continuation in a factor of the element forces, the last parameter, from the linear response at 0 to the
+// A spring in place of each element, as stiff as that may be. p: the parameters of the model, extended.
+model::Model with_springs(model::Model model, Vector& p) {
+  for (const auto& element : model.elements)
+    for (std::size_t i = 0; i < element.directions.size(); ++i) {
+      const double stiffness = element.law->traits(element.fields(p), static_cast<int>(i)).stiffness;
+      if (!std::isfinite(stiffness)) continue;
+      model.springs.push_back({static_cast<int>(p.size()), element.directions[i]});
+      model.parameters.push_back({"", "N/m", stiffness, 1, 0, stiffness});
+      p.conservativeResize(p.size() + 1);
+      p[p.size() - 1] = stiffness;
+    }
+  return model;
+}
+
+// Continuation in a factor of the element forces, the last parameter, from a linear structure at 0 to the
 // scene at 1.
 class Gradual final : public continuation::Problem {
  public:
-  explicit Gradual(std::shared_ptr<const HbmProblem> problem)
+  Gradual(std::shared_ptr<const HbmProblem> problem, const DynamicStiffness& linear)
       : problem_(std::move(problem)),
+        linear_(linear),
         parameters_(problem_->parameters().begin(), problem_->parameters().end()) {
     parameters_.push_back({"element_factor", "-", 1, 1, 0, 1});
   }
@@ -166,15 +183,16 @@ class Gradual final : public continuation::Problem {
   std::span<const continuation::Parameter> parameters() const override { return parameters_; }
   Vector scales() const override { return problem_->scales(); }
   std::unique_ptr<continuation::Evaluator> evaluator() const override {
-    return std::make_unique<Evaluator>(*problem_);
+    return std::make_unique<Evaluator>(*problem_, linear_);
   }
 
  private:
-  // At factor 0: Z u - f. Auxiliary unknowns keep their own equations.
+  // At factor 0: Z u - f of the linear structure. Auxiliary unknowns keep their own equations.
   class Evaluator final : public continuation::Evaluator {
    public:
-    explicit Evaluator(const HbmProblem& problem)
+    Evaluator(const HbmProblem& problem, const DynamicStiffness& linear)
         : inner_(problem.hbm_evaluator()),
+          linear_(linear),
           displacements_(problem.coordinates().unknowns * problem.harmonics().size()),
           R_(problem.size()),
           elements_(problem.size()),
@@ -186,12 +204,12 @@ class Gradual final : public continuation::Problem {
       if (result != Evaluated::ok) return result;
       const double factor = p[p.size() - 1];
       R_ = inner_->residual();
-      inner_->stiffness().residual(u, inner_->force_factor(), R_);  // of the displacements
+      linear_.residual(u, inner_->force_factor(), R_);  // of the displacements
       elements_ = inner_->residual() - R_;
       R_ += factor * elements_;
       if (needs == Needs::residual) return result;
       Z_.setZero();
-      inner_->stiffness().add_to(Z_);
+      linear_.add_to(Z_);
       auto& J = std::get<Eigen::MatrixXd>(jacobian_);
       J = std::get<Eigen::MatrixXd>(inner_->jacobian());
       J.topRows(displacements_) = (factor * J + (1 - factor) * Z_).topRows(displacements_).eval();
@@ -204,6 +222,7 @@ class Gradual final : public continuation::Problem {
 
    private:
     std::unique_ptr<HbmEvaluator> inner_;
+    const DynamicStiffness& linear_;
     Eigen::Index displacements_;
     Vector R_, elements_;
     Eigen::MatrixXd Z_;
@@ -211,12 +230,19 @@ class Gradual final : public continuation::Problem {
   };
 
   std::shared_ptr<const HbmProblem> problem_;
+  const DynamicStiffness& linear_;
   std::vector<continuation::Parameter> parameters_;
 };
 
-std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, const Vector& p, bool springs,
                               const std::function<bool()>& go_on) {
-  const Vector u = linear_response(*problem, p);
+  Vector with = p.head(p.size() - 1);
+  const model::Model model = springs ? with_springs(problem->model(), with) : problem->model();
+  DynamicStiffness linear(model, problem->coordinates(), problem->harmonics());
+  Vector u = Vector::Zero(problem->size());
+  if (!linear.move_to(with)) return {};
+  linear.force(u);
+  linear.solve(u);
   if (!u.allFinite()) return {};
   continuation::Options options;
   options.lower = 0;
@@ -224,7 +250,7 @@ std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, 
   options.check_jacobian = false;
   options.points = longest_ramp;
   options.go_on = go_on;
-  const auto equations = std::make_shared<const Gradual>(problem);
+  const auto equations = std::make_shared<const Gradual>(problem, linear);
   Vector at(p.size() + 1);
   at << p, 0;
   const auto branch = continuation::trace(equations, {u, at, static_cast<int>(p.size()), 1}, options);
@@ -262,8 +288,11 @@ std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& prob
   for (const Vector& guess : {Vector(Vector::Zero(problem->size())), linear_response(*problem, p)})
     if (const auto found = response_near(*problem, p, guess)) return found;
   if (const auto found = ramp(problem, p, go_on)) return found;
-  if (go_on && !go_on()) return {};
-  return gradual(problem, p, go_on);
+  for (const bool springs : {false, true}) {
+    if (go_on && !go_on()) return {};
+    if (const auto found = gradual(problem, p, springs, go_on)) return found;
+  }
+  return {};
 }
 
 }  // namespace arcslip::hbm

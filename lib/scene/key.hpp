@@ -19,7 +19,7 @@ enum class KeyType {
   value,       // of the parameter named by the key "over"
   parameters,  // a list of names
   followed,    // the name of a continuation parameter with a range
-  other        // lists and objects
+  other        // lists, objects, true or false
 };
 
 /// The further keys that a key of this type requires: "bounds", pairs [lower, upper] of parameters; "from"

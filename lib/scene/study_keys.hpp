@@ -189,6 +189,25 @@ KeyGroup<S> word(const std::string& name, Choice S::*value, const Words& words, 
           }};
 }
 
+/// True or false, with a default.
+template <class S>
+KeyGroup<S> flag(const std::string& name, bool S::*value, std::string help) {
+  Key key{name, KeyType::other, "", "true or false", S{}.*value ? "true" : "false", false, std::move(help)};
+  key.schema = R"({"type": "boolean"})";
+  return {{key},
+          [=](const Reading& reading, S& s) {
+            const Location place = reading.keys.find(name);
+            if (place.node == nullptr) return;
+            if (const bool* is = place.node->get<bool>())
+              s.*value = *is;
+            else
+              add_wrong_type(place, key.allowed, reading.faults);
+          },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({name, Node{s.*value}});
+          }};
+}
+
 /// Keys of settings within settings.
 template <class S, class Part>
 KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {

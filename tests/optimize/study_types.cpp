@@ -54,7 +54,7 @@ std::string allowed(const scene::Field& field) {
   return text.str();
 }
 
-/// What docs/scene.md says of the fields of a part.
+/// What docs/scene.md says of the fields and options of a part.
 std::string rows(const std::string& part, const scene::PartType& type) {
   std::ostringstream text;
   bool first = true;
@@ -68,6 +68,10 @@ std::string rows(const std::string& part, const scene::PartType& type) {
     text << " | " << field.help << " |\n";
     first = false;
   }
+  for (const scene::Key& option : type.options())
+    text << "| | `" << option.name << "` | " << (option.unit.empty() ? "" : option.unit + " ") << "| "
+         << option.allowed << " | " << (option.required ? "required" : option.otherwise) << " | "
+         << option.help << " |\n";
   return text.str();
 }
 
@@ -111,7 +115,7 @@ TEST_CASE("the documentation of scenes has a row for every key of every kind of 
   }
 }
 
-TEST_CASE("the documentation of scenes has a row for every field of every part") {
+TEST_CASE("the documentation of scenes has a row for every field and option of every part") {
   std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/scene.md");
   std::stringstream text;
   text << file.rdbuf();

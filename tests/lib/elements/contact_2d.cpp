@@ -2,11 +2,12 @@
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/every_law.hpp"
+#include "lib/laws/piecewise_linear_laws.hpp"
 #include "lib/time/beside_exact.hpp"
 
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/elements/contact_2d.hpp>
-#include <arcslip/elements/gap_spring.hpp>
+
 #include <arcslip/elements/jenkins.hpp>
 #include <arcslip/elements/largest_value.hpp>
 #include <arcslip/hbm/corner.hpp>
@@ -133,7 +134,7 @@ TEST_CASE("without friction a contact is a gap spring along its normal, for any 
   const Eigen::Index c = h.size();
   for (unsigned seed = 1; seed < 30; ++seed) {
     const Vector u = random_motion(h, 1, 1, seed);
-    const Force gap = evaluate(elements::gap_spring(), h, u.tail(c), {3, 0.4});
+    const Force gap = evaluate(*piecewise_linear_laws::gap(false), h, u.tail(c), {3, 0.4});
     const Force contact = evaluate(elements::contact_2d(), h, u, {2, 3, 0, -1.2});
     CHECK(contact.F.head(c).norm() == 0);
     CHECK((contact.F.tail(c) - gap.F).norm() < 1e-12);

@@ -6,9 +6,10 @@
 #include "lib/laws/polynomial.hpp"
 #include "lib/laws/renamed_jenkins.hpp"
 
+#include "lib/laws/piecewise_linear_laws.hpp"
+
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
-#include <arcslip/elements/gap_spring.hpp>
 
 using namespace every_law;
 
@@ -18,6 +19,11 @@ const own_laws::RenamedJenkins renamed;
 const own_laws::CoupledSpring coupled;
 const own_laws::BoucWen bouc_wen;
 const own_laws::PolynomialLaw polynomial(4);
+const auto gap = piecewise_linear_laws::gap(false), gaps = piecewise_linear_laws::gap(true),
+           bilinear = piecewise_linear_laws::bilinear(false),
+           bilinear_on_one_side = piecewise_linear_laws::bilinear(true),
+           softening_table =
+               piecewise_linear_laws::table({{-0.6, -0.9}, {-0.2, -1}, {0.1, 0.8}, {0.5, 0.3}, {0.7, 1}});
 
 struct Example {
   const elements::Law& law;
@@ -30,7 +36,14 @@ const Example all[] = {
     {renamed, {0.5, 1, 2}, 1e-7},
     {elements::cubic_spring(), {0.7}, 1e-7},
     {coupled, {0.7}, 1e-7},
-    {elements::gap_spring(), {3, 0.2}, 1e-6},
+    {*gap, {3, 0.2}, 1e-6},
+    {*gap, {3, -0.2}, 1e-6},
+    {*gaps, {3, 0.2}, 1e-6},
+    {*gaps, {3, -0.2}, 1e-6},
+    {*bilinear, {2, 0.5, 0.3}, 1e-6},
+    {*bilinear, {-1, 2, 0.3}, 1e-6},
+    {*bilinear_on_one_side, {2, 5, 0.2}, 1e-6},
+    {*softening_table, {1.7}, 1e-6},
     {elements::contact_2d(), {2, 1.5, 0.5, 1}, 1e-6},
     {elements::contact_2d(), {2, 1.5, 0.5, -0.3}, 1e-6},
     {elements::contact_2d(), {2, 0, 0.5, 1}, 1e-7},

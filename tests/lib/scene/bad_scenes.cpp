@@ -228,12 +228,13 @@ void add_parts(std::vector<BadScene>& rows) {
                   "found -0.1, must be at least 0 N s/m"});
   rows.push_back({"element without a type", good_scene_with("\"type\": \"jenkins\",", ""), "/elements/0/type",
                   "found no key \"type\", which is required: must be one of \"jenkins\", \"cubic_spring\", "
-                  "\"gap_spring\""});
+                  "\"gap_spring\", \"bilinear_spring\", \"piecewise_linear_spring\""});
   rows.push_back({"unknown type of element", good_scene_with("\"jenkins\"", "\"jenkin\""), "/elements/0/type",
-                  "found \"jenkin\", must be one of \"jenkins\", \"cubic_spring\", \"gap_spring\"; did you "
-                  "mean \"jenkins\"?"});
+                  "found \"jenkin\", must be one of \"jenkins\", \"cubic_spring\", \"gap_spring\", "
+                  "\"bilinear_spring\", \"piecewise_linear_spring\"; did you mean \"jenkins\"?"});
   rows.push_back({"type that is no string", good_scene_with("\"jenkins\"", "{}"), "/elements/0/type",
-                  "found an object, must be one of \"jenkins\", \"cubic_spring\", \"gap_spring\""});
+                  "found an object, must be one of \"jenkins\", \"cubic_spring\", \"gap_spring\", "
+                  "\"bilinear_spring\", \"piecewise_linear_spring\""});
   rows.push_back({"contact stiffness of zero", good_scene_with("\"stiffness\": 10", "\"stiffness\": 0"),
                   "/elements/0/stiffness", "found 0, must be above 0 N/m"});
   rows.push_back({"negative friction coefficient",
@@ -246,6 +247,33 @@ void add_parts(std::vector<BadScene>& rows) {
        good_scene_with("\"elements\": [",
                        "\"elements\": [{\"name\": \"n\", \"type\": \"cubic_spring\", \"at\": \"b\"}, "),
        "/elements/0/stiffness", "must be a finite number (N/m^3)"});
+  const auto with_spring = [](const std::string& keys) {
+    return good_scene_with("\"elements\": [",
+                           "\"elements\": [{\"name\": \"n\", \"at\": \"b\", \"type\": " + keys + "}, ");
+  };
+  rows.push_back({"choice that is neither true nor false",
+                  with_spring("\"gap_spring\", \"stiffness\": 1, \"gap\": 0, \"two_sided\": 1"),
+                  "/elements/0/two_sided", "found 1 (a number), must be true or false"});
+  rows.push_back(
+      {"negative corner of a spring",
+       with_spring("\"bilinear_spring\", \"stiffness\": 1, \"stiffness_beyond\": 2, \"corner\": -1"),
+       "/elements/0/corner", "found -1, must be at least 0 m"});
+  const auto with_table = [&](const std::string& table) {
+    return with_spring("\"piecewise_linear_spring\", \"table\": " + table);
+  };
+  rows.push_back({"spring without its table", with_spring("\"piecewise_linear_spring\""), "/elements/0/table",
+                  "found no key \"table\", which is required: must be a list of at least two points [q, f]"});
+  rows.push_back({"table of one point", with_table("[[0, 0]]"), "/elements/0/table",
+                  "found 1 point, must be a list of at least two points [q, f] (m and N), q ascending"});
+  rows.push_back({"table that does not ascend", with_table("[[0, 0], [1, 1], [1, 2]]"), "/elements/0/table/2",
+                  "found q = 1 after 1, must be ascending"});
+  rows.push_back({"point of three numbers", with_table("[[0, 0], [1, 1, 1]]"), "/elements/0/table/1",
+                  "found a list of 3, must be a point [q, f]"});
+  rows.push_back({"force of 1e999 N in a table", with_table("[[0, 0], [1, 1e999]]"), "/elements/0/table/1/1",
+                  "found 1e999 (a number that is too large), must be a finite number"});
+  rows.push_back({"slope of 1e600 N/m in a table", with_table("[[0, 0], [1e-300, 1e300]]"),
+                  "/elements/0/table/1",
+                  "found a slope that is too large for a number between f = 0 and 1e+300"});
   rows.push_back({"no mass",
                   good_scene_with("\"masses\": [{\"name\": \"m\", \"at\": \"a\", \"value\": 1}],", ""),
                   "/structure/masses", "found no mass, must have at least one mass with a value above 0 kg"});
