@@ -2,6 +2,7 @@
 
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
+#include <arcslip/elements/iwan.hpp>
 #include <arcslip/elements/jenkins.hpp>
 
 #include <stdexcept>
@@ -16,7 +17,7 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(), &cubic_spring(), &gap_spring()};
+  return {&jenkins(), &cubic_spring(), &gap_spring(), &iwan()};
 }
 
 }  // namespace arcslip::elements

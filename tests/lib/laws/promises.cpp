@@ -3,6 +3,7 @@
 
 #include "lib/laws/bouc_wen.hpp"
 #include "lib/laws/coupled_spring.hpp"
+#include "lib/laws/iwan_laws.hpp"
 #include "lib/laws/polynomial.hpp"
 #include "lib/laws/renamed_jenkins.hpp"
 
@@ -17,6 +18,9 @@ const own_laws::RenamedJenkins renamed;
 const own_laws::CoupledSpring coupled;
 const own_laws::BoucWen bouc_wen;
 const own_laws::PolynomialLaw polynomial(4);
+const auto uniform = iwan_laws::law(iwan_laws::uniform),
+           four_parameter = iwan_laws::law(iwan_laws::four_parameter),
+           table = iwan_laws::law(iwan_laws::table({{0.7, 0.2}, {1.1, 0.4}, {0.3, 0.35}}));
 
 struct Example {
   const elements::Law& law;
@@ -25,10 +29,11 @@ struct Example {
 };
 
 const Example all[] = {
-    {elements::jenkins(), {2, 0.5, 1}, 1e-7}, {renamed, {0.5, 1, 2}, 1e-7},
-    {elements::cubic_spring(), {0.7}, 1e-7},  {coupled, {0.7}, 1e-7},
-    {elements::gap_spring(), {3, 0.2}, 1e-6}, {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
-    {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},
+    {elements::jenkins(), {2, 0.5, 1}, 1e-7},     {renamed, {0.5, 1, 2}, 1e-7},
+    {elements::cubic_spring(), {0.7}, 1e-7},      {coupled, {0.7}, 1e-7},
+    {elements::gap_spring(), {3, 0.2}, 1e-6},     {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
+    {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},       {*uniform, {2, 0.8}, 1e-7},
+    {*four_parameter, {2, 0.8, -0.3, 0.4}, 1e-7}, {*table, {1.2, 0.9}, 1e-7},
 };
 
 }  // namespace
