@@ -231,6 +231,7 @@ class Iwan final : public Law {
     std::vector<Automaton> all;
     each(fields, [&](int j, double k, double p) {
       Automaton& contact = all.emplace_back(j);
+      contact.weight = k;
       if (p <= 0) {
         contact.add("free", 0, 0, 0).follows(1, 0, 0);
         return;

@@ -3,11 +3,17 @@
 #include "lib/laws/every_law.hpp"
 #include "lib/laws/iwan_laws.hpp"
 
+#include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/elements/hysteresis_loops.hpp>
 #include <arcslip/elements/iwan_power_law.hpp>
 #include <arcslip/elements/jenkins.hpp>
+#include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/results/json_writer.hpp>
+#include <arcslip/studies/catalogue.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -426,4 +432,145 @@ TEST_CASE("in harmonics a table comes to the exact march in time, in random stru
     }
   }
   CHECK(compared > 30);
+}
+
+TEST_CASE("in microslip a response comes to its limit as N^-4, and that of a table as N^-3") {
+  for (const bool microslip : {true, false}) {
+    const std::string joint = microslip ? R"("type": "iwan", "stiffness": 2, "slip_force": 4)"
+                                        : iwan_laws::table({{1, 0.2}, {0.5, 0.3}, {0.5, 0.7}});
+    const auto amplitude = [&](int order) {
+      const auto found =
+          observables::point_responses(iwan_laws::oscillator(joint, 1, order), {.frequency = 0.47});
+      REQUIRE(found.size() == 1);
+      return found[0].point.amplitude;
+    };
+    const double limit = amplitude(401);
+    for (const int order : {7, 15, 31, 63, 127}) {
+      CAPTURE(microslip, order);
+      const double error = std::abs(amplitude(order) / limit - 1);
+      CHECK(error < (microslip ? 1e-3 * std::pow(order, -4) : 0.1 * std::pow(order, -3)));
+    }
+  }
+}
+
+TEST_CASE("in time a continuous distribution is divided into sliders, with an error of sliders^-2") {
+  const std::string continuous[] = {
+      R"("type": "iwan", "stiffness": 2, "slip_force": 0.6)",
+      R"("type": "iwan", "distribution": "four-parameter", "stiffness": 2, "slip_force": 0.6, "exponent": -0.5,
+         "beta": 0.3)"};
+  for (const std::string& joint : continuous)
+    for (const double frequency : {0.9, 1.3}) {
+      const auto found =
+          observables::point_responses(iwan_laws::oscillator(joint, 0.4, 101), {.frequency = frequency});
+      REQUIRE(found.size() == 1);
+      const auto& point = found[0].point;
+      for (const int sliders : {20, 60}) {
+        const scene::Scene s =
+            iwan_laws::oscillator(joint + R"(, "sliders": )" + std::to_string(sliders), 0.4);
+        const auto motion = observables::motion_in_time(s, {.frequency = frequency});
+        const auto newmark = observables::motion_in_time(
+            s, {.frequency = frequency, .method = observables::TimeMethod::newmark_shooting, .steps = 1000});
+        REQUIRE(motion.status == observables::Status::complete);
+        REQUIRE(newmark.status == observables::Status::complete);
+        CHECK(motion.integrator == "event-driven");
+        CAPTURE(joint, frequency, sliders);
+        CHECK(std::abs(motion.amplitude / point.amplitude - 1) < 0.8 / (sliders * sliders));
+        CHECK(std::abs(motion.energy.friction / point.energy_friction - 1) < 2.5 / (sliders * sliders));
+        CHECK(std::abs(newmark.amplitude / motion.amplitude - 1) < 2e-5);
+        const double stick = point.elements[0].stick_percent;
+        CHECK(std::abs(motion.elements[0].stick_percent - stick) < 100.0 / (sliders * sliders));
+        CHECK(std::abs(newmark.elements[0].stick_percent - stick) < 100.0 / (sliders * sliders) + 0.06);
+      }
+    }
+}
+
+TEST_CASE("the memory of a force has that force") {
+  for (const std::string& text : {iwan_laws::uniform, iwan_laws::four_parameter,
+                                  iwan_laws::table({{0.7, 0.2}, {1.1, 0.4}, {0.3, 0.35}})}) {
+    const auto law = iwan_laws::law(text);
+    std::vector<double> fields{1.3, 0.8};
+    if (text == iwan_laws::four_parameter) fields = {2, 0.8, -0.3, 0.4};
+    const double limit = law->traits(fields, 0).limit;
+    for (const double share : {-1.0, -0.7, -1e-6, 0.0, 1e-9, 0.3, 0.999, 1.0}) {
+      const VectorXd q{{0.4}}, f{{share * limit}};
+      VectorXd z(law->memory());
+      law->memory_at(fields, q, f, z);
+      elements::StepEnd at(1, law->memory());
+      law->begin(fields, q, z, at);
+      CHECK(std::abs(at.f[0] - f[0]) < 1e-14);
+    }
+  }
+}
+
+TEST_CASE("residuals with an iwan element have the Jacobian of their differences") {
+  for (const std::string& joint :
+       {iwan_laws::uniform, iwan_laws::four_parameter, iwan_laws::table({{1, 0.2}, {0.5, 0.3}, {0.5, 0.7}})})
+    for (const double size : {0.05, 1.0, 20.0}) {
+      const auto model = std::make_shared<const model::Model>(model::build(iwan_laws::oscillator(
+          joint, 0.4, 5, 0.05, R"(, {"name": "g", "at": "x", "sine": 0.3, "harmonic": 2})")));
+      const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+      const VectorXd u = motion({5, false}, size, 3);
+      CAPTURE(joint, size);
+      CHECK(continuation::check_jacobian(problem, u, hbm::parameters_at(problem, 0.9)).message == "");
+    }
+}
+
+TEST_CASE("every study works with an iwan element, and is complete") {
+  const auto run = [](const std::string& joint, const std::string& slip) {
+    std::string text = scene::write(iwan_laws::oscillator(joint, 0.4, 9));
+    const std::string old = text.substr(text.find("\"studies\""));
+    text.replace(text.find(old), old.size(), R"("studies": [
+      {"kind": "frf", "from": 0.4, "to": 2.5},
+      {"kind": "trace", "over": ")" + slip + R"(", "from": 0.1, "to": 2, "frequency": 1.2},
+      {"kind": "peaks", "over": ")" + slip + R"(", "from": 0.1, "to": 2, "frequency": [0.8, 2.2]},
+      {"kind": "point", "frequency": 1.2}, {"kind": "time", "frequency": 1.2},
+      {"kind": "optimum", "over": [")" + slip + R"("], "bounds": [[0.1, 2]], "frequency": [0.8, 2.2]}]})");
+    const scene::Scene s = scenes::parse(text);
+    std::istringstream again(scene::write(s));
+    CHECK(scene::read(again, test_catalogue::whole()) == s);
+    std::ostringstream out;
+    results::write_json(out, studies::run(s));
+    const auto json = nlohmann::json::parse(out.str());
+    for (const char* kind : {"branches", "responses", "motions", "optima"})
+      for (const auto& each : json.at(kind)) {
+        CAPTURE(joint, kind, each.value("status", ""));
+        CHECK(each["status"] == "complete");
+      }
+  };
+  run(R"("type": "iwan", "stiffness": 2, "slip_force": 0.6)", "joint.slip_force");
+  run(iwan_laws::four_parameter, "joint.slip_force");
+  run(iwan_laws::table({{1, 0.2}, {0.5, 0.3}, {0.5, 0.7}}), "joint.slip_factor");
+}
+
+TEST_CASE("faults of the options are told, and fields are those of the distribution") {
+  const auto fault = [](const std::string& element) {
+    try {
+      iwan_laws::oscillator(element);
+    } catch (const scene::SceneError& error) {
+      return error.faults()[0].pointer + ": " + error.faults()[0].message;
+    }
+    return std::string("none");
+  };
+  const std::string start = R"("type": "iwan", "distribution": )";
+  CHECK(fault(start + R"("weibull", "stiffness": 1, "slip_force": 1)") ==
+        "/elements/0/distribution: found \"weibull\", must be one of \"uniform\", \"four-parameter\", "
+        "\"table\"");
+  CHECK(fault(start + R"("table")") ==
+        "/elements/0/table: found no key \"table\", which is required: must be a list of 1 to 10000 pairs "
+        "[stiffness, slip limit], each above 0");
+  CHECK(fault(start + R"("table", "table": [])") ==
+        "/elements/0/table: found 0 sliders, must be a list of 1 to 10000 pairs [stiffness, slip limit], "
+        "each above 0");
+  CHECK(fault(start + R"("table", "table": [[1, 2], [3]])") ==
+        "/elements/0/table/1: found 1 numbers, must be a pair [stiffness, slip limit]");
+  CHECK(fault(start + R"("table", "table": [[1, 0]])") ==
+        "/elements/0/table/0/1: found 0, must be above 0 N");
+  CHECK(fault(start + R"("uniform", "stiffness": 1, "slip_force": 1, "table": [[1, 1]])") ==
+        "/elements/0/table: found a table beside another \"distribution\" than \"table\"");
+  CHECK(fault(start + R"("four-parameter", "stiffness": 1, "slip_force": 1, "exponent": -1, "beta": 0)") ==
+        "/elements/0/exponent: found -1, must be above -1 and at most 0");
+  CHECK(fault(start + R"("uniform", "stiffness": 1, "slip_force": 1, "beta": 0)").substr(0, 16) ==
+        "/elements/0/beta");
+  CHECK(fault(start + R"("four-parameter", "stiffness": 1, "slip_force": 1, "beta": 0)").substr(0, 20) ==
+        "/elements/0/exponent");
 }
