@@ -18,7 +18,8 @@
 // and the angles of anchors do not enter, since f is continuous there and x' = 0 here. The mean is the limit
 // from macroslip: sliders that stick for the whole period are centred.
 //
-// A law defines the backbone and the integrals over a part of a branch.
+// A law defines the backbone and the integrals over a part of a branch. See
+// docs/theory/03-friction-integrals.md.
 
 #include <arcslip/elements/element.hpp>
 #include <arcslip/elements/hysteresis_loops.hpp>
