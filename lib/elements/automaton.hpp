@@ -63,7 +63,8 @@ struct Automaton {
     return mode;
   }
 
-  int memory;  // index in the law's memory; -1: none
+  int memory;         // index in the law's memory; -1: none
+  double weight = 1;  // in the stick share of the law
   std::vector<Mode> modes;
 };
 

@@ -4,6 +4,7 @@
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
+#include <arcslip/elements/iwan.hpp>
 #include <arcslip/elements/jenkins.hpp>
 #include <arcslip/elements/piecewise_linear_spring.hpp>
 
@@ -19,8 +20,7 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(),    &contact_2d(),      &cubic_spring(),
-          &gap_spring(), &bilinear_spring(), &piecewise_linear_spring()};
+  return {&jenkins(), &contact_2d(), &iwan(), &cubic_spring(), &gap_spring(), &bilinear_spring(), &piecewise_linear_spring()};
 }
 
 }  // namespace arcslip::elements

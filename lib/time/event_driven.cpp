@@ -66,7 +66,8 @@ class Recorder {
       motion_.history.elements.push_back({element.name, {}, {}, {}});
     }
     for (const Contact& contact : march.contacts())
-      records_[static_cast<std::size_t>(contact.element)].sliders += contact.slider >= 0 ? 1 : 0;
+      records_[static_cast<std::size_t>(contact.element)].sliders +=
+          contact.slider >= 0 ? contact.automaton.weight : 0;
     motion_.amplitude = -1;
     start_energy_ = elastic_and_kinetic(equation, march.state());
   }
@@ -91,7 +92,7 @@ class Recorder {
       if (record.friction < 0) continue;
       FrictionRecord& friction = motion_.friction[static_cast<std::size_t>(record.friction)];
       friction.energy += energy;
-      if (!contact.follows()) friction.stick_time += s * h / record.sliders;
+      if (!contact.follows()) friction.stick_time += s * h * contact.automaton.weight / record.sliders;
     }
     const double A = motion_.amplitude;
     extremes_.visit(piece, equation_.response, s, -A, A, [&](double at, double x) {
@@ -173,8 +174,8 @@ class Recorder {
   LinearMotion::Series series_{};
   Vector q_;
   struct Record {
-    int friction;  // index in motion_.friction; -1: none
-    int sliders;   // which share the time
+    int friction;    // index in motion_.friction; -1: none
+    double sliders;  // which share the time, by their weights
   };
   std::vector<Record> records_;  // of each element
   EventDrivenMotion motion_;

@@ -19,7 +19,7 @@ bool is_flat(const LoadCases& cases, std::size_t c) {
       return false;
   const auto point = cases.peaks(c).observe(highest);
   return std::all_of(point.elements.begin(), point.elements.end(),
-                     [](const auto& element) { return !element.has_stick || element.slip_angles.empty(); });
+                     [](const auto& element) { return !element.has_stick || element.stick_percent == 100; });
 }
 
 // At the current design of the cases.
@@ -84,7 +84,7 @@ double closest_to_slip(PeakAmplitude& peaks, const observables::ResponsePoint& p
     for (std::size_t field = 0; field < part.parameters.size(); ++field)
       limits =
           limits || (part.parameters[field] == parameter && part.law->limited_by(static_cast<int>(field)));
-    if (limits && element.has_stick && element.slip_angles.empty() && element.fundamental.in_phase > 0)
+    if (limits && element.has_stick && element.stick_percent == 100 && element.fundamental.in_phase > 0)
       most = std::max(most, element.fundamental.in_phase / part.law->traits(part.fields(p), 0).limit);
   }
   return most;

@@ -3,6 +3,7 @@
 
 #include "lib/laws/bouc_wen.hpp"
 #include "lib/laws/coupled_spring.hpp"
+#include "lib/laws/iwan_laws.hpp"
 #include "lib/laws/polynomial.hpp"
 #include "lib/laws/renamed_jenkins.hpp"
 
@@ -24,6 +25,9 @@ const auto gap = piecewise_linear_laws::gap(false), gaps = piecewise_linear_laws
            bilinear_on_one_side = piecewise_linear_laws::bilinear(true),
            softening_table =
                piecewise_linear_laws::table({{-0.6, -0.9}, {-0.2, -1}, {0.1, 0.8}, {0.5, 0.3}, {0.7, 1}});
+const auto uniform = iwan_laws::law(iwan_laws::uniform),
+           four_parameter = iwan_laws::law(iwan_laws::four_parameter),
+           table = iwan_laws::law(iwan_laws::table({{0.7, 0.2}, {1.1, 0.4}, {0.3, 0.35}}));
 
 struct Example {
   const elements::Law& law;
@@ -49,6 +53,9 @@ const Example all[] = {
     {elements::contact_2d(), {2, 0, 0.5, 1}, 1e-7},
     {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
     {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},
+    {*uniform, {2, 0.8}, 1e-7},
+    {*four_parameter, {2, 0.8, -0.3, 0.4}, 1e-7},
+    {*table, {1.2, 0.9}, 1e-7},
 };
 
 }  // namespace

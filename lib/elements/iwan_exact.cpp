@@ -1,0 +1,293 @@
+#include <arcslip/elements/iwan.hpp>
+
+#include <arcslip/elements/iwan_power_law.hpp>
+#include <arcslip/elements/masing_element.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::elements {
+namespace {
+
+constexpr double settled = 1e-5;  // rad, and of the distance to a reversal: the cube is rounding
+
+struct Nodes {
+  std::vector<double> t, weight;  // of the integral from 0 to 1
+};
+
+// Gauss-Legendre, the nodes by Newton's method from the usual guess.
+Nodes gauss(int count) {
+  Nodes nodes;
+  for (int i = count - 1; i >= 0; --i) {
+    double x = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 1;
+    for (int k = 0; k < 10; ++k) {
+      double before = 1, here = x;
+      for (int n = 2; n <= count; ++n)
+        before = std::exchange(here, ((2 * n - 1) * x * here - (n - 1) * before) / n);
+      slope = count * (x * here - before) / (x * x - 1);
+      x -= here / slope;
+    }
+    nodes.t.push_back(0.5 * (1 + x));
+    nodes.weight.push_back(1 / ((1 - x * x) * slope * slope));
+  }
+  return nodes;
+}
+
+// t = tau^6 makes t^(2 chi + 2) smooth enough at 0.
+Nodes graded(int count) {
+  Nodes nodes = gauss(count);
+  for (std::size_t i = 0; i < nodes.t.size(); ++i) {
+    const double tau = nodes.t[i];
+    nodes.t[i] = std::pow(tau, 6);
+    nodes.weight[i] *= 6 * std::pow(tau, 5);
+  }
+  return nodes;
+}
+
+class PowerLawElement final : public MasingElement {
+ public:
+  PowerLawElement(const Harmonics& h, bool uniform)
+      : MasingElement(h),
+        uniform_(uniform),
+        inner_(gauss(16)),
+        first_(graded(24)),
+        longest_(std::min(1.0, 7.0 / h.order)),
+        longest_first_(std::min(0.5, 3.0 / h.order)),
+        w_(h.order),
+        y_(static_cast<std::size_t>(h.order + 1)) {}
+
+ private:
+  Scales set(std::span<const double> fields) override {
+    law_ = uniform_ ? PowerLaw(0, 0) : PowerLaw(fields[2], fields[3]);
+    jumps_ = !uniform_ && fields[3] > 0;
+    return {fields[0], fields[1]};
+  }
+  int shapes() const override { return uniform_ ? 0 : 2; }
+  Backbone at(double y) const override {
+    const PowerLaw::Values values = law_.at(y);
+    return {values.slope, values.rest, {values.by_chi, values.by_beta}};
+  }
+  std::uint64_t level(double y) const override { return jumps_ && y >= law_.largest() ? 2 : 1; }
+
+  void integrate(In u, const BranchPart& part, Integrals& over) override {
+    over.slope.clear();
+    over.rest.clear();
+    for (int k = 0; k < shapes(); ++k) over.shapes[static_cast<std::size_t>(k)].clear();
+    const Anchor& from = anchor(part);
+    const double limit = unit() * law_.largest(), length = part.end.theta - part.begin.theta;
+    const double moved = from.way * (part.begin.x - from.x), end = from.way * (part.end.x - from.x);
+    double slips = 0;  // from here on all sliders slip
+    if (moved < 2 * limit) {
+      slips = length;
+      if (end > 2 * limit)
+        slips = loops().crossing(u, part.begin, part.end, from.x + 2 * from.way * limit) - part.begin.theta;
+      find_series(u, part.begin.theta);
+      integrate_smooth(part, from, moved, slips, over);
+    }
+    if (slips >= length) return;
+    const int count = harmonics().order + 1;
+    powers_less_one(length, count, w_);
+    add_interval(length, 2 * from.way, w_, over.rest);
+    powers_less_one(slips, count, w_);
+    add_interval(slips, -2 * from.way, w_, over.rest);
+  }
+
+  // Coefficients of x(theta + t) - x(theta) = Re sum Y_n (exp(i n t) - 1).
+  void find_series(In u, double theta) {
+    const Harmonics& h = harmonics();
+    powers(theta, h.order + 1, y_.data());
+    for (int n = 0; n <= h.order; ++n) {
+      auto& y = y_[static_cast<std::size_t>(n)];
+      if (n > 0 && h.has(n))
+        y *= std::complex<double>(u[h.cosine_index(n)], -u[h.sine_index(n)]);
+      else
+        y = 0;
+    }
+  }
+
+  void integrate_smooth(const BranchPart& part, const Anchor& from, double moved, double end,
+                        Integrals& over) {
+    const double since = part.begin.theta - from.theta;  // t = -since is singular, except if uniform
+    double t = 0;
+    if (!uniform_ && since <= 0) {
+      t = std::min(end, longest_first_);
+      add(first_, 0, t, from.way, moved, over);
+    }
+    while (t < end) {
+      double step = std::min(longest_, end - t);
+      if (!uniform_) step = std::min(step, 2 * (t + since));
+      if (end - t < 1.5 * step) step = end - t;
+      if (!(t + step > t)) return;
+      add(inner_, t, step, from.way, moved, over);
+      t += step;
+    }
+  }
+
+  void add(const Nodes& nodes, double begin, double length, double way, double moved, Integrals& over) {
+    const int order = harmonics().order;
+    for (std::size_t i = 0; i < nodes.t.size(); ++i) {
+      powers_less_one(begin + length * nodes.t[i], 2 * order + 1, w_);
+      double x = 0;
+      for (int n = 1; n <= order; ++n) {
+        const auto& y = y_[static_cast<std::size_t>(n)];
+        x += y.real() * w_.re[n] - y.imag() * w_.im[n];
+      }
+      const double s = std::max(0.5 * (moved + way * x), 0.0), weight = length * nodes.weight[i];
+      const PowerLaw::Values values = law_.at(s / unit());
+      add(weight * values.slope, 2 * order, over.slope);
+      add(2 * way * weight * values.rest, order, over.rest);
+      if (uniform_) continue;
+      add(2 * way * weight * values.by_chi, order, over.shapes[0]);
+      add(2 * way * weight * values.by_beta, order, over.shapes[1]);
+    }
+  }
+  void add(double factor, int highest, Powers& sum) const {
+    sum.re.head(highest + 1) += factor * (1 + w_.re.head(highest + 1));
+    sum.im.head(highest + 1) += factor * w_.im.head(highest + 1);
+  }
+
+  bool uniform_, jumps_ = false;
+  PowerLaw law_{0, 0};
+  Nodes inner_, first_;
+  double longest_, longest_first_;  // parts of quadrature, rad
+  Powers w_;
+  std::vector<std::complex<double>> y_;
+};
+
+// With the shares k_j of the stiffness and the slip displacements y_j: g = sum_j k_j min(y, y_j). On a part
+// of a branch slider j sticks up to the angle theta_j, so that sums of exp(i k theta_j) hold all integrals.
+class TableElement final : public MasingElement {
+ public:
+  TableElement(const Harmonics& h, const std::vector<Slider>& sliders)
+      : MasingElement(h), w_(h.order), stuck_(h.order), slips_(h.order) {
+    for (const auto& [stiffness, limit] : sliders) {
+      sum_.stiffness += stiffness;
+      sum_.slip_force += limit;
+    }
+    for (const auto& [stiffness, limit] : sliders)
+      sliders_.push_back({(limit / sum_.slip_force) / (stiffness / sum_.stiffness),
+                          stiffness / sum_.stiffness, limit / sum_.slip_force});
+    double slope = 1, rest = 0;
+    for (Step& step : sliders_) {
+      slope -= step.stiffness;
+      rest += step.limit;
+      step.slope = &step == &sliders_.back() ? 0 : slope;
+      step.rest = &step == &sliders_.back() ? 1 : rest;
+    }
+  }
+
+ private:
+  struct Step {
+    double y, stiffness, limit;  // of the slider
+    double slope = 0, rest = 0;  // of all where it and those before it slip
+  };
+
+  Scales set(std::span<const double> fields) override {
+    return {fields[0] * sum_.stiffness, fields[1] * sum_.slip_force, sum_.stiffness, sum_.slip_force};
+  }
+  std::size_t slipping(double y) const {
+    return static_cast<std::size_t>(
+        std::upper_bound(sliders_.begin(), sliders_.end(), y,
+                         [](double value, const Step& step) { return value < step.y; }) -
+        sliders_.begin());
+  }
+  Backbone at(double y) const override {
+    const std::size_t count = slipping(y);
+    if (count == 0) return {1, 0, {}};
+    return {sliders_[count - 1].slope, sliders_[count - 1].rest, {}};
+  }
+  double first_slip() const override { return sliders_.front().y; }
+  std::uint64_t level(double y) const override { return slipping(y); }
+
+  void integrate(In u, const BranchPart& part, Integrals& over) override {
+    const int order = harmonics().order;
+    const Anchor& from = anchor(part);
+    const double length = part.end.theta - part.begin.theta;
+    const double moved = from.way * (part.begin.x - from.x), end = from.way * (part.end.x - from.x);
+    stuck_.clear();
+    slips_.clear();
+    over.slope.clear();
+    over.rest.clear();
+    std::size_t j = 0;
+    while (j < sliders_.size() && 2 * unit() * sliders_[j].y <= moved) ++j;
+    double stuck = j == 0 ? 1 : sliders_[j - 1].slope, rest = j == 0 ? 0 : sliders_[j - 1].rest;
+    Values here = series_values(harmonics(), u, part.begin.theta);
+    double theta = part.begin.theta;
+    for (; j < sliders_.size(); ++j) {
+      const double limit = 2 * unit() * sliders_[j].y;
+      if (limit >= end) break;
+      theta = crossing(u, theta, part.end.theta, from.x + from.way * limit, from.way, here);
+      const double t = theta - part.begin.theta;
+      powers_less_one(t, 2 * order + 1, w_);
+      add(sliders_[j].stiffness, t, 2 * order, stuck_);
+      add(sliders_[j].limit, t, order, slips_);
+      stuck = sliders_[j].slope;
+      rest = sliders_[j].rest;
+    }
+    powers_less_one(length, 2 * order + 1, w_);
+    add(stuck, length, 2 * order, stuck_);
+    over.slope.re[0] = stuck_.re[0];
+    over.rest.re[0] = 2 * from.way * (rest * length - slips_.re[0]);
+    for (int k = 1; k <= 2 * order; ++k) {
+      over.slope.re[k] = stuck_.im[k] / k;
+      over.slope.im[k] = -stuck_.re[k] / k;
+    }
+    for (int k = 1; k <= order; ++k) {
+      over.rest.re[k] = 2 * from.way * (rest * w_.im[k] - slips_.im[k]) / k;
+      over.rest.im[k] = -2 * from.way * (rest * w_.re[k] - slips_.re[k]) / k;
+    }
+  }
+
+  // The root of x = target after `begin`, where x moves as `here`, which is moved to the root. Halley's
+  // method, whose error is the cube of its last step, with bisection; begun by the parabola at the last root,
+  // since roots follow one another closely.
+  double crossing(In u, double begin, double end, double target, double way, Values& here) const {
+    double lower = begin, upper = end;
+    const double far = way * (target - here.x), slope = way * here.d1, bend = way * here.d2;
+    const double root = slope * slope + 2 * bend * far;
+    double theta = begin + (root > 0 ? 2 * far / (slope + std::sqrt(root)) : 0);
+    for (int k = 0; k < 60; ++k) {
+      if (!(theta > lower && theta < upper)) theta = 0.5 * (lower + upper);
+      here = series_values(harmonics(), u, theta);
+      const double excess = way * (here.x - target);
+      (excess > 0 ? upper : lower) = theta;
+      const double step = -2 * excess * here.d1 / (2 * here.d1 * here.d1 * way - excess * here.d2);
+      theta += step;
+      if (std::abs(step) <= settled && std::abs(step * here.d2) <= settled * std::abs(here.d1)) {
+        here.x = target;
+        here.d1 += step * here.d2;
+        break;
+      }
+    }
+    return std::clamp(theta, begin, end);
+  }
+
+  // sum += factor * exp(i k t) - 1, and the time itself at k = 0.
+  void add(double factor, double t, int highest, Powers& sum) const {
+    const double *re = w_.re.data(), *im = w_.im.data();
+    double *to_re = sum.re.data(), *to_im = sum.im.data();
+    to_re[0] += factor * t;
+    for (int k = 1; k <= highest; ++k) {
+      to_re[k] += factor * re[k];
+      to_im[k] += factor * im[k];
+    }
+  }
+
+  Scales sum_{0, 0};
+  std::vector<Step> sliders_;
+  Powers w_, stuck_, slips_;
+};
+
+}  // namespace
+
+std::unique_ptr<MasingElement> make_iwan_power_law(const Harmonics& harmonics, bool uniform) {
+  return std::make_unique<PowerLawElement>(harmonics, uniform);
+}
+
+std::unique_ptr<MasingElement> make_iwan_table(const Harmonics& harmonics, std::vector<Slider> sliders) {
+  std::sort(sliders.begin(), sliders.end(),
+            [](const Slider& a, const Slider& b) { return a.second / a.first < b.second / b.first; });
+  return std::make_unique<TableElement>(harmonics, sliders);
+}
+
+}  // namespace arcslip::elements
