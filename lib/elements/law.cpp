@@ -3,6 +3,8 @@
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/jenkins.hpp>
+#include <arcslip/elements/polynomial_coupling.hpp>
+#include <arcslip/elements/polynomial_spring.hpp>
 
 #include <stdexcept>
 #include <string>
@@ -16,7 +18,7 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(), &cubic_spring(), &gap_spring()};
+  return {&jenkins(), &cubic_spring(), &gap_spring(), &polynomial_spring(), &polynomial_coupling()};
 }
 
 }  // namespace arcslip::elements

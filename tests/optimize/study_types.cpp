@@ -54,10 +54,15 @@ std::string allowed(const scene::Field& field) {
   return text.str();
 }
 
-/// What docs/scene.md says of the fields of a part.
+/// What docs/scene.md says of the options and fields of a part.
 std::string rows(const std::string& part, const scene::PartType& type) {
   std::ostringstream text;
   bool first = true;
+  for (const scene::Key& option : type.options()) {
+    text << "| " << (first ? part + " " : "") << "| `" << option.name << "` | | " << option.allowed << " | "
+         << (option.required ? "required" : "`" + option.otherwise + "`") << " | " << option.help << " |\n";
+    first = false;
+  }
   for (const scene::Field& field : type.fields({})) {
     text << "| " << (first ? part + " " : "") << "| `" << field.name << "` | "
          << (field.unit == "-" ? "" : std::string(field.unit) + " ") << "| " << allowed(field) << " | ";

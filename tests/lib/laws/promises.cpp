@@ -8,6 +8,7 @@
 
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
+#include <arcslip/elements/polynomial_spring.hpp>
 
 using namespace every_law;
 
@@ -15,8 +16,10 @@ namespace {
 
 const own_laws::RenamedJenkins renamed;
 const own_laws::CoupledSpring coupled;
-const own_laws::BoucWen bouc_wen;
+const own_laws::BoucWen hysteresis;
 const own_laws::PolynomialLaw polynomial(4);
+const auto odd_powers = elements::polynomial_spring().law(elements::polynomial_powers({9, 1, 3}));
+const auto some_powers = elements::polynomial_spring().law(elements::polynomial_powers({2, 5, 8}));
 
 struct Example {
   const elements::Law& law;
@@ -25,10 +28,15 @@ struct Example {
 };
 
 const Example all[] = {
-    {elements::jenkins(), {2, 0.5, 1}, 1e-7}, {renamed, {0.5, 1, 2}, 1e-7},
-    {elements::cubic_spring(), {0.7}, 1e-7},  {coupled, {0.7}, 1e-7},
-    {elements::gap_spring(), {3, 0.2}, 1e-6}, {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
-    {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},
+    {elements::jenkins(), {2, 0.5, 1}, 1e-7},
+    {renamed, {0.5, 1, 2}, 1e-7},
+    {elements::cubic_spring(), {0.7}, 1e-7},
+    {coupled, {0.7}, 1e-7},
+    {elements::gap_spring(), {3, 0.2}, 1e-6},
+    {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
+    {hysteresis, {0.8, 0.2, 0.9, 0.4}, 1e-6},
+    {*odd_powers, {-0.3, 0.5, 0.1}, 1e-7},
+    {*some_powers, {0.3, 0.2, -0.1}, 1e-7},
 };
 
 }  // namespace
