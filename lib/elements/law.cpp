@@ -1,5 +1,6 @@
 #include <arcslip/elements/law.hpp>
 
+#include <arcslip/elements/bouc_wen.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/jenkins.hpp>
@@ -18,7 +19,8 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(), &cubic_spring(), &gap_spring(), &polynomial_spring(), &polynomial_coupling()};
+  return {&jenkins(),           &cubic_spring(),        &gap_spring(),
+          &polynomial_spring(), &polynomial_coupling(), &bouc_wen()};
 }
 
 }  // namespace arcslip::elements

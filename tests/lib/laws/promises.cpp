@@ -1,11 +1,11 @@
 // Every law keeps what Law promises, those of the library as those of tests.
 #include "lib/laws/every_law.hpp"
 
-#include "lib/laws/bouc_wen.hpp"
 #include "lib/laws/coupled_spring.hpp"
 #include "lib/laws/polynomial.hpp"
 #include "lib/laws/renamed_jenkins.hpp"
 
+#include <arcslip/elements/bouc_wen.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/polynomial_spring.hpp>
@@ -16,7 +16,6 @@ namespace {
 
 const own_laws::RenamedJenkins renamed;
 const own_laws::CoupledSpring coupled;
-const own_laws::BoucWen hysteresis;
 const own_laws::PolynomialLaw polynomial(4);
 const auto odd_powers = elements::polynomial_spring().law(elements::polynomial_powers({9, 1, 3}));
 const auto some_powers = elements::polynomial_spring().law(elements::polynomial_powers({2, 5, 8}));
@@ -34,9 +33,10 @@ const Example all[] = {
     {coupled, {0.7}, 1e-7},
     {elements::gap_spring(), {3, 0.2}, 1e-6},
     {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
-    {hysteresis, {0.8, 0.2, 0.9, 0.4}, 1e-6},
     {*odd_powers, {-0.3, 0.5, 0.1}, 1e-7},
     {*some_powers, {0.3, 0.2, -0.1}, 1e-7},
+    {elements::bouc_wen(), {0.8, 0.2, 0.7, 1, 0.7}, 1e-6},
+    {elements::bouc_wen(), {0.8, 0, 0.9, 2.5, 0.5}, 1e-6},
 };
 
 }  // namespace

@@ -145,7 +145,7 @@ TEST_CASE("each type of element is known by its name and describes its fields") 
     }
   }
   CHECK(names == std::vector<std::string>{"jenkins", "cubic_spring", "gap_spring", "polynomial_spring",
-                                          "polynomial_coupling"});
+                                          "polynomial_coupling", "bouc_wen"});
 }
 
 TEST_CASE("combinations of for_each are made one at a time, the last list fastest, however many there are") {
