@@ -6,6 +6,9 @@
 #include <arcslip/elements/jenkins.hpp>
 #include <arcslip/elements/polynomial_coupling.hpp>
 #include <arcslip/elements/polynomial_spring.hpp>
+#include <arcslip/elements/quadratic_damper.hpp>
+#include <arcslip/elements/tanh_friction.hpp>
+#include <arcslip/elements/van_der_pol.hpp>
 
 #include <stdexcept>
 #include <string>
@@ -19,8 +22,8 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(),           &cubic_spring(),        &gap_spring(),
-          &polynomial_spring(), &polynomial_coupling(), &bouc_wen()};
+  return {&jenkins(),  &cubic_spring(),     &gap_spring(),  &polynomial_spring(), &polynomial_coupling(),
+          &bouc_wen(), &quadratic_damper(), &van_der_pol(), &tanh_friction()};
 }
 
 }  // namespace arcslip::elements

@@ -9,6 +9,9 @@
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/polynomial_spring.hpp>
+#include <arcslip/elements/quadratic_damper.hpp>
+#include <arcslip/elements/tanh_friction.hpp>
+#include <arcslip/elements/van_der_pol.hpp>
 
 using namespace every_law;
 
@@ -37,6 +40,9 @@ const Example all[] = {
     {*some_powers, {0.3, 0.2, -0.1}, 1e-7},
     {elements::bouc_wen(), {0.8, 0.2, 0.7, 1, 0.7}, 1e-6},
     {elements::bouc_wen(), {0.8, 0, 0.9, 2.5, 0.5}, 1e-6},
+    {elements::quadratic_damper(), {0.7}, 1e-7},
+    {elements::van_der_pol(), {0.7, 0.1}, 1e-7},
+    {elements::tanh_friction(), {0.7, 1.2, 20}, 1e-7},
 };
 
 }  // namespace

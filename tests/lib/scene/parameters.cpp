@@ -145,7 +145,8 @@ TEST_CASE("each type of element is known by its name and describes its fields") 
     }
   }
   CHECK(names == std::vector<std::string>{"jenkins", "cubic_spring", "gap_spring", "polynomial_spring",
-                                          "polynomial_coupling", "bouc_wen"});
+                                          "polynomial_coupling", "bouc_wen", "quadratic_damper",
+                                          "van_der_pol", "tanh_friction"});
 }
 
 TEST_CASE("combinations of for_each are made one at a time, the last list fastest, however many there are") {
