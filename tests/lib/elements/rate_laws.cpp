@@ -9,6 +9,7 @@
 #include <arcslip/elements/van_der_pol.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/energies.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/time/newmark_periods.hpp>
@@ -142,6 +143,62 @@ TEST_CASE("at order 1 a quadratic damper is a damper of (8/(3 pi)) c A w, the cl
           Approx(0).margin(1e-10));
     CHECK(found[0].point.elements[0].equivalent_damping == Approx(8 / (3 * pi) * 0.3 * A * w).epsilon(1e-10));
   }
+}
+
+TEST_CASE("frequency responses with laws of velocity follow their closed forms at order 1, peaks included") {
+  const double F = 0.5;
+  {
+    const double c = 0.02, e = 8 / (3 * pi) * 0.3;
+    const scene::Scene s = oscillator(quadratic, c, 1);
+    const auto branches = observables::frequency_response(s, scenes::window(s));
+    REQUIRE(branches.size() == 1);
+    REQUIRE(branches[0].status == observables::Status::complete);
+    for (const auto& point : branches[0].points) {
+      const double A = point.amplitude, w = point.omega;
+      CHECK(A * std::hypot(1 - w * w, w * (c + e * A * w)) == Approx(F).epsilon(1e-9));
+    }
+    int peaks = 0;
+    for (const auto& event : branches[0].events) {
+      if (event.kind != "peak") continue;
+      ++peaks;
+      const double A = event.point.amplitude, w = event.point.omega, b = c + e * A * w;
+      CHECK(-2 * (1 - w * w) + b * b + w * b * e * A == Approx(0).margin(1e-7));
+    }
+    CHECK(peaks == 1);
+  }
+  {  // entrained: A^2 ((1 - w^2)^2 + (c w)^2 (A^2/(4 q0^2) - 1)^2) = F^2
+    const double c = 0.1, q0 = 0.5, small = 0.02;
+    const scene::Scene s = oscillator(cycle, 0, 1, 1, small);
+    for (const double w : {0.97, 0.99, 1.0, 1.02}) {
+      const auto found = observables::point_responses(s, {.frequency = w});
+      for (const auto& each : found) {
+        REQUIRE(each.status == observables::Status::complete);
+        const double A = each.point.amplitude;
+        CHECK(A * std::hypot(1 - w * w, c * w * (A * A / (4 * q0 * q0) - 1)) == Approx(small).epsilon(1e-8));
+        CHECK((each.point.energy_friction < 0) == (A < 2 * q0));
+      }
+    }
+  }
+}
+
+TEST_CASE("a quadratic damper bounds the resonance that it takes part in, and no other") {
+  const scene::Scene alone = oscillator(quadratic, 0, 5);
+  const auto bounded = observables::frequency_response(alone, scenes::window(alone));
+  REQUIRE(bounded.size() == 1);
+  CHECK(bounded[0].status == observables::Status::complete);
+  // Beside a second mass with a slider too weak for its force.
+  const scene::Scene two = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x", "y"],
+      "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 1}],
+      "springs": [{"name": "kx", "at": "x", "value": 1}, {"name": "ky", "at": "y", "value": 2}]},
+    "elements": [{"name": "e", "type": "quadratic_damper", "at": "x", "coefficient": 0.3},
+      {"name": "d", "type": "jenkins", "at": "y", "stiffness": 0.5, "friction_coefficient": 1, "normal_load": 0.1}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.5}, {"name": "g", "at": "y", "cosine": 0.5}],
+    "response": {"at": "y"}, "harmonics": {"order": 1},
+    "studies": [{"name": "frf", "kind": "frf", "from": 1.1, "to": 2}]})");
+  const auto unbounded = observables::frequency_response(two, scenes::window(two));
+  REQUIRE(!unbounded.empty());
+  CHECK(unbounded[0].stop.reason == observables::reasons::unbounded);
 }
 
 TEST_CASE("laws of velocity have the same response in Newmark's steps, at second order, energies included") {
