@@ -176,6 +176,7 @@ TEST_CASE("frequency responses with laws of velocity follow their closed forms a
         const double A = each.point.amplitude;
         CHECK(A * std::hypot(1 - w * w, c * w * (A * A / (4 * q0 * q0) - 1)) == Approx(small).epsilon(1e-8));
         CHECK((each.point.energy_friction < 0) == (A < 2 * q0));
+        CHECK(std::isnan(each.point.friction_percent()) == (A < 2 * q0));
       }
     }
   }
