@@ -33,9 +33,15 @@ class Element {
   /// listed with the element's type. The Jacobian is computed only on request.
   virtual void move_to(In u, std::span<const double> fields, bool jacobian) = 0;
 
+  /// The base frequency, rad/s, of the next places: where the force depends on velocities.
+  virtual void set_frequency(double base_frequency) { static_cast<void>(base_frequency); }
+
   virtual const Eigen::VectorXd& force() const = 0;            // F(u), as u
   virtual const Eigen::MatrixXd& jacobian() const = 0;         // dF/du
   virtual void field_derivative(int field, Out dF) const = 0;  // dF/d(fields[field]) at the last place
+
+  /// dF/d(base frequency) at the last place.
+  virtual void frequency_derivative(Out dF) const { dF.setZero(); }
 
   /// The smooth piece of F at the last point.
   virtual std::uint64_t piece() const { return 0; }

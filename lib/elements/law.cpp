@@ -1,12 +1,18 @@
 #include <arcslip/elements/law.hpp>
 
 #include <arcslip/elements/bilinear_spring.hpp>
+#include <arcslip/elements/bouc_wen.hpp>
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/iwan.hpp>
 #include <arcslip/elements/jenkins.hpp>
 #include <arcslip/elements/piecewise_linear_spring.hpp>
+#include <arcslip/elements/polynomial_coupling.hpp>
+#include <arcslip/elements/polynomial_spring.hpp>
+#include <arcslip/elements/quadratic_damper.hpp>
+#include <arcslip/elements/tanh_friction.hpp>
+#include <arcslip/elements/van_der_pol.hpp>
 
 #include <stdexcept>
 #include <string>
@@ -20,7 +26,19 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(), &contact_2d(), &iwan(), &cubic_spring(), &gap_spring(), &bilinear_spring(), &piecewise_linear_spring()};
+  return {&jenkins(),
+          &contact_2d(),
+          &iwan(),
+          &bouc_wen(),
+          &tanh_friction(),
+          &quadratic_damper(),
+          &van_der_pol(),
+          &cubic_spring(),
+          &polynomial_spring(),
+          &polynomial_coupling(),
+          &gap_spring(),
+          &bilinear_spring(),
+          &piecewise_linear_spring()};
 }
 
 }  // namespace arcslip::elements

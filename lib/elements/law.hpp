@@ -8,7 +8,8 @@
 //
 // A law acts on the displacements q_1 ... q_d along its directions, q_i = d_i . x, with the force f(q), N,
 // against the motion: M x'' + C x' + K x + sum_i d_i f_i = excitation. It may have internal variables z, its
-// memory. Fields are the values of its parameters, in the order of its type's fields.
+// memory, or depend on the velocities v = q' (m/s). Fields are the values of its parameters, in the order of
+// its type's fields.
 //
 // Laws are immutable and may be shared by threads. Mutable state is in the Element that a law creates for
 // harmonic balance, and in the arguments of step().
@@ -56,10 +57,12 @@ struct SampledForce {
   SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields)
       : f(Eigen::MatrixXd::Zero(rows, directions)),
         f_q(Eigen::MatrixXd::Zero(rows, directions * directions)),
+        f_v(f_q),
         f_field(Eigen::MatrixXd::Zero(rows, directions * fields)) {}
 
   Eigen::MatrixXd f;        // a column for each direction, N
   Eigen::MatrixXd f_q;      // df_i/dq_j in column j * directions + i
+  Eigen::MatrixXd f_v;      // df_i/dv_j likewise, where the law is rate-dependent
   Eigen::MatrixXd f_field;  // df_i/d(fields[k]) in column k * directions + i
   std::uint64_t piece = 0;  // another number where many samples go over a kink of f together
 };
@@ -73,23 +76,27 @@ struct StepEnd {
   StepEnd(int directions, int memory)
       : f(Eigen::VectorXd::Zero(directions)),
         dz(Eigen::VectorXd::Zero(memory)),
+        v(f),
         f_q(Eigen::MatrixXd::Zero(directions, directions)),
         f_z(Eigen::MatrixXd::Zero(directions, memory)),
         f_start(f_q),
+        f_v(f_q),
         z_q(Eigen::MatrixXd::Zero(memory, directions)),
         z_z(Eigen::MatrixXd::Identity(memory, memory)),
         z_start(z_q) {}
 
   Eigen::VectorXd f, dz;  // the force, N, and the change of the memory
+  Eigen::VectorXd v;      // the velocities there, m/s: given to laws that are rate-dependent
   // Their derivatives, of f and of z + dz: by the displacement at the end, by the memory at the start, and by
   // the displacement at the start, with the others fixed.
   Eigen::MatrixXd f_q, f_z, f_start;
+  Eigen::MatrixXd f_v;  // by v, with all of these fixed
   Eigen::MatrixXd z_q, z_z, z_start;
   double dissipated = 0;   // in the step, J
   double stick_share = 1;  // of the step, where there is a contact
 
   SampledForce sample;  // for the law's own use, kept for the next step
-  Eigen::MatrixXd sample_q;
+  Eigen::MatrixXd sample_q, sample_v;
 };
 
 class Law;
@@ -115,6 +122,8 @@ class Law {
   virtual bool has_normal_load() const { return false; }
   /// Whether it dissipates energy in a periodic motion.
   virtual bool dissipative() const { return has_contact(); }
+  /// Whether the force depends on velocities: Element::set_frequency(), StepEnd::v. Its memory may not.
+  virtual bool rate_dependent() const { return false; }
   virtual Traits traits(Fields fields, int direction) const = 0;
   /// The largest |df/dq| while |q| stays within `reach`, N/m; finite.
   virtual double stiffness(Fields fields, int direction, double reach) const = 0;
@@ -143,6 +152,12 @@ class Law {
   }
   /// The exact force at some angles of the motion u (as in Element::move_to): angles x directions, N.
   virtual Eigen::MatrixXd force_at(const Harmonics& harmonics, In u, Fields fields, Angles angles) const = 0;
+  /// The same at a base frequency, rad/s, of laws that are rate-dependent.
+  virtual Eigen::MatrixXd moving_force_at(const Harmonics& harmonics, In u, double base_frequency,
+                                          Fields fields, Angles angles) const {
+    static_cast<void>(base_frequency);
+    return force_at(harmonics, u, fields, angles);
+  }
 
   // In time.
 

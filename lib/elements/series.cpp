@@ -35,6 +35,15 @@ void series_basis(const Harmonics& h, double theta, Out phi) {
   for (int j = 0; j < h.sines(); ++j) phi[h.cosines() + j] = std::sin(h.sine_order(j) * theta);
 }
 
+void series_slope(const Harmonics& h, In u, Out slope) {
+  if (!h.odd) slope[0] = 0;
+  for (int j = 0; j < h.sines(); ++j) {
+    const int n = h.sine_order(j), a = h.cosine_index(n), b = h.sine_index(n);
+    slope[a] = n * u[b];
+    slope[b] = -n * u[a];
+  }
+}
+
 void powers(double theta, int count, std::complex<double>* z) {
   if (count < 1) return;
   z[0] = 1;

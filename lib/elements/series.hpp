@@ -21,6 +21,9 @@ Values series_values(const Harmonics& harmonics, In u, double theta);
 /// Basis at one angle: phi . u = x(theta). phi: harmonics.size().
 void series_basis(const Harmonics& harmonics, double theta, Out phi);
 
+/// The coefficients of dx/dtheta.
+void series_slope(const Harmonics& harmonics, In u, Out slope);
+
 /// exp(i k theta) for k = 0 .. count - 1, by products of earlier ones (error grows with log k).
 void powers(double theta, int count, std::complex<double>* z);
 

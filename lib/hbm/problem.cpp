@@ -22,6 +22,7 @@ HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
     const auto& element = model_->elements[e];
     Part part{element.law->element(problem.harmonics(), problem.sampling()),
               problem.map_of(e),
+              element.law->rate_dependent(),
               element.parameters,
               {},
               {}};
@@ -46,6 +47,7 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
   for (Part& part : parts_) {
     for (std::size_t k = 0; k < part.fields.size(); ++k) part.fields[k] = p[part.parameters[k]];
     part.map.gather(u_, part.motion);
+    if (part.rate_dependent) part.element->set_frequency(stiffness_.base_frequency());
     part.element->move_to(part.motion, part.fields, jacobian);
     part.map.add(part.element->force(), R_);
     if (jacobian) part.map.add(part.element->jacobian(), J);
@@ -62,13 +64,19 @@ void HbmEvaluator::parameter_derivative(int k, continuation::Out dR) const {
     return;
   }
   stiffness_.parameter_derivative(k, u_, force_factor_, dR);
-  for (const Part& part : parts_)
+  for (const Part& part : parts_) {
+    auto dF = derivative_.head(part.map.size());
+    if (k == model::frequency && part.rate_dependent) {
+      part.element->frequency_derivative(dF);
+      dF *= model_->harmonics.base_frequency(1);
+      part.map.add(dF, dR);
+    }
     for (std::size_t field = 0; field < part.parameters.size(); ++field) {
       if (part.parameters[field] != k) continue;
-      auto dF = derivative_.head(part.map.size());
       part.element->field_derivative(static_cast<int>(field), dF);
       part.map.add(dF, dR);
     }
+  }
 }
 
 std::uint64_t HbmEvaluator::piece() const {

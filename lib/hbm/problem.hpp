@@ -40,6 +40,7 @@ class HbmEvaluator final : public continuation::Evaluator {
   struct Part {
     std::unique_ptr<elements::Element> element;
     ElementMap map;
+    bool rate_dependent;
     std::vector<int> parameters;
     std::vector<double> fields;
     Vector motion;

@@ -42,7 +42,8 @@ ElementHistory element_history(const hbm::HbmProblem& problem, const hbm::HbmEva
     result.sine.push_back(elements::series_values(h, sines, theta).x);
     result.series.push_back(result.cosine.back() + result.sine.back());
   }
-  const Eigen::MatrixXd force = part.law->force_at(h, u, part.fields(p), angles);
+  const Eigen::MatrixXd force =
+      part.law->moving_force_at(h, u, at.stiffness().base_frequency(), part.fields(p), angles);
   result.force.assign(force.data(), force.data() + force.rows());
   return result;
 }

@@ -105,9 +105,11 @@ struct ResponsePoint {
   MotionMaxima maxima{};
 
   double energy_total() const { return energy_friction + energy_viscous; }
-  /// Share of friction in the dissipated energy, 0 to 100; no_value without dissipation.
+  /// Share of friction in the dissipated energy, 0 to 100; no_value without dissipation, or where the
+  /// elements feed the motion.
   double friction_percent() const {
-    return energy_total() > 0 ? 100 * energy_friction / energy_total() : no_value;
+    const bool feeds = energy_friction < -1e-9 * energy_viscous;  // more than rounding
+    return energy_total() > 0 && !feeds ? 100 * energy_friction / energy_total() : no_value;
   }
 };
 

@@ -15,7 +15,8 @@ namespace {
 constexpr double beside = 1e-9, further_off = 1e-5;  // of omega: where it is looked for a pole
 constexpr double grows = 100;                        // between these: less is no pole, whose growth is 1e4
 constexpr double large = 1e6;                        // of that response, as a shape of large amplitude
-constexpr double negligible = 1e-9;    // share of a shape in an element or damper that does not count
+constexpr double negligible = 1e-9;  // share of a shape in an element or damper that does not count
+constexpr double least_part = 1e-4;  // of a shape in a law whose work grows: less moves beside the resonance
 constexpr double least_beyond = 1e-6;  // of the pole's frequency: nearer, a start would be taken for the pole
 constexpr double without_course = 1.0 / 150;  // of the window: as far beyond a pole that the branch begins at
 constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an unbounded peak is taken up
@@ -54,7 +55,7 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
   // amplitude.
   const auto& h = problem.harmonics();
   double amplitude = 0, friction = 0;
-  bool restoring = false;
+  bool restoring = false, losing = false;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const auto& element = model.elements[e];
     double sliders = 0;
@@ -64,6 +65,10 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
       const elements::Traits traits = element.law->traits(element.fields(p), static_cast<int>(i));
       amplitude = std::max(amplitude, size);
       restoring = restoring || (traits.far_power >= power && size > negligible * u.norm());
+      if (std::isinf(traits.far_work)) {
+        losing = losing || size > least_part * u.norm();
+        continue;
+      }
       // The motion is almost wholly in the resonant harmonic n: it goes to and fro n times in a period.
       sliders += largest_order(h, q) * traits.far_work / std::numbers::pi * size;
     }
@@ -91,7 +96,8 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
   result.input /= amplitude;
   result.dissipation = friction / amplitude;
   const bool damped = viscous > negligible * result.input * amplitude;
-  result.unbounded = !damped && !restoring && result.dissipation <= result.input * (1 + negligible);
+  result.unbounded =
+      !damped && !restoring && !losing && result.dissipation <= result.input * (1 + negligible);
   if (result.unbounded) {
     text << "the resonance is unbounded: it has no viscous damping, and friction dissipates "
          << result.dissipation << " N of the " << result.input
@@ -100,6 +106,7 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
     text << "beyond " << amplitude << " m the response is bounded by "
          << (damped      ? "viscous damping"
              : restoring ? "a nonlinear spring"
+             : losing    ? "a nonlinear damper"
                          : "friction");
   }
   result.message = text.str();

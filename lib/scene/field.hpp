@@ -14,6 +14,7 @@ struct Field {
   bool lower_open = false;                // true: the lower bound itself is not allowed
   std::optional<double> default_value{};  // none: the field is required
   std::string_view help{};
+  std::string_view place{};  // of the value in the part of a scene file, a JSON pointer; empty: its name
 };
 
 }  // namespace arcslip::scene

@@ -148,7 +148,8 @@ Node part_of(const PartType& type, bool with_type) {
     properties.push_back({"type", of({{"const", node(type.name())}})});
     required.emplace_back("type");
   }
-  if (type.slots().empty()) add_place(properties);
+  const bool one_direction = type.slots().empty() && !type.names_directions();
+  if (one_direction) add_place(properties);
   for (const std::string_view slot : type.slots()) {
     properties.push_back({std::string(slot), place_object()});
     required.emplace_back(slot);
@@ -171,8 +172,11 @@ Node part_of(const PartType& type, bool with_type) {
       required.emplace_back(field.name);
   }
   Object object = object_of(std::move(properties), required);
-  if (!type.options().empty()) object.back().value = of_type("number");  // fields that the options bring
-  if (type.slots().empty()) object.push_back({"oneOf", one_place()});
+  if (type.names_directions())
+    object.back().value = place_object();
+  else if (!type.options().empty())
+    object.back().value = of_type("number");  // fields that the options bring
+  if (one_direction) object.push_back({"oneOf", one_place()});
   return of(std::move(object));
 }
 

@@ -31,6 +31,16 @@ class PartType {
   /// single direction, given in the part itself.
   virtual std::span<const std::string_view> slots() const { return {}; }
   std::size_t direction_count() const { return slots().empty() ? 1 : slots().size(); }
+  /// Whether its options name the directions instead: slots_with(). A name without a place in the part is
+  /// that of a degree of freedom.
+  virtual bool names_directions() const { return false; }
+  virtual std::span<const std::string_view> slots_with(const Settings& options) const {
+    static_cast<void>(options);
+    return slots();
+  }
+  std::size_t direction_count(const Settings& options) const {
+    return names_directions() ? slots_with(options).size() : direction_count();
+  }
 
   /// Fixed options of the part, which are not parameters: choices, tables in files. They may decide which
   /// fields it has. file::KeyedPart (study_keys.hpp) implements all four functions.

@@ -30,12 +30,14 @@ std::vector<std::string> keys_of(const Part& part, bool is_element) {
   if (part.type == nullptr) return {};
   std::vector<std::string> keys = {"name"};
   if (is_element) keys.emplace_back("type");
-  const auto slots = part.type->slots();
+  const auto slots = part.type->slots_with(part.options);
   for (const std::string_view slot : slots) keys.emplace_back(slot);
-  if (slots.empty()) keys.insert(keys.end(), {"at", "between", "direction"});
+  if (slots.empty() && !part.type->names_directions())
+    keys.insert(keys.end(), {"at", "between", "direction"});
   for (const Key& option : part.type->options()) keys.push_back(option.name);
   if (part.type == &force_type()) keys.emplace_back("harmonic");
-  for (const Field& field : part.fields()) keys.emplace_back(field.name);
+  for (const Field& field : part.fields())
+    if (field.place.empty()) keys.emplace_back(field.name);
   return keys;
 }
 
@@ -48,14 +50,20 @@ Settings read_options(const PartType& type, const Location& place, const Dofs& d
       {Keys(place, {}, others), any_number, Parameters({}, true, none), dofs, faults, source});
 }
 
-std::vector<Direction> read_directions(const PartType& type, const Keys& keys, const Dofs& dofs,
-                                       Faults& faults) {
-  if (type.slots().empty()) {
+std::vector<Direction> read_directions(const PartType& type, const Settings& options, const Keys& keys,
+                                       const Dofs& dofs, Faults& faults) {
+  const auto slots = type.slots_with(options);
+  if (slots.empty() && !type.names_directions()) {
     const auto direction = read_direction(keys, dofs, faults);
     return std::vector<Direction>(direction ? 1 : 0, direction.value_or(Direction{}));
   }
   std::vector<Direction> directions;
-  for (const std::string_view slot : type.slots()) {
+  for (const std::string_view slot : slots) {
+    if (const auto dof = dofs.index.find(std::string(slot));
+        type.names_directions() && !keys.has(slot) && dof != dofs.index.end()) {
+      directions.push_back({{dof->second, 1.0}});
+      continue;
+    }
     const Location place =
         keys.require(slot, "an object with one of \"at\", \"between\", \"direction\"", faults);
     if (place.node == nullptr) continue;
@@ -94,12 +102,13 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
     read_direction(keys, dofs, faults);
     return part;
   }
-  part.directions = read_directions(*part.type, keys, dofs, faults);
+  part.directions = read_directions(*part.type, part.options, keys, dofs, faults);
   if (part.type == &force_type())
     part.harmonic = read_integer(keys.find("harmonic"), 0, largest_order, faults).value_or(part.harmonic);
   for (const Field& field : part.fields()) {
-    const Location value =
-        field.default_value ? keys.find(field.name) : keys.require(field.name, allowed_text(field), faults);
+    const Location value = !field.place.empty()  ? at_pointer(place, field.place)
+                           : field.default_value ? keys.find(field.name)
+                                                 : keys.require(field.name, allowed_text(field), faults);
     part.values.push_back(read_number(value, field, faults).value_or(field.default_value.value_or(0)));
   }
   return part;

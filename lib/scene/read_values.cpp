@@ -54,6 +54,24 @@ Location Keys::require(std::string_view key, const std::string& what, Faults& fa
   return place;
 }
 
+Location at_pointer(const Location& root, std::string_view pointer) {
+  Location at = root;
+  at.pointer += pointer;
+  while (at.node != nullptr && !pointer.empty()) {
+    const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
+    const std::string key(pointer.substr(1, end - 1));
+    pointer.remove_prefix(end);
+    if (const auto* list = at.node->get<Node::List>()) {
+      const std::size_t i = std::stoul(key);
+      at.node = i < list->size() ? &(*list)[i] : nullptr;
+    } else {
+      Faults none;
+      at.node = Keys({at.node, {}}, {}, none).find(key).node;
+    }
+  }
+  return at;
+}
+
 std::vector<const Member*> members(const Location& place, Faults& faults) {
   std::vector<const Member*> all;
   if (place.node == nullptr || !Keys(place, {}, faults).is_object()) return all;

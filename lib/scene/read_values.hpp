@@ -43,6 +43,9 @@ class Keys {
   std::string pointer_;
 };
 
+/// What a JSON pointer names within a value; nothing if it is not there.
+Location at_pointer(const Location& root, std::string_view pointer);
+
 /// A field that allows every finite number.
 inline constexpr Field any_number{.name = "value",
                                   .unit = "-",

@@ -201,10 +201,10 @@ void check(const Scene& scene) {
     const Part& part = scene.elements[i];
     if (part.type == nullptr) {
       faults.add(file::child("/elements", i), "found no type, must be a law of force");
-    } else if (part.directions.size() != part.type->direction_count()) {
+    } else if (part.directions.size() != part.type->direction_count(part.options)) {
       faults.add(file::child("/elements", i), "found " + std::to_string(part.directions.size()) +
                                                   " directions, must be " +
-                                                  std::to_string(part.type->direction_count()) +
+                                                  std::to_string(part.type->direction_count(part.options)) +
                                                   " for the type " + file::shown(part.type->name()));
     } else if (part.values.size() != part.fields().size()) {
       faults.add(file::child("/elements", i), "found " + std::to_string(part.values.size()) +

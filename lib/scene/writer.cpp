@@ -6,6 +6,7 @@
 #include <arcslip/scene/words.hpp>
 #include <arcslip/scene/write_values.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -56,21 +57,47 @@ std::string json_text(const Node& value) {
 
 namespace {
 
+// Sets what a JSON pointer names; objects that are not there yet are made.
+void set_at_pointer(Node::Object& root, std::string_view pointer, Node value) {
+  Node holder{std::move(root)};
+  Node* at = &holder;
+  while (!pointer.empty()) {
+    const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
+    const std::string key(pointer.substr(1, end - 1));
+    pointer.remove_prefix(end);
+    if (auto* list = std::get_if<Node::List>(&at->value)) {
+      at = &(*list)[std::stoul(key)];
+      continue;
+    }
+    if (!std::holds_alternative<Node::Object>(at->value)) at->value = Node::Object();
+    auto& object = std::get<Node::Object>(at->value);
+    auto own = std::find_if(object.begin(), object.end(), [&](const Member& m) { return m.key == key; });
+    if (own == object.end()) own = object.insert(own, {key, {}});
+    at = &own->value;
+  }
+  *at = std::move(value);
+  root = std::move(std::get<Node::Object>(holder.value));
+}
+
 Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_type = false) {
   const std::vector<std::string>& dofs = scene.dofs;
   Node::List list;
   for (const Part& part : parts) {
     Node::Object object = {{"name", node(part.name)}};
     if (with_type) object.push_back({"type", node(part.type->name())});
-    const auto slots = part.type->slots();
-    if (slots.empty()) object.push_back(place_member(part.directions.front(), dofs));
+    const auto slots = part.type->slots_with(part.options);
+    if (slots.empty() && !part.type->names_directions())
+      object.push_back(place_member(part.directions.front(), dofs));
     for (std::size_t i = 0; i < slots.size(); ++i)
       object.push_back({std::string(slots[i]), {Node::Object{place_member(part.directions[i], dofs)}}});
     part.type->write_options(part.options, scene, object);
     if (part.type == &force_type()) object.push_back({"harmonic", node(part.harmonic)});
     const std::span<const Field> fields = part.fields();
     for (std::size_t i = 0; i < fields.size(); ++i)
-      object.push_back({std::string(fields[i].name), node(part.values[i])});
+      if (fields[i].place.empty())
+        object.push_back({std::string(fields[i].name), node(part.values[i])});
+      else
+        set_at_pointer(object, fields[i].place, node(part.values[i]));
     list.push_back({std::move(object)});
   }
   return {std::move(list)};

@@ -27,9 +27,11 @@ ImplicitElements::ImplicitElements(std::vector<TimeElement> elements, int dofs)
     first_.push_back(directions);
     ends_.emplace_back(own, element.law->memory());
     starts_.emplace_back(own, element.law->memory());
+    const bool moves = element.law->rate_dependent();
     convex_ = convex_ && element.law->symmetric_step();
+    moves_ = moves_ || moves;
     directions += own;
-    tangents += own * own;
+    tangents += (moves ? 2 : 1) * own * own;
     memory = std::max(memory, element.memory + element.law->memory());
   }
   D_.resize(dofs, directions);
@@ -40,6 +42,7 @@ ImplicitElements::ImplicitElements(std::vector<TimeElement> elements, int dofs)
   lu_ = continuation::LU<double>(dofs);
   for (Vector* v : {&factored_, &tangent_}) v->setZero(tangents);
   for (Vector* v : {&q_, &force_, &last_q_, &new_force_, &dq_}) v->setZero(directions);
+  for (Vector* v : {&rate_, &last_rate_, &carried_, &new_rate_}) v->setZero(directions);
   for (Vector* v : {&z_, &dz_, &last_z_}) v->setZero(memory);
   moved_.setZero(std::max<Eigen::Index>(directions, memory));
   for (Vector* v : {&b_, &residual_, &size_, &step_, &trial_, &halved_}) v->setZero(dofs);
@@ -51,13 +54,27 @@ void ImplicitElements::set_matrix(const Matrix& A) {
   has_factors_ = false;
 }
 
-void ImplicitElements::begin_at(const Vector& q, const Vector& z) {
+void ImplicitElements::set_velocities(const Matrix& B, const Matrix& S) {
+  if (!moves_) return;
+  B_of_D_ = B.transpose() * D_;
+  S_of_D_ = S.transpose() * D_;
+  has_factors_ = false;
+}
+
+void ImplicitElements::begin(const Vector& x, const Vector& v, const Vector& z) {
+  begin_at(D_.transpose() * x, D_.transpose() * v, z);
+  if (S_of_D_.size() > 0) carried_.noalias() = S_of_D_.transpose() * v;
+}
+
+void ImplicitElements::begin_at(const Vector& q, const Vector& rate, const Vector& z) {
   q_ = q;
+  rate_ = carried_ = rate;
   z_ = z;
   dz_.setZero();
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const TimeElement& element = elements_[e];
     const auto d = element.directions.cols(), m = ends_[e].dz.size();
+    ends_[e].v = rate_.segment(first_[e], d);
     element.law->begin(element.fields, q_.segment(first_[e], d), z_.segment(element.memory, m), ends_[e]);
     force_.segment(first_[e], d) = ends_[e].f;
   }
@@ -67,15 +84,23 @@ void ImplicitElements::begin_at(const Vector& q, const Vector& z) {
 // Forces and tangents after the increment y.
 void ImplicitElements::evaluate(const Vector& y) {
   dq_.noalias() = D_.transpose() * y;
+  if (moves_) {
+    new_rate_ = carried_;
+    if (B_of_D_.size() > 0) new_rate_.noalias() += B_of_D_.transpose() * y;
+  }
   Eigen::Index at = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const TimeElement& element = elements_[e];
     elements::StepEnd& end = ends_[e];
     const auto d = end.f.size(), m = end.dz.size(), i = first_[e];
+    if (moves_) end.v = new_rate_.segment(i, d);
     element.law->step(element.fields, {q_.segment(i, d), z_.segment(element.memory, m), force_.segment(i, d)},
                       dq_.segment(i, d), end);
     new_force_.segment(i, d) = end.f;
     tangent_.segment(at, d * d) = end.f_q.reshaped();
+    at += d * d;
+    if (!element.law->rate_dependent()) continue;
+    tangent_.segment(at, d * d) = end.f_v.reshaped();
     at += d * d;
   }
 }
@@ -101,6 +126,11 @@ double ImplicitElements::residual(const Vector& y) {
       own = moved_.head(d);
     }
     t += d * d;
+    if (!elements_[e].law->rate_dependent()) continue;
+    const auto i = first_[e];
+    moved_.head(d) = new_rate_.segment(i, d).cwiseAbs() + 2 * carried_.segment(i, d).cwiseAbs();
+    dq_.segment(i, d).noalias() += ends_[e].f_v.cwiseAbs().lazyProduct(moved_.head(d));
+    t += d * d;
   }
   dq_ += new_force_.cwiseAbs();
   size_.noalias() += size_of_D_ * dq_;
@@ -123,6 +153,13 @@ bool ImplicitElements::factorize() {
         const auto row = D_.col(first_[e] + k), column = D_.col(first_[e] + l);
         for (Eigen::Index j = 0; j < J_.cols(); ++j)
           if (column[j] != 0) J_.col(j) += T(k, l) * column[j] * row;
+      }
+    if (!elements_[e].law->rate_dependent() || B_of_D_.size() == 0) continue;
+    for (Eigen::Index l = 0; l < T.cols(); ++l)
+      for (Eigen::Index k = 0; k < T.rows(); ++k) {
+        const auto row = D_.col(first_[e] + k), column = B_of_D_.col(first_[e] + l);
+        for (Eigen::Index j = 0; j < J_.cols(); ++j)
+          if (column[j] != 0) J_.col(j) += ends_[e].f_v(k, l) * column[j] * row;
       }
   }
   lu_.factorize(J_);
@@ -194,7 +231,12 @@ Solved ImplicitElements::solve(const Vector& b, Vector& y) {
   return Solved::no;
 }
 
-void ImplicitElements::accept() {
+void ImplicitElements::accept(const Vector& v) {
+  if (moves_) {
+    last_rate_ = rate_;
+    rate_ = new_rate_;
+    if (S_of_D_.size() > 0) carried_.noalias() = S_of_D_.transpose() * v;
+  }
   last_q_ = q_;
   last_z_ = z_;
   q_ += dq_;
@@ -212,7 +254,7 @@ double ImplicitElements::energy() const {
   return sum;
 }
 
-void ImplicitElements::force_change(const Matrix& dx, const Matrix& dz, Matrix& df) {
+void ImplicitElements::force_change(const Matrix& dx, const Matrix& dv, const Matrix& dz, Matrix& df) {
   dq_columns_.noalias() = D_.transpose() * dx;
   df.resize(dq_columns_.rows(), dq_columns_.cols());
   for (std::size_t e = 0; e < elements_.size(); ++e) {
@@ -221,13 +263,15 @@ void ImplicitElements::force_change(const Matrix& dx, const Matrix& dz, Matrix& 
     elements::StepEnd& at = starts_[e];
     auto z = moved_.head(m);
     z = last_z_.segment(element.memory, m);
+    at.v = last_rate_.segment(i, d);
     element.law->begin(element.fields, last_q_.segment(i, d), z, at);
     df.middleRows(i, d).noalias() = at.f_q * dq_columns_.middleRows(i, d);
     df.middleRows(i, d).noalias() += at.f_z * dz.middleRows(element.memory, m);
+    if (element.law->rate_dependent()) df.middleRows(i, d) += at.f_v * (element.directions.transpose() * dv);
   }
 }
 
-void ImplicitElements::differentiate(const Matrix& dx, Matrix& dz, Matrix& db) {
+void ImplicitElements::differentiate(const Matrix& dx, const Matrix& dv, Matrix& dz, Matrix& db) {
   dq_columns_.noalias() = D_.transpose() * dx;
   df_.resize(dq_columns_.rows(), dq_columns_.cols());
   for (std::size_t e = 0; e < elements_.size(); ++e) {
@@ -235,6 +279,8 @@ void ImplicitElements::differentiate(const Matrix& dx, Matrix& dz, Matrix& db) {
     const auto d = end.f.size(), m = end.dz.size(), i = first_[e];
     df_.middleRows(i, d).noalias() = (end.f_q + end.f_start) * dq_columns_.middleRows(i, d);
     df_.middleRows(i, d).noalias() += end.f_z * dz.middleRows(elements_[e].memory, m);
+    if (elements_[e].law->rate_dependent() && S_of_D_.size() > 0)
+      df_.middleRows(i, d) += end.f_v * (S_of_D_.middleCols(i, d).transpose() * dv);
     if (m > 0)
       dz.middleRows(elements_[e].memory, m) = (end.z_z * dz.middleRows(elements_[e].memory, m) +
                                                (end.z_q + end.z_start) * dq_columns_.middleRows(i, d))

@@ -3,7 +3,9 @@
 //
 //   A y + sum_e D_e f_e = b
 //
-// with the forces f_e at the end of the step, which each law gives for D_e^T y, and their tangents T_e.
+// with the forces f_e at the end of the step, which each law gives for D_e^T y, and their tangents T_e. Laws
+// that depend on velocities take those of the end of the step, v1 = B y + S v0, and their tangent is
+// D_e (f_q D_e^T + f_v D_e^T B) y.
 //
 // Where A is positive definite, all T_e are symmetric and no spring softens, y is the minimum of a convex
 // function. Newton's method with the exact tangent A + sum_e D_e T_e D_e^T is kept from cycling between
@@ -33,15 +35,17 @@ class ImplicitElements {
   ImplicitElements(std::vector<TimeElement> elements, int dofs);
 
   void set_matrix(const Matrix& A);
+  /// v1 = B y + S v0; without it v1 = v0.
+  void set_velocities(const Matrix& B, const Matrix& S);
   /// The state in which the next step begins. A slider beyond its limit is drawn after.
-  void begin(const Vector& x, const Vector& z) { begin_at(D_.transpose() * x, z); }
-  /// The same with q = D^T x.
-  void begin_at(const Vector& q, const Vector& z);
+  void begin(const Vector& x, const Vector& v, const Vector& z);
+  /// The same with q = D^T x and its rate D^T v.
+  void begin_at(const Vector& q, const Vector& rate, const Vector& z);
 
   /// y: a guess, then the solution. Does not allocate.
   Solved solve(const Vector& b, Vector& y);
-  /// The end of the step becomes the beginning of the next.
-  void accept();
+  /// The end of the step, with its velocities, becomes the beginning of the next.
+  void accept(const Vector& v);
 
   /// At the beginning of the step: forces (N, one for each direction), memory, and the energy that the
   /// elements hold (J).
@@ -58,11 +62,11 @@ class ImplicitElements {
   Eigen::Index first_direction(std::size_t element) const { return first_[element]; }
 
   /// Of the last step accepted: changes of the forces at its beginning with the state there.
-  /// dx, dz: a column for each change.
-  void force_change(const Matrix& dx, const Matrix& dz, Matrix& df);
+  /// dx, dv, dz: a column for each change.
+  void force_change(const Matrix& dx, const Matrix& dv, const Matrix& dz, Matrix& df);
   /// Of the same step: changes of the solution. db: of b, becomes dy; dz: of the memory, becomes that at
   /// the end of the step.
-  void differentiate(const Matrix& dx, Matrix& dz, Matrix& db);
+  void differentiate(const Matrix& dx, const Matrix& dv, Matrix& dz, Matrix& db);
 
  private:
   void evaluate(const Vector& y);
@@ -74,13 +78,16 @@ class ImplicitElements {
   std::vector<TimeElement> elements_;
   std::vector<Eigen::Index> first_;
   std::vector<elements::StepEnd> ends_, starts_;  // of the step; of the state before the last accept()
-  bool convex_ = true;
+  bool convex_ = true, moves_ = false;            // some law depends on velocities
   Matrix D_, size_of_D_, A_, size_of_A_, J_;
+  Matrix B_of_D_, S_of_D_;  // B^T D, S^T D
   continuation::LU<double> lu_;
   Vector tangent_, factored_;  // all T_e one after the other; those that lu_ is of
   bool has_factors_ = false;
   Vector q_, z_, force_, last_q_, last_z_;  // at the beginning; before the last accept()
+  Vector rate_, last_rate_;                 // D^T v likewise, where it is needed
   Vector new_force_, dq_, dz_;              // at the end
+  Vector carried_, new_rate_;               // D^T S v0, D^T v1
   Vector b_, residual_, size_, step_, trial_, halved_, moved_;
   Matrix df_, dq_columns_;
 };

@@ -39,6 +39,9 @@ Newmark::Newmark(EquationOfMotion equation, long steps)
   elements_.set_matrix(inertia_ / h_ + 2 / h_ * equation_.C + equation_.K);
   massless_ = null_space(equation_.M);
   undamped_ = massless_.cols() > 0 ? null_space(equation_.M + h_ * equation_.C) : massless_;
+  const Matrix I = Matrix::Identity(equation_.dofs(), equation_.dofs()),
+               U = undamped_ * undamped_.transpose();
+  elements_.set_velocities((2 * I - U) / h_, U - I);
   massless_rate_.resize(massless_.cols());
   undamped_velocity_.resize(undamped_.cols());
   for (Vector* v : {&force_, &new_force_, &rate_, &b_, &y_, &v_}) v->setZero(equation_.dofs());
@@ -51,7 +54,7 @@ void Newmark::resume(const MotionState& state) {
   energy_ = {};
   y_.setZero();
   equation_.force(0, force_);
-  elements_.begin(state_.x, state_.z);
+  elements_.begin(state_.x, state_.v, state_.z);
   state_.z = elements_.memory();
   set_rate();
   stored_at_begin_ = stored();
@@ -74,14 +77,14 @@ Solved Newmark::place_massless() {
     along.set_matrix(undamped_.transpose() * equation_.K * undamped_);
     const Vector q = elements_.directions().transpose() * state_.x;
     Vector y = Vector::Zero(undamped_.cols());
-    along.begin_at(q, elements_.memory());
+    along.begin_at(q, elements_.directions().transpose() * state_.v, elements_.memory());
     const Solved solved =
         along.solve(undamped_.transpose() * (force_ - equation_.C * state_.v - equation_.K * state_.x), y);
     if (solved != Solved::yes) return solved;
-    along.accept();
+    along.accept({});
     state_.x += undamped_ * y;
     state_.z = along.memory();
-    elements_.begin(state_.x, state_.z);
+    elements_.begin(state_.x, state_.v, state_.z);
     state_.v -= undamped_ * (undamped_.transpose() * state_.v);
   }
   const Matrix damping = massless_.transpose() * equation_.C * massless_;
@@ -134,7 +137,7 @@ Solved Newmark::step() {
     v_.noalias() += undamped_ * undamped_velocity_;
   }
   state_.v = v_;
-  elements_.accept();
+  elements_.accept(state_.v);
   state_.z = elements_.memory();
   force_.swap(new_force_);
   set_rate();
@@ -147,7 +150,7 @@ void Newmark::differentiate(Matrix& columns) {
   dx_ = columns.topRows(n);
   dv_ = columns.middleRows(n, n);
   dz_ = columns.bottomRows(columns.rows() - 2 * n);
-  elements_.force_change(dx_, dz_, df_);
+  elements_.force_change(dx_, dv_, dz_, df_);
   db_.noalias() = equation_.C * dv_;
   db_.noalias() += equation_.K * dx_;
   db_.noalias() += elements_.directions() * df_;
@@ -156,7 +159,7 @@ void Newmark::differentiate(Matrix& columns) {
   db_.noalias() += inertia_ * dv_;
   db_.noalias() += equation_.C * dv_;
   db_.noalias() -= equation_.K * dx_;
-  elements_.differentiate(dx_, dz_, db_);
+  elements_.differentiate(dx_, dv_, dz_, db_);
   dv_ = 2 / h_ * db_ - dv_;
   if (undamped_.cols() > 0) dv_ += undamped_ * (undamped_.transpose() * (db_ / h_ - dv_));
   columns.topRows(n) += db_;

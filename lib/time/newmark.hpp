@@ -17,6 +17,8 @@
 // balances to rounding where these are such that (f_e0 + f_e1)/2 . D_e^T y is dissipated and stored, as of
 // sliders, and to the order of the method with others.
 //
+// Laws that depend on velocities take v1 at the end of the step, so that they are of second order, too.
+//
 // A massless motion (M w = 0) has r . w = 0 at all times; one without mass and damping has v = (x1 - x0)/h.
 // Source: Newmark 1959; docs/theory/10-newmark.md.
 

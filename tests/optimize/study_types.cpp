@@ -58,6 +58,11 @@ std::string allowed(const scene::Field& field) {
 std::string rows(const std::string& part, const scene::PartType& type) {
   std::ostringstream text;
   bool first = true;
+  for (const scene::Key& option : type.options()) {
+    text << "| " << (first ? part + " " : "") << "| `" << option.name << "` | | " << option.allowed << " | "
+         << (option.required ? "required" : "`" + option.otherwise + "`") << " | " << option.help << " |\n";
+    first = false;
+  }
   for (const scene::Field& field : type.fields({})) {
     text << "| " << (first ? part + " " : "") << "| `" << field.name << "` | "
          << (field.unit == "-" ? "" : std::string(field.unit) + " ") << "| " << allowed(field) << " | ";

@@ -36,16 +36,19 @@ struct State {
   std::vector<double> fields;
   VectorXd q, z, f;
 
-  State(const elements::Law& l, std::vector<double> values, VectorXd place, VectorXd memory)
+  State(const elements::Law& l, std::vector<double> values, VectorXd place, VectorXd memory,
+        const VectorXd& rate = {})
       : law(l), fields(std::move(values)), q(std::move(place)), z(std::move(memory)) {
     elements::StepEnd at(law.directions(), law.memory());
+    if (rate.size() > 0) at.v = rate;
     law.begin(fields, q, z, at);
     f = at.f;
   }
-  elements::StepEnd step(const VectorXd& dq) const {
+  elements::StepEnd step(const VectorXd& dq, const VectorXd& rate = {}) const {
     elements::StepEnd end(law.directions(), law.memory());
     for (MatrixXd* m : {&end.f_q, &end.z_q}) m->setRandom();  // of a step before
     if (law.memory() > 0) end.dz.setRandom(), end.z_z.setRandom(), end.f_z.setRandom();
+    if (rate.size() > 0) end.v = rate;
     law.step(fields, {q, z, f}, dq, end);
     return end;
   }
@@ -59,11 +62,12 @@ inline void check_step(const elements::Law& law, const std::vector<double>& fiel
     const VectorXd q = random(law.directions(), size, bits), z = random(law.memory(), size, bits);
     const State state(law, fields, q, z);
     const VectorXd dq = random(law.directions(), size, bits);
-    const elements::StepEnd end = state.step(dq);
+    const VectorXd v = law.rate_dependent() ? random(law.directions(), size, bits) : VectorXd();
+    const elements::StepEnd end = state.step(dq, v);
     const double scale = 1 + end.f_q.cwiseAbs().sum() + end.f.cwiseAbs().sum();
     CAPTURE(trial, q, z, dq);
     const auto by_q = [&](const VectorXd& at) {
-      const elements::StepEnd there = state.step(at);
+      const elements::StepEnd there = state.step(at, v);
       VectorXd all(there.f.size() + there.dz.size());
       all << there.f, there.dz;
       return all;
@@ -73,7 +77,7 @@ inline void check_step(const elements::Law& law, const std::vector<double>& fiel
     CHECK((differences(by_q, dq, h) - expected).cwiseAbs().maxCoeff() < tolerance * scale);
     const auto by_start = [&](const VectorXd& at) {  // its displacement moves, that at the end stays
       const State there(law, fields, at, state.z);
-      const elements::StepEnd moved = there.step(q + dq - at);
+      const elements::StepEnd moved = there.step(q + dq - at, v);
       VectorXd all(moved.f.size() + moved.dz.size());
       all << moved.f, moved.dz;
       return all;
@@ -82,6 +86,10 @@ inline void check_step(const elements::Law& law, const std::vector<double>& fiel
     by_displacement << end.f_start, end.z_start;
     if (state.z == z)
       CHECK((differences(by_start, q, h) - by_displacement).cwiseAbs().maxCoeff() < tolerance * scale);
+    if (law.rate_dependent()) {
+      const auto by_v = [&](const VectorXd& at) { return VectorXd(state.step(dq, at).f); };
+      CHECK((differences(by_v, v, h) - end.f_v).cwiseAbs().maxCoeff() < tolerance * scale);
+    }
     if (law.memory() == 0 || state.z != z) continue;  // drawn: it lies where the law has a kink
     const auto by_z = [&](const VectorXd& memory) {
       const State there(law, fields, q, memory);
@@ -106,13 +114,17 @@ inline void check_energy(const elements::Law& law, const std::vector<double>& fi
     const double theta = 2 * std::acos(-1.0) * k / steps;
     return a * std::sin(theta) + b * std::sin(2 * theta);
   };
+  const auto rate = [&](int k) -> VectorXd {
+    const double theta = 2 * std::acos(-1.0) * k / steps;
+    return a * std::cos(theta) + 2 * b * std::cos(2 * theta);
+  };
   VectorXd z = VectorXd::Zero(law.memory());
   const double before = law.stored(fields, path(0), z);
   double work = 0, dissipated = 0, most = 0;
   for (int k = 0; k < steps; ++k) {
-    State state(law, fields, path(k), z);
+    State state(law, fields, path(k), z, rate(k));
     const VectorXd dq = path(k + 1) - path(k);
-    const elements::StepEnd end = state.step(dq);
+    const elements::StepEnd end = state.step(dq, rate(k + 1));
     work += 0.5 * (state.f + end.f).dot(dq);
     dissipated += end.dissipated;
     z = state.z + end.dz;
@@ -130,6 +142,8 @@ inline void check_element(const elements::Law& law, const std::vector<double>& f
   std::mt19937 bits(seed);
   const elements::Harmonics harmonics{5, odd};
   const auto element = law.element(harmonics, {});
+  const double frequency = 1.7;
+  element->set_frequency(frequency);
   const VectorXd u = random((law.directions() + law.auxiliary()) * harmonics.size(), size, bits);
   element->move_to(u, fields, true);
   const VectorXd F = element->force();
@@ -155,10 +169,22 @@ inline void check_element(const elements::Law& law, const std::vector<double>& f
     CAPTURE(k);
     CHECK((expected - by_field).cwiseAbs().maxCoeff() < tolerance * (1 + by_field.cwiseAbs().maxCoeff()));
   }
+  if (law.rate_dependent()) {
+    element->move_to(u, fields, true);
+    VectorXd by_frequency(F.size());
+    element->frequency_derivative(by_frequency);
+    const auto at = [&](const VectorXd& w) {
+      element->set_frequency(w[0]);
+      element->move_to(u, fields, false);
+      return VectorXd(element->force());
+    };
+    const MatrixXd expected = differences(at, VectorXd::Constant(1, frequency), h);
+    CHECK((expected - by_frequency).cwiseAbs().maxCoeff() < tolerance * (1 + F.cwiseAbs().maxCoeff()));
+  }
   const int count = 20000;
   std::vector<double> angles;
   for (int s = 0; s < count; ++s) angles.push_back(2 * std::acos(-1.0) * s / count);
-  const MatrixXd f = law.force_at(harmonics, u, fields, angles);
+  const MatrixXd f = law.moving_force_at(harmonics, u, frequency, fields, angles);
   VectorXd phi(harmonics.size());
   MatrixXd projected = MatrixXd::Zero(harmonics.size(), law.directions());
   for (int s = 0; s < count; ++s) {

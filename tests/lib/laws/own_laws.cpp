@@ -2,7 +2,6 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
-#include "lib/laws/bouc_wen.hpp"
 #include "lib/laws/coupled_spring.hpp"
 #include "lib/laws/polynomial.hpp"
 #include "lib/laws/table_spring.hpp"
@@ -28,14 +27,13 @@ using continuation::Vector;
 namespace {
 
 const own_laws::CoupledSpring coupled;
-const own_laws::BoucWen bouc_wen;
 const own_laws::PolynomialType polynomial;
 const own_laws::TableType table_spring;
 const own_laws::TwoSliders two_sliders;
 
 scene::Catalogue catalogue() {
   auto all = test_catalogue::whole();
-  all.elements.insert(all.elements.end(), {&coupled, &bouc_wen, &polynomial, &table_spring, &two_sliders});
+  all.elements.insert(all.elements.end(), {&coupled, &polynomial, &table_spring, &two_sliders});
   return all;
 }
 
@@ -142,38 +140,6 @@ TEST_CASE("in time a law of two directions comes to the same circle at second or
   CHECK(exact.stop.message.find("\"spring\"") != std::string::npos);
 }
 
-TEST_CASE("a law with unknowns of its own follows its state equation in harmonics as it does in time") {
-  scene::Scene s = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
-      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
-    "elements": [{"name": "h", "type": "bouc_wen", "at": "x", "stiffness": 0.8, "elastic_share": 0.2, "growth": 2,
-                  "softening": 0.5}],
-    "excitation": [{"name": "f", "at": "x", "cosine": 0.4}], "harmonics": {"order": 31},
-    "studies": [{"name": "frf", "kind": "frf", "from": 0.5, "to": 2}]})");
-  check_jacobian(s, 0.9, 0.2, 3);
-  const auto at_rest = observables::frequency_response(s, scenes::window(s));
-  REQUIRE(at_rest.size() == 1);
-  REQUIRE(at_rest[0].status == observables::Status::complete);
-  for (const double w : {0.8, 1.1, 1.4}) {
-    const auto responses = observables::point_responses(s, {.frequency = w});
-    REQUIRE(responses.size() == 1);
-    REQUIRE(responses[0].status == observables::Status::complete);
-    const auto motion = observables::motion_in_time(
-        s, {.frequency = w, .method = observables::TimeMethod::newmark_shooting, .steps = 2000});
-    CAPTURE(w, motion.stop.message);
-    REQUIRE(motion.status == observables::Status::complete);
-    CHECK(std::abs(motion.amplitude / responses[0].point.amplitude - 1) < 2e-5);
-    const double dissipated = responses[0].point.energy_input - responses[0].point.energy_viscous;
-    CHECK(std::abs(motion.energy.friction / dissipated - 1) < 1e-3);
-    CHECK(std::abs(responses[0].point.energy_friction / dissipated - 1) < 1e-10);
-    CHECK(responses[0].point.elements[0].energy == responses[0].point.energy_friction);
-    // The series of the force's harmonics beside the law's own force, at each angle of the history.
-    const auto& loop = responses[0].history.elements[0];
-    for (std::size_t i = 0; i < loop.force.size(); ++i)
-      CHECK(std::abs(loop.series[i] - loop.force[i]) < 1e-3);
-  }
-}
-
 TEST_CASE(
     "the derivatives of a period in steps are those of its differences, with a memory that is no slider") {
   const scene::Scene s = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
@@ -182,7 +148,7 @@ TEST_CASE(
       "springs": [{"name": "kx", "at": "x", "value": 1}, {"name": "ky", "between": ["x", "y"], "value": 0.7}],
       "dampers": [{"name": "cx", "at": "x", "value": 0.05}]},
     "elements": [{"name": "h", "type": "bouc_wen", "between": ["x", "y"], "stiffness": 0.8, "elastic_share": 0.2,
-                  "growth": 2, "softening": 0.5},
+                  "yield_displacement": 0.4, "shape": 0.8},
                  {"name": "c", "type": "coupled_spring", "first": {"at": "x"}, "second": {"at": "y"}, "stiffness": 0.4},
                  {"name": "d", "type": "jenkins", "at": "y", "stiffness": 0.5, "friction_coefficient": 0.5,
                   "normal_load": 0.3}],

@@ -1,7 +1,6 @@
 // Every law keeps what Law promises, those of the library as those of tests.
 #include "lib/laws/every_law.hpp"
 
-#include "lib/laws/bouc_wen.hpp"
 #include "lib/laws/coupled_spring.hpp"
 #include "lib/laws/iwan_laws.hpp"
 #include "lib/laws/polynomial.hpp"
@@ -9,8 +8,13 @@
 
 #include "lib/laws/piecewise_linear_laws.hpp"
 
+#include <arcslip/elements/bouc_wen.hpp>
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/elements/polynomial_spring.hpp>
+#include <arcslip/elements/quadratic_damper.hpp>
+#include <arcslip/elements/tanh_friction.hpp>
+#include <arcslip/elements/van_der_pol.hpp>
 
 using namespace every_law;
 
@@ -18,7 +22,6 @@ namespace {
 
 const own_laws::RenamedJenkins renamed;
 const own_laws::CoupledSpring coupled;
-const own_laws::BoucWen bouc_wen;
 const own_laws::PolynomialLaw polynomial(4);
 const auto gap = piecewise_linear_laws::gap(false), gaps = piecewise_linear_laws::gap(true),
            bilinear = piecewise_linear_laws::bilinear(false),
@@ -28,6 +31,8 @@ const auto gap = piecewise_linear_laws::gap(false), gaps = piecewise_linear_laws
 const auto uniform = iwan_laws::law(iwan_laws::uniform),
            four_parameter = iwan_laws::law(iwan_laws::four_parameter),
            table = iwan_laws::law(iwan_laws::table({{0.7, 0.2}, {1.1, 0.4}, {0.3, 0.35}}));
+const auto odd_powers = elements::polynomial_spring().law(elements::polynomial_powers({9, 1, 3}));
+const auto some_powers = elements::polynomial_spring().law(elements::polynomial_powers({2, 5, 8}));
 
 struct Example {
   const elements::Law& law;
@@ -52,10 +57,16 @@ const Example all[] = {
     {elements::contact_2d(), {2, 1.5, 0.5, -0.3}, 1e-6},
     {elements::contact_2d(), {2, 0, 0.5, 1}, 1e-7},
     {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
-    {bouc_wen, {0.8, 0.2, 0.9, 0.4}, 1e-6},
     {*uniform, {2, 0.8}, 1e-7},
     {*four_parameter, {2, 0.8, -0.3, 0.4}, 1e-7},
     {*table, {1.2, 0.9}, 1e-7},
+    {*odd_powers, {-0.3, 0.5, 0.1}, 1e-7},
+    {*some_powers, {0.3, 0.2, -0.1}, 1e-7},
+    {elements::bouc_wen(), {0.8, 0.2, 0.7, 1, 0.7}, 1e-6},
+    {elements::bouc_wen(), {0.8, 0, 0.9, 2.5, 0.5}, 1e-6},
+    {elements::quadratic_damper(), {0.7}, 1e-7},
+    {elements::van_der_pol(), {0.7, 0.1}, 1e-7},
+    {elements::tanh_friction(), {0.7, 1.2, 20}, 1e-7},
 };
 
 }  // namespace

@@ -147,7 +147,7 @@ TEST_CASE("each step with friction is the one solution of its balance of forces,
     add_damper(equation, vector({1}), kd, limit);
     ImplicitElements element(equation.elements, 1);
     element.set_matrix(Matrix::Constant(1, 1, A));
-    element.begin(vector({0}), vector({sign(random) * limit / kd}));
+    element.begin(vector({0}), vector({0}), vector({sign(random) * limit / kd}));
     const double f = element.force()[0];
     Vector y = vector({sign(random) * 1e3});
     CAPTURE(A, kd, limit, b, f, y[0]);
@@ -174,7 +174,7 @@ TEST_CASE("many coupled dampers in one huge step are solved whatever the guess")
     ImplicitElements all(elements, n);
     const Matrix A = R * R.transpose() + 1e-3 * Matrix::Identity(n, n);
     all.set_matrix(A);
-    all.begin(Vector::Zero(n), Vector::Zero(count));
+    all.begin(Vector::Zero(n), Vector::Zero(n), Vector::Zero(count));
     Vector y = 100 * matrix(n, 1);
     const Vector b = 10 * matrix(n, 1);
     CAPTURE(i);
