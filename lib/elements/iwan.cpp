@@ -158,6 +158,9 @@ class Iwan final : public Law {
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {
     return masing(harmonics);
   }
+  std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
+    return make_iwan_corners(harmonics, is_table() ? onsets_of_table() : onsets_of_power_law());
+  }
   Eigen::MatrixXd force_at(const Harmonics& h, In u, Fields fields, Angles angles) const override {
     Eigen::MatrixXd f(static_cast<Eigen::Index>(angles.size()), 1);
     masing(h)->force_at(u, fields, angles, f.col(0));
@@ -252,6 +255,34 @@ class Iwan final : public Law {
   std::unique_ptr<MasingElement> masing(const Harmonics& harmonics) const {
     return is_table() ? make_iwan_table(harmonics, options_.table)
                       : make_iwan_power_law(harmonics, is_uniform());
+  }
+
+  IwanOnsets onsets_of_table() const {
+    double stiffness = 0;
+    std::vector<double> limits;  // of the displacement
+    for (const auto& [k, p] : options_.table) {
+      stiffness += k;
+      limits.push_back(p / k);
+    }
+    std::sort(limits.begin(), limits.end());
+    return {static_cast<int>(limits.size()), 2, false, [=](Fields fields) { return fields[0] * stiffness; },
+            [=](Fields fields, int j, Eigen::VectorXd& by_field) {
+              by_field[0] = 0;
+              by_field[1] = stiffness * limits[static_cast<std::size_t>(j)];
+              return fields[1] * by_field[1];
+            }};
+  }
+
+  // Those that slip together at macroslip.
+  IwanOnsets onsets_of_power_law() const {
+    const auto stiffness = [](Fields fields) { return fields[0]; };
+    if (is_uniform()) return {0, 2, true, stiffness, [](Fields, int, Eigen::VectorXd&) { return 0.0; }};
+    return {1, 4, true, stiffness, [](Fields fields, int, Eigen::VectorXd& by_field) {
+              const PowerLaw law(fields[2], fields[3]);
+              by_field << 0, law.largest(), fields[1] * law.largest_by_chi(),
+                  fields[1] * law.largest_by_beta();
+              return fields[3] > 0 ? fields[1] * law.largest() : 0;
+            }};
   }
 
   // Stiffness of small motions and force of macroslip.

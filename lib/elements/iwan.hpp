@@ -17,6 +17,7 @@
 
 #include <arcslip/elements/law.hpp>
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -34,5 +35,22 @@ class MasingElement;
 std::unique_ptr<MasingElement> make_iwan_power_law(const Harmonics& harmonics, bool uniform);
 /// fields: stiffness_factor, slip_factor. In the order of their slip displacements.
 std::unique_ptr<MasingElement> make_iwan_table(const Harmonics& harmonics, std::vector<Slider> sliders);
+
+/// The sliders that begin to slip at a corner, in the order of their slip displacements.
+struct IwanOnsets {
+  int count;  // guards 2 j and 2 j + 1: slider j
+  int fields;
+  bool microslip;                                            // others slip in any motion
+  std::function<double(std::span<const double>)> stiffness;  // K, N/m
+  /// K times the slip displacement of one, N, and its derivatives by the fields; 0: no corner.
+  std::function<double(std::span<const double>, int, Eigen::VectorXd&)> force;
+};
+
+/// Angles theta_a, theta_r, both reversals of w. Slider j, stuck since theta_a, begins to slip in the
+/// direction s just at theta_r; or the two are equally high (s = 1) or low (s = -1) and another of them is
+/// the anchor of what follows, after the sliders in the order of guards:
+///
+///   h = s K (w(theta_r) - w(theta_a))/2 - K s_j,   h = s K (w(theta_r) - w(theta_a))/2,  N
+std::unique_ptr<Corners> make_iwan_corners(const Harmonics& harmonics, IwanOnsets onsets);
 
 }  // namespace arcslip::elements

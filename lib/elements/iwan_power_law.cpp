@@ -7,6 +7,14 @@ namespace arcslip::elements {
 PowerLaw::PowerLaw(double chi, double beta)
     : chi_(chi), beta_(beta), largest_((1 + beta) / (beta + (chi + 1) / (chi + 2))) {}
 
+double PowerLaw::largest_by_chi() const {
+  return -largest_ * largest_ / ((1 + beta_) * (chi_ + 2) * (chi_ + 2));
+}
+
+double PowerLaw::largest_by_beta() const {
+  return largest_ * (1 - largest_) / (1 + beta_);
+}
+
 PowerLaw::Values PowerLaw::at(double y) const {
   const double t = y / largest_;
   if (!(t < 1)) return {0, 1, 0, 0};

@@ -22,6 +22,8 @@ class PowerLaw {
 
   /// K_T phi_max/F_S: the y of macroslip.
   double largest() const { return largest_; }
+  double largest_by_chi() const;
+  double largest_by_beta() const;
 
   struct Values {
     double slope, rest;      // g', and g - y g', of the sliders that slip

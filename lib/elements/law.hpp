@@ -46,7 +46,7 @@ struct Traits {
   bool holds_mean = false;         // a constant displacement causes a restoring force
   bool several_responses = false;  // periodic responses may coexist
   double far_power = 0;            // the elastic force grows as amplitude^far_power where that is large
-  double far_work = 0;             // N: dissipated there in an oscillation, over its amplitude
+  double far_work = 0;  // N: dissipated there in an oscillation, over its amplitude; infinity if that grows
   double limit = std::numeric_limits<double>::infinity();  // N: the largest force of friction
 };
 

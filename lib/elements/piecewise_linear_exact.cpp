@@ -58,6 +58,7 @@ class PiecewiseLinearElement final : public Element {
     }
     if (jacobian && !h_.odd) J_.row(0) *= 0.5;
     length_sign_ = curve.length_sign();
+    if (length_sign_ < 0) piece_ = ~piece_;
   }
 
   const Eigen::VectorXd& force() const override { return F_; }
@@ -143,7 +144,7 @@ class PiecewiseLinearElement final : public Element {
   std::vector<std::complex<double>> middle_, half_;
   std::vector<std::uint64_t> numbers_;  // of the corners
   double length_sign_ = 0;
-  std::uint64_t piece_ = 0;  // how often each corner is passed, or the line that is never left
+  std::uint64_t piece_ = 0;  // how often each corner is passed, or the line that is never left; the shape
 };
 
 }  // namespace

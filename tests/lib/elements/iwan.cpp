@@ -588,3 +588,77 @@ TEST_CASE("faults of the options are told, and fields are those of the distribut
   CHECK(fault(start + R"("four-parameter", "stiffness": 1, "slip_force": 1, "beta": 0)").substr(0, 20) ==
         "/elements/0/exponent");
 }
+
+TEST_CASE(
+    "a corner lies where the piece changes, and its equations have the derivatives of their differences") {
+  const std::vector<std::pair<std::string, std::vector<double>>> all{
+      {iwan_laws::uniform, {2, 0.8}},
+      {iwan_laws::four_parameter, {2, 0.8, -0.3, 0.4}},
+      {iwan_laws::table({{0.7, 0.2}, {1.1, 0.4}, {0.3, 0.35}}), {1.2, 0.9}}};
+  int found = 0;
+  for (const auto& [text, fields] : all)
+    for (const bool odd : {false, true})
+      for (unsigned seed = 1; seed <= 30; ++seed) {
+        const auto law = iwan_laws::law(text);
+        const Harmonics h{4, odd};
+        const auto element = law->element(h, {});
+        const auto corners = law->corners(h);
+        // Along a line of motions, up to the first change of the piece.
+        const VectorXd from = motion(h, 1, seed), along = motion(h, 1, seed + 500);
+        const auto piece = [&](double s) {
+          element->move_to(from + s * along, fields, false);
+          return element->piece();
+        };
+        double low = 0, high = 0;
+        while (high < 2 && piece(high) == piece(0)) high += 0.02;
+        if (high >= 2) continue;
+        for (int k = 0; k < 80; ++k) {
+          const double middle = 0.5 * (low + high);
+          (piece(middle) == piece(0) ? low : high) = middle;
+        }
+        const VectorXd w = from + 0.5 * (low + high) * along;
+        element->move_to(from + (low - 1e-7) * along, fields, true);
+        const MatrixXd before = element->jacobian();
+        element->move_to(from + (high + 1e-7) * along, fields, true);
+        const double jump = (element->jacobian() - before).norm();
+        const auto near = corners->near(w, fields, 1e-9);
+        CAPTURE(text, odd, seed, jump, near.size());
+        if (jump < 1e-2) continue;  // the birth of a loop
+        CHECK(near.size() == 1);
+        for (elements::Corner corner : near) {
+          ++found;
+          elements::Corners::Equations at(h.size(), 2, static_cast<int>(fields.size())), other = at;
+          corners->equations(corner, w, fields, at);
+          CHECK(std::abs(at.values[0]) <= 1e-9 * corners->size(corner, w, fields));
+          CHECK(at.values.tail(2).norm() < 1e-7);
+          const double step = 1e-6;
+          const auto values = [&](const VectorXd& u, const std::vector<double>& f,
+                                  const std::vector<double>& angles) {
+            elements::Corner there = corner;
+            there.angles = angles;
+            corners->equations(there, u, f, other);
+            return VectorXd(other.values);
+          };
+          for (Eigen::Index i = 0; i < h.size(); ++i) {
+            const VectorXd d = step * VectorXd::Unit(h.size(), i);
+            const VectorXd slope =
+                (values(w + d, fields, corner.angles) - values(w - d, fields, corner.angles)) / (2 * step);
+            CHECK((slope - at.by_motion.col(i)).norm() < 1e-8);
+          }
+          for (std::size_t k = 0; k < fields.size(); ++k) {
+            auto more = fields, less = fields;
+            more[k] += step, less[k] -= step;
+            const VectorXd slope =
+                (values(w, more, corner.angles) - values(w, less, corner.angles)) / (2 * step);
+            CHECK((slope - at.by_field.col(static_cast<Eigen::Index>(k))).norm() < 1e-8);
+          }
+          for (std::size_t k = 0; k < 2; ++k) {
+            auto more = corner.angles, less = corner.angles;
+            more[k] += step, less[k] -= step;
+            const VectorXd slope = (values(w, fields, more) - values(w, fields, less)) / (2 * step);
+            CHECK((slope - at.by_angle.col(static_cast<Eigen::Index>(k))).norm() < 1e-7);
+          }
+        }
+      }
+  CHECK(found > 40);
+}

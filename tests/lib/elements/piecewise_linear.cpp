@@ -223,6 +223,13 @@ TEST_CASE("through zero a gap becomes a preload: the derivatives by it are one-s
       CHECK(((at.F - down.F) / d - down.by_field[1]).norm() < 1e-5);
       const VectorXd other = VectorXd::Unit(h.size(), 0) * (two_sided ? 0 : 3);  // the preload
       CHECK((down.by_field[1] - up.by_field[1] - other).norm() < 1e-5);
+      const auto piece = [&](double g) {
+        const auto element = law->element(h, {});
+        element->move_to(u, std::vector{3.0, g}, false);
+        return element->piece();
+      };
+      CHECK(piece(0) == piece(d));
+      CHECK(piece(0) != piece(-d));
       // Without a gap, one on each side is a spring.
       if (two_sided) CHECK((at.F - 3 * u).norm() < 1e-14);
     }
