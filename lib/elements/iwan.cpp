@@ -297,8 +297,9 @@ class Iwan final : public Law {
     return sum;
   }
 
-  // Calls slider(index, stiffness, slip limit) for each. Those of a power law take ranges of slip limits
-  // whose ends are squares, as most slip in small motions, and one that slips at macroslip is the last.
+  // Calls slider(index, stiffness, slip limit) for each. Those of a power law take ranges of slip limits, the
+  // narrower the smaller, as these slip in small motions, and of about equal stiffness where chi is near -1;
+  // what slips at macroslip is the last.
   template <class Visitor>
   void each(Fields fields, Visitor&& slider) const {
     if (is_table()) {
@@ -312,7 +313,8 @@ class Iwan final : public Law {
       slider(j, fields[0] * share.stiffness, fields[1] * share.slip_force);
     };
     const int ranges = is_uniform() ? options_.sliders : options_.sliders - 1;
-    const auto end = [&](int j) { return static_cast<double>(j) / ranges * j / ranges; };
+    const double power = is_uniform() ? 2 : std::max(2.0, 1 / (1 + fields[2]));
+    const auto end = [&](int j) { return std::pow(static_cast<double>(j) / ranges, power); };
     for (int j = 0; j < ranges; ++j) call(j, law.between(end(j), end(j + 1)));
     if (!is_uniform()) call(ranges, law.at_most());
   }
