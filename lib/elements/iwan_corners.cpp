@@ -18,8 +18,6 @@ class IwanCorners final : public Corners {
   IwanCorners(const Harmonics& h, IwanOnsets onsets)
       : h_(h), onsets_(std::move(onsets)), loops_(h), phi_(h.size()), by_field_(onsets_.fields) {}
 
-  int angles() const override { return 2; }
-
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
     const double sign = sign_of(corner), factor = 0.5 * sign * stiffness(fields);
     const Values from = series_values(h_, w, corner.angles[0]), to = series_values(h_, w, corner.angles[1]);
@@ -44,7 +42,7 @@ class IwanCorners final : public Corners {
     return is_tie(corner) ? most : std::min(most, onsets_.force(fields, slider_of(corner), by_field_));
   }
 
-  bool polish(Corner& corner, In w) override {
+  bool polish(Corner& corner, In w, Fields) override {
     const double sign = sign_of(corner);
     return polish_reversal(h_, w, is_tie(corner) ? sign : -sign, corner.angles[0]) &&
            polish_reversal(h_, w, sign, corner.angles[1]);
