@@ -33,7 +33,7 @@ class MasingElement;
 
 /// fields: stiffness, slip_force and, of four, exponent and beta.
 std::unique_ptr<MasingElement> make_iwan_power_law(const Harmonics& harmonics, bool uniform);
-/// fields: stiffness_factor, slip_factor. In the order of their slip displacements.
+/// fields: stiffness_factor, slip_factor. Sliders in any order.
 std::unique_ptr<MasingElement> make_iwan_table(const Harmonics& harmonics, std::vector<Slider> sliders);
 
 /// The sliders that begin to slip at a corner, in the order of their slip displacements.
