@@ -108,22 +108,21 @@ class Contact2dElement final : public Element {
     if (law_.N_0 > 0) normal_rows(normal_load)[0] -= 1;
   }
 
-  // Sets phi_ too.
-  RestChange change(const SliderRest& rest, In u_t, In u_n) {
+  // phi_: at the rest.
+  RestChange change(const SliderRest& rest, In u_t, In u_n) const {
     RestChange at;
-    const Values x_n = series_values(h_, u_n, rest.theta);
-    series_basis(h_, rest.theta, phi_);
+    const double x_n = phi_.dot(u_n);
     if (rest.at == SliderRest::At::closing) {
-      const double rate = series_values(h_, u_t, rest.theta).d1 / x_n.d1;
+      const double rate = series_values(h_, u_t, rest.theta).d1 / series_values(h_, u_n, rest.theta).d1;
       at.normal = -rate;
-      at.by_field[normal_stiffness] = -rate * x_n.x / law_.k_n;
+      at.by_field[normal_stiffness] = -rate * x_n / law_.k_n;
       at.by_field[normal_load] = -rate / law_.k_n;
       return at;
     }
-    const double s = rest.sign(), N = law_.N_0 + law_.k_n * x_n.x;
+    const double s = rest.sign(), N = law_.N_0 + law_.k_n * x_n;
     at.normal = s * law_.mu * law_.k_n / law_.k_t;
     at.by_field[tangential_stiffness] = -s * law_.mu * N / (law_.k_t * law_.k_t);
-    at.by_field[normal_stiffness] = s * law_.mu * x_n.x / law_.k_t;
+    at.by_field[normal_stiffness] = s * law_.mu * x_n / law_.k_t;
     at.by_field[friction_coefficient] = s * N / law_.k_t;
     at.by_field[normal_load] = s * law_.mu / law_.k_t;
     return at;
@@ -141,6 +140,7 @@ class Contact2dElement final : public Element {
     const SliderRest ends[] = {{SliderRest::At::lower_reversal, phases_.largest_lower().theta, 0},
                                {SliderRest::At::upper_reversal, phases_.smallest_upper().theta, 0}};
     for (const SliderRest& end : ends) {
+      series_basis(h_, end.theta, phi_);
       const RestChange dw = change(end, u_t, u_n);
       for (int field = 0; field < field_count; ++field)
         tangential_rows(field)[0] -= 0.5 * k * dw.by_field[field];
@@ -168,6 +168,7 @@ class Contact2dElement final : public Element {
       }
       stick_.add_interval(length, middle_.data(), half_.data());
       integrate_basis(length);
+      set_basis_at_begin();
       const RestChange dw = change(phase.rest, u_t, u_n);
       F -= kappa * phase.rest.w * g_;
       for (int field = 0; field < field_count; ++field)
@@ -201,7 +202,16 @@ class Contact2dElement final : public Element {
     powers(0.5 * (begin + end), static_cast<int>(middle_.size()), middle_.data());
     powers(0.5 * (end - begin), static_cast<int>(half_.size()), half_.data());
   }
-  // phi over the interval of these powers.
+  // phi at the beginning of the interval of these powers, and over it.
+  void set_basis_at_begin() {
+    phi_[0] = 1;
+    for (int n = 1; n <= h_.order; ++n) {
+      const auto at = static_cast<std::size_t>(n);
+      const std::complex<double> s = middle_[at], d = half_[at];
+      phi_[h_.cosine_index(n)] = s.real() * d.real() + s.imag() * d.imag();
+      phi_[h_.sine_index(n)] = s.imag() * d.real() - s.real() * d.imag();
+    }
+  }
   void integrate_basis(double length) {
     g_[0] = length;
     for (int n = 1; n <= h_.order; ++n) {

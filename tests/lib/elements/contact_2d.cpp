@@ -11,6 +11,7 @@
 #include <arcslip/elements/jenkins.hpp>
 #include <arcslip/elements/largest_value.hpp>
 #include <arcslip/hbm/corner.hpp>
+#include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/time/shooting.hpp>
 
@@ -190,7 +191,7 @@ TEST_CASE(
   const std::vector<double> fields = {2, 1.5, 0.6, 0.7};
   std::vector<int> guards;
   int met = 0;
-  for (unsigned seed = 1; seed < 200; ++seed) {
+  for (unsigned seed = 1; seed < 500; ++seed) {
     const double size = seed % 4 == 0 ? 0.1 : 1;
     const Vector from = random_motion(h, size, size, seed),
                  to = from + random_motion(h, 0.1, 0.1, seed + 1000);
@@ -274,4 +275,90 @@ TEST_CASE("at a birth of slip the Jacobian of a contact jumps along the corner's
     CHECK(std::abs(svd.matrixV().col(0).dot(dh.transpose())) > (1 - 1e-6) * dh.norm());
   }
   CHECK(jumps > 10);
+}
+
+TEST_CASE("a contact that is open for 1 or 99 % of the period has that share, and the impulse of its load") {
+  // N = max(k (cos theta - cos alpha), 0): the mean is k (sin alpha - alpha cos alpha)/pi.
+  const elements::Harmonics h{3, false};
+  for (const double share : {1e-6, 0.01, 0.5, 0.99, 1 - 1e-6}) {
+    Vector u = Vector::Zero(2 * h.size());
+    u[h.size() + h.cosine_index(1)] = 1;
+    u[h.sine_index(1)] = 0.3;
+    const double alpha = pi * (1 - share);
+    const Force at = evaluate(elements::contact_2d(), h, u, {2, 5, 0.4, -5 * std::cos(alpha)});
+    CAPTURE(share);
+    CHECK(std::abs(at.friction.open_share - share) < 1e-9);
+    const double preload = std::max(-5 * std::cos(alpha), 0.0);
+    const double mean = 5 * (std::sin(alpha) - alpha * std::cos(alpha)) / pi - preload;
+    CHECK(std::abs(at.F[h.size()] - mean) < 1e-13);
+    CHECK(std::abs(at.friction.load_max - 5 * (1 - std::cos(alpha))) < 1e-14);
+    CHECK(at.friction.load_min == 0);
+  }
+}
+
+TEST_CASE("a contact stays finite and dissipates at every extreme of stiffness, load and motion") {
+  const elements::Harmonics h{5, false};
+  for (const double tangential : {1e-6, 1.0, 1e6})
+    for (const double normal : {0.0, 1e-6, 1.0, 1e6})
+      for (const double friction : {0.0, 1e-9, 0.5, 1e3})
+        for (const double load : {-1e6, -1.0, 0.0, 1e-9, 1.0, 1e9})
+          for (const double size : {0.0, 1e-12, 1.0, 1e6}) {
+            CAPTURE(tangential, normal, friction, load, size);
+            for (const double normal_size : {0.0, size}) {
+              const Vector u = random_motion(h, size, normal_size, 5);
+              const Force at = evaluate(elements::contact_2d(), h, u, {tangential, normal, friction, load});
+              REQUIRE(at.F.allFinite());
+              REQUIRE(at.J.allFinite());
+              REQUIRE(at.by_field.allFinite());
+              const double stick = at.friction.stick_share, open = at.friction.open_share;
+              REQUIRE((stick >= 0 && open >= 0 && stick + open <= 1 + 1e-12));
+              double work = 0;  // tangential, over pi
+              for (int n = 1; n <= h.order; ++n)
+                work += n * (at.F[h.cosine_index(n)] * u[h.sine_index(n)] -
+                             at.F[h.sine_index(n)] * u[h.cosine_index(n)]);
+              const double rounding = 1e-12 * size * at.F.head(h.size()).cwiseAbs().sum();
+              CHECK(work >= -rounding - 1e-13 * tangential * size * size);
+            }
+          }
+}
+
+TEST_CASE("a frequency response with stick, slip and separation is traced to its end, as the march has it") {
+  scene::Scene s = pad(21, 20, 12);
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(branches.size() == 1);
+  REQUIRE(branches[0].status == observables::Status::complete);
+  int opened = 0, stuck = 0, compared = 0;
+  for (std::size_t i = 0; i < branches[0].points.size(); i += 1 + branches[0].points.size() / 12) {
+    const auto& point = branches[0].points[i];
+    const auto motion = observables::motion_in_time(s, {.frequency = point.omega});
+    if (motion.status != observables::Status::complete) continue;
+    ++compared;
+    CAPTURE(point.omega);
+    CHECK(std::abs(point.amplitude / motion.amplitude - 1) < 1e-4);
+    opened += point.elements[0].open_percent > 0;
+    stuck += point.elements[0].open_percent == 0;
+  }
+  CHECK(compared > 9);
+  CHECK(opened > 0);
+  CHECK(stuck > 0);
+}
+
+TEST_CASE("in units a thousand times larger a contact has the same events") {
+  const auto kinds = [](double factor) {
+    scene::Scene s = pad(9, 20 * factor, 12 * factor);
+    scene::set(s, "load.cosine", -8 * factor);
+    scene::set(s, "pad.normal_load", 8 * factor);
+    const auto branches = observables::frequency_response(s, scenes::window(s));
+    REQUIRE(branches.size() == 1);
+    std::vector<std::pair<std::string, double>> found;
+    for (const auto& event : branches[0].events) found.emplace_back(event.kind, event.point.omega);
+    return found;
+  };
+  const auto one = kinds(1), thousand = kinds(1000);
+  REQUIRE(one.size() == thousand.size());
+  REQUIRE_FALSE(one.empty());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    CHECK(one[i].first == thousand[i].first);
+    CHECK(std::abs(one[i].second / thousand[i].second - 1) < 1e-9);
+  }
 }

@@ -42,7 +42,6 @@ class RenamedElement final : public elements::Element {
 class RenamedCorners final : public elements::Corners {
  public:
   explicit RenamedCorners(std::unique_ptr<Corners> inner) : inner_(std::move(inner)) {}
-  int angles() const override { return inner_->angles(); }
   void equations(const elements::Corner& corner, In w, Fields fields, Equations& at) override {
     inner_->equations(corner, w, in_order(fields), at);
     at.by_field = at.by_field(Eigen::all, place).eval();
@@ -50,7 +49,9 @@ class RenamedCorners final : public elements::Corners {
   double size(const elements::Corner& corner, In w, Fields fields) override {
     return inner_->size(corner, w, in_order(fields));
   }
-  bool polish(elements::Corner& corner, In w) override { return inner_->polish(corner, w); }
+  bool polish(elements::Corner& corner, In w, Fields fields) override {
+    return inner_->polish(corner, w, in_order(fields));
+  }
   std::vector<elements::Corner> near(In w, Fields fields, double tolerance) override {
     return inner_->near(w, in_order(fields), tolerance);
   }
