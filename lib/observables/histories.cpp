@@ -45,6 +45,12 @@ ElementHistory element_history(const hbm::HbmProblem& problem, const hbm::HbmEva
   const Eigen::MatrixXd force =
       part.law->moving_force_at(h, u, at.stiffness().base_frequency(), part.fields(p), angles);
   result.force.assign(force.data(), force.data() + force.rows());
+  for (Eigen::Index i = 1; i < force.cols(); ++i) {
+    DirectionHistory& along = result.further.emplace_back();
+    for (double theta : angles)
+      along.displacement.push_back(elements::series_values(h, u.segment(i * h.size(), h.size()), theta).x);
+    along.force.assign(force.col(i).begin(), force.col(i).end());
+  }
   return result;
 }
 

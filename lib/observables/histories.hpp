@@ -10,7 +10,12 @@
 
 namespace arcslip::observables {
 
-/// One nonlinear element at the angles of a history.
+/// A further direction of an element.
+struct DirectionHistory {
+  std::vector<double> displacement, force;  // m; N, against the motion
+};
+
+/// One nonlinear element at the angles of a history, along its first direction.
 struct ElementHistory {
   std::string name;
   std::vector<double> displacement;  // d . x, m
@@ -19,6 +24,7 @@ struct ElementHistory {
   std::vector<double> series;        // N, its Fourier series up to N, as in harmonic balance
   std::vector<double> cosine, sine;  // N, parts of the series (Al Sayed et al. 2011, Eq. 17); the mean is in
                                      // the first
+  std::vector<DirectionHistory> further;  // directions after the first
 };
 
 struct History {

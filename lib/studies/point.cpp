@@ -26,6 +26,10 @@ scene::file::KeysOf<PointSettings> keys() {
   return keys;
 }
 
+std::span<const std::string_view> direction_names(const scene::Part& element) {
+  return element.type->slots_with(element.options);
+}
+
 /// One instant of a history.
 struct Instant {
   const observables::History* history;
@@ -53,6 +57,19 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
     add(e, "velocity", "m/s", "of the element", &ElementHistory::velocity);
     add(e, "force", "N", "of the law, against the motion", &ElementHistory::force);
     add(e, "series", "N", "the same as the truncated Fourier series", &ElementHistory::series);
+    const auto names = direction_names(scene.elements[e]);
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      const auto add_further = [&](const char* key, const char* unit, const char* help,
+                                   std::vector<double> observables::DirectionHistory::*member) {
+        table.add({"elements", scene.elements[e].name, "directions", std::string(names[i]), key}, unit, help,
+                  [e, i, member](const Instant& at) {
+                    return (at.history->elements[e].further[i - 1].*member)[at.i];
+                  });
+      };
+      add_further("displacement", "m", "along a further direction",
+                  &observables::DirectionHistory::displacement);
+      add_further("force", "N", "along a further direction", &observables::DirectionHistory::force);
+    }
   }
   return table;
 }
@@ -105,15 +122,23 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
 }
 
 /// As a motion in time, whose figures show the same.
-observables::Motion motion_of(const PointResponse& response) {
+observables::Motion motion_of(const scene::Scene& scene, const PointResponse& response) {
   observables::Motion motion;
   motion.set = response.set;
   motion.history.displacement = response.history.displacement;
   motion.history.velocity = response.history.velocity;
   for (const double angle : response.history.angle)
     motion.history.time.push_back(angle / response.history.base_frequency);
-  for (const observables::ElementHistory& element : response.history.elements)
+  for (std::size_t e = 0; e < response.history.elements.size(); ++e) {
+    const observables::ElementHistory& element = response.history.elements[e];
     motion.history.elements.push_back({element.name, element.displacement, element.force, {}});
+    const auto names = direction_names(scene.elements[e]);
+    for (std::size_t i = 1; i < names.size() && i <= element.further.size(); ++i)
+      motion.history.elements.push_back({element.name + "." + std::string(names[i]),
+                                         element.further[i - 1].displacement,
+                                         element.further[i - 1].force,
+                                         {}});
+  }
   return motion;
 }
 
@@ -132,7 +157,7 @@ const scene::StudyType& point() {
        .figures =
            [](const scene::Scene& scene, std::span<const PointResponse> all) {
              std::vector<observables::Motion> motions;
-             for (const PointResponse& each : all) motions.push_back(motion_of(each));
+             for (const PointResponse& each : all) motions.push_back(motion_of(scene, each));
              return std::vector{figures_of(scene, motions)};
            },
        .coefficients = false});

@@ -58,11 +58,6 @@ std::string allowed(const scene::Field& field) {
 std::string rows(const std::string& part, const scene::PartType& type) {
   std::ostringstream text;
   bool first = true;
-  for (const scene::Key& option : type.options()) {
-    text << "| " << (first ? part + " " : "") << "| `" << option.name << "` | | " << option.allowed << " | "
-         << (option.required ? "required" : "`" + option.otherwise + "`") << " | " << option.help << " |\n";
-    first = false;
-  }
   for (const scene::Field& field : type.fields({})) {
     text << "| " << (first ? part + " " : "") << "| `" << field.name << "` | "
          << (field.unit == "-" ? "" : std::string(field.unit) + " ") << "| " << allowed(field) << " | ";
@@ -73,10 +68,12 @@ std::string rows(const std::string& part, const scene::PartType& type) {
     text << " | " << field.help << " |\n";
     first = false;
   }
-  for (const scene::Key& option : type.options())
-    text << "| | `" << option.name << "` | " << (option.unit.empty() ? "" : option.unit + " ") << "| "
-         << option.allowed << " | " << (option.required ? "required" : option.otherwise) << " | "
-         << option.help << " |\n";
+  for (const scene::Key& option : type.options()) {
+    const std::string otherwise = option.otherwise.empty() ? "none" : option.otherwise;
+    text << "| " << (first ? part + " " : "") << "| `" << option.name << "` | | " << option.allowed << " | "
+         << (option.required ? "required" : otherwise) << " | " << option.help << " |\n";
+    first = false;
+  }
   return text.str();
 }
 

@@ -46,9 +46,8 @@ struct State {
   }
   elements::StepEnd step(const VectorXd& dq, const VectorXd& rate = {}) const {
     elements::StepEnd end(law.directions(), law.memory());
-    for (MatrixXd* m : {&end.f_q, &end.z_q}) m->setRandom();  // of a step before
-    if (law.memory() > 0) end.dz.setRandom(), end.z_z.setRandom(), end.f_z.setRandom();
     if (rate.size() > 0) end.v = rate;
+    law.step(fields, {q, z, f}, -2 * dq, end);  // of which nothing may be left
     law.step(fields, {q, z, f}, dq, end);
     return end;
   }

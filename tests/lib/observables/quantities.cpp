@@ -4,6 +4,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/quantities.hpp>
@@ -73,10 +74,13 @@ TEST_CASE("JSON has the quantities of the table, with their values, and no other
   CHECK(of_element.size() == observables::element_quantities().size());
 
   std::set<std::string> found, found_of_elements;
-  for (const bool with_spring : {false, true}) {
+  enum { damper_alone, with_spring, with_contact };
+  for (const int kind : {damper_alone, with_spring, with_contact}) {
     scene::Scene s = scenes::paper(5, 3);
-    if (with_spring)
-      s.elements.push_back({"h", &elements::cubic_spring(), s.elements[0].directions, {1e6}, 1});
+    const scene::Direction x = s.elements[0].directions[0];
+    if (kind == with_spring) s.elements.push_back({"h", &elements::cubic_spring(), {x}, {1e6}, 1});
+    if (kind == with_contact)
+      s.elements.push_back({"c", &elements::contact_2d(), {x, x}, {1e3, 1e3, 0.3, 1}, 1});
     const auto branches = observables::frequency_response(s, scenes::window(s));
     std::stringstream text;
     results::write_json(text, studies::results_of(s, branches));
