@@ -12,23 +12,33 @@
 namespace arcslip::studies {
 namespace {
 
-// Names of the elements that stick and slip, in the order of the points.
-std::vector<std::string> friction_elements(std::span<const observables::ResponseBranch* const> branches) {
-  std::vector<std::string> names;
+// A share of the period that an element spends in a state of contact.
+struct Share {
+  std::string element, state;  // "stick", "separation"
+  double observables::ElementResponse::*percent;
+};
+
+// Those of all contacts, in the order of the points.
+std::vector<Share> contact_shares(std::span<const observables::ResponseBranch* const> branches) {
+  using observables::ElementResponse;
+  std::vector<Share> shares;
   for (const observables::ResponseBranch* branch : branches) {
     for (const observables::ResponsePoint& point : branch->points) {
-      for (const observables::ElementResponse& element : point.elements)
-        if (element.has_stick) names.push_back(element.name);
-      if (!point.elements.empty()) return names;  // every point of a scene has the same elements
+      for (const ElementResponse& element : point.elements) {
+        if (element.has_stick) shares.push_back({element.name, "stick", &ElementResponse::stick_percent});
+        if (element.has_normal_load)
+          shares.push_back({element.name, "separation", &ElementResponse::open_percent});
+      }
+      if (!point.elements.empty()) return shares;  // every point of a scene has the same elements
     }
   }
-  return names;
+  return shares;
 }
 
-// Share of the period in which this element sticks (%); NaN where the point does not know.
-double stick_percent(const observables::ResponsePoint& point, std::string_view element) {
+// %; NaN where the point does not know.
+double percent(const observables::ResponsePoint& point, const Share& share) {
   for (const observables::ElementResponse& candidate : point.elements)
-    if (candidate.has_stick && candidate.name == element) return candidate.stick_percent;
+    if (candidate.has_stick && candidate.name == share.element) return candidate.*share.percent;
   return std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -44,13 +54,13 @@ using results::Scale;
 
 constexpr double decade = 10;
 
-Record record(const scene::Scene& scene, BranchKind kind, const std::vector<std::string>& friction,
+Record record(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
               const ResponsePoint& point) {
   Record values;
   if (kind != BranchKind::responses) values.push_back(point.over);
   values.push_back(in_scene_unit(scene, point.omega));
   values.push_back(point.unbounded ? observables::no_value : point.amplitude);
-  for (const std::string& element : friction) values.push_back(stick_percent(point, element));
+  for (const Share& share : shares) values.push_back(percent(point, share));
   return values;
 }
 
@@ -71,33 +81,37 @@ void set_ranges(BranchKind kind, FigureData& data) {
   }
 }
 
-void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<std::string>& friction,
+void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
                  const std::string& over, FigureData& data) {
   if (kind != BranchKind::responses)
     data.columns.push_back({results::with_unit(over, over.empty() ? "" : parameter_unit(scene, over))});
   data.columns.push_back({results::with_unit("frequency", scene::unit_name(scene.frequency_unit))});
   data.columns.push_back({"amplitude (m)"});
-  for (const std::string& element : friction)
-    data.columns.push_back({element + " stick (%)", Scale::percent});
+  for (const Share& share : shares)
+    data.columns.push_back({share.element + " " + share.state + " (%)", Scale::percent});
 }
 
-/// A figure for each friction element, with its stick share on one of the axes.
-void add_stick_figures(BranchKind kind, const std::vector<std::string>& friction, Figure first,
-                       bool over_stick, FigureData& data) {
-  for (std::size_t i = 0; i < friction.size(); ++i) {
+/// A figure for each state of each contact, with its share on one of the axes.
+void add_share_figures(BranchKind kind, const std::vector<Share>& shares, const Figure& first,
+                       bool over_share, FigureData& data) {
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const Share& share = shares[i];
+    const auto of_state = std::count_if(shares.begin(), shares.end(),
+                                        [&](const Share& other) { return other.state == share.state; });
     Figure figure = first;
-    std::string& label = over_stick ? figure.x_label : figure.y_label;
-    (over_stick ? figure.x : figure.y) = amplitude_column(kind) + 1 + i;
-    label = "stick (% of the period)";
-    if (friction.size() > 1) {
-      figure.name += "_" + friction[i];
-      label.insert(0, friction[i] + ": ");
+    figure.name += share.state;
+    std::string& label = over_share ? figure.x_label : figure.y_label;
+    (over_share ? figure.x : figure.y) = amplitude_column(kind) + 1 + i;
+    label = share.state + " (% of the period)";
+    if (of_state > 1) {
+      figure.name += "_" + share.element;
+      label.insert(0, share.element + ": ");
     }
-    data.figures.push_back(figure);
+    data.figures.push_back(std::move(figure));
   }
 }
 
-void set_figures(BranchKind kind, const std::vector<std::string>& friction, FigureData& data) {
+void set_figures(BranchKind kind, const std::vector<Share>& shares, FigureData& data) {
   const std::size_t frequency = frequency_column(kind), amplitude = amplitude_column(kind);
   const std::string& over = data.columns.front().label;
   const std::string& frequency_label = data.columns[frequency].label;
@@ -105,13 +119,13 @@ void set_figures(BranchKind kind, const std::vector<std::string>& friction, Figu
   if (kind == BranchKind::peaks) {
     data.figures = {{"amplitude", 0, amplitude, over, "peak " + amplitude_label},
                     {"frequency", 0, frequency, over, "resonance " + frequency_label}};
-    add_stick_figures(kind, friction, {"amplitude_over_stick", 0, amplitude, "", "peak " + amplitude_label},
-                      true, data);
+    add_share_figures(kind, shares, {"amplitude_over_", 0, amplitude, "", "peak " + amplitude_label}, true,
+                      data);
   } else if (kind == BranchKind::folds) {
     data.figures = {{"folds", frequency, 0, frequency_label, over}};
   } else {  // responses, also those of optima
     data.figures = {{"amplitude", 0, amplitude, over, amplitude_label}};
-    add_stick_figures(kind, friction, {"stick", 0, 0, over, ""}, false, data);
+    add_share_figures(kind, shares, {"", 0, 0, over, ""}, false, data);
   }
 }
 
@@ -135,8 +149,8 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
   std::vector<const ResponseBranch*> branches;
   for (const LineOfBranches& each : lines)
     branches.insert(branches.end(), each.branches.begin(), each.branches.end());
-  const std::vector<std::string> friction = friction_elements(branches);
-  set_columns(scene, kind, friction, branches.empty() ? "" : branches.front()->over, data);
+  const std::vector<Share> shares = contact_shares(branches);
+  set_columns(scene, kind, shares, branches.empty() ? "" : branches.front()->over, data);
   for (LineOfBranches& each : lines) {
     FigureLine line = std::move(each.line);
     for (const ResponseBranch* branch : each.branches) {
@@ -145,18 +159,18 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
         line.unbounded = line.unbounded || event.point.unbounded;
         if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) !=
             results::mark_kinds.end())
-          line.marks.push_back({event.kind, record(scene, kind, friction, event.point)});
+          line.marks.push_back({event.kind, record(scene, kind, shares, event.point)});
       }
       std::vector<Record>& part = line.parts.emplace_back();
       for (const ResponsePoint& point : branch->points) {
         line.unbounded = line.unbounded || point.unbounded;
-        part.push_back(record(scene, kind, friction, point));
+        part.push_back(record(scene, kind, shares, point));
       }
     }
     if (!line.parts.empty()) data.lines.push_back(std::move(line));
   }
   set_ranges(kind, data);
-  set_figures(kind, friction, data);
+  set_figures(kind, shares, data);
   return data;
 }
 
@@ -183,17 +197,29 @@ using results::Record;
 
 constexpr std::size_t most_instants = 20'000;
 
-/// The indices of the friction elements.
-std::vector<std::size_t> friction_of(const scene::Scene& scene) {
-  std::vector<std::size_t> indices;
+/// A hysteresis loop: an element of the histories.
+struct Loop {
+  std::size_t element;
+  std::string name;
+};
+
+/// Those of the friction elements, and of their further directions, which follow all elements of the scene.
+std::vector<Loop> loops_of(const scene::Scene& scene, std::span<const Motion> motions) {
+  std::vector<Loop> loops;
   for (std::size_t e = 0; e < scene.elements.size(); ++e)
-    if (observables::is_friction_part(scene.elements[e])) indices.push_back(e);
-  return indices;
+    if (observables::is_friction_part(scene.elements[e])) loops.push_back({e, scene.elements[e].name});
+  const auto longest = std::max_element(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) {
+    return a.history.elements.size() < b.history.elements.size();
+  });
+  for (std::size_t e = scene.elements.size();
+       longest != motions.end() && e < longest->history.elements.size(); ++e)
+    loops.push_back({e, longest->history.elements[e].name});
+  return loops;
 }
 
-Record record(const time::TimeHistory& history, const std::vector<std::size_t>& friction, std::size_t i) {
+Record record(const time::TimeHistory& history, const std::vector<Loop>& loops, std::size_t i) {
   Record values{history.time[i], history.displacement[i]};
-  for (const std::size_t e : friction) {
+  for (const auto& [e, name] : loops) {
     const bool is_there = e < history.elements.size();  // not in a motion that could not be integrated
     values.push_back(is_there ? history.elements[e].displacement[i] : observables::no_value);
     values.push_back(is_there ? history.elements[e].force[i] : observables::no_value);
@@ -201,22 +227,21 @@ Record record(const time::TimeHistory& history, const std::vector<std::size_t>& 
   return values;
 }
 
-std::vector<Record> records(const time::TimeHistory& history, const std::vector<std::size_t>& friction) {
+std::vector<Record> records(const time::TimeHistory& history, const std::vector<Loop>& loops) {
   std::vector<Record> all;
   const std::size_t count = history.time.size();
   const std::size_t stride = (count + most_instants - 1) / most_instants;
-  for (std::size_t i = 0; i < count; i += stride) all.push_back(record(history, friction, i));
-  if (count > 0 && (count - 1) % stride != 0) all.push_back(record(history, friction, count - 1));
+  for (std::size_t i = 0; i < count; i += stride) all.push_back(record(history, loops, i));
+  if (count > 0 && (count - 1) % stride != 0) all.push_back(record(history, loops, count - 1));
   return all;
 }
 
-void set_figures(const scene::Scene& scene, const std::vector<std::size_t>& friction, FigureData& data) {
+void set_figures(const std::vector<Loop>& loops, FigureData& data) {
   const auto& columns = data.columns;
   data.figures = {{"displacement", 0, 1, columns[0].label, columns[1].label}};
-  for (std::size_t i = 0; i < friction.size(); ++i) {
+  for (std::size_t i = 0; i < loops.size(); ++i) {
     const std::size_t q = 2 + 2 * i;
-    const std::string of =
-        friction.size() > 1 ? "_" + std::to_string(i + 1) + "_" + scene.elements[friction[i]].name : "";
+    const std::string of = loops.size() > 1 ? "_" + std::to_string(i + 1) + "_" + loops[i].name : "";
     data.figures.push_back({"hysteresis" + of, q, q + 1, columns[q].label, columns[q + 1].label});
     data.figures.push_back({"force" + of, 0, q + 1, columns[0].label, columns[q + 1].label});
   }
@@ -227,21 +252,21 @@ void set_figures(const scene::Scene& scene, const std::vector<std::size_t>& fric
 FigureData figures_of(const scene::Scene& scene, std::span<const Motion> motions) {
   FigureData data;
   data.title = scene.title;
-  const std::vector<std::size_t> friction = friction_of(scene);
+  const std::vector<Loop> loops = loops_of(scene, motions);
   data.columns = {{"time (s)"}, {"displacement (m)"}};
-  for (const std::size_t e : friction) {
-    data.columns.push_back({scene.elements[e].name + " displacement (m)"});
-    data.columns.push_back({scene.elements[e].name + " force (N)"});
+  for (const Loop& loop : loops) {
+    data.columns.push_back({loop.name + " displacement (m)"});
+    data.columns.push_back({loop.name + " force (N)"});
   }
   for (const Motion& motion : motions) {
     if (motion.history.time.empty()) continue;
     if (data.parameters.empty())
       for (const auto& [name, value] : motion.set) data.parameters.push_back(name);
     data.lines.push_back(line_of(scene, motion.set));
-    data.lines.back().parts = {records(motion.history, friction)};
+    data.lines.back().parts = {records(motion.history, loops)};
   }
   for (std::size_t i = 0; i < data.columns.size(); ++i) data.columns[i].range = results::full_range(data, i);
-  set_figures(scene, friction, data);
+  set_figures(loops, data);
   return data;
 }
 

@@ -1,5 +1,6 @@
 // The study "point": the responses at one frequency, with everything that is known of them.
 #include <arcslip/observables/motion.hpp>
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
@@ -129,9 +130,11 @@ observables::Motion motion_of(const scene::Scene& scene, const PointResponse& re
   motion.history.velocity = response.history.velocity;
   for (const double angle : response.history.angle)
     motion.history.time.push_back(angle / response.history.base_frequency);
+  for (const observables::ElementHistory& element : response.history.elements)
+    motion.history.elements.push_back({element.name, element.displacement, element.force, {}});
   for (std::size_t e = 0; e < response.history.elements.size(); ++e) {
     const observables::ElementHistory& element = response.history.elements[e];
-    motion.history.elements.push_back({element.name, element.displacement, element.force, {}});
+    if (!observables::is_friction_part(scene.elements[e])) continue;
     const auto names = direction_names(scene.elements[e]);
     for (std::size_t i = 1; i < names.size() && i <= element.further.size(); ++i)
       motion.history.elements.push_back({element.name + "." + std::string(names[i]),

@@ -13,6 +13,7 @@
 #include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/studies/figures.hpp>
 #include <arcslip/time/shooting.hpp>
 
 #include <Eigen/LU>
@@ -361,4 +362,24 @@ TEST_CASE("in units a thousand times larger a contact has the same events") {
     CHECK(one[i].first == thousand[i].first);
     CHECK(std::abs(one[i].second / thousand[i].second - 1) < 1e-9);
   }
+}
+
+TEST_CASE(
+    "the figures of a contact show stick and separation over the frequency, and a loop of each direction") {
+  scene::Scene s = pad(7, 20, 12);
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  const auto names = [](const results::FigureData& data) {
+    std::vector<std::string> all;
+    for (const auto& figure : data.figures) all.push_back(figure.name);
+    return all;
+  };
+  const auto shares = studies::figures_of(s, studies::BranchKind::responses, branches);
+  CHECK(names(shares) == std::vector<std::string>{"amplitude", "stick", "separation"});
+  double most = 0;
+  for (const auto& part : shares.lines[0].parts)
+    for (const auto& record : part) {
+      CHECK(record[2] + record[3] <= 100 + 1e-9);
+      most = std::max(most, record[3]);
+    }
+  CHECK(most > 30);
 }
