@@ -6,6 +6,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "optimize/optima.hpp"
 
+#include <arcslip/observables/time_study.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 
@@ -395,4 +396,29 @@ TEST_CASE("what a callback throws while other starts are looked at ends the sear
     };
     CHECK(optimize::optimum(s, problem, stops).stop.reason == optimize::reasons::user);
   }
+}
+
+TEST_CASE(
+    "the best load of the damper under platforms is that of the curve of peaks, and of motions in time") {
+  const scene::Scene s = example("under_platform_damper/scene.json");
+  const auto result = optimize::optimum_study(s, settings(s, 2));
+  const auto& found = result.optimum;
+  CAPTURE(found.stop.message, result.direct.message);
+  REQUIRE(found.status == observables::Status::complete);
+  REQUIRE(found.design.size() == 1);
+  REQUIRE(found.certificate);
+  CHECK(found.certificate->others_lower);
+  REQUIRE(result.direct.found);
+  CHECK(result.difference_of_design() < 1e-6);
+  CHECK(result.difference_of_amplitude() < 1e-10);
+  for (const double factor : {0.8, 1.25})
+    CHECK(highest(s, settings(s, 2).problem, {factor * found.design[0]}) > 1.01 * found.amplitude);
+  // In time there are no harmonics; those left out have less than 5e-5 of the amplitude.
+  scene::Scene at = s;
+  scene::set(at, "load", found.design[0]);
+  const auto motion =
+      observables::motion_in_time(at, {.frequency = found.point.omega / (2 * std::numbers::pi)});
+  CAPTURE(motion.stop.message);
+  REQUIRE(motion.status == observables::Status::complete);
+  CHECK(motion.amplitude == Approx(found.amplitude).epsilon(5e-5));
 }

@@ -240,3 +240,33 @@ TEST_CASE("a mass that only a gap spring holds is refused, since nothing holds i
   CHECK(branches[0].status == observables::Status::failed);
   CHECK(branches[0].stop.message.find("\"x\"") != std::string::npos);
 }
+
+TEST_CASE(
+    "the example of two masses and a stop grazes in closed form, and folds where the motion in time does") {
+  scene::Scene s = scenes::example("unilateral_oscillator");
+  // |x1| of the linear structure is the gap of 1 m at this frequency.
+  const auto grazing = observables::point_responses(s, {.frequency = 0.58189963904});
+  REQUIRE(grazing.size() == 1);
+  CHECK(std::abs(grazing[0].point.amplitude - 1) < 1e-10);
+
+  s.harmonics.order = 63;
+  const auto branches = observables::frequency_response(s, {0.5, 1});
+  REQUIRE(branches.size() == 1);
+  CAPTURE(branches[0].stop.message);
+  CHECK(branches[0].status == observables::Status::complete);
+  std::vector<double> folds;
+  for (const auto& event : branches[0].events)
+    if (event.kind == "fold") folds.push_back(event.point.omega);
+  REQUIRE(folds.size() == 2);
+  CHECK(std::abs(folds[0] - 0.75562735) < 5e-8);  // shooting with Runge-Kutta steps from contact to contact
+  CHECK(std::abs(folds[0] - 0.7556255) < 3e-6);   // another program
+
+  // The motion loses its stability at 0.6186069 rad/s, by shooting of another program.
+  for (const double omega : {0.618605, 0.618609}) {
+    const auto motion = observables::motion_in_time(s, {.frequency = omega});
+    CAPTURE(omega, motion.stop.message);
+    REQUIRE(motion.status == observables::Status::complete);
+    REQUIRE(motion.stable);
+    CHECK(*motion.stable == (omega > 0.6186069));
+  }
+}

@@ -662,3 +662,30 @@ TEST_CASE(
       }
   CHECK(found > 40);
 }
+
+TEST_CASE("at its peaks the example of a bolted joint dissipates as in closed form, with slope 3 + chi") {
+  const scene::Scene s = scenes::example("microslip_joint");
+  const auto branches = scenes::frequency_responses(s, s.studies.front().for_each);
+  REQUIRE(branches.size() == 8);
+  double amplitude = 0, energy = 0, slope = 0;
+  int in_microslip = 0;
+  for (const auto& branch : branches) {
+    CAPTURE(branch.stop.message);
+    REQUIRE(branch.status == observables::Status::complete);
+    REQUIRE(branch.events.size() == 1);
+    const auto& peak = branch.events[0].point;
+    REQUIRE(peak.elements.size() == 1);
+    const double dissipated = peak.elements[0].energy;
+    CAPTURE(peak.amplitude, dissipated);
+    if (energy > 0) slope = std::log(dissipated / energy) / std::log(peak.amplitude / amplitude);
+    if (peak.amplitude < 2.87614678899) {  // phi_max of Kt = 2, Fs = 3, chi = -0.1, beta = 0.1
+      ++in_microslip;
+      CHECK(std::abs(dissipated / (0.45904818005 * std::pow(peak.amplitude, 2.9)) - 1) < 1e-10);
+      if (energy > 0) CHECK(std::abs(slope - 2.9) < 1e-9);
+    }
+    amplitude = peak.amplitude;
+    energy = dissipated;
+  }
+  CHECK(in_microslip == 7);
+  CHECK(slope < 2);  // from the last in microslip to the one in macroslip
+}

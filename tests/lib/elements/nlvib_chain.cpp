@@ -69,3 +69,18 @@ TEST_CASE("the chain of NLvib's example 07 is traced from end to end, with its p
     CHECK(std::abs(response[0].point.amplitude / motion.amplitude - 1) < 1e-4);
   }
 }
+
+TEST_CASE("the example of a chain with a gap comes to 2 rad/s, through the fold at which NLvib stalls") {
+  const scene::Scene s = scenes::example("gap_limited_chain");
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(branches.size() == 1);
+  const auto& branch = branches[0];
+  CAPTURE(branch.stop.message);
+  CHECK(branch.status == observables::Status::complete);
+  REQUIRE_FALSE(branch.points.empty());
+  CHECK(std::abs(branch.points.back().omega - 2) < 1e-12);
+  double last = 0;
+  for (const auto& event : branch.events)
+    if (event.kind == "fold" && event.point.omega > last) last = event.point.omega;
+  CHECK(std::abs(last - 1.6594) < 2e-3);  // NLvib, whose stuck contacts have another mean force
+}
