@@ -29,6 +29,7 @@ struct Mode {
   Eigen::MatrixXd f_q;  // N/m
   Eigen::VectorXd f_z, f_0;
   bool rests = true;  // the memory; false: it follows
+  bool open = false;  // a contact in separation
   Eigen::RowVectorXd z_q;
   double z_0 = 0;
   int way = 0;  // sign of the velocity at which it follows; 0: either

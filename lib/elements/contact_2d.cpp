@@ -133,6 +133,7 @@ class Contact2d final : public PlainLaw {
     end.f[normal] = std::max(N_end, 0.0) - std::max(law.N_0, 0.0);
     if (N_begin <= 0 && N_end <= 0) {  // open
       end.dz[0] = dt + start.f[tangential] / k;
+      end.open_share = 1;
       follow(end, 0);
       return;
     }
@@ -158,6 +159,7 @@ class Contact2d final : public PlainLaw {
     const double force = sign * limit, slip = contact * dt - (force - T) / k;
     end.dissipated = 0.5 * (sign * mu * (N_begin + onset * dN) + force) * slip;
     end.stick_share = mu > 0 ? onset : 0;
+    end.open_share = 1 - contact;
     if (contact < 1) {
       end.dz[0] = slip + (1 - contact) * dt;
       follow(end, 0);
@@ -218,6 +220,7 @@ class Contact2d final : public PlainLaw {
       slip.leaves.push_back({load, none, 0, law.N_0, open});
     }
     Mode& apart = add("open", 0, 0);
+    apart.open = true;
     apart.f_0[normal] = -std::max(law.N_0, 0.0);
     follows(apart, 0, 0, 0);
     apart.leaves.push_back({-load, none, 0, -law.N_0, law.mu > 0 ? stick : slip_up});
@@ -239,7 +242,7 @@ class Contact2d final : public PlainLaw {
       m->setZero();
     end.f.setZero();
     end.dz.setZero();
-    end.dissipated = end.stick_share = 0;
+    end.dissipated = end.stick_share = end.open_share = 0;
   }
   // w = x_t - by_normal x_n + ... at the end.
   static void follow(StepEnd& end, double by_normal) { end.z_q << 1, -by_normal; }
@@ -250,6 +253,7 @@ class Contact2d final : public PlainLaw {
     const double elastic = k * (1 - s) * dt, limit = law.mu * N_end;
     const double follows = s * dt + T / k;
     end.f_q(normal, normal) = law.k_n;
+    end.open_share = s;
     if (std::abs(elastic) < limit) {
       const double shift = -law.k_n * dt / dN;  // of w per share of a change of x_n
       end.dz[0] = follows;

@@ -94,6 +94,7 @@ struct StepEnd {
   Eigen::MatrixXd z_q, z_z, z_start;
   double dissipated = 0;   // in the step, J
   double stick_share = 1;  // of the step, where there is a contact
+  double open_share = 0;   // of the step, in separation
 
   SampledForce sample;  // for the law's own use, kept for the next step
   Eigen::MatrixXd sample_q, sample_v;

@@ -26,6 +26,8 @@ struct ElementMotion {
   std::string name;
   double stick_percent = 0;  // share of the time in stick, 0 to 100
   double energy = 0;         // dissipated per period, J
+  bool has_normal_load = false;
+  double open_percent = 0;  // share of the time in separation
 };
 
 /// complete: a steady motion within the tolerance, or, if that is 0, the requested number of periods.

@@ -78,8 +78,9 @@ PeriodMotion periods_between_events(time::EventDriven& events, const MotionState
   result.end = motion.end;
   result.amplitude = motion.amplitude;
   result.energy = motion.energy;
+  const double per_time = motion.time > 0 ? 1 / motion.time : 0;
   for (const time::FrictionRecord& record : motion.friction)
-    result.friction.push_back({motion.time > 0 ? record.stick_time / motion.time : 0, record.energy});
+    result.friction.push_back({record.stick_time * per_time, record.open_time * per_time, record.energy});
   if (with_history) result.history = std::move(motion.history);
   return result;
 }
@@ -273,7 +274,8 @@ class InTime {
     for (const time::TimeElement& element : equation_.elements) {
       if (!element.law->has_contact() || k == motion.friction.size()) continue;
       const time::FrictionShare& friction = motion.friction[k++];
-      motion_.elements.push_back({element.name, 100 * friction.stick_share, friction.energy * share});
+      motion_.elements.push_back({element.name, 100 * friction.stick_share, friction.energy * share,
+                                  element.law->has_normal_load(), 100 * friction.open_share});
     }
     motion_.history = std::move(motion.history);
   }

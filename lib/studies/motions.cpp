@@ -73,9 +73,11 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
   if (motion.elements.size() == 1)
     all.push_back({"stick_percent", motion.elements.front().stick_percent, "%"});
   results::Object elements;
-  for (const observables::ElementMotion& element : motion.elements)
-    elements.push_back({element.name, results::Object{{"stick_percent", element.stick_percent, "%"},
-                                                      {"energy", element.energy, "J"}}});
+  for (const observables::ElementMotion& element : motion.elements) {
+    results::Object of{{"stick_percent", element.stick_percent, "%"}, {"energy", element.energy, "J"}};
+    if (element.has_normal_load) of.push_back({"open_percent", element.open_percent, "%"});
+    elements.push_back({element.name, std::move(of)});
+  }
   all.push_back({"elements", std::move(elements)});
   return all;
 }

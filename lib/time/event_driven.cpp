@@ -93,6 +93,7 @@ class Recorder {
       FrictionRecord& friction = motion_.friction[static_cast<std::size_t>(record.friction)];
       friction.energy += energy;
       if (!contact.follows()) friction.stick_time += s * h * contact.automaton.weight / record.sliders;
+      if (contact.mode().open) friction.open_time += s * h * contact.automaton.weight / record.sliders;
     }
     const double A = motion_.amplitude;
     extremes_.visit(piece, equation_.response, s, -A, A, [&](double at, double x) {

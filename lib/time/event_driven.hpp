@@ -69,6 +69,7 @@ struct EventLimits {
 struct FrictionRecord {
   std::string name;
   double stick_time = 0;  // s
+  double open_time = 0;   // s, in separation
   double energy = 0;      // dissipated, J
 };
 

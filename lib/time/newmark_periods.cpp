@@ -47,8 +47,11 @@ class Observation {
     result_.time = newmark_.time();
     result_.end = newmark_.state();
     result_.energy = newmark_.energy();
-    for (FrictionShare& share : result_.friction)
-      if (newmark_.step_number() > 0) share.stick_share /= static_cast<double>(newmark_.step_number());
+    const auto steps = static_cast<double>(std::max(newmark_.step_number(), 1L));
+    for (FrictionShare& share : result_.friction) {
+      share.stick_share /= steps;
+      share.open_share /= steps;
+    }
     return std::move(result_);
   }
 
@@ -68,6 +71,7 @@ class Observation {
       FrictionShare& share = result_.friction[k++];
       share.energy += elements.end(e).dissipated;
       share.stick_share += elements.end(e).stick_share;
+      share.open_share += elements.end(e).open_share;
     }
   }
 

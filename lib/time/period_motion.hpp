@@ -15,6 +15,7 @@ namespace arcslip::time {
 /// One friction element over an interval.
 struct FrictionShare {
   double stick_share = 0;  // of the time in which the slider rests, 0 to 1
+  double open_share = 0;   // of the time, in separation
   double energy = 0;       // dissipated, J
 };
 

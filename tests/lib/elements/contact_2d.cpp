@@ -96,6 +96,14 @@ TEST_CASE("a contact under a load that varies comes to the motions of a march wi
     CHECK(exact.integrator == "event-driven");
     if (each.x_t > 0) CHECK(std::abs(exact.amplitude / each.x_t - 1) < 1e-8);
     CHECK(std::abs(exact.elements[0].stick_percent / 100 - each.stick) < 1e-9);
+    CHECK(std::abs(exact.elements[0].open_percent / 100 - each.open) < 1e-9);
+    const auto stepped = observables::motion_in_time(
+        pad(5, each.f_t, each.f_n),
+        {.frequency = 95, .method = observables::TimeMethod::newmark_shooting, .steps = 2000});
+    REQUIRE(stepped.status == observables::Status::complete);
+    CHECK(std::abs(stepped.amplitude / exact.amplitude - 1) < 1e-4);
+    CHECK(std::abs(stepped.elements[0].stick_percent / 100 - each.stick) < 1e-3);
+    CHECK(std::abs(stepped.elements[0].open_percent / 100 - each.open) < 1e-3);
     double last = 1;
     for (const int order : {3, 7, 15, 27, 55, 101}) {
       const auto balanced = beside_exact::balanced(pad(order, each.f_t, each.f_n), 95);
