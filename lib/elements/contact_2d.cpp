@@ -204,20 +204,20 @@ class Contact2d final : public PlainLaw {
     const Eigen::RowVector2d load(0, law.k_n), none(0, 0);
     const double h = law.mu * law.N_0 / law.k_t, h_n = law.mu * law.k_n / law.k_t;
     Mode& stuck = add("stick", law.k_t, law.k_n);
+    stuck.leaves.push_back({load, none, 0, law.N_0, open});  // the first of several that fall at once
     if (law.mu > 0) {
       stuck.leaves.push_back({Eigen::RowVector2d(-1, h_n), none, 1, h, slip_up});
       stuck.leaves.push_back({Eigen::RowVector2d(1, h_n), none, -1, h, slip_down});
     } else {
       stuck.leaves.push_back({none, none, 0, -1, slip_up});  // at once
     }
-    stuck.leaves.push_back({load, none, 0, law.N_0, open});
     for (const int sign : {1, -1}) {
       Mode& slip = add(sign > 0 ? "slip+" : "slip-", 0, law.k_n);
       slip.f_q(tangential, normal) = sign * law.mu * law.k_n;
       slip.f_0[tangential] = sign * law.mu * law.N_0;
       follows(slip, -sign * h_n, -sign * h, law.mu > 0 ? sign : 0);
-      if (law.mu > 0) slip.leaves.push_back({none, Eigen::RowVector2d(sign, -h_n), 0, 0, stick});
       slip.leaves.push_back({load, none, 0, law.N_0, open});
+      if (law.mu > 0) slip.leaves.push_back({none, Eigen::RowVector2d(sign, -h_n), 0, 0, stick});
     }
     Mode& apart = add("open", 0, 0);
     apart.open = true;

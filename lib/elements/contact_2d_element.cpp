@@ -113,7 +113,10 @@ class Contact2dElement final : public Element {
     RestChange at;
     const double x_n = phi_.dot(u_n);
     if (rest.at == SliderRest::At::closing) {
-      const double rate = series_values(h_, u_t, rest.theta).d1 / series_values(h_, u_n, rest.theta).d1;
+      // It sticks, so that the rate is within these bounds; what N just touches has none.
+      const double x_t_rate = series_values(h_, u_t, rest.theta).d1, most = law_.mu * law_.k_n / law_.k_t;
+      const double x_n_rate = series_values(h_, u_n, rest.theta).d1;
+      const double rate = x_n_rate > 0 ? std::clamp(x_t_rate / x_n_rate, -most, most) : 0;
       at.normal = -rate;
       at.by_field[normal_stiffness] = -rate * x_n / law_.k_n;
       at.by_field[normal_load] = -rate / law_.k_n;

@@ -11,6 +11,9 @@ namespace {
 constexpr double turn_angle = 2 * std::numbers::pi;
 constexpr double same_angle = 1e-6;   // rad: reversals of both bounds, where the load is constant
 constexpr double same_value = 1e-12;  // of the size of the motion
+// rad: slip so short before separation, as where the bound and the slider meet just there, would come and go
+// by rounding.
+constexpr double negligible = 1e-9;
 constexpr double never = std::numeric_limits<double>::infinity();
 
 std::uint64_t mixed(std::uint64_t x) {
@@ -88,6 +91,7 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
   phases_.clear();
   full_stick_ = false;
   frictionless_ = !(law.mu > 0);
+  gap_ = law.N_0 <= 0;  // a preload is balanced at rest, so that the force by N_0 has a kink there
   find_closed(u_n, law);
   const double ratio = law.mu * law.k_n / law.k_t, h = law.mu * law.N_0 / law.k_t;
   lower_.u = u_t - ratio * u_n;
@@ -157,9 +161,10 @@ ContactPhases::Onset ContactPhases::onset(const Bound& bound, bool upwards, doub
   for (long i = bound.piece(begin);; ++i) {
     const Reversal from = bound.turn(i), to = bound.turn(i + 1);
     if (from.theta >= end) return {never, 0};
+    if (to.theta <= begin) continue;  // the index of the piece is that of a rounded angle
     if ((to.x > from.x) != upwards || (upwards ? to.x <= w : to.x >= w)) continue;
     const double at = std::max(reversals_.crossing(bound.u, from, to, w), begin);
-    return {at < end ? at : never, i};
+    return {at < end - negligible ? at : never, i};
   }
 }
 
@@ -167,7 +172,7 @@ ContactPhases::Onset ContactPhases::onset(const Bound& bound, bool upwards, doub
 void ContactPhases::slip(double sign, Onset from, double end, SliderRest& rest) {
   const Reversal turn = (sign > 0 ? lower_ : upper_).turn(from.piece + 1);
   rest = {sign > 0 ? SliderRest::At::lower_reversal : SliderRest::At::upper_reversal,
-          std::min(turn.theta, end), turn.x};
+          std::clamp(turn.theta, from.theta, end), turn.x};
   phases_.push_back({ContactPhase::State::slip, from.theta, rest.theta, sign});
 }
 
@@ -193,6 +198,10 @@ void ContactPhases::sweep(SliderRest rest, double end) {
 }
 
 std::uint64_t ContactPhases::sequence() const {
+  return gap_ ? ~sequence_of_phases() : sequence_of_phases();
+}
+
+std::uint64_t ContactPhases::sequence_of_phases() const {
   if (frictionless_) return (opens_ ? 1 : 0) + 2 * closed_.size();
   if (full_stick_) {  // its centre follows both extremes
     const auto after_a = [&](double theta) {

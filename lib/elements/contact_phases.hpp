@@ -82,6 +82,7 @@ class ContactPhases {
     long piece;
   };
 
+  std::uint64_t sequence_of_phases() const;
   void choose_nearest();
   void find_closed(In u_n, const ContactLaw& law);
   Onset onset(const Bound& bound, bool upwards, double begin, double end, double w) const;
@@ -95,7 +96,7 @@ class ContactPhases {
   std::vector<std::pair<double, double>> closed_;
   std::vector<ContactPhase> phases_;
   Reversal largest_lower_{}, smallest_upper_{};
-  bool opens_ = false, full_stick_ = false, frictionless_ = false;
+  bool opens_ = false, full_stick_ = false, frictionless_ = false, gap_ = false;
 };
 
 }  // namespace arcslip::elements

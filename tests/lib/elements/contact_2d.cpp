@@ -416,3 +416,75 @@ TEST_CASE("the example of a rubbing pad has the amplitude, stick and separation 
     if (each.x_t > 0) CHECK(std::abs(motion.amplitude / each.x_t - 1) < 1e-8);
   }
 }
+
+TEST_CASE("a contact along one line of motion, just touched, has few phases and a finite force") {
+  // Both bounds turn where the load is extreme, and meet the slider where the contact opens.
+  const elements::Harmonics h{5, false};
+  elements::Reversals reversals(h);
+  for (unsigned seed = 1; seed < 40; ++seed)
+    for (const double slope : {1.0, -0.5, 0.5})
+      for (const double friction : {0.3, 2.0, 1 / 0.5, 5.0}) {
+        Vector u = random_motion(h, 1, 0, seed);
+        u.tail(h.size()) = slope * u.head(h.size());
+        const auto turns = reversals.find(u.tail(h.size()));
+        for (const auto& turn : turns)
+          for (const double beside : {0.0, 1e-16, -1e-16, 1e-13, -1e-13, 1e-9, -1e-9}) {
+            const std::vector<double> fields = {1, 1, friction, -turn.x * (1 + beside)};
+            const Force at = evaluate(elements::contact_2d(), h, u, fields);
+            CAPTURE(seed, slope, friction, turn.x, beside);
+            REQUIRE(at.F.allFinite());
+            REQUIRE(at.J.allFinite());
+            REQUIRE(at.friction.slip_onsets.size() <= 2 * turns.size());
+          }
+      }
+}
+
+TEST_CASE(
+    "a contact that no slip precedes where it opens is traced, and is no change of the piece by rounding") {
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["t"], "masses": [{"name": "m", "at": "t", "value": 1}],
+      "springs": [{"name": "k", "at": "t", "value": 1}], "dampers": [{"name": "d", "at": "t", "value": 0.05}]},
+    "elements": [{"name": "c", "type": "contact_2d", "tangential": {"at": "t"},
+      "normal": {"direction": {"t": 0.5}}, "tangential_stiffness": 1, "normal_stiffness": 1,
+      "friction_coefficient": 3, "normal_load": 0.3}],
+    "excitation": [{"name": "f", "at": "t", "cosine": 1}], "harmonics": {"order": 5},
+    "studies": [{"name": "frf", "kind": "frf", "from": 0.2, "to": 2.5}]})");
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].status == observables::Status::complete);
+  CHECK(branches[0].points.size() < 2000);
+}
+
+TEST_CASE("the march begins in separation where the contact is open at the start, whichever way it moves") {
+  scene::Scene s = pad(5, 20, 12);
+  scene::set(s, "pad.normal_load", -0.3);
+  scene::set(s, "f_t.sine", -30);
+  const auto motion = observables::motion_in_time(s, {.frequency = 95});
+  REQUIRE(motion.status == observables::Status::complete);
+  CHECK(motion.integrator == "event-driven");
+  const auto model = model::build(s);
+  Vector p = model::defaults(model);
+  p[model::frequency] = 95;
+  time::EventDriven march(time::equation_of_motion(model, p));
+  for (const double tangential : {-1.0, 0.0, 1.0})
+    for (const double normal : {-1.0, 0.0, 1.0}) {
+      auto start = time::at_rest(march.equation());
+      start.x[1] = -1e-3;
+      start.v << tangential, normal;
+      const auto end = march.integrate(start, 0, march.equation().period());
+      CAPTURE(tangential, normal);
+      CHECK(end.reason == time::EndReason::reached);
+      CHECK(end.events.size() < 100);
+    }
+}
+
+TEST_CASE("where a preload becomes a gap a contact has another piece, with the derivative of each side") {
+  const elements::Harmonics h{4, false};
+  const Vector u = random_motion(h, 1, 1, 3);
+  const auto at = [&](double load) { return evaluate(elements::contact_2d(), h, u, {2, 1.5, 0.6, load}); };
+  CHECK(at(1e-9).piece != at(-1e-9).piece);
+  for (const double side : {1e-3, -1e-3}) {
+    const Force here = at(side);
+    CHECK(((at(side + 1e-6).F - at(side - 1e-6).F) / 2e-6 - here.by_field.col(3)).norm() < 1e-6);
+  }
+}
