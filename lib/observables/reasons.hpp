@@ -65,6 +65,8 @@ inline constexpr Reason period_limit{
     "the change of the state still exceeded the tolerance after the maximum number of periods"};
 inline constexpr Reason no_periodic_motion{"no_periodic_motion",
                                            "shooting did not converge to a periodic motion"};
+inline constexpr Reason energy_defect{
+    "energy_defect", "the energies of the motion do not balance within 1 %: its steps are too long"};
 inline constexpr Reason not_piecewise_linear{"not_piecewise_linear",
                                              "event-driven integration requires piecewise linear laws"};
 inline constexpr Reason massless{"massless",
@@ -84,8 +86,8 @@ inline constexpr std::array of_responses = {solved, unbounded, user, start_faile
 
 /// The reasons of a motion in time.
 inline constexpr std::array of_motions = {
-    periodic,       steady,   periods,    period_limit,         user,     unbounded,  no_periodic_motion,
-    no_convergence, singular, not_finite, not_piecewise_linear, massless, event_limit};
+    periodic,       steady,   periods,    period_limit,         user,     unbounded,   no_periodic_motion,
+    no_convergence, singular, not_finite, not_piecewise_linear, massless, event_limit, energy_defect};
 
 }  // namespace reasons
 

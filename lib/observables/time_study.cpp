@@ -18,6 +18,8 @@
 namespace arcslip::observables {
 namespace {
 
+constexpr double largest_defect = 0.01;  // of the energies of a motion in steps
+
 using time::EquationOfMotion;
 using time::MotionState;
 using time::PeriodMotion;
@@ -219,7 +221,21 @@ class InTime {
                  found.message);
     motion_.multipliers = found.multipliers;
     motion_.stable = found.stable;
-    end(Status::complete, reasons::periodic, found.correction, settings_.tolerance, found.message);
+    end_balanced(reasons::periodic, found.correction, found.message);
+  }
+
+  // A motion in steps that are too long may be periodic, and no motion of the structure.
+  void end_balanced(const results::Reason& reason, double value, const std::string& message) {
+    const time::EnergyBalance& energy = motion_.energy;
+    const double dissipated = energy.friction + energy.viscous;
+    const double most = largest_defect * std::max(std::abs(energy.input), std::abs(dissipated));
+    if (!(std::abs(energy.defect()) > most))
+      return end(Status::complete, reason, value, settings_.tolerance, message);
+    std::ostringstream text;
+    text.precision(4);
+    text << "the energies of the periodic motion found do not balance: input " << energy.input
+         << " J, dissipated " << dissipated << " J per period; use more steps per period";
+    end(Status::stopped, reasons::energy_defect, energy.defect(), most, text.str());
   }
 
   std::optional<MotionState> from_harmonic_balance() {
@@ -249,7 +265,7 @@ class InTime {
       case time::TransientEnd::steady:
         text << "steady after " << found.periods << " periods: relative change of the state per period "
              << found.change;
-        return end(Status::complete, reasons::steady, found.change, settings_.tolerance, text.str());
+        return end_balanced(reasons::steady, found.change, text.str());
       case time::TransientEnd::failed:
         return end(Status::failed, failure, 0, 0, message);
       case time::TransientEnd::period_limit:

@@ -12,6 +12,7 @@
 #include <arcslip/elements/largest_value.hpp>
 #include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/studies/figures.hpp>
@@ -476,6 +477,35 @@ TEST_CASE("the march begins in separation where the contact is open at the start
       CHECK(end.reason == time::EndReason::reached);
       CHECK(end.events.size() < 100);
     }
+}
+
+TEST_CASE(
+    "a motion in steps too long for a stiff contact is not complete, since its energies do not balance") {
+  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["t", "n"],
+      "masses": [{"name": "mt", "at": "t", "value": 1}, {"name": "mn", "at": "n", "value": 1}],
+      "springs": [{"name": "kt", "at": "t", "value": 1}, {"name": "kn", "at": "n", "value": 2}],
+      "dampers": [{"name": "ct", "at": "t", "value": 0.05}, {"name": "cn", "at": "n", "value": 0.05}]},
+    "elements": [{"name": "c", "type": "contact_2d", "tangential": {"at": "t"}, "normal": {"at": "n"},
+      "tangential_stiffness": 1, "normal_stiffness": 1e6, "friction_coefficient": 0.5, "normal_load": 1}],
+    "excitation": [{"name": "ft", "at": "t", "cosine": 1}, {"name": "fn", "at": "n", "cosine": 0.8, "sine": 0.5}],
+    "harmonics": {"order": 40}, "response": {"at": "t"}})");
+  const observables::TimeSettings settings{.frequency = 1.1,
+                                           .method = observables::TimeMethod::newmark_shooting};
+  for (const int steps : {500, 2000, 8000}) {
+    auto with = settings;
+    with.steps = steps;
+    const auto motion = observables::motion_in_time(s, with);
+    const auto& energy = motion.energy;
+    const bool balanced =
+        std::abs(energy.defect()) <= 0.01 * std::max(energy.input, energy.friction + energy.viscous);
+    CAPTURE(steps, energy.input, energy.defect());
+    if (motion.status == observables::Status::complete) CHECK(balanced);
+    if (steps == 2000) {
+      CHECK(motion.status == observables::Status::stopped);
+      CHECK(motion.stop.reason == observables::reasons::energy_defect);
+    }
+  }
 }
 
 TEST_CASE("where a preload becomes a gap a contact has another piece, with the derivative of each side") {
