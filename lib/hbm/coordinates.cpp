@@ -35,7 +35,8 @@ class Independent {
 
  private:
   Eigen::VectorXd outside(const Eigen::VectorXd& d) const {
-    Eigen::VectorXd rest = d.normalized();
+    const double size = d.norm();  // of tiny and of huge directions 0 and infinity
+    Eigen::VectorXd rest = size > 0 && std::isfinite(size) ? d.normalized() : d.stableNormalized();
     for (int pass = 0; pass < 2; ++pass) rest -= orthonormal_ * (orthonormal_.transpose() * rest);
     return rest;
   }

@@ -6,6 +6,7 @@
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/results/csv_writer.hpp>
@@ -142,6 +143,10 @@ class Examination {
     }
     if (study.type == &studies::time()) {
       const double frequency = study.settings.as<observables::TimeSettings>().frequency;
+      return range(frequency, frequency);
+    }
+    if (study.type == &studies::point()) {
+      const double frequency = study.settings.as<observables::PointSettings>().frequency;
       return range(frequency, frequency);
     }
     if (study.type == &optimize::optimum_type()) {
