@@ -3,6 +3,7 @@
 #include <arcslip/elements/bilinear_spring.hpp>
 #include <arcslip/elements/bouc_wen.hpp>
 #include <arcslip/elements/contact_2d.hpp>
+#include <arcslip/elements/contact_3d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/iwan.hpp>
@@ -28,6 +29,7 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 std::vector<const scene::PartType*> laws() {
   return {&jenkins(),
           &contact_2d(),
+          &contact_3d(),
           &iwan(),
           &bouc_wen(),
           &tanh_friction(),

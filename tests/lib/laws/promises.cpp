@@ -10,6 +10,7 @@
 
 #include <arcslip/elements/bouc_wen.hpp>
 #include <arcslip/elements/contact_2d.hpp>
+#include <arcslip/elements/contact_3d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/polynomial_spring.hpp>
 #include <arcslip/elements/quadratic_damper.hpp>
@@ -56,6 +57,9 @@ const Example all[] = {
     {elements::contact_2d(), {2, 1.5, 0.5, 1}, 1e-6},
     {elements::contact_2d(), {2, 1.5, 0.5, -0.3}, 1e-6},
     {elements::contact_2d(), {2, 0, 0.5, 1}, 1e-7},
+    {elements::contact_3d(), {2, 1.5, 0.5, 1}, 1e-6},
+    {elements::contact_3d(), {2, 1.5, 0.5, -0.3}, 1e-6},
+    {elements::contact_3d(), {2, 0, 0.5, 1}, 1e-6},
     {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
     {*uniform, {2, 0.8}, 1e-7},
     {*four_parameter, {2, 0.8, -0.3, 0.4}, 1e-7},

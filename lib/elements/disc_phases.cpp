@@ -1,0 +1,360 @@
+#include <arcslip/elements/disc_phases.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace arcslip::elements {
+namespace {
+
+constexpr double turn_angle = 2 * std::numbers::pi;
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double resolved = 1e-10;     // of h psi within a panel, of the largest radius
+constexpr double same_value = 1e-13;   // of the motion
+constexpr double shortest = 1e-12;     // rad: a panel that is not divided any further
+constexpr double negligible = 1e-9;    // rad: slip so short before separation would come and go by rounding
+constexpr double edge = 1e-12;         // of the radius: a slider that is so close is at the edge
+constexpr double least_step = 1e-10;   // rad
+constexpr double phase_per_panel = 4;  // rad, of the highest harmonic
+constexpr std::size_t most_panels = 20000;
+constexpr int newton_steps = 40, passes = 200;
+
+Eigen::Vector2d direction(double psi) {
+  return {std::cos(psi), std::sin(psi)};
+}
+Eigen::Vector2d across(double psi) {
+  return {-std::sin(psi), std::cos(psi)};
+}
+
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t code(const DiscPhase& phase) {
+  const auto from = phase.from == DiscPhase::Begin::start ? DiscPhase::Begin::slip_end : phase.from;
+  return static_cast<std::uint64_t>(1 + static_cast<int>(phase.state) + 3 * static_cast<int>(from));
+}
+
+}  // namespace
+
+DiscPhases::DiscPhases(const Harmonics& harmonics)
+    : harmonics_(harmonics), centre_(harmonics), longest_(phase_per_panel / harmonics.order) {
+  phases_.reserve(static_cast<std::size_t>(16 * harmonics.order + 64));
+  panels_.reserve(static_cast<std::size_t>(8 * harmonics.order + 64));
+}
+
+Eigen::Vector2d DiscPhases::slider(const DiscPoint& at, const State& state) const {
+  return state.slips ? Eigen::Vector2d(at.x - std::max(at.h, 0.0) * direction(state.psi)) : state.w;
+}
+
+DiscPhases::State DiscPhases::closing(const Disc& disc, double theta) const {
+  const DiscPoint at = disc.at(theta);
+  if (at.v.norm() <= at.dh) return {false, at.x, 0};
+  return {true, at.x, std::atan2(at.v[1], at.v[0])};
+}
+
+// A slider beyond the edge is moved to it.
+DiscPhases::State DiscPhases::at_rest(const Disc& disc, double theta, const Eigen::Vector2d& w) const {
+  const DiscPoint at = disc.at(theta);
+  const Eigen::Vector2d y = at.x - w;
+  const double d = y.norm();
+  if (d < at.h * (1 - edge)) return {false, w, 0};
+  const double psi = std::atan2(y[1], y[0]);
+  const Eigen::Vector2d n = direction(psi), edge = at.x - at.h * n;
+  return {n.dot(at.v) > at.dh, edge, psi};
+}
+
+// The first angle at which |x - w| exceeds h. At the edge |x - w|^2 - h^2 has a double root, and decreases.
+double DiscPhases::onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, double begin,
+                         double end) const {
+  const double V = disc.motion_bound(1), A = disc.motion_bound(2), H1 = disc.radius_bound(1),
+               H2 = disc.radius_bound(2), h = disc.largest();
+  const double B = 2 * (V * V + h * A + H1 * H1 + h * H2);
+  if (!(V > 0) && !(H1 > 0)) return never;
+  double theta = begin;
+  if (at_edge) {
+    const DiscPoint p = disc.at(theta);
+    const double G2 = 2 * (p.v.squaredNorm() + (p.x - w).dot(p.a) - p.dh * p.dh - p.h * p.ddh);
+    const double B3 = 2 * (3 * V * A + h * disc.motion_bound(3) + 3 * H1 * H2 + h * disc.radius_bound(3));
+    theta += std::max(G2 < 0 ? -1.5 * G2 / B3 : 0.0, least_step);
+  }
+  while (theta < end) {
+    const DiscPoint p = disc.at(theta);
+    const Eigen::Vector2d y = p.x - w;
+    const double d = y.norm(), slope = 2 * (y.dot(p.v) - p.h * p.dh);
+    const double G = (d - p.h) * (d + p.h);
+    if (G >= 0) return theta;
+    const double step = -2 * G / (slope + std::sqrt(slope * slope - 2 * B * G));
+    if (!(step > 1e-15 * turn_angle)) return theta;
+    theta += slope > 0 ? step : std::max(step, least_step);
+  }
+  return never;
+}
+
+// From the state at `begin` until slip ends, or to `end`. decay: of a change of psi.
+double DiscPhases::slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends) {
+  double theta = begin, length = longest_;
+  ends = false;
+  decay = 1;
+  while (theta < end) {
+    SlipPanel panel;
+    double to = std::min(theta + length, end);
+    if (end - to < 1e-3 * length) to = end;
+    const double tail = collocation_.solve(disc, theta, to, state.psi, tolerance_, panel);
+    const bool good = tail <= tolerance_;
+    // The tail falls like the power of the number of nodes.
+    const double ratio = std::pow(std::max(tail, 1e-6 * tolerance_) / tolerance_, -1.0 / panel_nodes);
+    const double next = std::clamp(0.9 * ratio, 0.3, 3.0) * (to - theta);
+    const bool last_resort = !good && (to - theta < shortest || panels_.size() > most_panels);
+    if (!good && !last_resort) {
+      length = std::min(next, 0.7 * (to - theta));
+      continue;
+    }
+    if (last_resort) {  // where not even the direction is resolved: that of the motion
+      for (int j = 0; j < panel_nodes; ++j)
+        if (!std::isfinite(panel.psi[j])) panel.psi.setConstant(state.psi);
+    }
+    if (panel.spare.minCoeff() < 0 && !last_resort) {
+      int first = 0;
+      while (panel.spare[first] >= 0) ++first;
+      double below = first == 0 ? theta : panel.theta[first - 1], above = panel.theta[first];
+      const auto spare = [&](double at) {
+        const DiscPoint p = disc.at(at);
+        return direction(collocation_.psi(panel, at)).dot(p.v) - p.dh;
+      };
+      double f_below = first == 0 ? spare(theta) : panel.spare[first - 1], f_above = panel.spare[first];
+      double root = f_below > 0 ? above : below;
+      for (int i = 0; i < 80 && f_below > 0 && above - below > 1e-14; ++i) {
+        // Regula falsi after Illinois, with bisection every third step.
+        root = i % 3 == 2 ? 0.5 * (below + above) : below + f_below / (f_below - f_above) * (above - below);
+        const double f = spare(root);
+        if (f >= 0) {
+          below = root;
+          f_below = f;
+        } else {
+          above = root;
+          f_above = f;
+        }
+      }
+      root = std::min(root, panel.theta[panel_nodes - 1]);
+      ends = true;
+      if (root - theta <= 1e-13) return theta;
+      SlipPanel shorter;
+      if (collocation_.solve(disc, theta, root, state.psi, tolerance_, shorter))
+        panel = shorter;
+      else
+        ends = false;
+      if (!ends) {  // the continuation beyond the end is hard to follow
+        length = 0.5 * (root - theta);
+        continue;
+      }
+    }
+    panels_.push_back(panel);
+    const SlipPanel::Nodes weights = collocation_.weights(panel);
+    double exponent = 0;
+    for (int j = 0; j < panel_nodes; ++j)
+      exponent += panel.h[j] > 0 ? weights[j] * panel.along[j] / panel.h[j] : never;
+    decay *= std::exp(-std::max(exponent, 0.0));
+    theta = panel.end;
+    state.psi = panel.to();
+    if (ends) return theta;
+    length = std::min(next, longest_);
+  }
+  return end;
+}
+
+// Adds the phases of an interval in contact. by: the derivative of w, which is multiplied.
+void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
+                       Eigen::Matrix2d* by) {
+  const auto most = static_cast<std::size_t>(16 * harmonics_.order + 64);
+  double theta = begin;
+  const std::size_t first = phases_.size();
+  while (theta < end) {
+    DiscPhase phase;
+    phase.from = from;
+    phase.begin = theta;
+    if (!state.slips) {
+      const bool at_edge = from == DiscPhase::Begin::closing || from == DiscPhase::Begin::slip_end;
+      double until = phases_.size() - first > most ? never : onset(disc, state.w, at_edge, theta, end);
+      if (opens_ && until >= end - negligible) until = never;
+      phase.state = DiscPhase::State::stick;
+      phase.w = state.w;
+      phase.end = std::min(until, end);
+      phases_.push_back(phase);
+      theta = phase.end;
+      if (until == never) return;
+      const DiscPoint p = disc.at(theta);
+      const Eigen::Vector2d y = p.x - state.w;
+      state.psi = std::atan2(y[1], y[0]);
+      state.slips = true;
+      from = DiscPhase::Begin::onset;
+      continue;
+    }
+    phase.state = DiscPhase::State::slip;
+    phase.first_panel = panels_.size();
+    const double psi = state.psi, h = std::max(disc.at(theta).h, 0.0);
+    double decay = 1;
+    bool ends = false;
+    const double until = slip(disc, state, theta, end, decay, ends);
+    phase.end = until;
+    phase.last_panel = panels_.size();
+    const DiscPoint p = disc.at(until);
+    if (by != nullptr && until > theta) {
+      const double ratio = h > 0 ? std::max(p.h, 0.0) / h * decay : 0;
+      *by = ratio * across(state.psi) * across(psi).transpose() * *by;
+    }
+    if (until > theta) phases_.push_back(phase);
+    if (end - until < negligible) return;
+    if (ends) {
+      state.w = p.x - std::max(p.h, 0.0) * direction(state.psi);
+      state.slips = false;
+      from = DiscPhase::Begin::slip_end;
+    }
+    theta = until;
+  }
+}
+
+DiscPhases::Period DiscPhases::period(const Disc& disc, double begin, const Eigen::Vector2d& w) {
+  phases_.clear();
+  panels_.clear();
+  State state = at_rest(disc, begin, w);
+  Period map{w, Eigen::Matrix2d::Identity()};
+  march(disc, state, DiscPhase::Begin::start, begin, begin + turn_angle, &map.by);
+  map.w = slider(disc.at(begin), state);
+  return map;
+}
+
+void DiscPhases::find_periodic(const Disc& disc) {
+  const double size = disc.motion_bound(0) + disc.radius_bound(0), same = same_value * size;
+  Eigen::Vector2d w = at_rest(disc, 0, centre_.w()).w;
+  Period map = period(disc, 0, w);
+  double error = (map.w - w).norm();
+  int left = passes;
+  for (int i = 0; i < newton_steps && error > same && left > 0; ++i, --left) {
+    const Eigen::Matrix2d A = Eigen::Matrix2d::Identity() - map.by;
+    Eigen::Vector2d next = map.w;
+    if (A.determinant() > 1e-12) {
+      next = at_rest(disc, 0, w + A.inverse() * (map.w - w)).w;
+      const Period there = period(disc, 0, next);
+      const double remains = (there.w - next).norm();
+      if (remains < error) {
+        w = next;
+        map = there;
+        error = remains;
+        continue;
+      }
+    }
+    w = map.w;  // never farther from the periodic motion
+    map = period(disc, 0, w);
+    error = (map.w - w).norm();
+  }
+  for (; error > same && left > 0; --left) {
+    w = map.w;
+    map = period(disc, 0, w);
+    error = (map.w - w).norm();
+  }
+  periodic_ = error <= 1e3 * same;
+  // Once more from the end of slip.
+  const auto rest = std::find_if(phases_.begin(), phases_.end(), [](const DiscPhase& phase) {
+    return phase.from == DiscPhase::Begin::slip_end;
+  });
+  if (rest == phases_.end()) {  // slip throughout
+    if (phases_.size() == 1 || panels_.empty()) return;
+    State state{true, w, panels_.back().to()};
+    phases_.clear();
+    panels_.clear();
+    march(disc, state, DiscPhase::Begin::start, 0, turn_angle, nullptr);
+    return;
+  }
+  const DiscPhase first = *rest;
+  phases_.clear();
+  panels_.clear();
+  State state{false, first.w, 0};
+  march(disc, state, DiscPhase::Begin::slip_end, first.begin, first.begin + turn_angle, nullptr);
+}
+
+const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
+                                               std::span<const std::pair<double, double>> closed,
+                                               bool opens) {
+  phases_.clear();
+  panels_.clear();
+  full_stick_ = false;
+  periodic_ = true;
+  opens_ = opens;
+  tolerance_ = resolved * disc.largest();
+  if (closed.empty()) {
+    phases_.push_back({DiscPhase::State::open, DiscPhase::Begin::opening, 0, turn_angle});
+    return phases_;
+  }
+  if (opens) {
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+      const auto [begin, end] = closed[i];
+      State state = closing(disc, begin);
+      march(disc, state, DiscPhase::Begin::closing, begin, end, nullptr);
+      const double next = i + 1 < closed.size() ? closed[i + 1].first : closed[0].first + turn_angle;
+      phases_.push_back({DiscPhase::State::open, DiscPhase::Begin::opening, end, next});
+    }
+    return phases_;
+  }
+  centre_.find(disc);
+  full_stick_ = centre_.r() <= same_value * disc.motion_bound(0);
+  if (full_stick_) {
+    DiscPhase phase{DiscPhase::State::stick, DiscPhase::Begin::start, 0, turn_angle};
+    phase.w = centre_.w();
+    phases_.push_back(phase);
+  } else {
+    find_periodic(disc);
+  }
+  return phases_;
+}
+
+Eigen::Vector2d DiscPhases::stretch(const Disc& disc, double theta) const {
+  const double begin = phases_.front().begin;
+  theta -= std::floor((theta - begin) / turn_angle) * turn_angle;
+  const auto after = std::upper_bound(phases_.begin(), phases_.end(), theta,
+                                      [](double at, const DiscPhase& phase) { return at < phase.begin; });
+  const DiscPhase& phase = after == phases_.begin() ? phases_.front() : *(after - 1);
+  const DiscPoint p = disc.at(theta);
+  if (phase.state == DiscPhase::State::open) return {0, 0};
+  if (phase.state == DiscPhase::State::stick) return p.x - phase.w;
+  std::size_t k = phase.first_panel;
+  while (k + 1 < phase.last_panel && panels_[k].end < theta) ++k;
+  const double at = std::clamp(theta, panels_[k].begin, panels_[k].end);
+  return std::max(p.h, 0.0) * direction(collocation_.psi(panels_[k], at));
+}
+
+std::uint64_t DiscPhases::sequence() const {
+  if (full_stick_) return 2 + centre_.active().size();
+  std::uint64_t sum = 1;
+  for (std::size_t i = 0; i < phases_.size(); ++i) {
+    const DiscPhase& next = phases_[i + 1 == phases_.size() ? 0 : i + 1];
+    sum += mixed(64 * code(phases_[i]) + code(next));
+  }
+  return sum;
+}
+
+void DiscPhases::tell(FrictionState& state) const {
+  state.slip_onsets.clear();
+  state.slip_ends.clear();
+  double stuck = 0, open = 0;
+  const auto wrapped = [](double angle) { return angle - std::floor(angle / turn_angle) * turn_angle; };
+  for (const DiscPhase& phase : phases_) {
+    if (phase.state == DiscPhase::State::stick) stuck += phase.end - phase.begin;
+    if (phase.state == DiscPhase::State::open) open += phase.end - phase.begin;
+    if (phase.state != DiscPhase::State::slip) continue;
+    if (phases_.size() == 1) continue;  // throughout
+    state.slip_onsets.push_back(wrapped(phase.begin));
+    state.slip_ends.push_back(wrapped(phase.end));
+  }
+  std::sort(state.slip_onsets.begin(), state.slip_onsets.end());
+  std::sort(state.slip_ends.begin(), state.slip_ends.end());
+  state.stick_share = full_stick_ ? 1 : stuck / turn_angle;
+  state.open_share = open / turn_angle;
+}
+
+}  // namespace arcslip::elements

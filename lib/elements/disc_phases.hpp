@@ -1,0 +1,91 @@
+#pragma once
+// The phases of a slider w in a disc that moves, over one period: centre x(theta), radius h(theta) >= 0.
+//
+//   stick  w rests while |x - w| < h
+//   slip   w = x - h n is carried along by the edge of the disc (slip_panel.hpp)
+//   open   the disc is the point x where N = 0, and w = x
+//
+// The onset of slip is where |x - w|^2 - h^2, a trigonometric polynomial, becomes positive: it is approached
+// in steps that a bound of its curvature allows, so that none is missed. Slip ends where x'.n = h'.
+//
+// Where the contact opens, the phases follow from its closing in one pass. Else the map of w over one period
+// is non-expansive. If a rest is possible (stick_centre.hpp) there is full stick, with the centred rest. If
+// not, the periodic motion is unique and attracting: Newton's method for w after one period, with the map
+// itself as a safeguard.
+
+#include <arcslip/elements/element.hpp>
+#include <arcslip/elements/slip_panel.hpp>
+#include <arcslip/elements/stick_centre.hpp>
+
+#include <cstdint>
+#include <span>
+#include <utility>
+
+namespace arcslip::elements {
+
+struct DiscPhase {
+  enum class State { open, stick, slip };
+  enum class Begin { closing, slip_end, onset, start, opening };
+  State state = State::open;
+  Begin from = Begin::start;
+  double begin = 0, end = 0;
+  Eigen::Vector2d w = Eigen::Vector2d::Zero();  // of stick
+  std::size_t first_panel = 0, last_panel = 0;  // of slip: [first, last)
+};
+
+/// Owns its buffers.
+class DiscPhases {
+ public:
+  explicit DiscPhases(const Harmonics& harmonics);
+
+  /// closed: the intervals in contact; the whole period where the contact never opens, none where it is open
+  /// throughout. `opens`: it is open for a part of the period. The first phase begins at a closing, at the
+  /// end of slip or, in full slip, anywhere; the last one ends a period later.
+  const std::vector<DiscPhase>& find(const Disc& disc, std::span<const std::pair<double, double>> closed,
+                                     bool opens);
+
+  // Of the last search.
+  const std::vector<DiscPhase>& list() const { return phases_; }
+  bool full_stick() const { return full_stick_; }
+  const StickCentre& centre() const { return centre_; }
+  const SlipPanel& panel(std::size_t k) const { return panels_[k]; }
+  const SlipCollocation& collocation() const { return collocation_; }
+  /// Whether the state after the period is that before it, to rounding.
+  bool periodic() const { return periodic_; }
+  /// x - w at an angle.
+  Eigen::Vector2d stretch(const Disc& disc, double theta) const;
+  /// A number for the sequence of phases, wherever it begins.
+  std::uint64_t sequence() const;
+  void tell(FrictionState& state) const;
+
+ private:
+  struct State {
+    bool slips = false;
+    Eigen::Vector2d w = Eigen::Vector2d::Zero();
+    double psi = 0;
+  };
+  struct Period {
+    Eigen::Vector2d w;   // at the end
+    Eigen::Matrix2d by;  // dw at the end by w at the beginning
+  };
+
+  State closing(const Disc& disc, double theta) const;
+  State at_rest(const Disc& disc, double theta, const Eigen::Vector2d& w) const;
+  Eigen::Vector2d slider(const DiscPoint& at, const State& state) const;
+  void march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
+             Eigen::Matrix2d* by);
+  double onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, double begin, double end) const;
+  double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);
+  Period period(const Disc& disc, double begin, const Eigen::Vector2d& w);
+  void find_periodic(const Disc& disc);
+
+  Harmonics harmonics_;
+  SlipCollocation collocation_;
+  StickCentre centre_;
+  std::vector<DiscPhase> phases_;
+  std::vector<SlipPanel> panels_;
+  double tolerance_ = 0, longest_ = 0;
+  bool full_stick_ = false, periodic_ = true, opens_ = false;
+};
+
+}  // namespace arcslip::elements
