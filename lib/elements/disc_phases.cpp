@@ -103,9 +103,10 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
   decay = 1;
   while (theta < end) {
     SlipPanel panel;
+    const SlipPanel* before = theta > begin ? &panels_.back() : nullptr;
     double to = std::min(theta + length, end);
     if (end - to < 1e-3 * length) to = end;
-    const double tail = collocation_.solve(disc, theta, to, state.psi, tolerance_, panel);
+    const double tail = collocation_.solve(disc, theta, to, state.psi, tolerance_, before, panel);
     const bool good = tail <= tolerance_;
     // The tail falls like the power of the number of nodes.
     const double ratio = std::pow(std::max(tail, 1e-6 * tolerance_) / tolerance_, -1.0 / panel_nodes);
@@ -145,7 +146,7 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
       ends = true;
       if (root - theta <= 1e-13) return theta;
       SlipPanel shorter;
-      if (collocation_.solve(disc, theta, root, state.psi, tolerance_, shorter))
+      if (collocation_.solve(disc, theta, root, state.psi, tolerance_, before, shorter))
         panel = shorter;
       else
         ends = false;
@@ -229,17 +230,14 @@ DiscPhases::Period DiscPhases::period(const Disc& disc, double begin, const Eige
   return map;
 }
 
-void DiscPhases::find_periodic(const Disc& disc) {
-  const double size = disc.motion_bound(0) + disc.radius_bound(0), same = same_value * size;
-  Eigen::Vector2d w = at_rest(disc, 0, centre_.w()).w;
+// Newton's method for w after one period, from w. Returns what is left.
+double DiscPhases::iterate(const Disc& disc, double enough, Eigen::Vector2d& w) {
   Period map = period(disc, 0, w);
   double error = (map.w - w).norm();
-  int left = passes;
-  for (int i = 0; i < newton_steps && error > same && left > 0; ++i, --left) {
+  for (int i = 0; i < passes && error > enough; ++i) {
     const Eigen::Matrix2d A = Eigen::Matrix2d::Identity() - map.by;
-    Eigen::Vector2d next = map.w;
-    if (A.determinant() > 1e-12) {
-      next = at_rest(disc, 0, w + A.inverse() * (map.w - w)).w;
+    if (i < newton_steps && A.determinant() > 1e-12) {
+      const Eigen::Vector2d next = at_rest(disc, 0, w + A.inverse() * (map.w - w)).w;
       const Period there = period(disc, 0, next);
       const double remains = (there.w - next).norm();
       if (remains < error) {
@@ -253,11 +251,13 @@ void DiscPhases::find_periodic(const Disc& disc) {
     map = period(disc, 0, w);
     error = (map.w - w).norm();
   }
-  for (; error > same && left > 0; --left) {
-    w = map.w;
-    map = period(disc, 0, w);
-    error = (map.w - w).norm();
-  }
+  return error;
+}
+
+void DiscPhases::find_periodic(const Disc& disc) {
+  const double size = disc.motion_bound(0) + disc.radius_bound(0), same = same_value * size;
+  Eigen::Vector2d w = at_rest(disc, 0, centre_.w()).w;
+  const double error = iterate(disc, same, w);
   periodic_ = error <= 1e3 * same;
   // Once more from the end of slip.
   const auto rest = std::find_if(phases_.begin(), phases_.end(), [](const DiscPhase& phase) {

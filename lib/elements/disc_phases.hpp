@@ -77,6 +77,7 @@ class DiscPhases {
   double onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, double begin, double end) const;
   double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);
   Period period(const Disc& disc, double begin, const Eigen::Vector2d& w);
+  double iterate(const Disc& disc, double enough, Eigen::Vector2d& w);
   void find_periodic(const Disc& disc);
 
   Harmonics harmonics_;
