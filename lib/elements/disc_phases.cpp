@@ -103,10 +103,9 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
   decay = 1;
   while (theta < end) {
     SlipPanel panel;
-    const SlipPanel* before = theta > begin ? &panels_.back() : nullptr;
     double to = std::min(theta + length, end);
     if (end - to < 1e-3 * length) to = end;
-    const double tail = collocation_.solve(disc, theta, to, state.psi, tolerance_, before, panel);
+    const double tail = collocation_.solve(disc, theta, to, state.psi, tolerance_, panel);
     const bool good = tail <= tolerance_;
     // The tail falls like the power of the number of nodes.
     const double ratio = std::pow(std::max(tail, 1e-6 * tolerance_) / tolerance_, -1.0 / panel_nodes);
@@ -146,7 +145,7 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
       ends = true;
       if (root - theta <= 1e-13) return theta;
       SlipPanel shorter;
-      if (collocation_.solve(disc, theta, root, state.psi, tolerance_, before, shorter))
+      if (collocation_.solve(disc, theta, root, state.psi, tolerance_, shorter))
         panel = shorter;
       else
         ends = false;

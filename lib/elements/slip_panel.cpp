@@ -13,7 +13,7 @@ namespace {
 constexpr int s = panel_nodes;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int newton_steps = 8;
-constexpr double rounding = 1e-15;  // rad
+constexpr double rounding = 1e-13;  // rad
 
 double legendre(int degree, double t) {
   double before = 1, at = t;
@@ -96,7 +96,7 @@ void SlipCollocation::guess(const std::array<DiscPoint, s>& at, SlipPanel& panel
 }
 
 double SlipCollocation::solve(const Disc& disc, double begin, double end, double from, double tolerance,
-                              const SlipPanel* before, SlipPanel& panel) const {
+                              SlipPanel& panel) const {
   panel.begin = begin;
   panel.end = end;
   panel.from = from;
@@ -107,44 +107,34 @@ double SlipCollocation::solve(const Disc& disc, double begin, double end, double
     at[static_cast<std::size_t>(j)] = disc.at(panel.theta[j]);
     panel.h[j] = std::max(at[static_cast<std::size_t>(j)].h, 0.0);
   }
-  if (before != nullptr && end - begin < 1.5 * before->length()) {
-    for (int j = 0; j < s; ++j) panel.psi[j] = psi(*before, panel.theta[j]);
-    if ((panel.psi.array() - from).abs().maxCoeff() < 0.5) {
-      const double tail = newton(at, tolerance, panel);
-      if (tail < infinite) return tail;
-    }
-  }
   guess(at, panel);
-  return newton(at, tolerance, panel);
-}
-
-double SlipCollocation::newton(const std::array<DiscPoint, s>& at, double tolerance, SlipPanel& panel) const {
-  const double half = 0.5 * panel.length();
-  const auto evaluate = [&] {
-    panel.rate = (derivative_ * panel.psi + by_first_ * panel.from) / half;
+  bool settled = false;
+  for (int i = 0; i < newton_steps && !settled; ++i) {
+    panel.rate = (derivative_ * panel.psi + by_first_ * from) / half;
     for (int j = 0; j < s; ++j) {
       const Eigen::Vector2d& v = at[static_cast<std::size_t>(j)].v;
       const double c = std::cos(panel.psi[j]), sine = std::sin(panel.psi[j]);
       panel.along[j] = c * v[0] + sine * v[1];
       panel.across[j] = c * v[1] - sine * v[0];
     }
-  };
-  bool settled = false;
-  evaluate();
-  for (int i = 0; i < newton_steps && !settled; ++i) {
     const SlipPanel::Nodes residual = panel.h.cwiseProduct(panel.rate) - panel.across;
     const SlipPanel::Nodes step = matrix(panel).partialPivLu().solve(residual);
-    const double size = step.cwiseAbs().maxCoeff();
-    if (!(size < 3)) return infinite;
+    if (!step.allFinite() || !(step.cwiseAbs().maxCoeff() < 3)) return infinite;
     panel.psi -= step;
-    // The next step is about the square of this one.
-    settled = size * size <= rounding || step.cwiseProduct(panel.h).cwiseAbs().maxCoeff() <= 1e-3 * tolerance;
-    evaluate();
+    settled = step.cwiseAbs().maxCoeff() <= rounding ||
+              step.cwiseProduct(panel.h).cwiseAbs().maxCoeff() <= 1e-3 * tolerance;
   }
   if (!settled) return infinite;
-  for (int j = 0; j < s; ++j) panel.spare[j] = panel.along[j] - at[static_cast<std::size_t>(j)].dh;
+  for (int j = 0; j < s; ++j) {
+    const DiscPoint& p = at[static_cast<std::size_t>(j)];
+    const double c = std::cos(panel.psi[j]), sine = std::sin(panel.psi[j]);
+    panel.along[j] = c * p.v[0] + sine * p.v[1];
+    panel.across[j] = c * p.v[1] - sine * p.v[0];
+    panel.spare[j] = panel.along[j] - p.dh;
+  }
+  panel.rate = (derivative_ * panel.psi + by_first_ * from) / half;
   Eigen::Matrix<double, s + 1, 1> values;
-  values << panel.from, panel.psi;
+  values << from, panel.psi;
   return (tail_ * values).cwiseAbs().sum() * panel.h.maxCoeff();
 }
 

@@ -40,9 +40,8 @@ class SlipCollocation {
 
   /// The size of the last two Legendre coefficients of h psi on the panel: what is not resolved is below it,
   /// and psi at the end is more exact by far. Infinite if Newton's method fails: the panel is too long.
-  /// before: the panel before this one, if slip goes on from there.
   double solve(const Disc& disc, double begin, double end, double from, double tolerance,
-               const SlipPanel* before, SlipPanel& panel) const;
+               SlipPanel& panel) const;
 
   /// The matrix of the equation's derivative by psi at the nodes, and its column by psi at the beginning.
   SlipPanel::Square matrix(const SlipPanel& panel) const;
@@ -53,7 +52,6 @@ class SlipCollocation {
   double psi(const SlipPanel& panel, double theta) const;
 
  private:
-  double newton(const std::array<DiscPoint, panel_nodes>& at, double tolerance, SlipPanel& panel) const;
   void guess(const std::array<DiscPoint, panel_nodes>& at, SlipPanel& panel) const;
 
   SlipPanel::Nodes nodes_, weights_, by_first_;
