@@ -145,7 +145,7 @@ TEST_CASE("each type of element is known by its name and describes its fields") 
     }
   }
   CHECK(names == std::vector<std::string>{"jenkins", "contact_2d", "iwan", "bouc_wen", "tanh_friction",
-                                          "quadratic_damper", "van_der_pol", "cubic_spring",
+                                          "coulomb", "quadratic_damper", "van_der_pol", "cubic_spring",
                                           "polynomial_spring", "polynomial_coupling", "gap_spring",
                                           "bilinear_spring", "piecewise_linear_spring"});
 }
