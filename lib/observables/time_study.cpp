@@ -281,7 +281,9 @@ class InTime {
                  "integrated over the requested number of periods");
     text << "after " << settings_.periods << " periods (the limit) the state still changes by "
          << found.change
-         << " of its size per period: allow more periods, or find the periodic motion by shooting";
+         << " of its size per period: allow more periods, or find the periodic motion by shooting, which "
+            "tells whether "
+            "it is stable";
     end(Status::stopped, reasons::period_limit, found.change, settings_.tolerance, text.str());
   }
 
