@@ -231,6 +231,7 @@ TEST_CASE("where a branch of motions that stop cannot be followed, its friction 
   const auto branches = observables::frequency_response(oscillator(rigid(0.7), 21, 0.05), {0.8, 2});
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::failed);
+  REQUIRE_FALSE(branches[0].points.empty());
   CHECK(branches[0].points.back().stops == "e");
   CHECK(branches[0].stop.message.find("the friction of \"e\" has no stiffness: where it stops the motion") !=
         std::string::npos);
