@@ -258,7 +258,7 @@ TEST_CASE("friction that holds a mass throughout is told, without a response") {
 }
 
 TEST_CASE("friction holds at once what has no mass of its own") {
-  // The slider moves through a spring only: half of the force is not enough to move it back.
+  // A spring alone moves the slider: as it turns, the force falls short of the limit on the other side.
   const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x", "y"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}, {"name": "k2", "between": ["x", "y"], "value": 0.5}],
@@ -316,4 +316,49 @@ TEST_CASE("in time rigid friction is refused by every method, with a reason") {
     CHECK(motion.stop.reason == observables::reasons::set_valued);
     CHECK(motion.stop.message.find("\"e\"") != std::string::npos);
   }
+}
+
+TEST_CASE("in a chain, what is told to stop sticks as a stiff slider in time, and what is not does not") {
+  const auto chain = [](const std::string& friction, double load, double between, int order) {
+    const auto element = [&](const std::string& place, double value) {
+      return place + R"(, "friction_coefficient": 1, "normal_load": )" + number(value) + friction + "}";
+    };
+    return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"dofs": ["a", "b", "c"],
+        "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1.5},
+                   {"name": "mc", "at": "c", "value": 0.7}],
+        "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 0.8},
+                    {"name": "kbc", "between": ["b", "c"], "value": 1.2}, {"name": "kc", "at": "c", "value": 0.5}],
+        "dampers": [{"name": "ca", "at": "a", "value": 0.03}, {"name": "cb", "at": "b", "value": 0.03},
+                    {"name": "cc", "at": "c", "value": 0.03}]},
+      "elements": [)" + element(R"({"name": "d1", "at": "a")", load) +
+                         ", " + element(R"({"name": "d2", "between": ["b", "c"])", between) +
+                         R"(, {"name": "j", "type": "jenkins", "at": "b", "stiffness": 0.5,
+        "friction_coefficient": 0.5, "normal_load": 0.4}],
+      "excitation": [{"name": "f", "at": "a", "cosine": 1}], "response": {"at": "a"},
+      "harmonics": {"order": )" +
+                         std::to_string(order) + R"(}, "studies": []})");
+  };
+  const struct {
+    double load, between, omega;
+  } all[] = {{0.1, 0.05, 0.4}, {0.1, 0.05, 0.6}, {0.1, 0.05, 0.9}, {0.1, 0.05, 1.2}, {0.1, 0.01, 1}};
+  int stops = 0;
+  for (const auto& each : all) {
+    CAPTURE(each.load, each.between, each.omega);
+    const auto motion = observables::motion_in_time(
+        chain(R"(, "type": "jenkins", "stiffness": 1e6)", each.load, each.between, 5),
+        {.frequency = each.omega});
+    REQUIRE(motion.status == observables::Status::complete);
+    const bool sticks = motion.elements[0].stick_percent > 1 || motion.elements[1].stick_percent > 1;
+    const auto found = observables::point_responses(
+        chain(R"(, "type": "coulomb")", each.load, each.between, 5), {.frequency = each.omega});
+    REQUIRE(found.size() == 1);
+    REQUIRE(found[0].status == observables::Status::complete);
+    CHECK(!found[0].point.stops.empty() == sticks);
+    CHECK(found[0].point.truncation_flagged == sticks);
+    if (sticks) CHECK(found[0].point.stops == "d2");
+    CHECK(found[0].point.amplitude == Approx(motion.amplitude).epsilon(sticks ? 0.03 : 0.002));
+    stops += sticks ? 1 : 0;
+  }
+  CHECK(stops == 2);
 }
