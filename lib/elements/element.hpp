@@ -46,6 +46,11 @@ class Element {
   /// The smooth piece of F at the last point.
   virtual std::uint64_t piece() const { return 0; }
 
+  /// Where the force jumps at reversals of the motion: the largest ratio of half the jump to |d2q/dtheta2|
+  /// there, N/(m/rad^2). At that reversal friction holds the motion, which stops, unless m omega^2 is larger,
+  /// with the base frequency omega and the inertia 1/m = d^T M^-1 d along the direction. 0: no jump.
+  virtual double jump_over_bend() const { return 0; }
+
   /// False if the element has no contact. Angles of the last point.
   virtual bool friction(FrictionState&) const { return false; }
 };

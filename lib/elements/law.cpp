@@ -4,6 +4,7 @@
 #include <arcslip/elements/bouc_wen.hpp>
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/contact_3d.hpp>
+#include <arcslip/elements/coulomb.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/iwan.hpp>
@@ -33,6 +34,7 @@ std::vector<const scene::PartType*> laws() {
           &iwan(),
           &bouc_wen(),
           &tanh_friction(),
+          &coulomb(),
           &quadratic_damper(),
           &van_der_pol(),
           &cubic_spring(),

@@ -125,6 +125,9 @@ class Law {
   virtual bool dissipative() const { return has_contact(); }
   /// Whether the force depends on velocities: Element::set_frequency(), StepEnd::v. Its memory may not.
   virtual bool rate_dependent() const { return false; }
+  /// Whether its force at rest may be any within its limits, as of friction without a stiffness. Harmonic
+  /// balance tells motions that stop (Element::jump_over_bend()); in time it is refused.
+  virtual bool set_valued() const { return false; }
   virtual Traits traits(Fields fields, int direction) const = 0;
   /// The largest |df/dq| while |q| stays within `reach`, N/m; finite.
   virtual double stiffness(Fields fields, int direction, double reach) const = 0;

@@ -22,6 +22,19 @@ constexpr double smallest_step = 1e-2;          // of the largest at the low end
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
 constexpr double rejected_in_rounding = 0.5;    // steps, over points: where the branch lies in its rounding
 
+// What may have made a computation fail, as the end of its message.
+std::string causes(const model::Model& model, const Vector& p) {
+  std::string text;
+  for (const auto& element : model.elements)
+    if (element.law->set_valued())
+      text +=
+          "; the friction of \"" + element.name +
+          "\" has no stiffness: where it stops the motion, responses may not be found; give the contact a "
+          "stiffness";
+  if (const std::string apart = model::stiffness_apart(model, p); !apart.empty()) text += "; " + apart;
+  return text;
+}
+
 }  // namespace
 
 std::string doubt_of_rounding(const model::Model& model, const Vector& p,
@@ -34,8 +47,7 @@ std::string doubt_of_rounding(const model::Model& model, const Vector& p,
 void speak_of_scene(const model::Model& model, const Vector& p, continuation::Branch& branch) {
   using continuation::StopReason;
   if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
-  if (const std::string apart = model::stiffness_apart(model, p); !apart.empty())
-    branch.stop.message += "; " + apart;
+  branch.stop.message += causes(model, p);
 }
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
@@ -56,12 +68,11 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
             "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics"};
   const auto u = hbm::steady_state(problem, p, go_on);
   if (!u) {
-    const std::string apart = model::stiffness_apart(*model, p);
     return {problem,
             {},
             "Newton's method failed from rest and from the linear response, and so did continuation in the "
             "excitation level and in the forces of the elements" +
-                (apart.empty() ? "" : "; " + apart)};
+                causes(*model, p)};
   }
   return {problem_with(u->norm()), u, {}};
 }

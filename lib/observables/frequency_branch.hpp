@@ -43,7 +43,8 @@ std::string doubt_of_rounding(const model::Model& model, const continuation::Vec
                               const continuation::Counts& counts);
 
 /// For users of scenes: the message of a branch that ended early also names stiffnesses with too large a
-/// ratio. It does not mention the Jacobian, which is not checked for scenes.
+/// ratio, and friction without a stiffness. It does not mention the Jacobian, which is not checked for
+/// scenes.
 void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Branch& branch);
 
 /// Called at each point (event: null) and each event; false stops.

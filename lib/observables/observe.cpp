@@ -23,6 +23,7 @@ Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem, int free)
     : problem_(std::move(problem)),
       free_(free),
       amplitude_(problem_->harmonics()),
+      stops_(problem_->model()),
       x_(problem_->harmonics().size()),
       dx_(x_.size()),
       by_parameter_(x_.size()) {
@@ -107,6 +108,10 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
     ElementResponse response;
     response.name = problem_->model().elements[e].name;
     response.has_stick = at.element(e).friction(state);
+    if (stops_.at_reversals(at.element(e), e, now.p)) {
+      point.stops = response.name;
+      point.truncation_flagged = true;
+    }
     const elements::Law& law = *problem_->model().elements[e].law;
     const int displacements = law.directions() * h.size();
     if (law.dissipative()) {

@@ -6,6 +6,7 @@
 #include <arcslip/observables/amplitude.hpp>
 #include <arcslip/observables/force_components.hpp>
 #include <arcslip/observables/response.hpp>
+#include <arcslip/observables/stops.hpp>
 #include <arcslip/observables/truncation.hpp>
 
 #include <initializer_list>
@@ -52,7 +53,8 @@ class Observer {
   std::shared_ptr<const hbm::HbmProblem> problem_;
   int free_;
   Amplitude amplitude_;
-  Eigen::MatrixXd named_;                   // d^T P, a row for each named response
+  Eigen::MatrixXd named_;  // d^T P, a row for each named response
+  Stops stops_;
   std::unique_ptr<Truncation> truncation_;  // created at the first observe()
   std::unique_ptr<Maxima> maxima_;          // created at the first request
   continuation::Vector x_, dx_, by_parameter_;

@@ -91,10 +91,11 @@ struct ResponsePoint {
   double amplitude = 0;             // max over the period of |x|, m, at the scene's response
   double phase = 0;                 // rad, lag of the response's fundamental behind the force's
   double truncation_estimate = 0;   // m, estimated effect of the neglected harmonics on the amplitude
-  bool truncation_flagged = false;  // the estimate may be too low (truncation.hpp)
-  double energy_friction = 0;       // J per period
-  double energy_viscous = 0;        // J per period
-  bool unbounded = false;           // the amplitude grows without bound; `amplitude` is undefined
+  bool truncation_flagged = false;  // the estimate may be too low (truncation.hpp, stops.hpp)
+  std::string stops;           // an element whose motion stops where it reverses (stops.hpp); empty: none
+  double energy_friction = 0;  // J per period
+  double energy_viscous = 0;   // J per period
+  bool unbounded = false;      // the amplitude grows without bound; `amplitude` is undefined
   std::vector<ElementResponse> elements;
   std::vector<NamedResponse> responses;  // the named responses, in the order of the scene
   std::vector<double>

@@ -114,7 +114,11 @@ class InTime {
     for (std::size_t k = 0; k < model_->parameters.size(); ++k)
       p_[static_cast<Eigen::Index>(k)] = model_->parameters[k].value;
     p_[model::frequency] = motion_.omega;
-    equation_ = time::equation_of_motion(*model_, p_);
+    try {
+      equation_ = time::equation_of_motion(*model_, p_);
+    } catch (const time::SetValued& error) {
+      end(Status::failed, reasons::set_valued, 0, 0, error.what());
+    }
     progress_.frequency = settings_.frequency;
     progress_.item = "motion";
     progress_.counted = "periods";
@@ -122,7 +126,7 @@ class InTime {
 
   Motion run() {
     const auto began = std::chrono::steady_clock::now();
-    integrate();
+    if (motion_.stop.reason.code.empty()) integrate();
     motion_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return std::move(motion_);
   }
@@ -277,7 +281,9 @@ class InTime {
                  "integrated over the requested number of periods");
     text << "after " << settings_.periods << " periods (the limit) the state still changes by "
          << found.change
-         << " of its size per period: allow more periods, or find the periodic motion by shooting";
+         << " of its size per period: allow more periods, or find the periodic motion by shooting, which "
+            "tells whether "
+            "it is stable";
     end(Status::stopped, reasons::period_limit, found.change, settings_.tolerance, text.str());
   }
 

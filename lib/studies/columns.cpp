@@ -133,10 +133,21 @@ results::Object solver(const observables::SolverSummary& summary) {
           {"seconds", summary.seconds, "s"}};
 }
 
+std::string doubt_of_stops(const std::string& element) {
+  return element.empty() ? ""
+                         : "\"" + element +
+                               "\" stops where its motion reverses, since its friction has no stiffness: the "
+                               "error falls slowly with the harmonics; give the contact a stiffness";
+}
+
 std::string doubt_of(const observables::ResponseBranch& branch) {
-  return branch.doubt.empty()
-             ? ""
-             : "dominated by rounding errors, so that its results lose digits: " + branch.doubt;
+  if (!branch.doubt.empty())
+    return "dominated by rounding errors, so that its results lose digits: " + branch.doubt;
+  const auto stops = [](const auto& point) { return !point.stops.empty(); };
+  const auto first = std::find_if(branch.points.begin(), branch.points.end(), stops);
+  if (first == branch.points.end()) return "";
+  return "at " + std::to_string(std::count_if(first, branch.points.end(), stops)) + " of " +
+         std::to_string(branch.points.size()) + " points " + doubt_of_stops(first->stops);
 }
 
 }  // namespace arcslip::studies

@@ -37,7 +37,11 @@ results::Header header(const scene::Scene& scene);
 results::Object stop(const observables::Stop& stop);
 results::Object solver(const observables::SolverSummary& summary);
 
-/// The doubt about a branch (ResponseBranch::doubt), as the end of a sentence; empty: none.
+/// The doubt about a motion that stops (ResponsePoint::stops); empty: none.
+std::string doubt_of_stops(const std::string& element);
+
+/// The doubts about a branch (ResponseBranch::doubt, motions that stop), as the end of a sentence; empty:
+/// none.
 std::string doubt_of(const observables::ResponseBranch& branch);
 
 }  // namespace arcslip::studies

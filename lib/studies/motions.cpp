@@ -82,6 +82,19 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
   return all;
 }
 
+constexpr double neutral =
+    1e-6;  // |multiplier| above 1 by less, as without damping, is no growth to speak of
+
+// A motion that no structure shows.
+std::string doubt(const Motion& motion) {
+  if (motion.multipliers.empty() || !(std::abs(motion.multipliers.front()) > 1 + neutral)) return {};
+  std::ostringstream text;
+  text.precision(4);
+  text << "unstable, with a multiplier of modulus " << std::abs(motion.multipliers.front())
+       << ": the structure leaves it after the least disturbance";
+  return text.str();
+}
+
 }  // namespace
 
 Described<Motion> motions(const scene::Scene& scene, const RunOptions& options) {
@@ -104,13 +117,14 @@ Described<Motion> motions(const scene::Scene& scene, const RunOptions& options) 
             std::vector<Instant> instants;
             for (std::size_t i = 0; points && i < motion.history.time.size(); ++i)
               instants.push_back({&motion.history, i});
-            return results::Result{.schema = 0,
-                                   .head = {motion.study,
-                                            motion.kind,
-                                            named(scene, motion.set),
-                                            {{"parameters", named(scene, motion.parameters)}}},
-                                   .tables = {table->rows(instants)},
-                                   .end = {motion.status, stop(motion.stop), facts(scene, motion)}};
+            return results::Result{
+                .schema = 0,
+                .head = {motion.study,
+                         motion.kind,
+                         named(scene, motion.set),
+                         {{"parameters", named(scene, motion.parameters)}}},
+                .tables = {table->rows(instants)},
+                .end = {motion.status, stop(motion.stop), facts(scene, motion), doubt(motion)}};
           }};
 }
 

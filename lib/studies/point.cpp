@@ -82,6 +82,10 @@ std::vector<Instant> instants(const PointResponse& response, const scene::RunOpt
   return all;
 }
 
+std::string doubt_of(const PointResponse& response) {
+  return response.doubt.empty() ? doubt_of_stops(response.point.stops) : response.doubt;
+}
+
 results::Object facts(const scene::Scene& scene, const PointResponse& response) {
   results::Object all;
   if (response.status == observables::Status::complete) {
@@ -118,7 +122,7 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
                          named(scene, response.set),
                          {{"parameters", named(scene, response.parameters)}}},
                 .tables = {table->rows(instants(response, options))},
-                .end = {response.status, stop(response.stop), facts(scene, response), response.doubt}};
+                .end = {response.status, stop(response.stop), facts(scene, response), doubt_of(response)}};
           }};
 }
 

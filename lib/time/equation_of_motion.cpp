@@ -31,6 +31,10 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
   equation.C = model::assemble(model.dampers, p, model.dofs);
   equation.K = model::assemble(model.springs, p, model.dofs);
   for (const model::NonlinearPart& part : model.elements) {
+    if (part.law->set_valued())
+      throw SetValued("the friction of \"" + part.name +
+                      "\" has no stiffness: while it holds, its force is any within its limit, which "
+                      "integration in time does not determine; give the contact a stiffness");
     Matrix directions(model.dofs, static_cast<Eigen::Index>(part.directions.size()));
     for (std::size_t i = 0; i < part.directions.size(); ++i)
       directions.col(static_cast<Eigen::Index>(i)) = part.directions[i];

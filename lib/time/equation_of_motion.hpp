@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -58,7 +59,12 @@ struct MotionState {
   Vector x, v, z;  // m, m/s; z: the memory of all elements, m for sliders
 };
 
-/// p: as model.parameters, "frequency" included (rad/s).
+/// A law whose force at rest is set-valued (Law::set_valued()).
+class SetValued : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// p: as model.parameters, "frequency" included (rad/s). Throws SetValued.
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p);
 
 /// Everything at rest, without memory of force.

@@ -210,7 +210,7 @@ Object facts(const scene::Scene& scene, const OptimumResult& result) {
 // Of the responses at the optimum.
 std::string doubt(const OptimumResult& result) {
   for (const observables::ResponseBranch& branch : result.responses)
-    if (!branch.doubt.empty()) return studies::doubt_of(branch);
+    if (std::string doubts = studies::doubt_of(branch); !doubts.empty()) return doubts;
   return {};
 }
 

@@ -41,6 +41,7 @@ struct Example {
   double rough;  // of differences of an element in the frequency domain, where it is sampled and has kinks
 };
 
+// Rigid friction, whose force jumps, has checks of its own: elements/coulomb.cpp.
 const Example all[] = {
     {elements::jenkins(), {2, 0.5, 1}, 1e-7},
     {renamed, {0.5, 1, 2}, 1e-7},
