@@ -75,8 +75,10 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
   }
   const std::size_t before = faults.count();
   if (part.type != nullptr) part.options = read_options(*part.type, place, dofs, source, faults);
-  const Location wear = at_pointer(place, "/wear_coefficient");
-  const bool wears = section_type == nullptr && part.type != nullptr && wear.node != nullptr &&
+  const Location wear = part.type != nullptr && place.node->get<Node::Object>() != nullptr
+                            ? at_pointer(place, "/wear_coefficient")
+                            : Location{};
+  const bool wears = section_type == nullptr && wear.node != nullptr &&
                      (faults.count() > before || part.type->wears(part.options));
   const Keys keys(place, keys_of(part, section_type == nullptr, wears), faults);
   if (!keys.is_object()) {

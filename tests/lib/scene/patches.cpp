@@ -214,6 +214,9 @@ TEST_CASE("faults of a patch in the scene name its keys") {
     return faults(text("\"patches\": [" + entry + "],"), folder.path());
   };
   CHECK(contains(with("3"), "/patches/0"));
+  CHECK(contains(with("[3]"), "/patches/0: found a list"));
+  CHECK(contains(faults(text(R"("elements": [["wear_coefficient"]],)"), folder.path()),
+                 "/elements/0: found a list"));
   CHECK(contains(with(R"({"name": "pad", "file": "contacts/pad.csv"})"), "\"law\""));
   const std::string spring = with(R"({"name": "pad", "law": "gap_spring", "file": "contacts/pad.csv"})");
   CHECK(contains(spring, "/patches/0/law: found \"gap_spring\", must be one of \"jenkins\""));
