@@ -7,6 +7,8 @@
 //
 // The counter `samples` is that number of steps in a period.
 
+#include "sampled.hpp"
+
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/iwan.hpp>
@@ -88,53 +90,6 @@ void iwan_table(benchmark::State& state) {
   }
 }
 
-// Samples of the motion and their projection; two periods, of which the second counts.
-class Sampled {
- public:
-  Sampled(const Example& example, const elements::Harmonics& h, int samples)
-      : law_(*example.law),
-        fields_(example.fields),
-        basis_(samples, h.size()),
-        q_(samples, law_.directions()),
-        f_(samples, law_.directions()),
-        end_(law_.directions(), law_.memory()),
-        z_(Eigen::VectorXd::Zero(law_.memory())) {
-    Eigen::VectorXd phi(h.size());
-    for (int s = 0; s < samples; ++s) {
-      elements::series_basis(h, 2 * std::numbers::pi * s / samples, phi);
-      basis_.row(s) = phi.transpose();
-    }
-  }
-
-  const Eigen::MatrixXd& coefficients(const Eigen::VectorXd& u) {
-    q_.noalias() = basis_ * u.reshaped(basis_.cols(), q_.cols());
-    z_.setZero();
-    at_ = q_.row(0).transpose();
-    law_.begin(fields_, at_, z_, end_);
-    force_ = end_.f;
-    for (Eigen::Index k = 1; k <= 2 * q_.rows(); ++k) {
-      const Eigen::Index s = k % q_.rows();
-      dq_ = q_.row(s).transpose() - at_;
-      law_.step(fields_, {at_, z_, force_}, dq_, end_);
-      z_ += end_.dz;
-      at_ = q_.row(s).transpose();
-      force_ = end_.f;
-      f_.row(s) = force_.transpose();
-    }
-    F_.noalias() = basis_.transpose() * f_;
-    F_ *= 2.0 / static_cast<double>(q_.rows());
-    F_.row(0) *= 0.5;
-    return F_;
-  }
-
- private:
-  const elements::Law& law_;
-  std::vector<double> fields_;
-  Eigen::MatrixXd basis_, q_, f_, F_;
-  elements::StepEnd end_;
-  Eigen::VectorXd z_, at_, dq_, force_;
-};
-
 void sampled_element(benchmark::State& state, Example (*make)()) {
   const Example example = make();
   const elements::Harmonics h{static_cast<int>(state.range(0)), false};
@@ -143,9 +98,9 @@ void sampled_element(benchmark::State& state, Example (*make)()) {
   exact->move_to(u, example.fields, false);
   const double most = exact->force().cwiseAbs().maxCoeff();
   int samples = 64;
-  std::unique_ptr<Sampled> sampled;
+  std::unique_ptr<bench::Sampled> sampled;
   for (;; samples = samples * 5 / 4) {
-    sampled = std::make_unique<Sampled>(example, h, samples);
+    sampled = std::make_unique<bench::Sampled>(*example.law, example.fields, h, samples);
     const Eigen::MatrixXd& F = sampled->coefficients(u);
     if ((F.reshaped() - exact->force()).cwiseAbs().maxCoeff() < 1e-6 * most) break;
   }

@@ -107,6 +107,7 @@ class LawType : public scene::PartType {
  public:
   /// The law with these options.
   virtual std::shared_ptr<const Law> law(const scene::Settings& options) const = 0;
+  bool wears(const scene::Settings& options) const override;
 };
 
 class Law {
@@ -121,6 +122,11 @@ class Law {
   virtual bool has_contact() const { return false; }
   /// Whether it has a normal load that varies, and may open.
   virtual bool has_normal_load() const { return false; }
+  /// That load, N, at a displacement along the last direction, where there is one; monotonic.
+  virtual double normal_load_at(Fields fields, double displacement) const {
+    static_cast<void>(fields), static_cast<void>(displacement);
+    return 0;
+  }
   /// Whether it dissipates energy in a periodic motion.
   virtual bool dissipative() const { return has_contact(); }
   /// Whether the force depends on velocities: Element::set_frequency(), StepEnd::v. Its memory may not.

@@ -23,14 +23,14 @@ class ElementCorners {
       : part_(problem.model().elements[static_cast<std::size_t>(element)]),
         map_(problem.map_of(static_cast<std::size_t>(element))),
         corners_(part_.law->corners(problem.harmonics())),
-        at_(map_.size(), 0, static_cast<Eigen::Index>(part_.parameters.size())),
+        at_(map_.size(), 0, static_cast<Eigen::Index>(part_.field_count)),
         w_(map_.size()),
-        fields_(part_.parameters.size()) {}
+        fields_(part_.field_count) {}
 
   bool any() const { return corners_ != nullptr; }
   elements::Corners& at(In u, In p) {
     map_.gather(u, w_);
-    for (std::size_t k = 0; k < fields_.size(); ++k) fields_[k] = p[part_.parameters[k]];
+    part_.set_fields(p, fields_);
     return *corners_;
   }
   const Vector& motion() const { return w_; }
@@ -56,8 +56,8 @@ class ElementCorners {
   // d(row)/dp_k after these.
   double parameter_derivative(Eigen::Index row, int k) const {
     double sum = 0;
-    for (std::size_t field = 0; field < part_.parameters.size(); ++field)
-      if (part_.parameters[field] == k) sum += at_.by_field(row, static_cast<Eigen::Index>(field));
+    for (const model::Share& share : part_.shares)
+      if (share.parameter == k) sum += share.factor * at_.by_field(row, share.field);
     return sum;
   }
   // g = d(row)/du.

@@ -23,10 +23,10 @@ HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
     Part part{element.law->element(problem.harmonics(), problem.sampling()),
               problem.map_of(e),
               element.law->rate_dependent(),
-              element.parameters,
+              &element,
               {},
               {}};
-    part.fields.resize(element.parameters.size());
+    part.fields.resize(element.field_count);
     part.motion.resize(part.map.size());
     derivative_.resize(std::max(derivative_.size(), part.motion.size()));
     parts_.push_back(std::move(part));
@@ -45,7 +45,7 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
   stiffness_.residual(u_, force_factor_, R_);
   if (jacobian) J.setZero();
   for (Part& part : parts_) {
-    for (std::size_t k = 0; k < part.fields.size(); ++k) part.fields[k] = p[part.parameters[k]];
+    part.of->set_fields(p, part.fields);
     part.map.gather(u_, part.motion);
     if (part.rate_dependent) part.element->set_frequency(stiffness_.base_frequency());
     part.element->move_to(part.motion, part.fields, jacobian);
@@ -71,9 +71,10 @@ void HbmEvaluator::parameter_derivative(int k, continuation::Out dR) const {
       dF *= model_->harmonics.base_frequency(1);
       part.map.add(dF, dR);
     }
-    for (std::size_t field = 0; field < part.parameters.size(); ++field) {
-      if (part.parameters[field] != k) continue;
-      part.element->field_derivative(static_cast<int>(field), dF);
+    for (const model::Share& share : part.of->shares) {
+      if (share.parameter != k) continue;
+      part.element->field_derivative(share.field, dF);
+      if (share.factor != 1) dF *= share.factor;
       part.map.add(dF, dR);
     }
   }

@@ -41,7 +41,7 @@ class HbmEvaluator final : public continuation::Evaluator {
     std::unique_ptr<elements::Element> element;
     ElementMap map;
     bool rate_dependent;
-    std::vector<int> parameters;
+    const model::NonlinearPart* of;
     std::vector<double> fields;
     Vector motion;
   };

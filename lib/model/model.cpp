@@ -1,6 +1,7 @@
 #include <arcslip/model/model.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/scene/patch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,17 +32,12 @@ class Builder {
     for (const auto& part : scene_.dampers) model_.dampers.push_back(linear(part));
     for (const auto& part : scene_.springs) model_.springs.push_back(linear(part));
     for (const auto& part : scene_.elements) {
-      NonlinearPart element{part.name, elements::law_of(part), {}, {}};
-      for (std::size_t k = 0; k < part.values.size(); ++k) element.parameters.push_back(parameter(part, k));
-      for (const auto& direction : part.directions)
-        element.directions.push_back(sparse(direction, model_.dofs));
-      if (element.directions.size() != static_cast<std::size_t>(element.law->directions()))
-        throw std::invalid_argument("the element \"" + part.name + "\" has " +
-                                    std::to_string(element.directions.size()) + " directions, its law " +
-                                    std::to_string(element.law->directions()));
-      model_.antisymmetric = model_.antisymmetric && element.law->antisymmetric();
-      model_.elements.push_back(std::move(element));
+      std::vector<Share> shares;
+      for (std::size_t k = 0; k < part.values.size(); ++k)
+        shares.push_back({static_cast<int>(k), parameter(part, k)});
+      add_element(part, std::move(shares));
     }
+    for (const auto& patch : scene_.patches) add_patch(patch);
     bool even = false;
     model_.force_harmonic = scene_.harmonics.order;
     for (const auto& part : scene_.excitation) {
@@ -61,6 +57,34 @@ class Builder {
  private:
   LinearPart linear(const scene::Part& part) {
     return {parameter(part, 0), sparse(part.directions.front(), model_.dofs)};
+  }
+
+  void add_element(const scene::Part& part, std::vector<Share> shares) {
+    NonlinearPart element{part.name, elements::law_of(part), std::move(shares),
+                          {},        part.values.size(),     part.wear_coefficient};
+    for (const auto& direction : part.directions)
+      element.directions.push_back(sparse(direction, model_.dofs));
+    if (element.directions.size() != static_cast<std::size_t>(element.law->directions()))
+      throw std::invalid_argument("the element \"" + part.name + "\" has " +
+                                  std::to_string(element.directions.size()) + " directions, its law " +
+                                  std::to_string(element.law->directions()));
+    model_.antisymmetric = model_.antisymmetric && element.law->antisymmetric();
+    model_.elements.push_back(std::move(element));
+  }
+
+  void add_patch(const scene::Part& part) {
+    std::vector<int> parameters;
+    for (std::size_t k = 0; k < part.values.size(); ++k) parameters.push_back(parameter(part, k));
+    Patch patch{part.name, model_.elements.size(), {}};
+    const auto& options = part.options.as<scene::PatchOptions>();
+    for (const scene::PatchRow& row : options.rows) {
+      std::vector<Share> shares;
+      for (const scene::PatchShare& share : options.shares(row))
+        shares.push_back({static_cast<int>(share.field), parameters[share.from], share.factor});
+      add_element(scene::patch_element(part, row), std::move(shares));
+      patch.areas.push_back(row.area);
+    }
+    model_.patches.push_back(std::move(patch));
   }
 
   // The parameter of one field: a new one, or that of the tie which the field belongs to.
@@ -110,9 +134,15 @@ continuation::Vector defaults(const Model& model) {
 }
 
 std::vector<double> NonlinearPart::fields(const continuation::Vector& p) const {
-  std::vector<double> values;
-  for (const int k : parameters) values.push_back(p[k]);
+  std::vector<double> values(field_count);
+  set_fields(p, values);
   return values;
+}
+
+void NonlinearPart::set_fields(continuation::In p, std::span<double> fields) const {
+  std::fill(fields.begin(), fields.end(), 0.0);
+  for (const Share& share : shares)
+    fields[static_cast<std::size_t>(share.field)] += share.factor * p[share.parameter];
 }
 
 void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum) {

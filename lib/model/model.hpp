@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,14 +27,30 @@ struct LinearPart {
   Direction direction;
 };
 
+/// What a parameter adds to a field of an element: factor * p[parameter].
+struct Share {
+  int field, parameter;
+  double factor = 1;
+};
+
 /// A nonlinear element: its law acts on q_i = d_i . x, along d_i.
 struct NonlinearPart {
   std::string name;
   std::shared_ptr<const elements::Law> law;
-  std::vector<int> parameters;  // of its fields
+  std::vector<Share> shares;  // of its fields: one each, or more in a patch
   std::vector<Direction> directions;
+  std::size_t field_count = 0;
+  double wear_coefficient = 0;  // m^3/J
 
   std::vector<double> fields(const continuation::Vector& p) const;
+  void set_fields(continuation::In p, std::span<double> fields) const;
+};
+
+/// A patch of contacts.
+struct Patch {
+  std::string name;
+  std::size_t first;          // of its elements
+  std::vector<double> areas;  // of each, m^2
 };
 
 /// (cosine cos n theta + sine sin n theta) d.
@@ -52,6 +69,7 @@ struct Model {
   std::vector<continuation::Parameter> parameters;  // [0] is "frequency", rad/s; ties stand for their members
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<NonlinearPart> elements;
+  std::vector<Patch> patches;
   std::vector<Force> forces;
   Eigen::VectorXd response;                // the direction of the amplitude
   std::vector<Direction> named_responses;  // of the scene

@@ -21,13 +21,15 @@ enum class TimeMethod { shooting, newmark_shooting, newmark, event_driven };
 /// "newmark-shooting", as in a scene file.
 std::string_view name(TimeMethod method);
 
-/// Observables of one friction element over the recorded periods.
+/// Observables of one friction element, or of a patch, over the recorded periods.
 struct ElementMotion {
   std::string name;
   double stick_percent = 0;  // share of the time in stick, 0 to 100
   double energy = 0;         // dissipated per period, J
   bool has_normal_load = false;
-  double open_percent = 0;  // share of the time in separation
+  double open_percent = 0;                          // share of the time in separation
+  double normal_load_max = 0, normal_load_min = 0;  // N; of a patch, of its total at the instants recorded
+  double wear_rate = no_value;                      // m^3/s; no_value without a wear coefficient
 };
 
 /// complete: a steady motion within the tolerance, or, if that is 0, the requested number of periods.
@@ -48,6 +50,7 @@ struct Motion {
   double amplitude = 0;    // max |x| of the response over the recorded periods, m
   time::EnergyBalance energy;  // per period, the mean of those recorded, J
   std::vector<ElementMotion> elements;
+  std::vector<ElementMotion> patches;             // their totals
   std::vector<std::complex<double>> multipliers;  // Floquet, by decreasing modulus; with shooting
   std::optional<bool> stable;                     // all of them within the unit circle
   time::TimeHistory history;                      // of the recorded periods; t = 0 at their start

@@ -2,9 +2,11 @@
 
 #include <arcslip/observables/energies.hpp>
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/patches.hpp>
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <utility>
 
 namespace arcslip::observables {
@@ -121,6 +123,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
               : element_energy(h, at.element_motion(e), at.element(e).force().head(displacements));
       point.energy_friction += response.energy;
     }
+    if (const double wear = problem_->model().elements[e].wear_coefficient; wear > 0)
+      response.wear_rate = wear * response.energy * at.stiffness().base_frequency() / (2 * std::numbers::pi);
     if (response.has_stick) {
       response.stick_percent = 100 * state.stick_share;
       response.has_normal_load = law.has_normal_load();
@@ -134,6 +138,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
     set_fundamental(*problem_, at, e, response);
     point.elements.push_back(std::move(response));
   }
+  add_patches(*problem_, at, now.p, point);
   point.coefficients.reserve(static_cast<std::size_t>(2 * h.cosines()));
   for (int i = 0; i < h.cosines(); ++i) {
     const int n = h.cosine_order(i);

@@ -1,9 +1,11 @@
 #include <arcslip/observables/quantities.hpp>
 
 #include <arcslip/elements/law.hpp>
+#include <arcslip/scene/patch.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 namespace arcslip::observables {
@@ -92,6 +94,10 @@ bool has_normal_load(const Element& element) {
   return element.has_normal_load;
 }
 
+bool has_wear(const Element& element) {
+  return !std::isnan(element.wear_rate);
+}
+
 bool has_element_maxima(const Element& element) {
   return !std::isnan(element.maxima.force);
 }
@@ -104,28 +110,44 @@ bool has_one_friction_element(const Point& point) {
   return std::count_if(point.elements.begin(), point.elements.end(), is_friction) == 1;
 }
 
+// Of an element, or of a patch by its law.
+std::shared_ptr<const elements::Law> law_of(const scene::Part& part) {
+  if (part.type != &scene::patch_type()) return elements::law_of(part);
+  const auto& patch = part.options.as<scene::PatchOptions>();
+  scene::Part element;
+  element.type = patch.law;
+  element.options = patch.law_options;
+  return elements::law_of(element);
+}
+
 bool is_part_with_normal_load(const scene::Part& part) {
-  return elements::law_of(part)->has_normal_load();
+  return law_of(part)->has_normal_load();
+}
+
+bool is_part_with_wear(const scene::Part& part) {
+  return part.wear_coefficient > 0;
 }
 
 }  // namespace
 
 bool is_friction_part(const scene::Part& part) {
-  return elements::law_of(part)->has_contact();
+  return law_of(part)->has_contact();
 }
 
 namespace {
 
 bool one_friction_part(const scene::Scene& scene) {
-  return std::count_if(scene.elements.begin(), scene.elements.end(), is_friction_part) == 1;
+  const auto elements = scene::all_elements(scene);
+  return std::count_if(elements.begin(), elements.end(), is_friction_part) == 1;
 }
 
 bool any_nonlinear_spring(const scene::Scene& scene) {
-  return !std::all_of(scene.elements.begin(), scene.elements.end(), is_friction_part);
+  return !std::all_of(scene.elements.begin(), scene.elements.end(), is_friction_part) ||
+         !std::all_of(scene.patches.begin(), scene.patches.end(), is_friction_part);
 }
 
 bool one_mass_and_friction_part(const scene::Scene& scene) {
-  return scene.dofs.size() == 1 && scene.elements.size() == 1 && one_friction_part(scene);
+  return scene.dofs.size() == 1 && scene::all_elements(scene).size() == 1 && one_friction_part(scene);
 }
 
 double stick_of_one(const Point& point) {
@@ -215,6 +237,9 @@ constexpr ElementQuantity of_element[] = {
     {"reversal_angles", "rad", "friction elements: end of each slip phase", angles<&Element::reversal_angles>,
      is_friction, is_friction_part},
     {"energy", "J", "dissipated per period", element<&Element::energy>},
+    {"wear_rate", "m³/s",
+     "elements with a `wear_coefficient`: worn volume per second, the coefficient times the dissipated power",
+     element<&Element::wear_rate>, has_wear, is_part_with_wear},
     {"theta_0", "rad",
      "friction elements with one stick and one slip phase in each half period: largest displacement of the "
      "element",
@@ -236,6 +261,20 @@ constexpr ElementQuantity of_element[] = {
      has_element_maxima, is_friction_part},
     {"maxima.sine", "N", "likewise, of the sine terms", largest_of<&ForceMaxima::sine>, has_element_maxima,
      is_friction_part},
+};
+
+constexpr ElementQuantity of_patch[] = {
+    {"stick_percent", "%", "share of the period in stick, the mean over the area",
+     element<&Element::stick_percent>, is_friction, is_friction_part},
+    {"open_percent", "%", "laws with a normal direction: likewise in separation; slip is the rest",
+     element<&Element::open_percent>, has_normal_load, is_part_with_normal_load},
+    {"normal_load_max", "N", "likewise, the largest total normal load of the period",
+     element<&Element::normal_load_max>, has_normal_load, is_part_with_normal_load},
+    {"normal_load_min", "N", "likewise, the smallest", element<&Element::normal_load_min>, has_normal_load,
+     is_part_with_normal_load},
+    {"energy", "J", "dissipated per period", element<&Element::energy>},
+    {"wear_rate", "m³/s", "with a `wear_coefficient`: worn volume per second", element<&Element::wear_rate>,
+     has_wear, is_part_with_wear},
 };
 
 constexpr Quantity<NamedResponse> of_named_response[] = {
@@ -261,6 +300,10 @@ std::span<const ResponseQuantity> response_quantities() {
 
 std::span<const ElementQuantity> element_quantities() {
   return of_element;
+}
+
+std::span<const ElementQuantity> patch_quantities() {
+  return of_patch;
 }
 
 std::span<const Quantity<NamedResponse>> named_response_quantities() {

@@ -53,11 +53,12 @@ struct Quantity {
 using ResponseQuantity = Quantity<ResponsePoint>;
 using ElementQuantity = Quantity<ElementResponse>;
 
-/// Whether an element of a scene sticks and slips.
+/// Whether an element or a patch of a scene sticks and slips.
 bool is_friction_part(const scene::Part& part);
 
 std::span<const ResponseQuantity> response_quantities();
 std::span<const ElementQuantity> element_quantities();
+std::span<const ElementQuantity> patch_quantities();
 std::span<const Quantity<NamedResponse>> named_response_quantities();
 
 /// The quantity with this path, which must exist.

@@ -38,6 +38,8 @@ struct ElementResponse {
   // With a normal load that varies: the share of the period in separation, 0 to 100, and that load, N.
   bool has_normal_load = false;
   double open_percent = 0, normal_load_max = 0, normal_load_min = 0;
+  double wear_rate = no_value;  // m^3/s; no_value without a wear coefficient
+  bool of_patch = false;        // one of ResponsePoint::patches has it
 
   // With one stick and one slip phase in each half period: theta_0 in [0, 2 pi), the angle of the largest
   // displacement of the element, where stick starts; theta_star in (theta_0, theta_0 + 2 pi), the next onset
@@ -97,6 +99,7 @@ struct ResponsePoint {
   double energy_viscous = 0;   // J per period
   bool unbounded = false;      // the amplitude grows without bound; `amplitude` is undefined
   std::vector<ElementResponse> elements;
+  std::vector<ElementResponse> patches;  // their totals (patches.hpp)
   std::vector<NamedResponse> responses;  // the named responses, in the order of the scene
   std::vector<double>
       coefficients;              // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics

@@ -1,6 +1,7 @@
 #include <arcslip/observables/time_study.hpp>
 
 #include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/patches.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
@@ -82,7 +83,8 @@ PeriodMotion periods_between_events(time::EventDriven& events, const MotionState
   result.energy = motion.energy;
   const double per_time = motion.time > 0 ? 1 / motion.time : 0;
   for (const time::FrictionRecord& record : motion.friction)
-    result.friction.push_back({record.stick_time * per_time, record.open_time * per_time, record.energy});
+    result.friction.push_back({record.stick_time * per_time, record.open_time * per_time, record.energy,
+                               record.load_max, record.load_min});
   if (with_history) result.history = std::move(motion.history);
   return result;
 }
@@ -292,14 +294,41 @@ class InTime {
     motion_.amplitude = motion.amplitude;
     motion_.energy = {motion.energy.input * share, motion.energy.friction * share,
                       motion.energy.viscous * share, motion.energy.stored * share};
+    const double per_second = 1 / equation_.period();
+    std::vector<ElementMotion> all(equation_.elements.size());
     std::size_t k = 0;
-    for (const time::TimeElement& element : equation_.elements) {
+    for (std::size_t e = 0; e < all.size(); ++e) {
+      const time::TimeElement& element = equation_.elements[e];
       if (!element.law->has_contact() || k == motion.friction.size()) continue;
       const time::FrictionShare& friction = motion.friction[k++];
-      motion_.elements.push_back({element.name, 100 * friction.stick_share, friction.energy * share,
-                                  element.law->has_normal_load(), 100 * friction.open_share});
+      const double energy = friction.energy * share, wear = model_->elements[e].wear_coefficient;
+      all[e] = {element.name,
+                100 * friction.stick_share,
+                energy,
+                element.law->has_normal_load(),
+                100 * friction.open_share,
+                friction.load_max,
+                friction.load_min,
+                wear > 0 ? wear * energy * per_second : no_value};
+      motion_.elements.push_back(all[e]);
     }
+    for (const model::Patch& patch : model_->patches)
+      motion_.patches.push_back(
+          total<ElementMotion>(patch, std::span(all).subspan(patch.first, patch.areas.size())));
+    add_total_loads(motion.history);
     motion_.history = std::move(motion.history);
+  }
+
+  // Of the patches, at the instants of the history.
+  void add_total_loads(const time::TimeHistory& history) {
+    for (std::size_t k = 0; k < motion_.patches.size() && !history.time.empty(); ++k) {
+      const model::Patch& patch = model_->patches[k];
+      ElementMotion& sum = motion_.patches[k];
+      if (!sum.has_normal_load) continue;
+      const std::vector<double> load = total_load(history, patch.first, patch.areas.size());
+      sum.normal_load_min = *std::min_element(load.begin(), load.end());
+      sum.normal_load_max = *std::max_element(load.begin(), load.end());
+    }
   }
 
   void end(Status status, const results::Reason& reason, double value, double limit,

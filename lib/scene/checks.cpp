@@ -61,7 +61,8 @@ void check_excitation(const Scene& scene, Faults& faults) {
 void check_structure(const Scene& scene, Faults& faults) {
   if (!any_value(scene.masses))
     faults.add("/structure/masses", "found no mass, must have at least one mass with a value above 0 kg");
-  if (!any_value(scene.springs) && scene.elements.empty()) {
+  const std::vector<Part> elements = all_elements(scene);
+  if (!any_value(scene.springs) && elements.empty()) {
     faults.add(
         "/structure/springs",
         "found no stiffness, must have at least one spring with a value other than 0 N/m, or an element");
@@ -70,7 +71,7 @@ void check_structure(const Scene& scene, Faults& faults) {
   mark(scene.masses, false, acted_on);
   mark(scene.springs, false, acted_on);
   mark(scene.dampers, false, acted_on);
-  mark(scene.elements, true, acted_on);
+  mark(elements, true, acted_on);
   if (std::find(acted_on.begin(), acted_on.end(), true) == acted_on.end()) return;  // reported above
   for (std::size_t i = 0; i < acted_on.size(); ++i) {
     if (!acted_on[i]) {

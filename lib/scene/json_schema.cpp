@@ -1,5 +1,6 @@
 #include <arcslip/scene/json_schema.hpp>
 
+#include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/words.hpp>
 #include <arcslip/scene/write_values.hpp>
@@ -171,12 +172,26 @@ Node part_of(const PartType& type, bool with_type) {
     if (!field.default_value && type.options().empty())  // options may bring others in its place
       required.emplace_back(field.name);
   }
+  if (with_type) properties.push_back({std::string(wear_coefficient.name), number_of(wear_coefficient)});
   Object object = object_of(std::move(properties), required);
   if (type.names_directions())
     object.back().value = place_object();
   else if (!type.options().empty())
     object.back().value = of_type("number");  // fields that the options bring
   if (one_direction) object.push_back({"oneOf", one_place()});
+  return of(std::move(object));
+}
+
+// A patch of contacts, whose fields depend on its law.
+Node patch() {
+  Object object = object_of(
+      {{"name", of_type("string")},
+       {"law", of_type("string")},
+       {"file", of({{"type", node("string")}, {"description", node("the path of a CSV file of contacts")}})},
+       {"details", of({{"type", node("boolean")}, {"default", {true}}})},
+       {std::string(wear_coefficient.name), number_of(wear_coefficient)}},
+      {"name", "law", "file"});
+  object.pop_back();  // other keys are fields and options of the law
   return of(std::move(object));
 }
 
@@ -223,6 +238,7 @@ Node schema_of(const Catalogue& catalogue) {
        {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
        {"structure", of(object_of(std::move(structure), {"dofs"}))},
        {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
+       {"patches", list_of(patch())},
        {"excitation", list_of(part_of(force_type(), false), 1)},
        {"ties", map_of(list_of(of_type("string"), 1))},
        {"harmonics", of(object_of({{"order", of(std::move(order))},

@@ -16,6 +16,7 @@ std::vector<NamedFile*> files(Scene& scene) {
     all.insert(all.end(), found.begin(), found.end());
   };
   for (Part& part : scene.elements) add(part.type, part.options);
+  for (Part& patch : scene.patches) add(patch.type, patch.options);
   for (Study& study : scene.studies) add(study.type, study.settings);
   return all;
 }

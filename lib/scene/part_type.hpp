@@ -50,6 +50,9 @@ class PartType {
   virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
   virtual void write_options(const Settings&, const Scene&, file::Node::Object&) const {}
 
+  /// Whether a wear coefficient stands beside them: of elements that dissipate.
+  virtual bool wears(const Settings&) const { return false; }
+
   /// The scalar fields with these options, in the order of Part::values. Valid as long as the options.
   virtual std::span<const Field> fields(const Settings& options) const = 0;
 };

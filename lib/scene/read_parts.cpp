@@ -26,7 +26,7 @@ const PartType* read_type(const Keys& keys, std::span<const PartType* const> typ
 }
 
 // The keys of a part. An element whose type is not known may have any.
-std::vector<std::string> keys_of(const Part& part, bool is_element) {
+std::vector<std::string> keys_of(const Part& part, bool is_element, bool wears) {
   if (part.type == nullptr) return {};
   std::vector<std::string> keys = {"name"};
   if (is_element) keys.emplace_back("type");
@@ -38,16 +38,8 @@ std::vector<std::string> keys_of(const Part& part, bool is_element) {
   if (part.type == &force_type()) keys.emplace_back("harmonic");
   for (const Field& field : part.fields())
     if (field.place.empty()) keys.emplace_back(field.name);
+  if (wears) keys.emplace_back(wear_coefficient.name);
   return keys;
-}
-
-Settings read_options(const PartType& type, const Location& place, const Dofs& dofs, const FileSource& source,
-                      Faults& faults) {
-  if (type.options().empty()) return {};
-  Faults others;  // reported with the keys of the part, which these options decide
-  const Names none;
-  return type.read_options(
-      {Keys(place, {}, others), any_number, Parameters({}, true, none), dofs, faults, source});
 }
 
 std::vector<Direction> read_directions(const PartType& type, const Settings& options, const Keys& keys,
@@ -81,8 +73,14 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
     Faults duplicates;  // reported below, once the allowed keys are known from the type
     part.type = read_type(Keys(place, {}, duplicates), types, faults);
   }
+  const std::size_t before = faults.count();
   if (part.type != nullptr) part.options = read_options(*part.type, place, dofs, source, faults);
-  const Keys keys(place, keys_of(part, section_type == nullptr), faults);
+  const Location wear = part.type != nullptr && place.node->get<Node::Object>() != nullptr
+                            ? at_pointer(place, "/wear_coefficient")
+                            : Location{};
+  const bool wears = section_type == nullptr && wear.node != nullptr &&
+                     (faults.count() > before || part.type->wears(part.options));
+  const Keys keys(place, keys_of(part, section_type == nullptr, wears), faults);
   if (!keys.is_object()) {
     names.set_incomplete();
     return part;
@@ -111,10 +109,20 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
                                                  : keys.require(field.name, allowed_text(field), faults);
     part.values.push_back(read_number(value, field, faults).value_or(field.default_value.value_or(0)));
   }
+  if (wears) part.wear_coefficient = read_number(wear, wear_coefficient, faults).value_or(0);
   return part;
 }
 
 }  // namespace
+
+Settings read_options(const PartType& type, const Location& place, const Dofs& dofs, const FileSource& source,
+                      Faults& faults) {
+  if (type.options().empty()) return {};
+  Faults others;  // reported with the keys of the part, which these options decide
+  const Names none;
+  return type.read_options(
+      {Keys(place, {}, others), any_number, Parameters({}, true, none), dofs, faults, source});
+}
 
 std::string objection(const std::string& name) {
   if (name.empty()) return "must be a name of at least one character";

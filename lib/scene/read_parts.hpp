@@ -50,9 +50,23 @@ class Names {
   bool complete_ = true;
 };
 
+/// The key "wear_coefficient" of an element.
+inline constexpr Field wear_coefficient{.name = "wear_coefficient",
+                                        .unit = "m^3/J",
+                                        .lower = 0,
+                                        .upper = std::numeric_limits<double>::infinity(),
+                                        .default_value = 0.0,
+                                        .help = "volume worn for the energy dissipated"};
+
 Dofs read_dofs(const Location& place, Faults& faults);
 /// The direction of an object with one of "at", "between" and "direction".
 std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults);
+/// The options of a part of this type.
+Settings read_options(const PartType& type, const Location& place, const Dofs& dofs, const FileSource& source,
+                      Faults& faults);
+/// The patches of contacts, of any of these laws.
+std::vector<Part> read_patches(const Location& place, std::span<const PartType* const> laws, const Dofs& dofs,
+                               const FileSource& source, Names& names, Faults& faults);
 /// A section with parts of one type or, if `type` is null, of any of `types`.
 std::vector<Part> read_parts(const Location& place, const PartType* type,
                              std::span<const PartType* const> types, const Dofs& dofs,

@@ -1,6 +1,7 @@
 // A scene file, section by section, in the order of the format.
 #include <arcslip/scene/checks.hpp>
 #include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/read_text.hpp>
@@ -106,8 +107,8 @@ std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, const File
 Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource& source, Faults& faults) {
   Scene scene;
   const Keys root({&node, ""},
-                  {"format", "title", "frequency_unit", "structure", "elements", "excitation", "ties",
-                   "harmonics", "response", "studies", "$schema"},
+                  {"format", "title", "frequency_unit", "structure", "elements", "patches", "excitation",
+                   "ties", "harmonics", "response", "studies", "$schema"},
                   faults);
   if (!root.is_object()) return scene;
   // Faults up to a section: a check that needs sound sections waits until they are.
@@ -130,6 +131,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   scene.dampers = read_parts(structure.find("dampers"), &damper_type(), {}, dofs, source, names, faults);
   scene.elements =
       read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, source, names, faults);
+  scene.patches = read_patches(root.find("patches"), catalogue.elements, dofs, source, names, faults);
   if (is_sound(before_parts)) check_structure(scene, faults);
 
   const std::size_t before_excitation = faults.count();
@@ -174,6 +176,9 @@ Catalogue catalogue_of(const Scene& scene) {
   Catalogue catalogue;
   for (const Part& part : scene.elements)
     if (catalogue.element(part.type->name()) == nullptr) catalogue.elements.push_back(part.type);
+  for (const Part& patch : scene.patches)
+    if (const PartType* law = patch.options.as<PatchOptions>().law; catalogue.element(law->name()) == nullptr)
+      catalogue.elements.push_back(law);
   for (const Study& study : scene.studies)
     if (catalogue.study(study.type->name()) == nullptr) catalogue.studies.push_back(study.type);
   return catalogue;
@@ -211,6 +216,15 @@ void check(const Scene& scene) {
                                                   " values, must be " + std::to_string(part.fields().size()) +
                                                   " for the type " + file::shown(part.type->name()));
     }
+  }
+  for (std::size_t i = 0; i < scene.patches.size(); ++i) {
+    const Part& patch = scene.patches[i];
+    if (patch.type != &patch_type() || patch.options.empty() ||
+        patch.options.as<PatchOptions>().law == nullptr)
+      faults.add(file::child("/patches", i), "found no law, must be a patch of contacts with one");
+    else if (patch.values.size() != patch.fields().size())
+      faults.add(file::child("/patches", i), "found " + std::to_string(patch.values.size()) +
+                                                 " values, must be " + std::to_string(patch.fields().size()));
   }
   for (std::size_t i = 0; i < scene.studies.size(); ++i)
     if (scene.studies[i].type == nullptr)

@@ -38,8 +38,10 @@ struct Part {
   const PartType* type = nullptr;
   std::vector<Direction> directions;  // of the type's slots; one if it has none
   std::vector<double> values;
-  int harmonic = 1;    // excitation only: harmonic of the force; 0: constant
-  Settings options{};  // of the type; empty: its defaults
+  int harmonic = 1;             // excitation only: harmonic of the force; 0: constant
+  Settings options{};           // of the type; empty: its defaults
+  double wear_coefficient = 0;  // of elements that dissipate: volume worn for the energy, m^3/J
+  bool detailed = true;         // false: an element of a patch of which results have the totals alone
 
   std::span<const Field> fields() const;
   friend bool operator==(const Part&, const Part&) = default;
@@ -83,7 +85,9 @@ struct Scene {
   std::string title;
   FrequencyUnit frequency_unit = FrequencyUnit::hertz;
   std::vector<std::string> dofs;
-  std::vector<Part> masses, springs, dampers, elements, excitation;
+  std::vector<Part> masses, springs, dampers, elements;
+  std::vector<Part> patches;  // of contacts (patch.hpp), which all_elements() has after the elements
+  std::vector<Part> excitation;
   std::vector<Tie> ties;
   Harmonics harmonics;
   std::vector<Response> responses{1};  // at least one: the first defines the amplitude
@@ -94,6 +98,9 @@ struct Scene {
   Direction& response() { return responses.front().direction; }
   friend bool operator==(const Scene&, const Scene&) = default;
 };
+
+/// The elements, then those of the patches.
+std::vector<Part> all_elements(const Scene& scene);
 
 /// The types of the other sections. Fields: value; value; value; cosine, sine.
 const PartType& mass_type();

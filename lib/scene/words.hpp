@@ -26,7 +26,7 @@ inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 
 /// Names of quantities in results, which the continuation parameter of a study must not have.
-inline constexpr std::array<std::string_view, 28> result_names = {"kind",
+inline constexpr std::array<std::string_view, 30> result_names = {"kind",
                                                                   "nonsmooth",
                                                                   "located",
                                                                   "omega",
@@ -47,6 +47,8 @@ inline constexpr std::array<std::string_view, 28> result_names = {"kind",
                                                                   "normal_load_max",
                                                                   "normal_load_min",
                                                                   "elements",
+                                                                  "patches",
+                                                                  "wear_rate",
                                                                   "responses",
                                                                   "coefficients",
                                                                   "after",

@@ -91,6 +91,7 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
     for (std::size_t i = 0; i < slots.size(); ++i)
       object.push_back({std::string(slots[i]), {Node::Object{place_member(part.directions[i], dofs)}}});
     part.type->write_options(part.options, scene, object);
+    if (part.wear_coefficient != 0) object.push_back({"wear_coefficient", node(part.wear_coefficient)});
     if (part.type == &force_type()) object.push_back({"harmonic", node(part.harmonic)});
     const std::span<const Field> fields = part.fields();
     for (std::size_t i = 0; i < fields.size(); ++i)
@@ -150,16 +151,18 @@ Node tree(const Scene& scene) {
                                     {"masses", parts_node(scene.masses, scene)},
                                     {"springs", parts_node(scene.springs, scene)},
                                     {"dampers", parts_node(scene.dampers, scene)}}};
-  return {Node::Object{{"format", node(format_name)},
-                       {"title", node(scene.title)},
-                       {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))},
-                       {"structure", structure},
-                       {"elements", parts_node(scene.elements, scene, true)},
-                       {"excitation", parts_node(scene.excitation, scene)},
-                       {"ties", ties_node(scene.ties)},
-                       {"harmonics", harmonics_node(scene.harmonics)},
-                       {"response", responses_node(scene)},
-                       {"studies", studies_node(scene)}}};
+  Node::Object all{{"format", node(format_name)},
+                   {"title", node(scene.title)},
+                   {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))},
+                   {"structure", structure},
+                   {"elements", parts_node(scene.elements, scene, true)}};
+  if (!scene.patches.empty()) all.push_back({"patches", parts_node(scene.patches, scene)});
+  all.insert(all.end(), {{"excitation", parts_node(scene.excitation, scene)},
+                         {"ties", ties_node(scene.ties)},
+                         {"harmonics", harmonics_node(scene.harmonics)},
+                         {"response", responses_node(scene)},
+                         {"studies", studies_node(scene)}});
+  return {std::move(all)};
 }
 
 }  // namespace file

@@ -69,12 +69,20 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
   add(
       observables::response_quantities(), scene, scene, asked, {},
       [](const ResponsePoint& response) { return &response; }, table);
-  for (std::size_t e = 0; e < scene.elements.size(); ++e)
+  const std::vector<scene::Part> elements = scene::all_elements(scene);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    if (elements[e].detailed)
+      add(
+          observables::element_quantities(), elements[e], scene, asked, {"elements", elements[e].name},
+          [e](const ResponsePoint& response) {
+            return e < response.elements.size() ? &response.elements[e] : nullptr;
+          },
+          table);
+  for (std::size_t k = 0; k < scene.patches.size(); ++k)
     add(
-        observables::element_quantities(), scene.elements[e], scene, asked,
-        {"elements", scene.elements[e].name},
-        [e](const ResponsePoint& response) {
-          return e < response.elements.size() ? &response.elements[e] : nullptr;
+        observables::patch_quantities(), scene.patches[k], scene, asked, {"patches", scene.patches[k].name},
+        [k](const ResponsePoint& response) {
+          return k < response.patches.size() ? &response.patches[k] : nullptr;
         },
         table);
   for (std::size_t r = 0; r < scene.responses.size(); ++r)
@@ -103,12 +111,16 @@ void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<
 
 void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown) {
   using observables::is_friction_part;
-  const bool one = std::count_if(scene.elements.begin(), scene.elements.end(), is_friction_part) == 1;
-  for (const scene::Part& element : scene.elements)
-    if (is_friction_part(element))
-      shown.push_back({(one ? "" : element.name + " ") + "stick (%)",
-                       {"elements", element.name, "stick_percent"},
-                       "%.4f"});
+  const auto count = std::count_if(scene.elements.begin(), scene.elements.end(), is_friction_part);
+  const bool one = static_cast<std::size_t>(count) + scene.patches.size() == 1;
+  const auto add_parts = [&](const std::vector<scene::Part>& parts, const char* key) {
+    for (const scene::Part& part : parts)
+      if (is_friction_part(part))
+        shown.push_back(
+            {(one ? "" : part.name + " ") + "stick (%)", {key, part.name, "stick_percent"}, "%.4f"});
+  };
+  add_parts(scene.elements, "elements");
+  add_parts(scene.patches, "patches");
 }
 
 results::Header header(const scene::Scene& scene) {

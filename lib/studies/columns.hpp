@@ -23,13 +23,14 @@ struct Asked {
   bool amplitude = true;      // false: given elsewhere
 };
 
-/// The quantities of responses of a scene, by element in an object "elements".
+/// The quantities of responses of a scene, by element in an object "elements", by patch in "patches".
 results::TableOf<observables::ResponsePoint> responses(const scene::Scene& scene, const Asked& asked = {});
 
 /// The columns of these parameters, without existing ones.
 void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<results::Column>& columns);
 
-/// The columns of friction elements in text output: the share of the period, or of the time, in stick.
+/// The columns of friction elements and patches in text output: the share of the period, or of the time, in
+/// stick.
 void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown);
 
 results::Header header(const scene::Scene& scene);

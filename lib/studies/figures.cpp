@@ -12,23 +12,27 @@
 namespace arcslip::studies {
 namespace {
 
-// A share of the period that an element spends in a state of contact.
+// A share of the period that an element or a patch spends in a state of contact.
 struct Share {
   std::string element, state;  // "stick", "separation"
+  std::vector<observables::ElementResponse> observables::ResponsePoint::*list;
   double observables::ElementResponse::*percent;
 };
 
-// Those of all contacts, in the order of the points.
+// Those of all contacts, in the order of the points; of patches, the totals.
 std::vector<Share> contact_shares(std::span<const observables::ResponseBranch* const> branches) {
-  using observables::ElementResponse;
+  using observables::ElementResponse, observables::ResponsePoint;
   std::vector<Share> shares;
   for (const observables::ResponseBranch* branch : branches) {
     for (const observables::ResponsePoint& point : branch->points) {
-      for (const ElementResponse& element : point.elements) {
-        if (element.has_stick) shares.push_back({element.name, "stick", &ElementResponse::stick_percent});
-        if (element.has_normal_load)
-          shares.push_back({element.name, "separation", &ElementResponse::open_percent});
-      }
+      for (const auto list : {&ResponsePoint::elements, &ResponsePoint::patches})
+        for (const ElementResponse& element : point.*list) {
+          if (element.of_patch) continue;
+          if (element.has_stick)
+            shares.push_back({element.name, "stick", list, &ElementResponse::stick_percent});
+          if (element.has_normal_load)
+            shares.push_back({element.name, "separation", list, &ElementResponse::open_percent});
+        }
       if (!point.elements.empty()) return shares;  // every point of a scene has the same elements
     }
   }
@@ -37,7 +41,7 @@ std::vector<Share> contact_shares(std::span<const observables::ResponseBranch* c
 
 // %; NaN where the point does not know.
 double percent(const observables::ResponsePoint& point, const Share& share) {
-  for (const observables::ElementResponse& candidate : point.elements)
+  for (const observables::ElementResponse& candidate : point.*share.list)
     if (candidate.has_stick && candidate.name == share.element) return candidate.*share.percent;
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -206,13 +210,14 @@ struct Loop {
 /// Those of the friction elements, and of their further directions, which follow all elements of the scene.
 std::vector<Loop> loops_of(const scene::Scene& scene, std::span<const Motion> motions) {
   std::vector<Loop> loops;
-  for (std::size_t e = 0; e < scene.elements.size(); ++e)
-    if (observables::is_friction_part(scene.elements[e])) loops.push_back({e, scene.elements[e].name});
+  const std::vector<scene::Part> elements = scene::all_elements(scene);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    if (elements[e].detailed && observables::is_friction_part(elements[e]))
+      loops.push_back({e, elements[e].name});
   const auto longest = std::max_element(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) {
     return a.history.elements.size() < b.history.elements.size();
   });
-  for (std::size_t e = scene.elements.size();
-       longest != motions.end() && e < longest->history.elements.size(); ++e)
+  for (std::size_t e = elements.size(); longest != motions.end() && e < longest->history.elements.size(); ++e)
     loops.push_back({e, longest->history.elements[e].name});
   return loops;
 }

@@ -1,11 +1,15 @@
 #include <arcslip/studies/motions.hpp>
 
+#include <arcslip/elements/law.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
 
+#include <cmath>
 #include <complex>
 #include <memory>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace arcslip::studies {
@@ -30,8 +34,10 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
   add({"time"}, "s", "from the start of the recorded periods", [](const auto& of) { return &of.time; });
   add({"displacement"}, "m", "of the response", [](const auto& of) { return &of.displacement; });
   add({"velocity"}, "m/s", "of the response", [](const auto& of) { return &of.velocity; });
-  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-    const std::string& name = scene.elements[e].name;
+  const std::vector<scene::Part> elements = scene::all_elements(scene);
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (!elements[e].detailed) continue;
+    const std::string& name = elements[e].name;
     const auto of_element = [&](const char* key, const char* unit, const char* help,
                                 std::vector<double> time::ElementTimeHistory::*member) {
       add({"elements", name, key}, unit, help, [e, member](const time::TimeHistory& of) {
@@ -40,11 +46,30 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
     };
     of_element("displacement", "m", "of the element", &time::ElementTimeHistory::displacement);
     of_element("force", "N", "against the motion", &time::ElementTimeHistory::force);
-    if (observables::is_friction_part(scene.elements[e]))
+    if (observables::is_friction_part(elements[e]))
       of_element("slider", "m", "friction elements: position of the slider",
                  &time::ElementTimeHistory::slider);
+    if (elements::law_of(elements[e])->has_normal_load())
+      of_element("normal_load", "N", "contacts with a normal direction",
+                 &time::ElementTimeHistory::normal_load);
   }
   return table;
+}
+
+results::Object contacts(const std::vector<observables::ElementMotion>& list,
+                         const std::set<std::string>& hidden) {
+  results::Object all;
+  for (const observables::ElementMotion& element : list) {
+    if (hidden.contains(element.name)) continue;
+    results::Object of{{"stick_percent", element.stick_percent, "%"}, {"energy", element.energy, "J"}};
+    if (element.has_normal_load)
+      of.insert(of.end(), {{"open_percent", element.open_percent, "%"},
+                           {"normal_load_max", element.normal_load_max, "N"},
+                           {"normal_load_min", element.normal_load_min, "N"}});
+    if (!std::isnan(element.wear_rate)) of.push_back({"wear_rate", element.wear_rate, "m^3/s"});
+    all.push_back({element.name, std::move(of)});
+  }
+  return all;
 }
 
 results::Object facts(const scene::Scene& scene, const Motion& motion) {
@@ -72,13 +97,11 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
   if (motion.stable) all.push_back({"stable", *motion.stable});
   if (motion.elements.size() == 1)
     all.push_back({"stick_percent", motion.elements.front().stick_percent, "%"});
-  results::Object elements;
-  for (const observables::ElementMotion& element : motion.elements) {
-    results::Object of{{"stick_percent", element.stick_percent, "%"}, {"energy", element.energy, "J"}};
-    if (element.has_normal_load) of.push_back({"open_percent", element.open_percent, "%"});
-    elements.push_back({element.name, std::move(of)});
-  }
-  all.push_back({"elements", std::move(elements)});
+  std::set<std::string> hidden;
+  for (const scene::Part& element : scene::all_elements(scene))
+    if (!element.detailed) hidden.insert(element.name);
+  all.push_back({"elements", contacts(motion.elements, hidden)});
+  if (!motion.patches.empty()) all.push_back({"patches", contacts(motion.patches, {})});
   return all;
 }
 

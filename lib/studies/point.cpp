@@ -40,6 +40,7 @@ struct Instant {
 results::TableOf<Instant> history(const scene::Scene& scene) {
   using observables::ElementHistory;
   results::TableOf<Instant> table;
+  const std::vector<scene::Part> elements = scene::all_elements(scene);
   table.add({"time"}, "s", "of the period",
             [](const Instant& at) { return at.history->angle[at.i] / at.history->base_frequency; });
   table.add({"angle"}, "rad", "base frequency times the time",
@@ -50,19 +51,20 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
             [](const Instant& at) { return at.history->velocity[at.i]; });
   const auto add = [&](std::size_t e, const char* key, const char* unit, const char* help,
                        std::vector<double> ElementHistory::*member) {
-    table.add({"elements", scene.elements[e].name, key}, unit, help,
+    table.add({"elements", elements[e].name, key}, unit, help,
               [e, member](const Instant& at) { return (at.history->elements[e].*member)[at.i]; });
   };
-  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (!elements[e].detailed) continue;
     add(e, "displacement", "m", "of the element", &ElementHistory::displacement);
     add(e, "velocity", "m/s", "of the element", &ElementHistory::velocity);
     add(e, "force", "N", "of the law, against the motion", &ElementHistory::force);
     add(e, "series", "N", "the same as the truncated Fourier series", &ElementHistory::series);
-    const auto names = direction_names(scene.elements[e]);
+    const auto names = direction_names(elements[e]);
     for (std::size_t i = 1; i < names.size(); ++i) {
       const auto add_further = [&](const char* key, const char* unit, const char* help,
                                    std::vector<double> observables::DirectionHistory::*member) {
-        table.add({"elements", scene.elements[e].name, "directions", std::string(names[i]), key}, unit, help,
+        table.add({"elements", elements[e].name, "directions", std::string(names[i]), key}, unit, help,
                   [e, i, member](const Instant& at) {
                     return (at.history->elements[e].further[i - 1].*member)[at.i];
                   });
@@ -135,15 +137,17 @@ observables::Motion motion_of(const scene::Scene& scene, const PointResponse& re
   for (const double angle : response.history.angle)
     motion.history.time.push_back(angle / response.history.base_frequency);
   for (const observables::ElementHistory& element : response.history.elements)
-    motion.history.elements.push_back({element.name, element.displacement, element.force, {}});
+    motion.history.elements.push_back({element.name, element.displacement, element.force, {}, {}});
+  const std::vector<scene::Part> elements = scene::all_elements(scene);
   for (std::size_t e = 0; e < response.history.elements.size(); ++e) {
     const observables::ElementHistory& element = response.history.elements[e];
-    if (!observables::is_friction_part(scene.elements[e])) continue;
-    const auto names = direction_names(scene.elements[e]);
+    if (!elements[e].detailed || !observables::is_friction_part(elements[e])) continue;
+    const auto names = direction_names(elements[e]);
     for (std::size_t i = 1; i < names.size() && i <= element.further.size(); ++i)
       motion.history.elements.push_back({element.name + "." + std::string(names[i]),
                                          element.further[i - 1].displacement,
                                          element.further[i - 1].force,
+                                         {},
                                          {}});
   }
   return motion;

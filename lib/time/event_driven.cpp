@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace arcslip::time {
 namespace {
@@ -61,9 +62,11 @@ class Recorder {
   Recorder(const EquationOfMotion& equation, const March& march, std::span<const double> instants)
       : equation_(equation), march_(march), instants_(instants) {
     for (const TimeElement& element : equation.elements) {
-      records_.push_back({element.law->has_contact() ? static_cast<int>(motion_.friction.size()) : -1, 0});
+      const double x_n = element.directions.rightCols(1).col(0).dot(march.state().x);
+      records_.push_back({element.law->has_contact() ? static_cast<int>(motion_.friction.size()) : -1, 0,
+                          element.law->has_normal_load(), x_n, x_n});
       if (element.law->has_contact()) motion_.friction.push_back({element.name});
-      motion_.history.elements.push_back({element.name, {}, {}, {}});
+      motion_.history.elements.push_back({element.name, {}, {}, {}, {}});
     }
     for (const Contact& contact : march.contacts())
       records_[static_cast<std::size_t>(contact.element)].sliders +=
@@ -85,6 +88,11 @@ class Recorder {
     motion_.energy.input += work.input;
     motion_.energy.viscous += work.viscous;
     for (const Contact& contact : march_.contacts()) {
+      if (Record& of = records_[static_cast<std::size_t>(contact.element)]; of.has_load)
+        extremes_.visit(piece, contact.along.back(), s, of.lowest, of.highest, [&](double, double x_n) {
+          of.lowest = std::min(of.lowest, x_n);
+          of.highest = std::max(of.highest, x_n);
+        });
       if (contact.slider < 0) continue;
       const double energy = contact.follows() ? dissipated(contact, s) : 0;
       motion_.energy.friction += energy;
@@ -109,6 +117,15 @@ class Recorder {
     motion_.time = march_.time();
     motion_.end = march_.state();
     motion_.energy.stored = elastic_and_kinetic(equation_, motion_.end) - start_energy_;
+    for (std::size_t e = 0; e < records_.size(); ++e) {
+      const Record& of = records_[e];
+      if (!of.has_load || of.friction < 0) continue;
+      const TimeElement& element = equation_.elements[e];
+      FrictionRecord& friction = motion_.friction[static_cast<std::size_t>(of.friction)];
+      std::tie(friction.load_min, friction.load_max) =
+          std::minmax({element.law->normal_load_at(element.fields, of.lowest),
+                       element.law->normal_load_at(element.fields, of.highest)});
+    }
     if (motion_.amplitude < 0) motion_.amplitude = std::abs(equation_.response.dot(motion_.end.x));
     return std::move(motion_);
   }
@@ -133,6 +150,9 @@ class Recorder {
         }
         element.displacement.push_back(q_[0]);
         element.force.push_back(0);
+        const TimeElement& of = equation_.elements[static_cast<std::size_t>(contact.element)];
+        if (of.law->has_normal_load())
+          element.normal_load.push_back(of.law->normal_load_at(of.fields, q_[q_.size() - 1]));
       }
       if (contact.slider == 0 && element.slider.size() < element.force.size())
         element.slider.push_back(march_.memory(contact, q_));
@@ -175,8 +195,10 @@ class Recorder {
   LinearMotion::Series series_{};
   Vector q_;
   struct Record {
-    int friction;    // index in motion_.friction; -1: none
-    double sliders;  // which share the time, by their weights
+    int friction;            // index in motion_.friction; -1: none
+    double sliders;          // which share the time, by their weights
+    bool has_load;           // a normal load that varies
+    double lowest, highest;  // displacement along its direction
   };
   std::vector<Record> records_;  // of each element
   EventDrivenMotion motion_;

@@ -68,9 +68,10 @@ struct EventLimits {
 /// One element with a contact over the interval.
 struct FrictionRecord {
   std::string name;
-  double stick_time = 0;  // s
-  double open_time = 0;   // s, in separation
-  double energy = 0;      // dissipated, J
+  double stick_time = 0;              // s
+  double open_time = 0;               // s, in separation
+  double energy = 0;                  // dissipated, J
+  double load_max = 0, load_min = 0;  // of the normal load, N, where Law::has_normal_load()
 };
 
 struct EventDrivenMotion {

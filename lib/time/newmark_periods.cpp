@@ -10,35 +10,61 @@ namespace {
 
 constexpr long between_questions = 4096;  // steps
 
+// The extremes of a displacement over steps, with those within a step at which its velocity turns.
+class Range {
+ public:
+  Range(double x, double v) : lowest(x), highest(x), x_(x), v_(v) {}
+  void step(double x, double v, double h) {
+    include(x);
+    if (v_ * v < 0) include(x_ + 0.5 * v_ * h * v_ / (v_ - v));
+    x_ = x;
+    v_ = v;
+  }
+  double lowest, highest;
+
+ private:
+  void include(double x) {
+    lowest = std::min(lowest, x);
+    highest = std::max(highest, x);
+  }
+  double x_, v_;
+};
+
+auto normal_of(const TimeElement& element) {
+  return element.directions.col(element.directions.cols() - 1);
+}
+
 // Observes the steps of an integration.
 class Observation {
  public:
   Observation(const Newmark& newmark, bool with_history, long steps)
-      : newmark_(newmark), with_history_(with_history) {
+      : newmark_(newmark),
+        with_history_(with_history),
+        response_(newmark.equation().response.dot(newmark.state().x),
+                  newmark.equation().response.dot(newmark.state().v)) {
     const auto& equation = newmark.equation();
     for (const TimeElement& element : equation.elements) {
       if (element.law->has_contact()) result_.friction.emplace_back();
-      if (with_history) result_.history.elements.push_back({element.name, {}, {}, {}});
+      if (with_history) result_.history.elements.push_back({element.name, {}, {}, {}, {}});
     }
     if (with_history) reserve(static_cast<std::size_t>(steps) + 1);
-    x_ = equation.response.dot(newmark.state().x);
-    v_ = equation.response.dot(newmark.state().v);
-    result_.amplitude = std::abs(x_);
+    for (const TimeElement& element : equation.elements)
+      if (element.law->has_normal_load())
+        normal_.emplace_back(normal_of(element).dot(newmark.state().x),
+                             normal_of(element).dot(newmark.state().v));
     record();
   }
 
   void after_step() {
     const auto& equation = newmark_.equation();
-    const double x = equation.response.dot(newmark_.state().x);
-    const double v = equation.response.dot(newmark_.state().v);
-    result_.amplitude = std::max(result_.amplitude, std::abs(x));
-    if (v_ * v < 0) {
-      const double turn = v_ / (v_ - v);  // share of the step
-      const double h = equation.period() / static_cast<double>(newmark_.steps_per_period());
-      result_.amplitude = std::max(result_.amplitude, std::abs(x_ + 0.5 * v_ * h * turn));
-    }
-    x_ = x;
-    v_ = v;
+    const double h = equation.period() / static_cast<double>(newmark_.steps_per_period());
+    const auto step = [&](Range& range, const auto& d) {
+      range.step(d.dot(newmark_.state().x), d.dot(newmark_.state().v), h);
+    };
+    step(response_, equation.response);
+    std::size_t k = 0;
+    for (const TimeElement& element : equation.elements)
+      if (element.law->has_normal_load()) step(normal_[k++], normal_of(element));
     friction();
     record();
   }
@@ -52,6 +78,17 @@ class Observation {
       share.stick_share /= steps;
       share.open_share /= steps;
     }
+    result_.amplitude = std::max(-response_.lowest, response_.highest);
+    std::size_t k = 0, load = 0;
+    for (const TimeElement& element : newmark_.equation().elements) {
+      if (!element.law->has_contact()) continue;
+      FrictionShare& share = result_.friction[k++];
+      if (!element.law->has_normal_load()) continue;
+      const Range& range = normal_[load++];
+      std::tie(share.load_min, share.load_max) =
+          std::minmax({element.law->normal_load_at(element.fields, range.lowest),
+                       element.law->normal_load_at(element.fields, range.highest)});
+    }
     return std::move(result_);
   }
 
@@ -60,7 +97,8 @@ class Observation {
     TimeHistory& history = result_.history;
     for (auto* list : {&history.time, &history.displacement, &history.velocity}) list->reserve(count);
     for (ElementTimeHistory& element : history.elements)
-      for (auto* list : {&element.displacement, &element.force, &element.slider}) list->reserve(count);
+      for (auto* list : {&element.displacement, &element.force, &element.slider, &element.normal_load})
+        list->reserve(count);
   }
 
   void friction() {
@@ -79,14 +117,17 @@ class Observation {
     if (!with_history_) return;
     TimeHistory& history = result_.history;
     history.time.push_back(newmark_.time());
-    history.displacement.push_back(x_);
-    history.velocity.push_back(v_);
+    history.displacement.push_back(newmark_.equation().response.dot(newmark_.state().x));
+    history.velocity.push_back(newmark_.equation().response.dot(newmark_.state().v));
     const ImplicitElements& elements = newmark_.elements();
     for (std::size_t e = 0; e < history.elements.size(); ++e) {
       const TimeElement& element = elements.elements()[e];
       ElementTimeHistory& of = history.elements[e];
       of.displacement.push_back(element.directions.col(0).dot(newmark_.state().x));
       of.force.push_back(elements.force()[elements.first_direction(e)]);
+      if (element.law->has_normal_load())
+        of.normal_load.push_back(
+            element.law->normal_load_at(element.fields, normal_of(element).dot(newmark_.state().x)));
       for (int k = 0; k < element.law->memory(); ++k)
         if (element.law->slider_direction(k) == 0) {
           of.slider.push_back(newmark_.state().z[element.memory + k]);
@@ -97,7 +138,8 @@ class Observation {
 
   const Newmark& newmark_;
   bool with_history_;
-  double x_ = 0, v_ = 0;
+  Range response_;
+  std::vector<Range> normal_;  // of each contact whose normal load varies
   PeriodMotion result_;
 };
 

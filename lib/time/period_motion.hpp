@@ -14,9 +14,10 @@ namespace arcslip::time {
 
 /// One friction element over an interval.
 struct FrictionShare {
-  double stick_share = 0;  // of the time in which the slider rests, 0 to 1
-  double open_share = 0;   // of the time, in separation
-  double energy = 0;       // dissipated, J
+  double stick_share = 0;             // of the time in which the slider rests, 0 to 1
+  double open_share = 0;              // of the time, in separation
+  double energy = 0;                  // dissipated, J
+  double load_max = 0, load_min = 0;  // of the normal load, N, where Law::has_normal_load()
 };
 
 struct PeriodMotion {

@@ -14,6 +14,7 @@ struct ElementTimeHistory {
   std::vector<double> force;         // N, against the motion
   std::vector<double>
       slider;  // z of the first slider along the first direction, m; empty where there is none
+  std::vector<double> normal_load;  // N; empty where it does not vary
 };
 
 struct TimeHistory {
@@ -22,6 +23,14 @@ struct TimeHistory {
   std::vector<double> velocity;      // m/s
   std::vector<ElementTimeHistory> elements;
 };
+
+/// The sum of the normal loads of some elements at the instants, N.
+inline std::vector<double> total_load(const TimeHistory& history, std::size_t first, std::size_t count) {
+  std::vector<double> sum(history.time.size());
+  for (std::size_t e = first; e < first + count; ++e)
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += history.elements[e].normal_load[i];
+  return sum;
+}
 
 /// Energies over an interval, J:  input = friction + viscous + stored.
 struct EnergyBalance {

@@ -152,16 +152,29 @@ PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const
   for (std::size_t e = 0; e < model_->elements.size(); ++e)
     for (const std::string_view path :
          {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping", "open_percent",
-          "normal_load_max", "normal_load_min"}) {
+          "normal_load_max", "normal_load_min", "wear_rate"}) {
       const auto& element = model_->elements[e];
       const bool is_of_friction = path == "stick_percent" || path == "energy";
       const bool is_of_load = path == "open_percent" || path.starts_with("normal_load");
       if ((is_of_friction && !element.law->has_contact()) ||
           (is_of_load && !element.law->has_normal_load()) ||
+          (path == "wear_rate" && element.wear_coefficient == 0) ||
           !is_wanted(element.name + "." + std::string(path)))
         continue;
       return [e, get = std::get<ElementQuantity::Number>(observables::element_quantity(path).get)](
                  const observables::ResponsePoint& point) { return get(point.elements[e]); };
+    }
+  for (std::size_t k = 0; k < model_->patches.size(); ++k)
+    for (const ElementQuantity& each : observables::patch_quantities()) {
+      const auto& element = model_->elements[model_->patches[k].first];
+      if ((each.path == "wear_rate" && element.wear_coefficient == 0) ||
+          (each.path != "energy" && each.path != "stick_percent" && each.path != "wear_rate" &&
+           !element.law->has_normal_load()) ||
+          !is_wanted(model_->patches[k].name + "." + std::string(each.path)))
+        continue;
+      return [k, get = std::get<ElementQuantity::Number>(each.get)](const observables::ResponsePoint& point) {
+        return get(point.patches[k]);
+      };
     }
   std::string list;
   for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;

@@ -55,8 +55,8 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
   const observables::CurveRange range{problem.over[0].name, problem.over[0].lower, problem.over[0].upper,
                                       problem.frequency_from, problem.frequency_to};
   DirectOptimum result;
-  const bool slides =
-      std::any_of(scene.elements.begin(), scene.elements.end(), observables::is_friction_part);
+  const bool slides = !scene.patches.empty() || std::any_of(scene.elements.begin(), scene.elements.end(),
+                                                            observables::is_friction_part);
   if (slides && scene.harmonics.friction == scene::Friction::sampled) {
     result.message =
         "curves of peaks are continued with exact friction only: with sampled friction a response has a kink "

@@ -81,9 +81,8 @@ double closest_to_slip(PeakAmplitude& peaks, const observables::ResponsePoint& p
     const auto& part = peaks.problem()->model().elements[e];
     const auto& element = point.elements[e];
     bool limits = false;
-    for (std::size_t field = 0; field < part.parameters.size(); ++field)
-      limits =
-          limits || (part.parameters[field] == parameter && part.law->limited_by(static_cast<int>(field)));
+    for (const model::Share& share : part.shares)
+      limits = limits || (share.parameter == parameter && part.law->limited_by(share.field));
     if (limits && element.has_stick && element.stick_percent == 100 && element.fundamental.in_phase > 0)
       most = std::max(most, element.fundamental.in_phase / part.law->traits(part.fields(p), 0).limit);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -31,10 +32,12 @@ std::string with_unit(const scene::Scene& scene, const std::string& parameter, d
 std::string place(const scene::Scene& scene, const observables::ResponsePoint& point, std::size_t most) {
   std::string text = number(studies::in_scene_unit(scene, point.omega), "%.8f") + " " +
                      std::string(scene::unit_name(scene.frequency_unit));
-  const auto sticks = std::count_if(point.elements.begin(), point.elements.end(),
-                                    [](const auto& element) { return element.has_stick; });
-  for (const auto& element : point.elements)
-    if (element.has_stick && static_cast<std::size_t>(sticks) <= most)
+  std::vector<observables::ElementResponse> contacts;  // and patches
+  for (const auto* list : {&point.elements, &point.patches})
+    for (const auto& element : *list)
+      if (element.has_stick && !element.of_patch) contacts.push_back(element);
+  for (const auto& element : contacts)
+    if (contacts.size() <= most)
       text += ", " + element.name + " sticks " + number(element.stick_percent, "%.4f") + " %";
   return text;
 }
@@ -164,7 +167,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
     write_cases(out, scene, result);
   } else {
     out << "  A_max = " << number(found.amplitude, "%.8e") << " m at "
-        << place(scene, found.point, found.point.elements.size()) << '\n';
+        << place(scene, found.point, std::numeric_limits<std::size_t>::max()) << '\n';
   }
   write_sums(out, result);
   if (!found.feasible) out << "  a constraint is violated there\n";

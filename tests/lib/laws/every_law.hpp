@@ -6,8 +6,10 @@
 
 #include <arcslip/elements/law.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 
 namespace every_law {
@@ -183,6 +185,20 @@ inline void check_element(const elements::Law& law, const std::vector<double>& f
   const int count = 20000;
   std::vector<double> angles;
   for (int s = 0; s < count; ++s) angles.push_back(2 * std::acos(-1.0) * s / count);
+  if (law.has_normal_load()) {  // that along the last direction, with the extremes of the contact
+    elements::FrictionState state;
+    element->move_to(u, fields, false);
+    REQUIRE(element->friction(state));
+    const VectorXd normal = u.segment((law.directions() - 1) * harmonics.size(), harmonics.size());
+    double most = 0, least = std::numeric_limits<double>::infinity();
+    for (const double angle : angles) {
+      const double load = law.normal_load_at(fields, elements::series_values(harmonics, normal, angle).x);
+      most = std::max(most, load);
+      least = std::min(least, load);
+    }
+    CHECK(std::abs(most - state.load_max) < 1e-6 * (1 + most));
+    CHECK(std::abs(least - state.load_min) < 1e-6 * (1 + most));
+  }
   const MatrixXd f = law.moving_force_at(harmonics, u, frequency, fields, angles);
   VectorXd phi(harmonics.size());
   MatrixXd projected = MatrixXd::Zero(harmonics.size(), law.directions());

@@ -47,8 +47,8 @@ Motion motion(double normal_load = 3) {
   motion.history.time = {0, 0.25, 0.5};
   motion.history.displacement = {0.2, -0.2, 0.2};
   motion.history.velocity = {0, 1.0 / 3, 0};
-  motion.history.elements = {{"damper", {0.2, -0.2, 0.2}, {1.5, -1.5, 1.5}, {0.05, -0.05, 0.05}},
-                             {"spring", {1, 2, 3}, {4, 5, 6}, {}}};
+  motion.history.elements = {{"damper", {0.2, -0.2, 0.2}, {1.5, -1.5, 1.5}, {0.05, -0.05, 0.05}, {}},
+                             {"spring", {1, 2, 3}, {4, 5, 6}, {}, {}}};
   return motion;
 }
 
