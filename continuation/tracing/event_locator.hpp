@@ -36,6 +36,7 @@ class EventLocator {
   /// Resets the probe, so that the events of a step do not depend on earlier steps, to the last bit.
   void forget() {
     if (probe_) probe_->forget();
+    located_.clear();
   }
 
   /// Whether any monitor changes sign, in either direction.
@@ -91,12 +92,18 @@ class EventLocator {
   LocatedEvent nearer_end(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) const;
   LocatedEvent kink_event(const Monitor& monitor, const PassedKink& corner) const;
   std::optional<PassedKink> division(const CurvePoint& from, double length);
+  std::optional<PassedKink> locate_corner(const CurvePoint& from, double length, const Vector& towards);
   bool look_beyond(const CurvePoint& kink, double way, bool is_next_to_it, const Vector& towards,
                    CurvePoint& beyond);
   bool is_event(std::size_t monitor, const LocatedEvent& found);
   void describe(std::size_t monitor, LocatedEvent& found);
   Event event(std::size_t monitor, const CurvePoint& place, double value, const Correction& correction) const;
   Corrector& probe();
+
+  struct LocatedCorner {
+    Vector from;
+    PassedKink corner;
+  };
 
   using Find = std::optional<LocatedEvent> (EventLocator::*)(std::size_t, const CurvePoint&,
                                                              const CurvePoint&);
@@ -113,6 +120,7 @@ class EventLocator {
   std::vector<Course>& courses_;
   Counts& counts_;
   std::unique_ptr<Corrector> probe_;    // created at the first event
+  std::vector<LocatedCorner> located_;  // since forget(): shorter attempts at a step meet them again
   bool from_crossing_ = false;          // the current section starts at a branch point
   std::vector<bool> zero_at_crossing_;  // which monitors vanish there
 };

@@ -164,6 +164,16 @@ bool EventLocator::look_beyond(const CurvePoint& kink, double way, bool is_next_
 }
 
 std::optional<PassedKink> EventLocator::corner(const CurvePoint& from, double length, const Vector& towards) {
+  if (from.orientation == 0) return locate_corner(from, length, towards);
+  for (const LocatedCorner& each : located_)
+    if (each.from == from.v && each.corner.before.arclength - from.arclength < length) return each.corner;
+  auto found = locate_corner(from, length, towards);
+  if (found) located_.push_back({from.v, *found});
+  return found;
+}
+
+std::optional<PassedKink> EventLocator::locate_corner(const CurvePoint& from, double length,
+                                                      const Vector& towards) {
   PassedKink corner;
   Correction correction;
   if (!locate_kink(probe(), from, length, corner.before, correction)) return std::nullopt;

@@ -90,14 +90,13 @@ class Contact2dElement final : public Element {
         closed_.add_interval(end - begin, middle_.data(), half_.data());
       }
       closed_.close();
-      closed_.times(n_, kappa, F);
-      F[0] *= 0.5;
       auto by_stiffness = normal_rows(normal_stiffness), by_load = normal_rows(normal_load);
       closed_.times(u_n, kappa, by_stiffness);
       by_stiffness[0] *= 0.5;
       closed_.integral(by_load);
       by_load *= kappa;
       by_load[0] *= 0.5;
+      F = law_.k_n * by_stiffness + law_.N_0 * by_load;
       if (jacobian) {
         auto J = J_.bottomRightCorner(c, c);
         closed_.add_to(J, kappa * law_.k_n);
@@ -187,11 +186,15 @@ class Contact2dElement final : public Element {
     stick_.times(u_t, kappa, F);
     by_stiffness += F;
     F *= k;
-    slip_.times(n_, kappa * law_.mu, F);
-    slip_.times(n_, kappa, tangential_rows(friction_coefficient));
-    slip_.times(u_n, kappa * law_.mu, tangential_rows(normal_stiffness));
+    phi_.setZero();
+    slip_.times(u_n, kappa, phi_);
     slip_.integral(g_);
-    tangential_rows(normal_load) += kappa * law_.mu * g_;
+    g_ *= kappa;
+    tangential_rows(normal_stiffness) += law_.mu * phi_;
+    tangential_rows(normal_load) += law_.mu * g_;
+    phi_ = law_.k_n * phi_ + law_.N_0 * g_;
+    tangential_rows(friction_coefficient) += phi_;
+    F += law_.mu * phi_;
     if (jacobian) {
       stick_.add_to(J_t, kappa * k);
       slip_.add_to(J_n, kappa * law_.mu * law_.k_n);

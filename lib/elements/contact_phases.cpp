@@ -154,13 +154,13 @@ void ContactPhases::choose_nearest() {
     }
 }
 
-// Where the bound reaches w from the side it comes from.
+// Where the bound reaches w from the side it comes from, in a piece that begins before `until`.
 ContactPhases::Onset ContactPhases::onset(const Bound& bound, bool upwards, double begin, double end,
-                                          double w) const {
+                                          double until, double w) const {
   if (bound.turns.empty()) return {never, 0};
   for (long i = bound.piece(begin);; ++i) {
     const Reversal from = bound.turn(i), to = bound.turn(i + 1);
-    if (from.theta >= end) return {never, 0};
+    if (from.theta >= until) return {never, 0};
     if (to.theta <= begin) continue;  // the index of the piece is that of a rounded angle
     if ((to.x > from.x) != upwards || (upwards ? to.x <= w : to.x >= w)) continue;
     const double at = std::max(reversals_.crossing(bound.u, from, to, w), begin);
@@ -187,8 +187,8 @@ void ContactPhases::sweep(SliderRest rest, double end) {
       slip(-1, {rest.theta, above}, end, rest);
   }
   while (rest.theta < end) {
-    const Onset up = onset(lower_, true, rest.theta, end, rest.w);
-    const Onset down = onset(upper_, false, rest.theta, end, rest.w);
+    const Onset up = onset(lower_, true, rest.theta, end, end, rest.w);
+    const Onset down = onset(upper_, false, rest.theta, end, std::min(up.theta, end), rest.w);
     const Onset& first = up.theta <= down.theta ? up : down;
     const double until = std::min(first.theta, end);
     phases_.push_back({ContactPhase::State::stick, rest.theta, until, 0, rest});

@@ -85,7 +85,7 @@ class ContactPhases {
   std::uint64_t sequence_of_phases() const;
   void choose_nearest();
   void find_closed(In u_n, const ContactLaw& law);
-  Onset onset(const Bound& bound, bool upwards, double begin, double end, double w) const;
+  Onset onset(const Bound& bound, bool upwards, double begin, double end, double until, double w) const;
   void sweep(SliderRest rest, double end);
   void slip(double sign, Onset from, double end, SliderRest& rest);
 

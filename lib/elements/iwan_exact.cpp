@@ -159,7 +159,14 @@ class PowerLawElement final : public MasingElement {
 class TableElement final : public MasingElement {
  public:
   TableElement(const Harmonics& h, const std::vector<Slider>& sliders)
-      : MasingElement(h), w_(h.order), stuck_(h.order), slips_(h.order) {
+      : MasingElement(h),
+        length_(h.order),
+        stiffness_(sliders.size()),
+        limit_(sliders.size()),
+        first_re_(sliders.size()),
+        first_im_(sliders.size()),
+        re_(sliders.size()),
+        im_(sliders.size()) {
     for (const auto& [stiffness, limit] : sliders) {
       sum_.stiffness += stiffness;
       sum_.slip_force += limit;
@@ -169,6 +176,8 @@ class TableElement final : public MasingElement {
                           stiffness / sum_.stiffness, limit / sum_.slip_force});
     double slope = 1, rest = 0;
     for (Step& step : sliders_) {
+      stiffness_[&step - sliders_.data()] = step.stiffness;
+      limit_[&step - sliders_.data()] = step.limit;
       slope -= step.stiffness;
       rest += step.limit;
       step.slope = &step == &sliders_.back() ? 0 : slope;
@@ -202,80 +211,111 @@ class TableElement final : public MasingElement {
   void integrate(In u, const BranchPart& part, Integrals& over) override {
     const int order = harmonics().order;
     const Anchor& from = anchor(part);
-    const double length = part.end.theta - part.begin.theta;
+    const double length = part.end.theta - part.begin.theta, way = 2 * from.way;
     const double moved = from.way * (part.begin.x - from.x), end = from.way * (part.end.x - from.x);
-    stuck_.clear();
-    slips_.clear();
-    over.slope.clear();
-    over.rest.clear();
     std::size_t j = 0;
     while (j < sliders_.size() && 2 * unit() * sliders_[j].y <= moved) ++j;
-    double stuck = j == 0 ? 1 : sliders_[j - 1].slope, rest = j == 0 ? 0 : sliders_[j - 1].rest;
-    Values here = series_values(harmonics(), u, part.begin.theta);
-    double theta = part.begin.theta;
-    for (; j < sliders_.size(); ++j) {
+    const auto first = static_cast<Eigen::Index>(j);
+    Place here(harmonics(), u, part.begin.theta);
+    double stuck_time = 0, slip_time = 0;
+    Eigen::Index count = 0;
+    for (; j < sliders_.size(); ++j, ++count) {
       const double limit = 2 * unit() * sliders_[j].y;
       if (limit >= end) break;
-      theta = crossing(u, theta, part.end.theta, from.x + from.way * limit, from.way, here);
-      const double t = theta - part.begin.theta;
-      powers_less_one(t, 2 * order + 1, w_);
-      add(sliders_[j].stiffness, t, 2 * order, stuck_);
-      add(sliders_[j].limit, t, order, slips_);
-      stuck = sliders_[j].slope;
-      rest = sliders_[j].rest;
+      move_to_crossing(u, part.end.theta, from.x + from.way * limit, from.way, here);
+      first_re_[count] = here.re;
+      first_im_[count] = here.im;
+      stuck_time += sliders_[j].stiffness * here.t;
+      slip_time += sliders_[j].limit * here.t;
     }
-    powers_less_one(length, 2 * order + 1, w_);
-    add(stuck, length, 2 * order, stuck_);
-    over.slope.re[0] = stuck_.re[0];
-    over.rest.re[0] = 2 * from.way * (rest * length - slips_.re[0]);
+    const double stuck = j == 0 ? 1 : sliders_[j - 1].slope, rest = j == 0 ? 0 : sliders_[j - 1].rest;
+    powers_less_one(length, 2 * order + 1, length_);
+    over.slope.re[0] = stuck_time + stuck * length;
+    over.rest.re[0] = way * (rest * length - slip_time);
+    // exp(i k theta_j) - 1 of all sliders, from one k to the next.
+    const auto stiffness = stiffness_.segment(first, count), limit = limit_.segment(first, count);
+    auto re = re_.head(count), im = im_.head(count);
+    re = first_re_.head(count);
+    im = first_im_.head(count);
     for (int k = 1; k <= 2 * order; ++k) {
-      over.slope.re[k] = stuck_.im[k] / k;
-      over.slope.im[k] = -stuck_.re[k] / k;
-    }
-    for (int k = 1; k <= order; ++k) {
-      over.rest.re[k] = 2 * from.way * (rest * w_.im[k] - slips_.im[k]) / k;
-      over.rest.im[k] = -2 * from.way * (rest * w_.re[k] - slips_.re[k]) / k;
+      over.slope.re[k] = ((stiffness * im).sum() + stuck * length_.im[k]) / k;
+      over.slope.im[k] = -((stiffness * re).sum() + stuck * length_.re[k]) / k;
+      if (k <= order) {
+        over.rest.re[k] = way * (rest * length_.im[k] - (limit * im).sum()) / k;
+        over.rest.im[k] = -way * (rest * length_.re[k] - (limit * re).sum()) / k;
+      }
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const double a = first_re_[i], b = first_im_[i], x = re_[i], y = im_[i];
+        re_[i] = x + a + (x * a - y * b);
+        im_[i] = y + b + (x * b + y * a);
+      }
     }
   }
 
-  // The root of x = target after `begin`, where x moves as `here`, which is moved to the root. Halley's
-  // method, whose error is the cube of its last step, with bisection; begun by the parabola at the last root,
-  // since roots follow one another closely.
-  double crossing(In u, double begin, double end, double target, double way, Values& here) const {
-    double lower = begin, upper = end;
-    const double far = way * (target - here.x), slope = way * here.d1, bend = way * here.d2;
-    const double root = slope * slope + 2 * bend * far;
-    double theta = begin + (root > 0 ? 2 * far / (slope + std::sqrt(root)) : 0);
+  // An angle of a part, at t = theta - begin, with exp(i t) - 1. It moves in steps that are short, for which
+  // the series of the exponential needs no sine.
+  struct Place {
+    Place(const Harmonics& h, In u, double angle)
+        : begin(angle), c(std::cos(begin)), s(std::sin(begin)), x(series_values(h, u, c, s)) {}
+
+    void turn(double step) {
+      t += step;
+      const double q = step * step;
+      double a = 0, b = 0;  // exp(i step) - 1
+      if (q < 0.01) {
+        a = q * (-1.0 / 2 + q * (1.0 / 24 + q * (-1.0 / 720 + q * (1.0 / 40320 - q * (1.0 / 3628800)))));
+        b = step * (1 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040 + q * (1.0 / 362880)))));
+      } else {
+        const double half = std::sin(0.5 * step);
+        a = -2 * half * half;
+        b = std::sin(step);
+      }
+      const double before = re;
+      re += a + (re * a - im * b);
+      im += b + (before * b + im * a);
+    }
+    void evaluate(const Harmonics& h, In u) {
+      x = series_values(h, u, c + (c * re - s * im), s + (s * re + c * im));
+    }
+
+    double begin, c, s;
+    double t = 0, re = 0, im = 0;
+    Values x;
+  };
+
+  // To the root of x = target. Halley's method, whose error is the cube of its last step, with bisection;
+  // begun by the cubic at the last root, since roots follow one another closely.
+  void move_to_crossing(In u, double last, double target, double way, Place& at) const {
+    double lower = at.t, upper = last - at.begin;
+    const double far = way * (target - at.x.x), slope = way * at.x.d1, bend = way * at.x.d2;
+    const double root = slope * slope + 2 * bend * far, first = lower;
+    double ahead = root > 0 ? 2 * far / (slope + std::sqrt(root)) : 0;
+    ahead -= way * at.x.d3 * ahead * ahead * ahead / (6 * (slope + bend * ahead));
+    double t = at.t + ahead;
     for (int k = 0; k < 60; ++k) {
-      if (!(theta > lower && theta < upper)) theta = 0.5 * (lower + upper);
-      here = series_values(harmonics(), u, theta);
-      const double excess = way * (here.x - target);
-      (excess > 0 ? upper : lower) = theta;
-      const double step = -2 * excess * here.d1 / (2 * here.d1 * here.d1 * way - excess * here.d2);
-      theta += step;
-      if (std::abs(step) <= settled && std::abs(step * here.d2) <= settled * std::abs(here.d1)) {
-        here.x = target;
-        here.d1 += step * here.d2;
+      if (!(t > lower && t < upper)) t = 0.5 * (lower + upper);
+      at.turn(t - at.t);
+      at.evaluate(harmonics(), u);
+      const double excess = way * (at.x.x - target);
+      (excess > 0 ? upper : lower) = t;
+      const double step = -2 * excess * at.x.d1 / (2 * at.x.d1 * at.x.d1 * way - excess * at.x.d2);
+      t += step;
+      if (std::abs(step) <= settled && std::abs(step * at.x.d2) <= settled * std::abs(at.x.d1)) {
+        at.x.x = target;
+        at.x.d1 += step * at.x.d2;
+        at.x.d2 += step * at.x.d3;
         break;
       }
     }
-    return std::clamp(theta, begin, end);
-  }
-
-  // sum += factor * exp(i k t) - 1, and the time itself at k = 0.
-  void add(double factor, double t, int highest, Powers& sum) const {
-    const double *re = w_.re.data(), *im = w_.im.data();
-    double *to_re = sum.re.data(), *to_im = sum.im.data();
-    to_re[0] += factor * t;
-    for (int k = 1; k <= highest; ++k) {
-      to_re[k] += factor * re[k];
-      to_im[k] += factor * im[k];
-    }
+    at.turn(std::clamp(t, first, last - at.begin) - at.t);
   }
 
   Scales sum_{0, 0};
   std::vector<Step> sliders_;
-  Powers w_, stuck_, slips_;
+  Powers length_;
+  Eigen::ArrayXd stiffness_, limit_;    // of the sliders
+  Eigen::ArrayXd first_re_, first_im_;  // exp(i theta_j) - 1 where they begin to slip
+  Eigen::ArrayXd re_, im_;              // exp(i k theta_j) - 1
 };
 
 }  // namespace

@@ -2,27 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arcslip::elements {
 namespace {
 
 constexpr int deepest = 14;       // halvings of a sampling step
-constexpr int newton_steps = 60;  // with bisection where Newton leaves the bracket
-constexpr double settled = 3e-9;  // rad
+constexpr int tabulated = 2;      // the first of them
+constexpr int most_steps = 60;    // with bisection where Halley's method leaves the bracket
+constexpr double settled = 5e-6;  // rad of the highest harmonic, and of a step over the distance to a turn
+constexpr double finest = 1e-13;  // rad: where roots nearly coincide
 
-// Newton's method for a monotonic function in a bracket, with bisection if it leaves the bracket. The last
-// step is below `settled`; the error is its square, at rounding level. values(t) -> {f, f'}. Returns the root
-// and calls at_last(root - t) with its distance from the last evaluation.
+struct Slopes {
+  double f, f1, f2;  // of a function, with its derivatives
+};
+
+// Halley's method for a monotonic function in a bracket, with bisection if it leaves the bracket. The error
+// is the cube of the last step, at rounding level. Returns the root and calls at_last(root - t) with its
+// distance from the last evaluation.
 template <class Function, class AtLast>
-double bracketed_newton(Function&& values, double lower, double upper, double guess, bool rising,
-                        AtLast&& at_last) {
+double bracketed_root(int order, Function&& at, double lower, double upper, double guess, bool rising,
+                      AtLast&& at_last) {
   double t = guess > lower && guess < upper ? guess : 0.5 * (lower + upper);
   for (int k = 0;; ++k) {
-    const auto [f, slope] = values(t);
+    const auto [f, f1, f2] = at(t);
     ((f > 0) == rising ? upper : lower) = t;
-    double next = f == 0 ? t : t - f / slope;
+    double next = f == 0 ? t : t - 2 * f * f1 / (2 * f1 * f1 - f * f2);
     if (!(next >= lower && next <= upper)) next = 0.5 * (lower + upper);
-    if (std::abs(next - t) <= settled || k == newton_steps) {
+    const double step = std::abs(next - t);
+    const bool cubic = step * order <= settled && step * std::abs(f2) <= settled * std::abs(f1);
+    if (cubic || step <= finest || k == most_steps) {
       at_last(next - t);
       return next;
     }
@@ -38,47 +47,58 @@ Reversals::Reversals(const Harmonics& harmonics)
       start_(0.0871),
       step_(harmonics.span() / intervals_),
       derivative_(intervals_, harmonics.size()),
+      between_(harmonics.size(), 3 * intervals_),
       samples_(intervals_) {
   for (int k = 0; k < intervals_; ++k) {
-    const double theta = start_ + k * step_;
-    for (int i = 0; i < harmonics.cosines(); ++i) {
-      const int n = harmonics.cosine_order(i);
-      derivative_(k, i) = -n * std::sin(n * theta);
-    }
-    for (int j = 0; j < harmonics.sines(); ++j) {
-      const int n = harmonics.sine_order(j);
-      derivative_(k, harmonics.cosines() + j) = n * std::cos(n * theta);
-    }
+    set_slope_basis(start_ + k * step_, derivative_.row(k));
+    for (int i = 0; i < 3; ++i)
+      set_slope_basis(start_ + (k + 0.25 * (i + 1)) * step_, between_.col(3 * k + i));
   }
   found_.reserve(static_cast<std::size_t>(4 * harmonics.order + 16));
 }
 
-Reversal Reversals::polish(In u, double t0, double g0, double t1, double g1, bool rising) const {
-  const double secant = g1 != g0 ? t0 - g0 * (t1 - t0) / (g1 - g0) : t0;
+template <class Row>
+void Reversals::set_slope_basis(double theta, Row&& row) const {
+  for (int i = 0; i < harmonics_.cosines(); ++i) {
+    const int n = harmonics_.cosine_order(i);
+    row[i] = -n * std::sin(n * theta);
+  }
+  for (int j = 0; j < harmonics_.sines(); ++j) {
+    const int n = harmonics_.sine_order(j);
+    row[harmonics_.cosines() + j] = n * std::cos(n * theta);
+  }
+}
+
+Reversal Reversals::polish(In u, const Slope& from, const Slope& to) const {
+  const double rise = to.d1 - from.d1;
+  const double secant = rise != 0 ? from.theta - from.d1 * (to.theta - from.theta) / rise : from.theta;
   Values v{};
   double x = 0;
-  const double theta = bracketed_newton(
+  const double theta = bracketed_root(
+      harmonics_.order,
       [&](double t) {
         v = series_values(harmonics_, u, t);
-        return std::pair{v.d1, v.d2};
+        return Slopes{v.d1, v.d2, v.d3};
       },
-      t0, t1, secant, rising, [&](double d) { x = v.x + d * (v.d1 + 0.5 * d * v.d2); });
+      from.theta, to.theta, secant, to.positive, [&](double d) { x = v.x + d * (v.d1 + 0.5 * d * v.d2); });
   return {theta, x};
 }
 
-void Reversals::search(In u, double t0, double g0, bool positive0, double t1, double g1, bool positive1,
-                       double M, int depth) {
-  const double h = t1 - t0, bend = M * h * h;
-  const bool changes = positive0 != positive1;
-  if (changes ? (std::abs(g1 - g0) > bend / 2 || depth == 0)
-              : (std::min(std::abs(g0), std::abs(g1)) > bend / 8 || depth == 0)) {
-    if (changes) found_.push_back(polish(u, t0, g0, t1, g1, positive1));
+// column: of between_, for the first halvings.
+void Reversals::search(In u, const Slope& from, const Slope& to, double M, int depth, int column) {
+  const double h = to.theta - from.theta, bend = M * h * h;
+  const bool changes = from.positive != to.positive;
+  if (changes ? (std::abs(to.d1 - from.d1) > bend / 2 || depth == 0)
+              : (std::min(std::abs(from.d1), std::abs(to.d1)) > bend / 8 || depth == 0)) {
+    if (changes) found_.push_back(polish(u, from, to));
     return;
   }
-  const double middle = 0.5 * (t0 + t1);
-  const double g = series_values(harmonics_, u, middle).d1;
-  search(u, t0, g0, positive0, middle, g, g > 0, M, depth - 1);
-  search(u, middle, g, g > 0, t1, g1, positive1, M, depth - 1);
+  const double theta = 0.5 * (from.theta + to.theta);
+  const double d1 =
+      depth > deepest - tabulated ? between_.col(column).dot(u) : series_values(harmonics_, u, theta).d1;
+  const Slope middle{theta, d1, d1 > 0};
+  search(u, from, middle, M, depth - 1, column - 1);
+  search(u, middle, to, M, depth - 1, column + 1);
 }
 
 // a cos theta + b sin theta turns at atan2(b, a) and half a period later.
@@ -105,17 +125,19 @@ const std::vector<Reversal>& Reversals::find(In u) {
     return found_;
   }
   samples_.noalias() = derivative_ * u;
+  const double bend = M * step_ * step_;
   const bool first_positive = samples_[0] > 0;
   bool positive = first_positive;
   for (int k = 0; k < intervals_; ++k) {
     const bool last = k + 1 == intervals_;
-    const double g0 = samples_[k],
-                 g1 = last ? (harmonics_.odd ? -samples_[0] : samples_[0]) : samples_[k + 1];
+    const double d0 = samples_[k],
+                 d1 = last ? (harmonics_.odd ? -samples_[0] : samples_[0]) : samples_[k + 1];
     // The span closes on itself: what is positive at its start is, where the motion is odd, not so at its
     // end.
-    const bool positive1 = last ? first_positive != harmonics_.odd : g1 > 0;
-    search(u, start_ + k * step_, g0, positive, start_ + (k + 1) * step_, g1, positive1, M, deepest);
-    positive = positive1;
+    const bool before = std::exchange(positive, last ? first_positive != harmonics_.odd : d1 > 0);
+    if (before == positive && std::min(std::abs(d0), std::abs(d1)) > bend / 8) continue;
+    const Slope from{start_ + k * step_, d0, before}, to{start_ + (k + 1) * step_, d1, positive};
+    search(u, from, to, M, deepest, 3 * k + 1);
   }
   return found_;
 }
@@ -127,10 +149,11 @@ double Reversals::crossing(In u, const Reversal& from, const Reversal& to, doubl
   if (share <= -1) return to.theta;
   // Exact for one harmonic: between two reversals x runs like a cosine.
   const double guess = from.theta + (to.theta - from.theta) * std::acos(share) / std::numbers::pi;
-  return bracketed_newton(
+  return bracketed_root(
+      harmonics_.order,
       [&](double t) {
         const Values v = series_values(harmonics_, u, t);
-        return std::pair{v.x - target, v.d1};
+        return Slopes{v.x - target, v.d1, v.d2};
       },
       from.theta, to.theta, guess, range < 0, [](double) {});
 }

@@ -29,15 +29,22 @@ class Reversals {
   double crossing(In u, const Reversal& from, const Reversal& to, double target) const;
 
  private:
+  struct Slope {
+    double theta, d1;
+    bool positive;
+  };
+
+  template <class Row>
+  void set_slope_basis(double theta, Row&& row) const;
   void one_harmonic(In u);
-  void search(In u, double t0, double g0, bool positive0, double t1, double g1, bool positive1, double M,
-              int depth);
-  Reversal polish(In u, double t0, double g0, double t1, double g1, bool rising) const;
+  void search(In u, const Slope& from, const Slope& to, double M, int depth, int column);
+  Reversal polish(In u, const Slope& from, const Slope& to) const;
 
   Harmonics harmonics_;
   int intervals_;
   double start_, step_;
   Eigen::MatrixXd derivative_;  // intervals x size: x' at the grid
+  Eigen::MatrixXd between_;     // size x 3 intervals: between its points
   Eigen::VectorXd samples_;
   std::vector<Reversal> found_;
 };

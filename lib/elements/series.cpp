@@ -11,9 +11,12 @@ constexpr double same_motion = 1e-8;  // of the largest coefficient
 }  // namespace
 
 Values series_values(const Harmonics& h, In u, double theta) {
-  double c = std::cos(theta), s = std::sin(theta);
+  return series_values(h, u, std::cos(theta), std::sin(theta));
+}
+
+Values series_values(const Harmonics& h, In u, double c, double s) {
   const double step_c = h.odd ? (c - s) * (c + s) : c, step_s = h.odd ? 2 * c * s : s;
-  Values v{h.odd ? 0.0 : u[0], 0, 0};
+  Values v{h.odd ? 0.0 : u[0], 0, 0, 0};
   const int sines = h.sines();
   const double* a = u.data() + (h.odd ? 0 : 1);
   const double* b = u.data() + h.cosines();
@@ -23,6 +26,7 @@ Values series_values(const Harmonics& h, In u, double theta) {
     v.x += even;
     v.d1 += n * odd;
     v.d2 -= n * n * even;
+    v.d3 -= n * n * n * odd;
     const double next = c * step_c - s * step_s;
     s = s * step_c + c * step_s;
     c = next;

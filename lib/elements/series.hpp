@@ -11,12 +11,13 @@ namespace arcslip::elements {
 using In = Eigen::Ref<const Eigen::VectorXd>;
 using Out = Eigen::Ref<Eigen::VectorXd>;
 
-/// x, dx/dtheta and d2x/dtheta2 at one angle.
+/// x and its first three derivatives by theta at one angle.
 struct Values {
-  double x, d1, d2;
+  double x, d1, d2, d3;
 };
 
 Values series_values(const Harmonics& harmonics, In u, double theta);
+Values series_values(const Harmonics& harmonics, In u, double cos_theta, double sin_theta);
 
 /// Basis at one angle: phi . u = x(theta). phi: harmonics.size().
 void series_basis(const Harmonics& harmonics, double theta, Out phi);

@@ -17,7 +17,7 @@ HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
       stiffness_(*model_, problem.coordinates(), problem.harmonics()),
       u_(problem.size()),
       R_(u_.size()),
-      jacobian_(Eigen::MatrixXd(u_.size(), u_.size())) {
+      jacobian_(Eigen::MatrixXd()) {
   for (std::size_t e = 0; e < model_->elements.size(); ++e) {
     const auto& element = model_->elements[e];
     Part part{element.law->element(problem.harmonics(), problem.sampling()),
@@ -29,31 +29,54 @@ HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
     part.fields.resize(element.field_count);
     part.motion.resize(part.map.size());
     derivative_.resize(std::max(derivative_.size(), part.motion.size()));
+    product_.resize(derivative_.size());
     parts_.push_back(std::move(part));
   }
 }
 
 Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs needs) {
+  const bool jacobian = needs == Needs::jacobian;
+  if (!jacobian && !assembled_) assemble();
   if (!(p[model::frequency] > 0)) return Evaluated::outside_domain;
   if (!u.allFinite() || !p.allFinite()) return Evaluated::failed;
   u_ = u;
   force_factor_ = p[p.size() - 1];
   if (!stiffness_.move_to(p)) return Evaluated::outside_domain;
-  const bool jacobian = needs == Needs::jacobian;
-  auto& J = std::get<Eigen::MatrixXd>(jacobian_);
+  assembled_ = !jacobian;
   R_.tail(R_.size() - displacements_).setZero();
   stiffness_.residual(u_, force_factor_, R_);
-  if (jacobian) J.setZero();
   for (Part& part : parts_) {
     part.of->set_fields(p, part.fields);
     part.map.gather(u_, part.motion);
     if (part.rate_dependent) part.element->set_frequency(stiffness_.base_frequency());
     part.element->move_to(part.motion, part.fields, jacobian);
     part.map.add(part.element->force(), R_);
-    if (jacobian) part.map.add(part.element->jacobian(), J);
   }
-  if (jacobian) stiffness_.add_to(J);
   return R_.allFinite() ? Evaluated::ok : Evaluated::failed;
+}
+
+const continuation::Jacobian& HbmEvaluator::jacobian() const {
+  if (!assembled_) assemble();
+  return jacobian_;
+}
+
+void HbmEvaluator::assemble() const {
+  auto& J = std::get<Eigen::MatrixXd>(jacobian_);
+  J.setZero(R_.size(), R_.size());
+  for (const Part& part : parts_) part.map.add(part.element->jacobian(), J);
+  stiffness_.add_to(J);
+  assembled_ = true;
+}
+
+void HbmEvaluator::apply_jacobian(In x, continuation::Out y) const {
+  y.tail(y.size() - displacements_).setZero();
+  stiffness_.residual(x, 0, y);
+  for (const Part& part : parts_) {
+    auto w = derivative_.head(part.map.size()), product = product_.head(part.map.size());
+    part.map.gather(x, w);
+    product.noalias() = part.element->jacobian() * w;
+    part.map.add(product, y);
+  }
 }
 
 void HbmEvaluator::parameter_derivative(int k, continuation::Out dR) const {

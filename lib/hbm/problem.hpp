@@ -24,9 +24,12 @@ class HbmEvaluator final : public continuation::Evaluator {
 
   continuation::Evaluated move_to(continuation::In u, continuation::In p, continuation::Needs needs) override;
   const Vector& residual() const override { return R_; }
-  const continuation::Jacobian& jacobian() const override { return jacobian_; }
+  const continuation::Jacobian& jacobian() const override;  // put together on the first call
   void parameter_derivative(int k, continuation::Out dR) const override;
   std::uint64_t piece() const override;
+
+  /// y = J x from the parts of J, without putting it together.
+  void apply_jacobian(In x, continuation::Out y) const;
 
   // Data for observables, at the last point.
   const DynamicStiffness& stiffness() const { return stiffness_; }
@@ -46,13 +49,16 @@ class HbmEvaluator final : public continuation::Evaluator {
     Vector motion;
   };
 
+  void assemble() const;
+
   std::shared_ptr<const model::Model> model_;
   Eigen::Index displacements_;  // before the auxiliary unknowns
   DynamicStiffness stiffness_;
   std::vector<Part> parts_;
   Vector u_, R_;
-  mutable Vector derivative_;
-  continuation::Jacobian jacobian_;
+  mutable Vector derivative_, product_;
+  mutable continuation::Jacobian jacobian_;
+  mutable bool assembled_ = true;  // jacobian_ is that of the last place with one
   double force_factor_ = 1;
 };
 

@@ -149,30 +149,28 @@ Truncation::Step Truncation::step_along(const continuation::Accepted& now, HeldB
   return {-2 * d / (t + std::copysign(std::sqrt(root), t)), true};
 }
 
-// d_q' and q'' along the branch, from J d + r and J t near the point. Returns the equations to the point.
+// d_q' and q'' along the branch, from J d + r and J t near the point.
 std::optional<Truncation::Slopes> Truncation::slopes(const continuation::Accepted& now) {
   wide_.embed(now.u, base_);
-  const std::uint64_t piece = wide_.piece();
   const double size = std::max(1.0, now.u.norm() / problem_.displacement());
   Vector place, p = now.p;
   std::array<std::array<Vector, 2>, 2> beside;
-  const auto look = [&](std::array<Vector, 2>& at) {
-    wide_.apply(change_, free_, at[0]);
-    at[0] += wide_.at().residual();
-    wide_.apply(tangent_, free_, at[1]);
-  };
   std::array<Vector, 2> middle;
-  look(middle);
+  wide_.apply(change_, free_, middle[0]);
+  middle[0] += wide_.at().residual();
+  wide_.apply(tangent_, free_, middle[1]);
   const auto quotient = continuation::difference_within_piece(
       continuation::difference_step * size, [&](std::size_t i, double h) {
         place = base_ + h * tangent_.u;
         p = now.p;
         p[free_] += h * tangent_.parameter;
-        if (!wide_.move_to_wide(place, p) || wide_.piece() != piece) return false;
-        look(beside[i]);
+        if (!wide_.look_beside(place, p)) return false;
+        wide_.apply_beside(change_, free_, beside[i][0]);
+        beside[i][0] += wide_.residual_beside();
+        wide_.apply_beside(tangent_, free_, beside[i][1]);
         return true;
       });
-  if (!wide_.move_to_wide(base_, now.p) || !quotient) return {};
+  if (!quotient) return {};
   WideEquations::Change slope;
   Slopes found{};
   for (const int k : {0, 1}) {

@@ -31,11 +31,7 @@ WideEquations::WideEquations(const hbm::HbmProblem& problem, const elements::Har
 
 bool WideEquations::move_to(In u, In p) {
   embed(u, u_);
-  return move_to_wide(u_, p);
-}
-
-bool WideEquations::move_to_wide(In wide, In p) {
-  return evaluator_->move_to(wide, p, continuation::Needs::jacobian) == continuation::Evaluated::ok;
+  return evaluator_->move_to(u_, p, continuation::Needs::jacobian) == continuation::Evaluated::ok;
 }
 
 void WideEquations::factorize(int q) {
@@ -88,7 +84,7 @@ double WideEquations::solve(const continuation::LinearSolver& kept, const Vector
       for (int i = 0; i < 2 * unknowns; ++i) sweep_[i / 2 * c + place[i % 2]] = harmonic_[i];
     }
     const double neglected = sweep_.norm();
-    continuation::apply(evaluator_->jacobian(), sweep_, part_);
+    evaluator_->apply_jacobian(sweep_, part_);
     rest_ += part_;
     change.u += sweep_;
     part_ = rest_;
@@ -105,7 +101,7 @@ double WideEquations::solve(const continuation::LinearSolver& kept, const Vector
     if (sweep == 0) {
       if (size <= enough) return 0;
       first = size;
-      continuation::apply(evaluator_->jacobian(), sweep_, part_);
+      evaluator_->apply_jacobian(sweep_, part_);
       rest_ += part_ + kept_part_[n] * F_q_;
     } else if (first > 0) {
       return size / first;
@@ -114,11 +110,17 @@ double WideEquations::solve(const continuation::LinearSolver& kept, const Vector
   return 0;
 }
 
-void WideEquations::apply(const Change& change, int q, Vector& y) const {
-  y.resize(u_.size());
-  continuation::apply(evaluator_->jacobian(), change.u, y);
-  Vector F_q(u_.size());
-  evaluator_->parameter_derivative(q, F_q);
+bool WideEquations::look_beside(In wide, In p) {
+  if (!beside_) beside_ = problem_.hbm_evaluator();
+  return beside_->move_to(wide, p, continuation::Needs::jacobian) == continuation::Evaluated::ok &&
+         beside_->piece() == evaluator_->piece();
+}
+
+void WideEquations::apply(const hbm::HbmEvaluator& at, const Change& change, int q, Vector& y) {
+  y.resize(change.u.size());
+  at.apply_jacobian(change.u, y);
+  Vector F_q(y.size());
+  at.parameter_derivative(q, F_q);
   y += change.parameter * F_q;
 }
 

@@ -37,11 +37,8 @@ class WideEquations {
 
   /// u: kept unknowns. False: the equations cannot be evaluated there.
   bool move_to(continuation::In u, continuation::In p);
-  /// The same at wide unknowns.
-  bool move_to_wide(continuation::In wide, continuation::In p);
   const hbm::HbmEvaluator& at() const { return *evaluator_; }
   const hbm::HbmProblem& problem() const { return problem_; }
-  std::uint64_t piece() const { return evaluator_->piece(); }
 
   /// Prepares for solve(): the diagonal blocks at the last point. q: index of the free parameter.
   void factorize(int q);
@@ -53,18 +50,28 @@ class WideEquations {
   double solve(const continuation::LinearSolver& kept, const continuation::Vector& r, const Border& border,
                Change& change, double enough = 0);
 
-  /// y = J du + F_q dq in all rows.
-  void apply(const Change& change, int q, continuation::Vector& y) const;
+  /// y = J du + F_q dq in all rows, at the last point.
+  void apply(const Change& change, int q, continuation::Vector& y) const { apply(*evaluator_, change, q, y); }
+
+  /// A point next to the last one, which stays that of all other calls. False: it cannot be evaluated, or is
+  /// in another piece.
+  bool look_beside(continuation::In wide, continuation::In p);
+  const continuation::Vector& residual_beside() const { return beside_->residual(); }
+  void apply_beside(const Change& change, int q, continuation::Vector& y) const {
+    apply(*beside_, change, q, y);
+  }
 
   void embed(continuation::In u, continuation::Vector& wide) const;
   /// The kept part, which is set to zero in `wide`.
   void take_kept(continuation::Vector& wide, continuation::Out kept) const;
 
  private:
+  static void apply(const hbm::HbmEvaluator& at, const Change& change, int q, continuation::Vector& y);
+
   const hbm::HbmProblem& narrow_;
   elements::Harmonics kept_, wide_;
   hbm::HbmProblem problem_;
-  std::unique_ptr<hbm::HbmEvaluator> evaluator_;
+  std::unique_ptr<hbm::HbmEvaluator> evaluator_, beside_;
   std::vector<int> orders_;                    // neglected, n > N
   std::vector<continuation::LU<double>> lus_;  // of their blocks, 2 r x 2 r
   Eigen::MatrixXd block_;
