@@ -18,6 +18,12 @@ Direction sparse(const scene::Direction& direction, int dofs) {
   return d;
 }
 
+Excitation::Kind kind_of(const scene::Part& part) {
+  if (part.type == &scene::base_displacement_type()) return Excitation::Kind::base_displacement;
+  if (part.type == &scene::base_acceleration_type()) return Excitation::Kind::base_acceleration;
+  return Excitation::Kind::force;
+}
+
 class Builder {
  public:
   explicit Builder(const scene::Scene& scene) : scene_(scene) {
@@ -45,14 +51,18 @@ class Builder {
     bool even = false;
     model_.force_harmonic = scene_.harmonics.order;
     for (const auto& part : scene_.excitation) {
-      model_.forces.push_back({part.harmonic, parameter(part, 0), parameter(part, 1),
-                               sparse(part.directions.front(), model_.dofs)});
+      model_.excitation.push_back({kind_of(part), part.harmonic, parameter(part, 0), parameter(part, 1),
+                                   sparse(part.directions.front(), model_.dofs)});
       even = even || part.harmonic * scene_.harmonics.period % 2 == 0;
       if (part.harmonic > 0) model_.force_harmonic = std::min(model_.force_harmonic, part.harmonic);
     }
     model_.response = sparse(scene_.response(), model_.dofs);
-    for (const scene::Response& response : scene_.responses)
-      if (!response.name.empty()) model_.named_responses.push_back(sparse(response.direction, model_.dofs));
+    model_.absolute = scene_.responses.front().frame == scene::Frame::absolute;
+    for (const scene::Response& response : scene_.responses) {
+      if (response.name.empty()) continue;
+      model_.named_responses.push_back(sparse(response.direction, model_.dofs));
+      model_.named_absolute.push_back(response.frame == scene::Frame::absolute);
+    }
     model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
     model_.settings = scene_.harmonics;
     return std::move(model_);
@@ -113,6 +123,35 @@ std::vector<double> NonlinearPart::fields(const continuation::Vector& p) const {
   std::vector<double> values;
   for (const int k : parameters) values.push_back(p[k]);
   return values;
+}
+
+double Excitation::factor(double w) const {
+  if (kind == Kind::base_displacement) return harmonic * w * (harmonic * w);
+  return kind == Kind::force ? 1 : -1;
+}
+
+double Excitation::factor_rate(double w) const {
+  return kind == Kind::base_displacement ? 2.0 * harmonic * harmonic * w : 0;
+}
+
+double Excitation::displacement(double w) const {
+  if (kind == Kind::base_acceleration) return harmonic == 0 ? 0 : -1 / (harmonic * w * (harmonic * w));
+  return kind == Kind::force ? 0 : 1;
+}
+
+double Excitation::displacement_rate(double w) const {
+  return kind == Kind::base_acceleration ? -2 / w * displacement(w) : 0;
+}
+
+Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const continuation::Vector& p) {
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(model.dofs);
+  if (!excitation.moves_base()) {
+    g = excitation.direction;
+  } else {
+    for (const LinearPart& mass : model.masses)
+      g += p[mass.parameter] * mass.direction.dot(excitation.direction) * mass.direction;
+  }
+  return excitation.factor(p[frequency]) * g;
 }
 
 void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum) {

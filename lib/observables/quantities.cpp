@@ -143,7 +143,7 @@ constexpr ResponseQuantity of_response[] = {
      "depends on it",
      bounded<&Point::amplitude>},
     {"unbounded", "", "only if true: the amplitude grows without bound", is_unbounded, is_unbounded},
-    {"phase", "rad", "phase lag of the response's fundamental behind the force", bounded<&Point::phase>},
+    {"phase", "rad", "phase lag of the response's fundamental behind the excitation", bounded<&Point::phase>},
     {"truncation_estimate", "m",
      "estimated effect of the neglected harmonics on the amplitude at this frequency (or parameter value); "
      "at an event, on the amplitude of the event, which may move",
@@ -241,7 +241,7 @@ constexpr ElementQuantity of_element[] = {
 constexpr Quantity<NamedResponse> of_named_response[] = {
     {"amplitude", "m", "largest absolute displacement over the period",
      [](const NamedResponse& response) { return response.amplitude; }},
-    {"phase", "rad", "phase lag of the fundamental behind the force",
+    {"phase", "rad", "phase lag of the fundamental behind the excitation",
      [](const NamedResponse& response) { return response.phase; }},
 };
 

@@ -21,16 +21,16 @@ class Observation {
       if (with_history) result_.history.elements.push_back({element.name, {}, {}, {}});
     }
     if (with_history) reserve(static_cast<std::size_t>(steps) + 1);
-    x_ = equation.response.dot(newmark.state().x);
-    v_ = equation.response.dot(newmark.state().v);
+    const auto at = equation.observed(newmark.time(), newmark.state().x, newmark.state().v);
+    x_ = at.x;
+    v_ = at.v;
     result_.amplitude = std::abs(x_);
     record();
   }
 
   void after_step() {
     const auto& equation = newmark_.equation();
-    const double x = equation.response.dot(newmark_.state().x);
-    const double v = equation.response.dot(newmark_.state().v);
+    const auto [x, v] = equation.observed(newmark_.time(), newmark_.state().x, newmark_.state().v);
     result_.amplitude = std::max(result_.amplitude, std::abs(x));
     if (v_ * v < 0) {
       const double turn = v_ / (v_ - v);  // share of the step
