@@ -165,7 +165,7 @@ Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuatio
   return sum;
 }
 
-std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p) {
+std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick) {
   if (model.harmonics.odd) return {};
   // Springs of any stiffness hold what they are between: a stiff link takes nothing from the softer ones.
   // Only where some are negative it takes their values to tell.
@@ -178,7 +178,8 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
   const double largest = K.cwiseAbs().maxCoeff(), typical = largest > 0 ? largest : 1;
   for (const NonlinearPart& element : model.elements)
     for (std::size_t i = 0; i < element.directions.size(); ++i)
-      if (element.law->traits(element.fields(p), static_cast<int>(i)).holds_mean)
+      if (const auto traits = element.law->traits(element.fields(p), static_cast<int>(i));
+          traits.holds_mean || (in_stick && traits.holds_in_stick))
         add_outer(typical, element.directions[i], K);
   const Eigen::VectorXd size = K.cwiseAbs().rowwise().maxCoeff();
   for (int i = 0; i < model.dofs; ++i)

@@ -101,7 +101,7 @@ Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuatio
 
 /// With a mean among the unknowns: a degree of freedom whose mean position is supported by no spring or law,
 /// directly or through others. Friction forces do not depend on it, so that it would be arbitrary or drift.
-/// Empty if there is none.
-std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p);
+/// Empty if there is none. in_stick: contacts that hold a mean force while they stick count as supports.
+std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick = true);
 
 }  // namespace arcslip::model

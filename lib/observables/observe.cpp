@@ -111,6 +111,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     ElementResponse response;
     response.name = problem_->model().elements[e].name;
+    state.mean_min = state.mean_max = no_value;
     response.has_stick = at.element(e).friction(state);
     const elements::Law& law = *problem_->model().elements[e].law;
     const int displacements = law.directions() * h.size();
@@ -127,6 +128,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
       response.open_percent = 100 * state.open_share;
       response.normal_load_max = state.load_max;
       response.normal_load_min = state.load_min;
+      response.mean_force_min = state.mean_min;
+      response.mean_force_max = state.mean_max;
       response.slip_angles = state.slip_onsets;
       response.reversal_angles = state.slip_ends;
       set_contact_angles(h, at.element_motion(e), response);

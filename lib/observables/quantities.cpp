@@ -92,6 +92,10 @@ bool has_normal_load(const Element& element) {
   return element.has_normal_load;
 }
 
+bool has_mean_force(const Element& element) {
+  return !std::isnan(element.mean_force_min);
+}
+
 bool has_element_maxima(const Element& element) {
   return !std::isnan(element.maxima.force);
 }
@@ -210,6 +214,12 @@ constexpr ElementQuantity of_element[] = {
      element<&Element::normal_load_max>, has_normal_load, is_part_with_normal_load},
     {"normal_load_min", "N", "likewise, the smallest normal load; 0 in separation",
      element<&Element::normal_load_min>, has_normal_load, is_part_with_normal_load},
+    {"mean_force_min", "N",
+     "friction elements that tell it: smallest mean force that is possible with this motion; equal to the "
+     "largest, unless the element sticks throughout the period",
+     element<&Element::mean_force_min>, has_mean_force, is_friction_part},
+    {"mean_force_max", "N", "likewise, the largest mean force", element<&Element::mean_force_max>,
+     has_mean_force, is_friction_part},
     {"slip_angles", "rad", "friction elements: onset of each slip phase", angles<&Element::slip_angles>,
      is_friction, is_friction_part},
     {"reversal_angles", "rad", "friction elements: end of each slip phase", angles<&Element::reversal_angles>,

@@ -39,6 +39,10 @@ struct ElementResponse {
   bool has_normal_load = false;
   double open_percent = 0, normal_load_max = 0, normal_load_min = 0;
 
+  // What the mean force may be, N: more than one where a slider sticks throughout the period, and the offset
+  // chosen for it decides. no_value: not told.
+  double mean_force_min = no_value, mean_force_max = no_value;
+
   // With one stick and one slip phase in each half period: theta_0 in [0, 2 pi), the angle of the largest
   // displacement of the element, where stick starts; theta_star in (theta_0, theta_0 + 2 pi), the next onset
   // of slip, rad. For antisymmetric motion stick_percent = 100 (theta_star - theta_0)/pi.

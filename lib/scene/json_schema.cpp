@@ -176,13 +176,13 @@ Node part_of(const PartType& type, bool with_type) {
   }
   for (const Field& field : type.fields({})) {
     properties.push_back({std::string(field.name), number_of(field)});
-    if (!field.default_value && type.options().empty())  // options may bring others in its place
+    if (!field.default_value && !type.options_bring_fields())  // in its place
       required.emplace_back(field.name);
   }
   Object object = object_of(std::move(properties), required);
   if (type.names_directions())
     object.back().value = place_object();
-  else if (!type.options().empty())
+  else if (type.options_bring_fields())
     object.back().value = of_type("number");  // fields that the options bring
   if (one_direction && !is_base_motion(type)) object.push_back({"oneOf", one_place()});
   return of(std::move(object));

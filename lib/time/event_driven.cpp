@@ -247,8 +247,9 @@ PeriodMap EventDriven::map(const MotionState& start, double to) {
   map.monodromy = march_->monodromy();
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (ranges[i].resting() && ranges[i].dhigh.size() > 0)
-      map.resting.push_back({contacts[i].memory, 0.5 * (ranges[i].high + ranges[i].low),
-                             0.5 * (ranges[i].dhigh + ranges[i].dlow).tail(map.monodromy.cols())});
+      map.resting.push_back(resting_slider(contacts[i].memory, contacts[i].room, ranges[i].high,
+                                           ranges[i].dhigh.tail(map.monodromy.cols()), ranges[i].low,
+                                           ranges[i].dlow.tail(map.monodromy.cols())));
   return map;
 }
 

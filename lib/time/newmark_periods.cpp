@@ -152,8 +152,9 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   const Eigen::Index n = equation.dofs(), size = 2 * n + equation.memory;
   struct Reach {
     int slider;
-    Vector lower, upper;  // its bounds move with lower . x and upper . x
-    double high, low;     // of the lower and of the upper one
+    std::optional<double> room;  // between its bounds: elements::Law::slider_room()
+    Vector lower, upper;         // its bounds move with lower . x and upper . x
+    double high, low;            // of the lower and of the upper one
     Eigen::RowVectorXd d_high, d_low;
     bool up, down;  // slips that way
 
@@ -174,8 +175,9 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
       const Vector lower = bound(-1), upper = bound(1);
       const auto change = map.monodromy.topRows(n);
       const bool free = element.law->traits(element.fields, along).limit == 0;
-      reaches.push_back({element.memory + k, lower, upper, lower.dot(start.x), upper.dot(start.x),
-                         lower.transpose() * change, upper.transpose() * change, free, free});
+      reaches.push_back({element.memory + k, element.law->slider_room(element.fields, k), lower, upper,
+                         lower.dot(start.x), upper.dot(start.x), lower.transpose() * change,
+                         upper.transpose() * change, free, free});
     }
   for (long k = 0; k < newmark.steps_per_period(); ++k) {
     const Solved solved = newmark.step();
@@ -204,8 +206,8 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   }
   for (std::size_t i = 0; i < reaches.size(); ++i)
     if (reaches[i].rests())
-      map.resting.push_back({reaches[i].slider, 0.5 * (reaches[i].high + reaches[i].low),
-                             0.5 * (reaches[i].d_high + reaches[i].d_low)});
+      map.resting.push_back(resting_slider(reaches[i].slider, reaches[i].room, reaches[i].high,
+                                           reaches[i].d_high, reaches[i].low, reaches[i].d_low));
   map.end = newmark.state();
   map.done = true;
   return map;

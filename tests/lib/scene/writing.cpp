@@ -117,13 +117,13 @@ TEST_CASE("a scene is written with every default, in the order of the format") {
     "dampers": [{"name": "c", "at": "a", "value": 0.1}]
   },
   "elements": [
-    {"name": "d", "type": "jenkins", "at": "a", "stiffness": 10, "friction_coefficient": 0.5,
-     "normal_load": 3}
+    {"name": "d", "type": "jenkins", "at": "a", "offset": "centred", "stiffness": 10,
+     "friction_coefficient": 0.5, "normal_load": 3}
   ],
-  "excitation": [{"name": "f", "at": "a", "harmonic": 1, "cosine": 1, "sine": 0}],
+  "excitation": [{"name": "f", "type": "force", "at": "a", "harmonic": 1, "cosine": 1, "sine": 0}],
   "ties": {},
   "harmonics": {"order": 7, "period": 1, "friction": "exact", "samples": 512},
-  "response": {"at": "a"},
+  "response": {"at": "a", "frame": "relative"},
   "studies": [{"name": "frf", "kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}}]
 }
 )");
