@@ -318,3 +318,97 @@ TEST_CASE("the offset is an option of the elements that have it, and written wit
     CHECK(contains(error.what(), "\"static\""));
   }
 }
+
+TEST_CASE("from resonance to resonance friction holds a load, lets go where it slips, and holds it again") {
+  const auto with_offset = observables::frequency_response(held(0.9, 0.6, 1), {0.5, 4}),
+             centred = observables::frequency_response(held(0.9, 0.6, 1, "centred"), {0.5, 4});
+  REQUIRE(with_offset.size() == 1);
+  REQUIRE(centred.size() == 1);
+  CHECK(with_offset[0].status == observables::Status::complete);
+  int stuck = 0, slipping = 0;
+  for (const auto& point : with_offset[0].points) {
+    const double A = oscillation(0.6, 1, point.omega);
+    CAPTURE(point.omega);
+    if (2 * A < 1 - 1e-6) {
+      ++stuck;
+      CHECK(std::abs(point.coefficients[0] - place(0.9, A, 1)) < 1e-8);
+    } else {
+      ++slipping;
+    }
+  }
+  CHECK(stuck > 10);
+  CHECK(slipping > 10);
+  REQUIRE(with_offset[0].events.size() == 1);
+  REQUIRE(centred[0].events.size() == 1);
+  CHECK(with_offset[0].events[0].point.elements[0].stick_percent < 99);
+  CHECK(std::abs(with_offset[0].events[0].point.amplitude - centred[0].events[0].point.amplitude) < 1e-9);
+}
+
+TEST_CASE("the place that friction holds has its digits over twelve decades of stiffness and of load") {
+  for (const double stiffness : {1e-6, 1e-3, 1.0, 1e3, 1e6})
+    for (const double limit : {1e-9, 1e-3, 1.0, 1e6})
+      for (const double load : {0.0, 1e-6, 0.5, -2.0, 1e4}) {
+        auto s = held(load, 1e-3, 1);
+        scene::set(s, "d.stiffness", stiffness);
+        scene::set(s, "d.normal_load", 2 * limit);
+        const double w = 0.5, A = 1e-3 / std::hypot(1 + stiffness - w * w, 0.1 * w);
+        if (stiffness * A > limit) continue;
+        const double stuck = load / (1 + stiffness);
+        const bool rests = stiffness * (std::abs(stuck) + A) <= limit;
+        const double mean = rests ? stuck : load - std::copysign(limit - stiffness * A, load);
+        CAPTURE(stiffness, limit, load);
+        const auto point = at(s, w);
+        // k_d (x - w) rounds in x, against a spring of 1 N/m.
+        const double rounding = 1e-15 * stiffness * (std::abs(mean) + A);
+        CHECK(std::abs(point.coefficients[0] - mean) <
+              1e-12 * (std::abs(mean) + std::abs(load) + A) + rounding);
+        CHECK(std::abs(point.amplitude - std::abs(mean) - A) < 1e-9 * (std::abs(mean) + A) + rounding);
+      }
+}
+
+TEST_CASE("contacts that hold a mean force move as in time, one of constant and one of varying load") {
+  // Both stick: the motion is linear, and exact in harmonics. One slips: N^-3.
+  int mixed = 0;
+  for (const double force : {0.15, 1.0, 1.2, 1.4, 1.6}) {
+    std::ostringstream text;
+    text << R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["a", "b"],
+      "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1.5}],
+      "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 0.8}],
+      "dampers": [{"name": "ca", "at": "a", "value": 0.05}, {"name": "cab", "between": ["a", "b"], "value": 0.04}]},
+    "elements": [
+      {"name": "d", "type": "jenkins", "at": "a", "stiffness": 2, "friction_coefficient": 0.5, "normal_load": 1.6,
+       "offset": "static"},
+      {"name": "c", "type": "contact_2d", "tangential": {"at": "b"}, "normal": {"direction": {"a": 0.5, "b": 0.2}},
+       "offset": "static", "tangential_stiffness": 1, "normal_stiffness": 0.6, "friction_coefficient": 0.5,
+       "normal_load": 2.4}],
+    "excitation": [{"name": "f", "at": "b", "cosine": )"
+         << force << R"(}, {"name": "load", "at": "a", "harmonic": 0, "cosine": 1.6},
+      {"name": "weight", "at": "b", "harmonic": 0, "cosine": -1.1},
+      {"name": "base", "type": "base_acceleration", "sine": 0.05}],
+    "harmonics": {"order": 31}, "response": {"at": "b"}})";
+    const auto s = scenes::parse(text.str());
+    const auto point = at(s, 0.6);
+    const bool sticks = point.elements[0].stick_percent == 100 && point.elements[1].stick_percent == 100;
+    CAPTURE(force, point.elements[0].stick_percent, point.elements[1].stick_percent);
+    const bool both_slip = point.elements[0].stick_percent < 100 && point.elements[1].stick_percent < 100;
+    CHECK((sticks || force > 0.5));
+    if (!sticks && !both_slip) ++mixed;
+    const auto motion = observables::motion_in_time(s, {.frequency = 0.6});
+    REQUIRE(motion.status == observables::Status::complete);
+    CHECK(std::abs(motion.amplitude / point.amplitude - 1) < (sticks ? 1e-10 : 1e-4));
+    const auto centred = at(
+        [&] {
+          scene::Scene other = s;
+          for (auto& element : other.elements) element.options = {};
+          return other;
+        }(),
+        0.6);
+    CHECK((both_slip || std::abs(point.amplitude / centred.amplitude - 1) > 0.01));
+    for (std::size_t e = 0; e < 2; ++e) {
+      const auto& element = point.elements[e];
+      CHECK(element.mean_force_min <= element.mean_force_max);
+    }
+  }
+  CHECK(mixed > 0);
+}
