@@ -1,7 +1,6 @@
 #pragma once
 // The period map for shooting, independent of the integrator.
 
-#include <arcslip/elements/slider_offset.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
 
 #include <functional>
@@ -26,8 +25,9 @@ inline RestingSlider resting_slider(int slider, std::optional<double> room, doub
                                     const Eigen::RowVectorXd& d_low) {
   if (!room) return {slider, 0.5 * (high + low), 0.5 * (d_high + d_low)};
   const double a = high - *room, b = low + *room;
-  const auto at = elements::stuck_slider(elements::Offset::static_loads, a, b);
-  return {slider, at.lower * a + at.upper * b, at.lower * d_high + at.upper * d_low};
+  if (a > 0) return {slider, a, d_high};
+  if (b < 0) return {slider, b, d_low};
+  return {slider, 0, Eigen::RowVectorXd::Zero(d_high.size())};
 }
 
 struct PeriodMap {
