@@ -35,6 +35,7 @@ class BilinearSpring final : public scene::file::KeyedPart<BilinearSpringOptions
   std::string_view name() const override { return "bilinear_spring"; }
   std::string_view help() const override { return "a spring with another stiffness beyond a displacement"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  bool options_bring_fields() const override { return false; }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
     return !options.empty() && options.as<BilinearSpringOptions>().one_sided ? one_sided_ : two_sided_;
   }

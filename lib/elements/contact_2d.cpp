@@ -1,5 +1,7 @@
 #include <arcslip/elements/contact_2d.hpp>
 
+#include <arcslip/elements/offset_option.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,14 +45,18 @@ double load(const ContactLaw& law, double x_n) {
   return std::max(law.N_0 + law.k_n * x_n, 0.0);
 }
 
-class Contact2d final : public PlainLaw {
+class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
  public:
+  explicit Contact2d(Offset offset) : KeyedPart(offset_option()), offset_(offset) {}
   std::string_view name() const override { return "contact_2d"; }
   std::string_view help() const override {
     return "friction in one direction under a normal load that varies, with separation";
   }
   std::span<const std::string_view> slots() const override { return all_slots; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  bool options_bring_fields() const override { return false; }
+
+  std::shared_ptr<const Law> law(const scene::Settings& options) const override;
 
   bool antisymmetric() const override { return false; }
   bool has_contact() const override { return true; }
@@ -67,6 +73,7 @@ class Contact2d final : public PlainLaw {
               .far_power = law.k_n > 0 ? 1.0 : 0.0};
     return {.stiffness = law.k_t,
             .stiffness_field = tangential_stiffness,
+            .holds_in_stick = offset_ == Offset::static_loads && limit > 0,
             .several_responses = law.k_n > 0,
             .far_work = 4 * limit,
             .limit = limit};
@@ -75,16 +82,16 @@ class Contact2d final : public PlainLaw {
   bool limited_by(int field) const override { return field == friction_coefficient || field == normal_load; }
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {
-    return make_contact_2d(harmonics);
+    return make_contact_2d(harmonics, offset_);
   }
   std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
-    return make_contact_2d_corners(harmonics);
+    return make_contact_2d_corners(harmonics, offset_);
   }
 
   Eigen::MatrixXd force_at(const Harmonics& h, In u, Fields fields, Angles angles) const override {
     const ContactLaw law = contact_law(fields);
     const auto u_t = u.head(h.size()), u_n = u.tail(h.size());
-    ContactPhases search(h);
+    ContactPhases search(h, offset_);
     const auto& phases = search.find(u_t, u_n, law);
     Eigen::MatrixXd force(static_cast<Eigen::Index>(angles.size()), 2);
     for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -105,6 +112,11 @@ class Contact2d final : public PlainLaw {
   Eigen::RowVectorXd slider_bound(Fields fields, int, int side) const override {
     const ContactLaw law = contact_law(fields);
     return Eigen::RowVector2d(1, side * law.mu * law.k_n / law.k_t);
+  }
+  std::optional<double> slider_room(Fields fields, int) const override {
+    if (offset_ == Offset::centred) return {};
+    const ContactLaw law = contact_law(fields);
+    return law.mu * law.N_0 / law.k_t;
   }
   bool symmetric_step() const override { return false; }
 
@@ -274,7 +286,14 @@ class Contact2d final : public PlainLaw {
     end.f_q(tangential, normal) = sign * law.mu * law.k_n;
     follow(end, sign * law.mu * law.k_n / k);
   }
+
+  Offset offset_;
 };
+
+std::shared_ptr<const Law> Contact2d::law(const scene::Settings& options) const {
+  static const Contact2d with_static_offset(Offset::static_loads);
+  return {std::shared_ptr<const void>(), offset_of(options) == Offset::centred ? this : &with_static_offset};
+}
 
 }  // namespace
 
@@ -284,7 +303,7 @@ ContactLaw contact_law(Fields fields) {
 }
 
 const PlainLaw& contact_2d() {
-  static const Contact2d law;
+  static const Contact2d law(Offset::centred);
   return law;
 }
 

@@ -20,9 +20,9 @@
 //   dw = phi(theta).du_t + s c phi(theta).du_n     at a reversal of x_t + s h, s = 1 or -1
 //   dw = phi(theta).du_t - (x_t'/x_n') phi(theta).du_n     where stick begins at closing, whose angle moves
 //
-// Without slip w is centred between the bounds a and b that it may have (contact_phases.hpp), the limit from
-// the slipping side: the contact holds no mean tangential force but what the varying load makes. The error of
-// harmonic balance falls as N^-3.
+// Without slip w is a choice between the bounds a and b that it may have (contact_phases.hpp,
+// slider_offset.hpp). Centred, the contact holds no mean tangential force but what the varying load makes.
+// The error of harmonic balance falls as N^-3.
 //
 // Fields: tangential_stiffness k_t, normal_stiffness k_n (N/m), friction_coefficient mu (-), normal_load N_0
 // (N). Directions: tangential, normal, positive into the contact.
@@ -32,13 +32,13 @@
 
 namespace arcslip::elements {
 
-/// "contact_2d".
+/// "contact_2d"; its option "offset" is centred in the law itself.
 const PlainLaw& contact_2d();
 
 /// By its fields.
 ContactLaw contact_law(Fields fields);
 
-std::unique_ptr<Element> make_contact_2d(const Harmonics& harmonics);
-std::unique_ptr<Corners> make_contact_2d_corners(const Harmonics& harmonics);
+std::unique_ptr<Element> make_contact_2d(const Harmonics& harmonics, Offset offset = Offset::centred);
+std::unique_ptr<Corners> make_contact_2d_corners(const Harmonics& harmonics, Offset offset = Offset::centred);
 
 }  // namespace arcslip::elements

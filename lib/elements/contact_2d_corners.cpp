@@ -1,4 +1,5 @@
-// Corners of a contact with a varying normal load: guards 0 and 1 of its load, 2 to 7 of its slider.
+// Corners of a contact with a varying normal load: guards 0 and 1 of its load, 2 to 7 of its slider,
+// 8 and 9 where a bound begins to carry a slider with a static offset from w = 0.
 #include <arcslip/elements/contact_2d.hpp>
 
 #include <arcslip/elements/reversal_angle.hpp>
@@ -13,7 +14,7 @@ namespace {
 constexpr double same_place = 1e-9;  // rad
 constexpr double next_to_be = 1e-3;  // of the range of a bound: reversals next to be the highest or lowest
 
-enum { separation, closing, first_onset };
+enum { separation, closing, first_onset, carried_up = 8, carried_down };
 
 // Onset of slip of the sign given, of a slider that rests since it was left.
 struct SlipOnset {
@@ -37,7 +38,8 @@ double sign_of(SliderRest::At rest) {
 
 class Contact2dCorners final : public Corners {
  public:
-  explicit Contact2dCorners(const Harmonics& h) : h_(h), c_(h.size()), phi_(c_), derivative_(c_) {}
+  Contact2dCorners(const Harmonics& h, Offset offset)
+      : h_(h), offset_(offset), c_(h.size()), phi_(c_), derivative_(c_) {}
 
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
     set(contact_law(fields), w);
@@ -47,6 +49,13 @@ class Contact2dCorners final : public Corners {
       const double side = corner.guard == closing ? 1 : -1;
       add_load(side, corner.angles[0], 0, 0, at);
       add_slope(0, 1, corner.angles[0], 0, 1, at);
+      return;
+    }
+    if (corner.guard >= carried_up) {  // k_t x_t - mu N, or -(k_t x_t + mu N)
+      const double sign = corner.guard == carried_up ? 1 : -1;
+      add_bound(sign * law_.k_t, -sign, corner.angles[0], 0, at);
+      at.by_field(0, 0) += at.values[0] / law_.k_t;
+      add_slope(1, -sign, corner.angles[0], 0, 1, at);
       return;
     }
     const SlipOnset onset = onset_of(corner);
@@ -71,6 +80,10 @@ class Contact2dCorners final : public Corners {
     set(contact_law(fields), w);
     if (corner.guard < first_onset)
       return polish_reversal(h_, w.tail(c_), corner.guard == closing ? 1 : -1, corner.angles[0]);
+    if (corner.guard >= carried_up) {
+      const double sign = corner.guard == carried_up ? 1 : -1;
+      return polish_reversal(h_, bound(-sign), sign, corner.angles[0]);
+    }
     const SlipOnset onset = onset_of(corner);
     if (!polish_reversal(h_, bound(-onset.slip), onset.slip, corner.angles[1])) return false;
     if (onset.rest != SliderRest::At::closing)
@@ -80,8 +93,9 @@ class Contact2dCorners final : public Corners {
 
   std::vector<Corner> near(In w, Fields fields, double tolerance) override {
     std::vector<Corner> found;
-    ContactPhases search(h_);
+    ContactPhases search(h_, offset_);
     const ContactLaw law = contact_law(fields);
+    set(law, w);
     const auto& phases = search.find(w.head(c_), w.tail(c_), law);
     Equations at(w.size(), 2, static_cast<Eigen::Index>(fields.size()));
     const auto add = [&](int guard, std::vector<double> angles) {
@@ -205,11 +219,15 @@ class Contact2dCorners final : public Corners {
     for (std::size_t i = 0; i < tops.size(); ++i) {
       for (const double bottom : bottoms)
         add(guard_of({SliderRest::At::upper_reversal, 1}), {bottom, tops[i]});
-      for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t j = 0; j < i && search.held().lower > 0; ++j)
         add(guard_of({SliderRest::At::lower_reversal, 1}), {tops[j], tops[i]});
     }
+    if (offset_ == Offset::static_loads) {
+      for (const double top : tops) add(carried_up, {top});
+      for (const double bottom : bottoms) add(carried_down, {bottom});
+    }
     for (std::size_t i = 0; i < bottoms.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t j = 0; j < i && search.held().upper > 0; ++j)
         add(guard_of({SliderRest::At::upper_reversal, -1}), {bottoms[j], bottoms[i]});
   }
 
@@ -227,6 +245,7 @@ class Contact2dCorners final : public Corners {
   }
 
   Harmonics h_;
+  Offset offset_;
   Eigen::Index c_;
   ContactLaw law_{};
   Eigen::VectorXd w_, lower_, upper_, phi_, derivative_;
@@ -234,8 +253,8 @@ class Contact2dCorners final : public Corners {
 
 }  // namespace
 
-std::unique_ptr<Corners> make_contact_2d_corners(const Harmonics& harmonics) {
-  return std::make_unique<Contact2dCorners>(harmonics);
+std::unique_ptr<Corners> make_contact_2d_corners(const Harmonics& harmonics, Offset offset) {
+  return std::make_unique<Contact2dCorners>(harmonics, offset);
 }
 
 }  // namespace arcslip::elements

@@ -21,9 +21,9 @@ struct RestChange {
 
 class Contact2dElement final : public Element {
  public:
-  explicit Contact2dElement(const Harmonics& h)
+  Contact2dElement(const Harmonics& h, Offset offset)
       : h_(h),
-        phases_(h),
+        phases_(h, offset),
         closed_(h),
         stick_(h),
         slip_(h),
@@ -68,6 +68,13 @@ class Contact2dElement final : public Element {
     }
     state.load_max = std::max(high, 0.0);
     state.load_min = std::max(low, 0.0);
+    state.mean_min = state.mean_max = F_[0];
+    if (phases_.full_stick()) {  // k_t (u_0 - w) for w from a to b
+      const StuckSlider held = phases_.held();
+      const double a = phases_.largest_lower().x, b = phases_.smallest_upper().x;
+      state.mean_min -= law_.k_t * (1 - held.upper) * b - law_.k_t * held.lower * a;
+      state.mean_max -= law_.k_t * (1 - held.lower) * a - law_.k_t * held.upper * b;
+    }
     return true;
   }
 
@@ -132,7 +139,9 @@ class Contact2dElement final : public Element {
 
   void full_stick(In u_t, In u_n, bool jacobian) {
     const Eigen::Index c = h_.size();
-    const double k = law_.k_t, w = 0.5 * (phases_.largest_lower().x + phases_.smallest_upper().x);
+    const StuckSlider held = phases_.held();
+    const double k = law_.k_t,
+                 w = held.lower * phases_.largest_lower().x + held.upper * phases_.smallest_upper().x;
     auto F = F_.head(c);
     F = u_t;
     F[0] -= w;
@@ -142,13 +151,15 @@ class Contact2dElement final : public Element {
     const SliderRest ends[] = {{SliderRest::At::lower_reversal, phases_.largest_lower().theta, 0},
                                {SliderRest::At::upper_reversal, phases_.smallest_upper().theta, 0}};
     for (const SliderRest& end : ends) {
+      const double share = end.sign() < 0 ? held.lower : held.upper;
+      if (share == 0) continue;
       series_basis(h_, end.theta, phi_);
       const RestChange dw = change(end, u_t, u_n);
       for (int field = 0; field < field_count; ++field)
-        tangential_rows(field)[0] -= 0.5 * k * dw.by_field[field];
+        tangential_rows(field)[0] -= share * k * dw.by_field[field];
       if (!jacobian) continue;
-      J_.row(0).head(c) -= 0.5 * k * phi_.transpose();
-      J_.row(0).tail(c) -= 0.5 * k * dw.normal * phi_.transpose();
+      J_.row(0).head(c) -= share * k * phi_.transpose();
+      J_.row(0).tail(c) -= share * k * dw.normal * phi_.transpose();
     }
   }
 
@@ -240,8 +251,8 @@ class Contact2dElement final : public Element {
 
 }  // namespace
 
-std::unique_ptr<Element> make_contact_2d(const Harmonics& harmonics) {
-  return std::make_unique<Contact2dElement>(harmonics);
+std::unique_ptr<Element> make_contact_2d(const Harmonics& harmonics, Offset offset) {
+  return std::make_unique<Contact2dElement>(harmonics, offset);
 }
 
 }  // namespace arcslip::elements

@@ -29,7 +29,8 @@ std::uint64_t code(const ContactPhase& phase) {
 
 }  // namespace
 
-ContactPhases::ContactPhases(const Harmonics& harmonics) : harmonics_(harmonics), reversals_(harmonics) {
+ContactPhases::ContactPhases(const Harmonics& harmonics, Offset offset)
+    : harmonics_(harmonics), reversals_(harmonics), offset_(offset) {
   const auto most = static_cast<std::size_t>(2 * harmonics.order + 2);
   lower_.u.resize(harmonics.size());
   upper_.u.resize(harmonics.size());
@@ -126,7 +127,8 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
   full_stick_ = largest_lower_.x <= smallest_upper_.x;
   if (full_stick_) {
     ContactPhase phase{ContactPhase::State::stick, 0, turn_angle};
-    phase.rest.w = 0.5 * (largest_lower_.x + smallest_upper_.x);
+    held_ = stuck_slider(offset_, largest_lower_.x, smallest_upper_.x);
+    phase.rest.w = held_.lower * largest_lower_.x + held_.upper * smallest_upper_.x;
     phases_.push_back(phase);
   } else {
     // w <= b < a since the upper bound was at b, and a at the largest value of the lower one.
@@ -203,7 +205,10 @@ std::uint64_t ContactPhases::sequence() const {
 
 std::uint64_t ContactPhases::sequence_of_phases() const {
   if (frictionless_) return (opens_ ? 1 : 0) + 2 * closed_.size();
-  if (full_stick_) {  // its centre follows both extremes
+  if (full_stick_) {  // its offset follows one extreme, or both
+    const bool at_lower = held_.lower > 0, at_upper = held_.upper > 0;
+    if (!at_lower && !at_upper) return 2;
+    const std::uint64_t bounds = at_lower && at_upper ? 0 : at_lower ? 1 : 2;
     const auto after_a = [&](double theta) {
       const double after = theta - largest_lower_.theta;
       return after < 0 ? after + turn_angle : after;
@@ -214,7 +219,7 @@ std::uint64_t ContactPhases::sequence_of_phases() const {
       if (after_a(at.theta) > same_angle && after_a(at.theta) < b - same_angle) ++between;
     for (const Reversal& at : upper_.turns)
       if (after_a(at.theta) > b + same_angle && after_a(at.theta) < turn_angle - same_angle) ++beyond;
-    return 2 + between + 4096 * beyond;
+    return 3 + between + 4096 * beyond + (bounds << 32);
   }
   std::uint64_t sum = 1;
   for (std::size_t i = 0; i < phases_.size(); ++i) {

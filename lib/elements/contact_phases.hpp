@@ -15,6 +15,7 @@
 
 #include <arcslip/elements/element.hpp>
 #include <arcslip/elements/reversals.hpp>
+#include <arcslip/elements/slider_offset.hpp>
 
 #include <cstdint>
 #include <span>
@@ -47,16 +48,17 @@ struct ContactPhase {
 /// Owns its buffers.
 class ContactPhases {
  public:
-  explicit ContactPhases(const Harmonics& harmonics);
+  explicit ContactPhases(const Harmonics& harmonics, Offset offset = Offset::centred);
 
-  /// The phases of a period, one after the other. Full stick: a single one, with w = (a + b)/2 and without
-  /// `rest`.
+  /// The phases of a period, one after the other. Full stick: a single one, with the w of stuck_slider() and
+  /// no place of rest.
   const std::vector<ContactPhase>& find(In u_t, In u_n, const ContactLaw& law);
 
   // Of the last search.
   bool full_stick() const { return full_stick_; }
   Reversal largest_lower() const { return largest_lower_; }    // a, where the contact never opens
   Reversal smallest_upper() const { return smallest_upper_; }  // b
+  StuckSlider held() const { return held_; }                   // in full stick
   /// The intervals in contact: begin, end.
   std::span<const std::pair<double, double>> closed() const { return closed_; }
   bool opens() const { return opens_; }
@@ -95,6 +97,8 @@ class ContactPhases {
   std::vector<Reversal> load_turns_;
   std::vector<std::pair<double, double>> closed_;
   std::vector<ContactPhase> phases_;
+  Offset offset_;
+  StuckSlider held_;
   Reversal largest_lower_{}, smallest_upper_{};
   bool opens_ = false, full_stick_ = false, frictionless_ = false, gap_ = false;
 };

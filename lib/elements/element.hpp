@@ -9,6 +9,7 @@
 #include <arcslip/elements/series.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,6 +23,9 @@ struct FrictionState {
   std::vector<double> slip_ends;      // rad in [0, 2 pi), ascending: the reversals where slip ends
   double open_share = 0;              // 0 to 1
   double load_max = 0, load_min = 0;  // of the normal load, N, where Law::has_normal_load()
+  // What the mean force along the first direction may be, N: an interval where the slider sticks throughout
+  // (slider_offset.hpp). NaN: not told.
+  double mean_min = std::numeric_limits<double>::quiet_NaN(), mean_max = mean_min;
 };
 
 /// For one set of harmonics; owns its buffers. move_to() does not allocate.

@@ -39,6 +39,7 @@ class GapSpring final : public scene::file::KeyedPart<GapSpringOptions, LawType>
     return "a spring behind a gap or with a preload, one- or two-sided";
   }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  bool options_bring_fields() const override { return false; }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
     return !options.empty() && options.as<GapSpringOptions>().two_sided ? two_sided_ : one_sided_;
   }

@@ -1,6 +1,7 @@
 #include <arcslip/elements/jenkins.hpp>
 
 #include <arcslip/elements/friction_phases.hpp>
+#include <arcslip/elements/offset_option.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,19 +36,24 @@ double limit(Fields fields) {
   return fields[friction_coefficient_field] * fields[normal_load_field];
 }
 
-class Jenkins final : public PlainLaw {
+class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
  public:
+  explicit Jenkins(Offset offset) : KeyedPart(offset_option()), offset_(offset) {}
   std::string_view name() const override { return "jenkins"; }
   std::string_view help() const override {
     return "a spring in series with a Coulomb slider (Jenkins element): macroslip";
   }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  bool options_bring_fields() const override { return false; }
+
+  std::shared_ptr<const Law> law(const scene::Settings& options) const override;
 
   bool antisymmetric() const override { return true; }
   bool has_contact() const override { return true; }
   Traits traits(Fields fields, int) const override {
     return {.stiffness = fields[stiffness_field],
             .stiffness_field = stiffness_field,
+            .holds_in_stick = offset_ == Offset::static_loads && limit(fields) > 0,
             .far_work = 4 * limit(fields),
             .limit = limit(fields)};
   }
@@ -55,11 +61,12 @@ class Jenkins final : public PlainLaw {
   bool limited_by(int field) const override { return field != stiffness_field; }
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override {
-    return sampling.exact ? make_jenkins(harmonics) : make_sampled_jenkins(harmonics, sampling.samples);
+    return sampling.exact ? make_jenkins(harmonics, offset_)
+                          : make_sampled_jenkins(harmonics, sampling.samples, offset_);
   }
 
   std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
-    return make_jenkins_corners(harmonics);
+    return make_jenkins_corners(harmonics, offset_);
   }
 
   Eigen::MatrixXd force_at(const Harmonics& h, In u, Fields fields, Angles angles) const override {
@@ -68,12 +75,14 @@ class Jenkins final : public PlainLaw {
     if (stiffness == 0 || p == 0) return force;
     FrictionPhases search(h);
     const auto& phases = search.find(u, p / stiffness);
-    const double centre = h.odd ? 0 : 0.5 * (search.highest().x + search.lowest().x);
+    const double high = search.highest().x, low = search.lowest().x, reach = p / stiffness;
+    const StuckSlider at = stuck_slider(offset_, high - reach, low + reach);
+    const double mean = h.odd ? 0 : (at.lower - at.upper) * p, centre = at.lower * high + at.upper * low;
     for (std::size_t i = 0; i < angles.size(); ++i) {
       const double x = series_values(h, u, angles[i]).x;
       auto& f = force(static_cast<Eigen::Index>(i), 0);
       if (phases.empty()) {
-        f = stiffness * (x - centre);
+        f = stiffness * (h.odd ? x : x - centre) + mean;
         continue;
       }
       const double spans = std::floor((angles[i] - phases.front().begin) / h.span());
@@ -91,6 +100,10 @@ class Jenkins final : public PlainLaw {
 
   int memory() const override { return 1; }
   int slider_direction(int) const override { return 0; }
+  std::optional<double> slider_room(Fields fields, int) const override {
+    if (offset_ == Offset::centred) return {};
+    return limit(fields) / fields[stiffness_field];
+  }
 
   void memory_at(Fields fields, In q, In f, Out z) const override {
     z[0] = q[0] - f[0] / fields[stiffness_field];
@@ -138,12 +151,20 @@ class Jenkins final : public PlainLaw {
     }
     return std::vector{contact};
   }
+
+ private:
+  Offset offset_;
 };
+
+std::shared_ptr<const Law> Jenkins::law(const scene::Settings& options) const {
+  static const Jenkins with_static_offset(Offset::static_loads);
+  return {std::shared_ptr<const void>(), offset_of(options) == Offset::centred ? this : &with_static_offset};
+}
 
 }  // namespace
 
 const PlainLaw& jenkins() {
-  static const Jenkins law;
+  static const Jenkins law(Offset::centred);
   return law;
 }
 

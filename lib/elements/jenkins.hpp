@@ -14,8 +14,8 @@
 // since f is continuous there; an anchor depends on x(r_i) only, since x'(r_i) = 0. See
 // docs/theory/03-friction-integrals.md.
 //
-// Without slip (max x - min x <= 2 p/k_d) f is centred: f = k_d (x - (max x + min x)/2), the limit from the
-// slipping side.
+// Without slip (max x - min x <= 2 p/k_d) f = k_d (x - w), where the offset w of the slider is a choice
+// (slider_offset.hpp). Centred, w = (max x + min x)/2.
 //
 // Fields: stiffness k_d (N/m), friction_coefficient mu (-), normal_load F_n (N).
 
@@ -23,13 +23,14 @@
 // way is exact: f = clamp(f_0 + k_d dq, -p, p).
 
 #include <arcslip/elements/law.hpp>
+#include <arcslip/elements/slider_offset.hpp>
 
 namespace arcslip::elements {
 
-/// "jenkins".
+/// "jenkins"; its option "offset" is centred in the law itself.
 const PlainLaw& jenkins();
 
-std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics);
+std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics, Offset offset = Offset::centred);
 
 /// Onset of slip at a reversal of its motion w: stuck since the reversal theta_a, where f = s_a p, it reaches
 /// s p just at the reversal theta_r. Angles theta_a, theta_r;
@@ -39,11 +40,16 @@ std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics);
 /// From full stick, theta_a is where w is least and theta_r where it is largest: h = k_d (max w - min w)/2 -
 /// p. Of an element that sticks, s = s_a is the corner where another reversal becomes the highest or the
 /// lowest, and the mean of its force is told by that.
-std::unique_ptr<Corners> make_jenkins_corners(const Harmonics& harmonics);
+///
+/// With a static offset that is so where a bound carries the slider; and where one begins to, from w = 0,
+///
+///   h = s k_d w(theta_r) - p,  N
+std::unique_ptr<Corners> make_jenkins_corners(const Harmonics& harmonics, Offset offset = Offset::centred);
 
 /// The same law sampled at `samples` equal intervals of the period (alternating frequency/time, Cameron &
 /// Griffin 1989), with the exact Jacobian of the sampled force. For comparison; its error stalls near
 /// samples^-2.
-std::unique_ptr<Element> make_sampled_jenkins(const Harmonics& harmonics, int samples);
+std::unique_ptr<Element> make_sampled_jenkins(const Harmonics& harmonics, int samples,
+                                              Offset offset = Offset::centred);
 
 }  // namespace arcslip::elements

@@ -14,6 +14,13 @@ namespace {
 constexpr double same_place = 1e-9;  // rad: a reversal at the end of a phase
 constexpr double next_to_be = 1e-3;  // of the range of the motion: reversals next to be the highest or lowest
 
+// Where a bound begins to carry a slider with a static offset, the lower or the upper one.
+enum { carried_up = 4, carried_down };
+
+double sign_of_carrying(const Corner& corner) {
+  return corner.guard == carried_up ? 1 : -1;
+}
+
 // The force is anchor_sign p at the first angle, and reaches slip_sign p at the second.
 struct Signs {
   double anchor, slip;
@@ -29,9 +36,10 @@ Signs signs_of(const Corner& corner) {
 
 class JenkinsCorners final : public Corners {
  public:
-  explicit JenkinsCorners(const Harmonics& h) : h_(h), phi_(h.size()) {}
+  JenkinsCorners(const Harmonics& h, Offset offset) : h_(h), offset_(offset), phi_(h.size()) {}
 
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
+    if (corner.guard >= carried_up) return carrying(corner, w, fields, at);
     const Signs sign = signs_of(corner);
     const double k = fields[0], p = fields[1] * fields[2], factor = 0.5 * sign.slip * k;
     const Values anchor = series_values(h_, w, corner.angles[0]),
@@ -53,6 +61,7 @@ class JenkinsCorners final : public Corners {
   double size(const Corner&, In w, Fields fields) override { return size(w, fields); }
 
   bool polish(Corner& corner, In w, Fields) override {
+    if (corner.guard >= carried_up) return polish_reversal(h_, w, sign_of_carrying(corner), corner.angles[0]);
     const Signs sign = signs_of(corner);
     return polish_reversal(h_, w, sign.anchor, corner.angles[0]) &&
            polish_reversal(h_, w, sign.slip, corner.angles[1]);
@@ -75,7 +84,9 @@ class JenkinsCorners final : public Corners {
     if (turns.empty()) return found;
     if (all.empty()) {
       add(phases.lowest().theta, phases.highest().theta, {-1, 1});
-      add_of_stick(turns, phases.highest().x, phases.lowest().x, add);
+      add_of_stick(turns, phases.highest().x, phases.lowest().x, limit / fields[0], add);
+      if (offset_ == Offset::static_loads && !h_.odd)
+        add_carrying(turns, w, fields, tolerance * size(w, fields), found);
       return found;
     }
     for (const auto& phase : all) {
@@ -105,6 +116,7 @@ class JenkinsCorners final : public Corners {
   bool is_listed(const std::vector<Corner>& all, const Corner& corner, In w) const {
     const Signs own = signs_of(corner);
     return std::any_of(all.begin(), all.end(), [&](const Corner& other) {
+      if (other.guard >= carried_up) return false;
       const Signs its = signs_of(other);
       const double sign = its.slip * own.slip, turn = corner.angles[0] - other.angles[0];
       const double apart = corner.angles[1] - other.angles[1] - turn;
@@ -114,10 +126,41 @@ class JenkinsCorners final : public Corners {
     });
   }
 
+  // s k_d w(theta) - p
+  void carrying(const Corner& corner, In w, Fields fields, Equations& at) {
+    const double sign = sign_of_carrying(corner), k = fields[0];
+    const Values turn = series_values(h_, w, corner.angles[0]);
+    at.values[0] = sign * k * turn.x - fields[1] * fields[2];
+    set_reversal_row(h_, corner, w, 1, at);
+    series_basis(h_, corner.angles[0], phi_);
+    at.by_motion.row(0) = sign * k * phi_.transpose();
+    at.by_angle(0, 0) = sign * k * turn.d1;
+    at.by_field(0, 0) = sign * turn.x;
+    at.by_field(0, 1) = -fields[2];
+    at.by_field(0, 2) = -fields[1];
+  }
+
+  void add_carrying(const std::vector<Reversal>& turns, In w, Fields fields, double tolerance,
+                    std::vector<Corner>& found) const {
+    for (const auto& turn : turns) {
+      const bool is_top = series_values(h_, w, turn.theta).d2 < 0;
+      const double sign = is_top ? 1 : -1;
+      if (std::abs(sign * fields[0] * turn.x - fields[1] * fields[2]) > tolerance) continue;
+      const int guard = is_top ? carried_up : carried_down;
+      const bool is_listed = std::any_of(found.begin(), found.end(), [&](const Corner& other) {
+        return other.guard >= carried_up &&
+               is_image(h_, w, turn.theta - other.angles[0], other.guard == guard ? 1 : -1);
+      });
+      if (!is_listed) found.push_back({guard, {turn.theta}});
+    }
+  }
+
   // Of full stick: from the lowest reversal to the highest and, where there is a mean, from one that is the
   // highest or lowest to one that is next to be. Several may be next to be these.
   template <class Add>
-  void add_of_stick(const std::vector<Reversal>& turns, double highest, double lowest, Add&& add) const {
+  void add_of_stick(const std::vector<Reversal>& turns, double highest, double lowest, double reach,
+                    Add&& add) const {
+    const StuckSlider held = stuck_slider(offset_, highest - reach, lowest + reach);
     const double near = next_to_be * (highest - lowest);
     std::vector<double> tops, bottoms;
     for (const auto& turn : turns) {
@@ -137,20 +180,21 @@ class JenkinsCorners final : public Corners {
     }
     for (std::size_t i = 0; i < tops.size(); ++i) {
       for (const double bottom : bottoms) add(bottom, tops[i], {-1, 1});
-      for (std::size_t j = 0; j < i; ++j) add(tops[j], tops[i], {1, 1});
+      for (std::size_t j = 0; j < i && held.lower > 0; ++j) add(tops[j], tops[i], {1, 1});
     }
     for (std::size_t i = 0; i < bottoms.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) add(bottoms[j], bottoms[i], {-1, -1});
+      for (std::size_t j = 0; j < i && held.upper > 0; ++j) add(bottoms[j], bottoms[i], {-1, -1});
   }
 
   Harmonics h_;
+  Offset offset_;
   Eigen::VectorXd phi_;
 };
 
 }  // namespace
 
-std::unique_ptr<Corners> make_jenkins_corners(const Harmonics& harmonics) {
-  return std::make_unique<JenkinsCorners>(harmonics);
+std::unique_ptr<Corners> make_jenkins_corners(const Harmonics& harmonics, Offset offset) {
+  return std::make_unique<JenkinsCorners>(harmonics, offset);
 }
 
 }  // namespace arcslip::elements

@@ -20,8 +20,9 @@ double wrapped(double angle) {
 
 class ExactJenkins final : public Element {
  public:
-  explicit ExactJenkins(const Harmonics& h)
+  ExactJenkins(const Harmonics& h, Offset offset)
       : h_(h),
+        offset_(offset),
         phases_(h),
         moments_(h),
         A_(h.size()),
@@ -42,6 +43,7 @@ class ExactJenkins final : public Element {
     const double kd = fields[stiffness], p = fields[friction_coefficient] * fields[normal_load];
     const double reach = series_bound(h_, u, 0);
     limit_ = p;
+    u_0_ = u[0];
     sliding_ = nullptr;
     frictionless_ = p == 0 && reach == 0;
     if (frictionless_) {
@@ -81,8 +83,8 @@ class ExactJenkins final : public Element {
   }
 
   std::uint64_t piece() const override {
-    if (frictionless_ || limit_ == 0) return 0;                 // no force, whatever the phases
-    if (!sliding_) return h_.odd ? 1 : 2 + phases_.extremes();  // the centre follows both extremes
+    if (frictionless_ || limit_ == 0) return 0;  // no force, whatever the phases
+    if (!sliding_) return h_.odd ? 1 : piece_of_stick();
     std::uint64_t hash = 1469598103934665603ull;
     for (const FrictionPhase& phase : *sliding_) {
       hash = (hash ^ static_cast<std::uint64_t>(2 + phase.sign)) * 1099511628211ull;
@@ -95,7 +97,11 @@ class ExactJenkins final : public Element {
     state.slip_onsets.clear();
     state.slip_ends.clear();
     state.stick_share = frictionless_ ? 0 : 1;
-    if (!sliding_) return true;
+    state.mean_min = state.mean_max = h_.odd ? 0 : F_[0];
+    if (!sliding_) {
+      tell_mean(state);
+      return true;
+    }
     double stuck = 0;
     for (const FrictionPhase& phase : *sliding_) {
       stuck += phase.end - phase.begin;
@@ -121,14 +127,34 @@ class ExactJenkins final : public Element {
     }
     if (!h_.odd) {
       const Reversal high = phases_.highest(), low = phases_.lowest();
-      A_[0] -= 0.5 * (high.x + low.x);
+      held_ = stuck_slider(offset_, high.x - limit_ / kd, low.x + limit_ / kd);
+      A_[0] -= held_.lower * high.x + held_.upper * low.x;
+      B_[0] = held_.lower - held_.upper;
       if (jacobian) {
         series_basis(h_, high.theta, anchor_);
         series_basis(h_, low.theta, integral_);
-        J_.row(0) -= 0.5 * kd * (anchor_ + integral_).transpose();
+        J_.row(0) -= kd * (held_.lower * anchor_ + held_.upper * integral_).transpose();
       }
     }
     F_ = kd * A_;
+    if (B_[0] != 0) F_[0] += limit_ * B_[0];
+  }
+
+  // Another number where w follows another extreme.
+  std::uint64_t piece_of_stick() const {
+    if (offset_ == Offset::centred) return 2 + phases_.extremes();
+    if (held_.lower == 0 && held_.upper == 0) return 1;
+    return 2 + 2 * phases_.extremes() + (held_.upper > 0 ? 1 : 0);
+  }
+
+  // k_d (u_0 - w) for w from a to b.
+  void tell_mean(FrictionState& state) const {
+    if (frictionless_) return;
+    const double kd = fields_[stiffness];
+    if (h_.odd) phases_.find(A_, limit_ / kd);  // A is u here
+    const double mean = h_.odd ? 0 : u_0_;
+    state.mean_min = kd * (mean - phases_.lowest().x) - limit_;
+    state.mean_max = kd * (mean - phases_.highest().x) + limit_;
   }
 
   // Integral of the basis over an interval from the powers at its middle (sum_) and its half length (half_).
@@ -195,7 +221,8 @@ class ExactJenkins final : public Element {
   }
 
   Harmonics h_;
-  FrictionPhases phases_;
+  Offset offset_;
+  mutable FrictionPhases phases_;
   Moments moments_;
   Eigen::VectorXd A_, B_, F_;
   Eigen::MatrixXd J_;
@@ -204,14 +231,15 @@ class ExactJenkins final : public Element {
   std::vector<double> inverse_;
   std::array<double, 3> fields_{};
   const std::vector<FrictionPhase>* sliding_ = nullptr;
-  double limit_ = 0;
+  StuckSlider held_;
+  double limit_ = 0, u_0_ = 0;
   bool frictionless_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics) {
-  return std::make_unique<ExactJenkins>(harmonics);
+std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics, Offset offset) {
+  return std::make_unique<ExactJenkins>(harmonics, offset);
 }
 
 }  // namespace arcslip::elements

@@ -26,8 +26,9 @@ std::uint64_t with_sample(std::uint64_t piece, int sample) {
 // lowest sample are part of the piece, like the slipping samples: anchors and centre depend on them.
 class SampledJenkins final : public Element {
  public:
-  SampledJenkins(const Harmonics& h, int samples)
+  SampledJenkins(const Harmonics& h, int samples, Offset offset)
       : h_(h),
+        offset_(offset),
         samples_(h, h.odd ? (samples + 1) / 2 : samples),
         moments_(h),
         x_(samples_.count()),
@@ -61,7 +62,7 @@ class SampledJenkins final : public Element {
       piece_ = 0;
       F_.setZero();
     } else if (range <= 2 * x_s) {
-      stick(u, kd, highest, lowest, jacobian);
+      stick(u, kd, x_s, highest, lowest, jacobian);
     } else {
       // Where the motion is odd it may begin at the lowest sample, seen with the other sign.
       const bool mirrored = h_.odd && -low > high;
@@ -105,17 +106,22 @@ class SampledJenkins final : public Element {
     note(onsets_, samples_.angle(sample));
   }
 
-  void stick(In u, double kd, int highest, int lowest, bool jacobian) {
+  void stick(In u, double kd, double x_s, int highest, int lowest, bool jacobian) {
     stick_share_ = 1;
     piece_ = 1;
     A_ = u;
     if (jacobian) J_.diagonal().setConstant(kd);
     if (!h_.odd) {
-      piece_ = with_sample(with_sample(piece_, highest), lowest);
-      A_[0] -= 0.5 * (x_[highest] + x_[lowest]);
-      if (jacobian) J_.row(0) -= 0.5 * kd * (samples_.basis(highest) + samples_.basis(lowest));
+      const StuckSlider at = stuck_slider(offset_, x_[highest] - x_s, x_[lowest] + x_s);
+      if (at.lower > 0) piece_ = with_sample(piece_, highest);
+      if (at.upper > 0) piece_ = with_sample(piece_ + 1, lowest);
+      A_[0] -= at.lower * x_[highest] + at.upper * x_[lowest];
+      B_[0] = at.lower - at.upper;
+      if (jacobian)
+        J_.row(0) -= kd * (at.lower * samples_.basis(highest) + at.upper * samples_.basis(lowest));
     }
     F_ = kd * A_;
+    if (B_[0] != 0) F_[0] += kd * x_s * B_[0];
   }
 
   // The sample that lies `offset` after the top, and the sign with which it appears there.
@@ -184,6 +190,7 @@ class SampledJenkins final : public Element {
   }
 
   Harmonics h_;
+  Offset offset_;
   Samples samples_;
   Moments moments_;
   Eigen::VectorXd x_, stick_, A_, B_, F_;
@@ -197,8 +204,8 @@ class SampledJenkins final : public Element {
 
 }  // namespace
 
-std::unique_ptr<Element> make_sampled_jenkins(const Harmonics& harmonics, int samples) {
-  return std::make_unique<SampledJenkins>(harmonics, samples);
+std::unique_ptr<Element> make_sampled_jenkins(const Harmonics& harmonics, int samples, Offset offset) {
+  return std::make_unique<SampledJenkins>(harmonics, samples, offset);
 }
 
 }  // namespace arcslip::elements

@@ -44,6 +44,7 @@ struct Traits {
   double stiffness = 0;            // N/m: the maximum of |df/dq| over all motions; infinity if unbounded
   int stiffness_field = -1;        // the field that is this stiffness; -1: none
   bool holds_mean = false;         // a constant displacement causes a restoring force
+  bool holds_in_stick = false;     // it does so while the contact sticks throughout the period
   bool several_responses = false;  // periodic responses may coexist
   double far_power = 0;            // the elastic force grows as amplitude^far_power where that is large
   double far_work = 0;  // N: dissipated there in an oscillation, over its amplitude; infinity if that grows
@@ -185,6 +186,12 @@ class Law {
     static_cast<void>(fields), static_cast<void>(side);
     return Eigen::RowVectorXd::Unit(directions(), slider_direction(k));
   }
+  /// Half the distance of these bounds at q = 0, of a slider with a static offset (slider_offset.hpp); none:
+  /// it is centred.
+  virtual std::optional<double> slider_room(Fields fields, int k) const {
+    static_cast<void>(fields), static_cast<void>(k);
+    return {};
+  }
   /// The memory for which the force at q is f, as closely as possible.
   virtual void memory_at(Fields fields, In q, In f, Out z) const {
     static_cast<void>(fields), static_cast<void>(q), static_cast<void>(f), static_cast<void>(z);
@@ -204,11 +211,12 @@ class Law {
   }
 };
 
-/// A law without options is its own type. It must outlive all scenes and models that use it.
+/// A law without options is its own type, and so is one whose options have their defaults. It must outlive
+/// all scenes and models that use it.
 class PlainLaw : public LawType, public Law {
  public:
   int directions() const final { return static_cast<int>(direction_count()); }
-  std::shared_ptr<const Law> law(const scene::Settings&) const final {
+  std::shared_ptr<const Law> law(const scene::Settings&) const override {
     return {std::shared_ptr<const void>(), this};
   }
 };

@@ -11,11 +11,13 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       layout_(harmonics),
       size_(harmonics.size()),
       response_(coordinates.P.transpose() * model.response),
+      ground_(model.dofs),
       parts_(model, coordinates.P, harmonics),
       condensation_(parts_.parts(), r_, response_),
       last_p_(Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""))),
       y_(r_ + l_),
       v_(r_ + l_) {
+  if (model.absolute) ground_ = model.response.sparseView();
   for (int h = 0; h < harmonics.cosines(); ++h) {
     const int n = harmonics.cosine_order(h);
     harmonics_.push_back({n, h, n > 0 ? harmonics.sine_index(n) : 0, {}});
@@ -100,11 +102,20 @@ void DynamicStiffness::parameter_derivative(int k, In u, double force_factor, Ou
   }
 }
 
+void DynamicStiffness::add_base(const model::Direction& d, double force_factor, Out x) const {
+  for (const Harmonic& at : harmonics_) {
+    const Complex base = force_factor * parts_.base_displacement(at.order, d);
+    x[at.cosine] += base.real();
+    if (at.order > 0) x[at.sine] -= base.imag();
+  }
+}
+
 void DynamicStiffness::response(In u, double force_factor, Out x) const {
   for (const Harmonic& at : harmonics_) {
     expand(u, at, force_factor);
     Complex sum = 0;
     for (Eigen::Index i = 0; i < y_.size(); ++i) sum += response_[i] * y_[i];
+    sum += force_factor * parts_.base_displacement(at.order, ground_);
     at.put(sum, 0, x);
   }
 }
@@ -132,13 +143,15 @@ void DynamicStiffness::response_transposed(In a, Out g) const {
 }
 
 void DynamicStiffness::response_derivative(int k, In u, double force_factor, Out dx) const {
-  if (l_ == 0 || !parts_.depend_on(k)) {
+  const bool moves = ground_.nonZeros() > 0;
+  if ((l_ == 0 && !moves) || !parts_.depend_on(k)) {
     dx.setZero();
     return;
   }
   for (const Harmonic& at : harmonics_) {
     differentiate(k, u, at, force_factor);
-    at.put(at.condensed.observed_change(v_), 0, dx);
+    const Complex base = force_factor * parts_.base_derivative(k, at.order, ground_);
+    at.put(at.condensed.observed_change(v_) + base, 0, dx);
   }
 }
 

@@ -33,6 +33,9 @@ class DynamicStiffness {
   /// The motion of all degrees of freedom x = P y, a column of coefficients for each.
   Eigen::MatrixXd motion(const Eigen::MatrixXd& P, In u, double force_factor) const;
 
+  /// Adds the displacement of the ground along d to these coefficients.
+  void add_base(const model::Direction& d, double force_factor, Out x) const;
+
   /// The observed coordinate: its coefficients x = L u + x_0, the product L^T a, and dx/dp_k at fixed u.
   void response(In u, double force_factor, Out x) const;
   void response_transposed(In a, Out g) const;
@@ -66,8 +69,9 @@ class DynamicStiffness {
 
   const int r_, l_;
   const Harmonics layout_;
-  const int size_;   // coefficients of a coordinate
-  Vector response_;  // direction in y
+  const int size_;           // coefficients of a coordinate
+  Vector response_;          // direction in y
+  model::Direction ground_;  // along which the displacement of the ground belongs to the response
   LinearParts parts_;
   Condensation condensation_;
   std::vector<Harmonic> harmonics_;

@@ -45,14 +45,23 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   add(Kind::mass, model.masses);
   add(Kind::damper, model.dampers);
   add(Kind::spring, model.springs);
-  for (const model::Force& force : model.forces)
-    forces_.push_back({harmonics.excited(force.harmonic), force.cosine, force.sine, {P, force.direction}, 0});
+  for (const model::Excitation& excitation : model.excitation) {
+    ForceInY force{excitation, harmonics.excited(excitation.harmonic), {}, 0};
+    if (!excitation.moves_base()) force.terms.push_back({-1, {P, excitation.direction}});
+    for (const model::LinearPart& mass : model.masses) {
+      const double along = excitation.moves_base() ? mass.direction.dot(excitation.direction) : 0;
+      if (along != 0) force.terms.push_back({mass.parameter, {P, model::Direction(along * mass.direction)}});
+    }
+    forces_.push_back(std::move(force));
+  }
   for (Eigen::MatrixXd* sum : {&matrices_.M, &matrices_.C, &matrices_.K}) sum->setZero(P.cols(), P.cols());
 }
 
 void LinearParts::move_to(In p) {
   base_frequency_ = p[model::frequency] / period_;
-  for (ForceInY& force : forces_) force.amplitude = amplitude(force.harmonic, p[force.cosine], p[force.sine]);
+  p_ = p;
+  for (ForceInY& force : forces_)
+    force.given = amplitude(force.harmonic, p[force.of.cosine], p[force.of.sine]);
   bool same = true;
   for (PartInY& part : parts_) {
     same = same && part.value == p[part.parameter];
@@ -71,10 +80,34 @@ void LinearParts::move_to(In p) {
   }
 }
 
+void LinearParts::add(const ForceInY& force, Complex amplitude, ComplexVector& f) const {
+  for (const ForceInY::Term& term : force.terms) term.direction.add(amplitude * value(term), f);
+}
+
 void LinearParts::force(int n, ComplexVector& f) const {
   f.setZero();
   for (const ForceInY& force : forces_)
-    if (force.harmonic == n) force.direction.add(force.amplitude, f);
+    if (force.harmonic == n) add(force, force.of.factor(p_[model::frequency]) * force.given, f);
+}
+
+Complex LinearParts::base_displacement(int n, const model::Direction& direction) const {
+  Complex sum = 0;
+  for (const ForceInY& force : forces_)
+    if (force.harmonic == n && force.of.moves_base())
+      sum += force.of.displacement(p_[model::frequency]) * direction.dot(force.of.direction) * force.given;
+  return sum;
+}
+
+Complex LinearParts::base_derivative(int k, int n, const model::Direction& direction) const {
+  const double w = p_[model::frequency];
+  Complex sum = 0;
+  for (const ForceInY& force : forces_) {
+    if (force.harmonic != n || !force.of.moves_base()) continue;
+    Complex rate = force.of.displacement(w) * amplitude(n, force.of.cosine == k, force.of.sine == k);
+    if (k == model::frequency) rate += force.of.displacement_rate(w) * force.given;
+    sum += direction.dot(force.of.direction) * rate;
+  }
+  return sum;
 }
 
 bool LinearParts::depend_on(int k) const {
@@ -82,7 +115,7 @@ bool LinearParts::depend_on(int k) const {
          std::any_of(parts_.begin(), parts_.end(),
                      [k](const PartInY& part) { return part.parameter == k; }) ||
          std::any_of(forces_.begin(), forces_.end(),
-                     [k](const ForceInY& force) { return force.cosine == k || force.sine == k; });
+                     [k](const ForceInY& force) { return force.of.cosine == k || force.of.sine == k; });
 }
 
 void LinearParts::differentiate(int k, int n, const ComplexVector& y, double force_factor,
@@ -96,9 +129,15 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
     if (k == part.parameter) rate += factor(part.kind, s);
     if (rate != 0.0) part.direction.add(rate * part.direction.along(y), v);
   }
-  for (const ForceInY& force : forces_)
-    if (force.harmonic == n && (force.cosine == k || force.sine == k))
-      force.direction.add(-force_factor * amplitude(n, force.cosine == k, force.sine == k), v);
+  const double w = p_[model::frequency];
+  for (const ForceInY& force : forces_) {
+    if (force.harmonic != n) continue;
+    Complex rate = force.of.factor(w) * amplitude(n, force.of.cosine == k, force.of.sine == k);
+    if (k == model::frequency) rate += force.of.factor_rate(w) * force.given;
+    if (rate != 0.0) add(force, -force_factor * rate, v);
+    for (const ForceInY::Term& term : force.terms)
+      if (term.mass == k) term.direction.add(-force_factor * force.of.factor(w) * force.given, v);
+  }
 }
 
 double LinearParts::quadratic_form(Kind kind, const ComplexVector& y) const {
@@ -111,9 +150,12 @@ double LinearParts::quadratic_form(Kind kind, const ComplexVector& y) const {
 QuadraticForms LinearParts::quadratic_forms(int n, const ComplexVector& y, double force_factor) const {
   QuadraticForms forms{quadratic_form(Kind::mass, y), quadratic_form(Kind::damper, y),
                        quadratic_form(Kind::spring, y), 0};
-  for (const ForceInY& force : forces_)
-    if (force.harmonic == n)
-      forms.force += force_factor * force.amplitude * std::conj(force.direction.along(y));
+  for (const ForceInY& force : forces_) {
+    if (force.harmonic != n) continue;
+    const Complex amplitude = force_factor * force.of.factor(p_[model::frequency]) * force.given;
+    for (const ForceInY::Term& term : force.terms)
+      forms.force += amplitude * value(term) * std::conj(term.direction.along(y));
+  }
   return forms;
 }
 

@@ -5,7 +5,8 @@
 //   Z y = f,   Z = K - s^2 M + i s C
 //
 // A part adds value * g(s) d d^T to Z, where g = -s^2, i s, 1 for a mass, a damper, a spring, and a force
-// adds (cosine - i sine) d to the f of its harmonic. Most of d is zero.
+// adds (cosine - i sine) d to the f of its harmonic. Most of d is zero. So do the forces of a moving ground
+// (model::Excitation), one for each mass.
 
 #include <arcslip/model/model.hpp>
 
@@ -79,6 +80,11 @@ class LinearParts {
   /// f of harmonic n.
   void force(int n, ComplexVector& f) const;
 
+  /// The displacement of the ground in harmonic n along a direction of the degrees of freedom, and its
+  /// derivative by p_k.
+  Complex base_displacement(int n, const model::Direction& direction) const;
+  Complex base_derivative(int k, int n, const model::Direction& direction) const;
+
   /// Whether Z or f has the parameter p_k.
   bool depend_on(int k) const;
   /// dZ/dp_k y - force_factor df/dp_k of harmonic n.
@@ -90,17 +96,25 @@ class LinearParts {
   QuadraticForms quadratic_forms(int n, const ComplexVector& y, double force_factor) const;
 
  private:
+  // amplitude * sum_k value_k direction_k; value_k: p_mass, or 1 where that is -1.
   struct ForceInY {
-    int harmonic;      // of the base frequency
-    int cosine, sine;  // parameters
-    DirectionInY direction;
-    Complex amplitude;
+    struct Term {
+      int mass;
+      DirectionInY direction;
+    };
+    model::Excitation of;
+    int harmonic;  // of the base frequency
+    std::vector<Term> terms;
+    Complex given;  // the amplitude as the scene gives it
   };
+  double value(const ForceInY::Term& term) const { return term.mass < 0 ? 1 : p_[term.mass]; }
+  void add(const ForceInY& force, Complex amplitude, ComplexVector& f) const;
 
   int period_;
   std::vector<PartInY> parts_;
   std::vector<ForceInY> forces_;
   StructuralMatrices matrices_;
+  Eigen::VectorXd p_;
   double base_frequency_ = -1;
 };
 

@@ -19,6 +19,12 @@ Direction sparse(const scene::Direction& direction, int dofs) {
   return d;
 }
 
+Excitation::Kind kind_of(const scene::Part& part) {
+  if (part.type == &scene::base_displacement_type()) return Excitation::Kind::base_displacement;
+  if (part.type == &scene::base_acceleration_type()) return Excitation::Kind::base_acceleration;
+  return Excitation::Kind::force;
+}
+
 class Builder {
  public:
   explicit Builder(const scene::Scene& scene) : scene_(scene) {
@@ -41,14 +47,18 @@ class Builder {
     bool even = false;
     model_.force_harmonic = scene_.harmonics.order;
     for (const auto& part : scene_.excitation) {
-      model_.forces.push_back({part.harmonic, parameter(part, 0), parameter(part, 1),
-                               sparse(part.directions.front(), model_.dofs)});
+      model_.excitation.push_back({kind_of(part), part.harmonic, parameter(part, 0), parameter(part, 1),
+                                   sparse(part.directions.front(), model_.dofs)});
       even = even || part.harmonic * scene_.harmonics.period % 2 == 0;
       if (part.harmonic > 0) model_.force_harmonic = std::min(model_.force_harmonic, part.harmonic);
     }
     model_.response = sparse(scene_.response(), model_.dofs);
-    for (const scene::Response& response : scene_.responses)
-      if (!response.name.empty()) model_.named_responses.push_back(sparse(response.direction, model_.dofs));
+    model_.absolute = scene_.responses.front().frame == scene::Frame::absolute;
+    for (const scene::Response& response : scene_.responses) {
+      if (response.name.empty()) continue;
+      model_.named_responses.push_back(sparse(response.direction, model_.dofs));
+      model_.named_absolute.push_back(response.frame == scene::Frame::absolute);
+    }
     model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
     model_.settings = scene_.harmonics;
     return std::move(model_);
@@ -145,6 +155,35 @@ void NonlinearPart::set_fields(continuation::In p, std::span<double> fields) con
     fields[static_cast<std::size_t>(share.field)] += share.factor * p[share.parameter];
 }
 
+double Excitation::factor(double w) const {
+  if (kind == Kind::base_displacement) return harmonic * w * (harmonic * w);
+  return kind == Kind::force ? 1 : -1;
+}
+
+double Excitation::factor_rate(double w) const {
+  return kind == Kind::base_displacement ? 2.0 * harmonic * harmonic * w : 0;
+}
+
+double Excitation::displacement(double w) const {
+  if (kind == Kind::base_acceleration) return harmonic == 0 ? 0 : -1 / (harmonic * w * (harmonic * w));
+  return kind == Kind::force ? 0 : 1;
+}
+
+double Excitation::displacement_rate(double w) const {
+  return kind == Kind::base_acceleration ? -2 / w * displacement(w) : 0;
+}
+
+Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const continuation::Vector& p) {
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(model.dofs);
+  if (!excitation.moves_base()) {
+    g = excitation.direction;
+  } else {
+    for (const LinearPart& mass : model.masses)
+      g += p[mass.parameter] * mass.direction.dot(excitation.direction) * mass.direction;
+  }
+  return excitation.factor(p[frequency]) * g;
+}
+
 void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum) {
   for (Direction::InnerIterator j(d); j; ++j)
     for (Direction::InnerIterator i(d); i; ++i) sum(i.index(), j.index()) += factor * i.value() * j.value();
@@ -156,7 +195,7 @@ Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuatio
   return sum;
 }
 
-std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p) {
+std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick) {
   if (model.harmonics.odd) return {};
   // Springs of any stiffness hold what they are between: a stiff link takes nothing from the softer ones.
   // Only where some are negative it takes their values to tell.
@@ -169,7 +208,8 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
   const double largest = K.cwiseAbs().maxCoeff(), typical = largest > 0 ? largest : 1;
   for (const NonlinearPart& element : model.elements)
     for (std::size_t i = 0; i < element.directions.size(); ++i)
-      if (element.law->traits(element.fields(p), static_cast<int>(i)).holds_mean)
+      if (const auto traits = element.law->traits(element.fields(p), static_cast<int>(i));
+          traits.holds_mean || (in_stick && traits.holds_in_stick))
         add_outer(typical, element.directions[i], K);
   const Eigen::VectorXd size = K.cwiseAbs().rowwise().maxCoeff();
   for (int i = 0; i < model.dofs; ++i)

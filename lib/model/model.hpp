@@ -53,11 +53,28 @@ struct Patch {
   std::vector<double> areas;  // of each, m^2
 };
 
-/// (cosine cos n theta + sine sin n theta) d.
-struct Force {
-  int harmonic;      // n, of the excitation: theta = excitation frequency * t
-  int cosine, sine;  // parameters
-  Direction direction;
+/// An excitation, g (cosine cos n theta + sine sin n theta) with theta = w t, w the excitation frequency:
+///
+///   g = d                  a force along d
+///   g = (n w)^2 M r        a displacement of the ground along r
+///   g = -M r               an acceleration of the ground along r
+///
+/// in coordinates relative to the ground, which moves with all that is fixed to it. M r = sum_k m_k (d_k . r)
+/// d_k over the masses.
+struct Excitation {
+  enum class Kind { force, base_displacement, base_acceleration };
+  Kind kind;
+  int harmonic;         // n
+  int cosine, sine;     // parameters
+  Direction direction;  // d or r
+
+  bool moves_base() const { return kind != Kind::force; }
+  /// The factor of d or M r, and its derivative by the excitation frequency w.
+  double factor(double w) const;
+  double factor_rate(double w) const;
+  /// The displacement of the ground over the given amplitude, and its derivative by w; of a force 0.
+  double displacement(double w) const;
+  double displacement_rate(double w) const;
 };
 
 /// Index of the excitation frequency in the parameters.
@@ -70,9 +87,12 @@ struct Model {
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<NonlinearPart> elements;
   std::vector<Patch> patches;
-  std::vector<Force> forces;
+  std::vector<Excitation> excitation;
   Eigen::VectorXd response;                // the direction of the amplitude
   std::vector<Direction> named_responses;  // of the scene
+  // Whether these are displacements with that of the ground, not relative to it.
+  bool absolute = false;
+  std::vector<bool> named_absolute;
   elements::Harmonics harmonics;  // odd only, where no even one is excited and all laws are antisymmetric
   bool antisymmetric = true;      // all laws are
   scene::Harmonics settings;
@@ -88,6 +108,9 @@ int parameter_index(const Model& model, const std::string& name);
 /// Default values of the parameters.
 continuation::Vector defaults(const Model& model);
 
+/// g of an excitation.
+Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const continuation::Vector& p);
+
 /// sum += factor d d^T.
 void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum);
 
@@ -96,7 +119,7 @@ Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuatio
 
 /// With a mean among the unknowns: a degree of freedom whose mean position is supported by no spring or law,
 /// directly or through others. Friction forces do not depend on it, so that it would be arbitrary or drift.
-/// Empty if there is none.
-std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p);
+/// Empty if there is none. in_stick: contacts that hold a mean force while they stick count as supports.
+std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick = true);
 
 }  // namespace arcslip::model

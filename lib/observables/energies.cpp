@@ -17,7 +17,7 @@ double element_energy(const elements::Harmonics& h, elements::In w, elements::In
 
 double input_energy(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at, elements::In u) {
   const auto& h = problem.harmonics();
-  const auto& forces = problem.model().forces;
+  const auto& forces = problem.model().excitation;
   double sum = 0;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const int n = h.excited(forces[k].harmonic);

@@ -44,10 +44,23 @@ std::string doubt_of_rounding(const model::Model& model, const Vector& p,
   return in_rounding ? model::stiffness_apart(model, p) : "";
 }
 
+namespace {
+
+// A sentence where only contacts that stick hold a mean position, or nothing.
+std::string held_by_friction(const model::Model& model, const Vector& p) {
+  const auto dof = model::drifting_dof(model, p, false);
+  if (!dof || model::drifting_dof(model, p)) return {};
+  return "; only friction holds the mean position of \"" + model.dof_names[static_cast<std::size_t>(*dof)] +
+         "\", and no longer where it slips in each period";
+}
+
+}  // namespace
+
 void speak_of_scene(const model::Model& model, const Vector& p, continuation::Branch& branch) {
   using continuation::StopReason;
   if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
   branch.stop.message += causes(model, p);
+  branch.stop.message += held_by_friction(model, p);
 }
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
@@ -65,14 +78,16 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
         {},
         "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
             "\", and friction leaves it free to drift; add a spring between it and the ground or a supported "
-            "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics"};
+            "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics, or "
+            "let a "
+            "contact that sticks hold it, with \"offset\": \"static\""};
   const auto u = hbm::steady_state(problem, p, go_on);
   if (!u) {
     return {problem,
             {},
             "Newton's method failed from rest and from the linear response, and so did continuation in the "
             "excitation level and in the forces of the elements" +
-                causes(*model, p)};
+                causes(*model, p) + held_by_friction(*model, p)};
   }
   return {problem_with(u->norm()), u, {}};
 }

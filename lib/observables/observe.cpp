@@ -65,16 +65,16 @@ double Observer::amplitude_slope(const continuation::Accepted& now) {
   return 0;
 }
 
-// Lag of the fundamental of x behind the first force of that harmonic, in (-pi, pi].
+// Lag of the fundamental of x behind the first excitation of that harmonic, in (-pi, pi].
 double Observer::phase(const continuation::Accepted& now, continuation::In x) const {
   const auto& h = problem_->harmonics();
   const auto& model = problem_->model();
   const int n = h.excited(model.force_harmonic);
   if (!h.has(n) || n == 0) return 0;
   const std::complex<double> X(x[h.cosine_index(n)], -x[h.sine_index(n)]);
-  for (const auto& force : model.forces) {
-    if (force.harmonic != model.force_harmonic) continue;
-    const std::complex<double> F(now.p[force.cosine], -now.p[force.sine]);
+  for (const auto& excitation : model.excitation) {
+    if (excitation.harmonic != model.force_harmonic) continue;
+    const std::complex<double> F(now.p[excitation.cosine], -now.p[excitation.sine]);
     return X == 0.0 || F == 0.0 ? 0 : std::arg(F * std::conj(X));
   }
   return 0;
@@ -83,7 +83,12 @@ double Observer::phase(const continuation::Accepted& now, continuation::In x) co
 void Observer::add_named_responses(const continuation::Accepted& now, ResponsePoint& point) {
   if (named_.rows() == 0) return;
   const auto& at = evaluator_of(now);
-  const Eigen::MatrixXd motions = at.stiffness().motion(named_, now.u, at.force_factor());
+  const model::Model& model = problem_->model();
+  Eigen::MatrixXd motions = at.stiffness().motion(named_, now.u, at.force_factor());
+  for (std::size_t i = 0; i < model.named_responses.size(); ++i)
+    if (model.named_absolute[i])
+      at.stiffness().add_base(model.named_responses[i], at.force_factor(),
+                              motions.col(static_cast<Eigen::Index>(i)));
   for (const auto& x : motions.colwise())
     point.responses.push_back({amplitude_.of(x).amplitude, phase(now, x)});
 }
@@ -109,6 +114,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     ElementResponse response;
     response.name = problem_->model().elements[e].name;
+    state.mean_min = state.mean_max = no_value;
     response.has_stick = at.element(e).friction(state);
     if (stops_.at_reversals(at.element(e), e, now.p)) {
       point.stops = response.name;
@@ -131,6 +137,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
       response.open_percent = 100 * state.open_share;
       response.normal_load_max = state.load_max;
       response.normal_load_min = state.load_min;
+      response.mean_force_min = state.mean_min;
+      response.mean_force_max = state.mean_max;
       response.slip_angles = state.slip_onsets;
       response.reversal_angles = state.slip_ends;
       set_contact_angles(h, at.element_motion(e), response);

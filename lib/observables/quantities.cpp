@@ -98,6 +98,10 @@ bool has_wear(const Element& element) {
   return !std::isnan(element.wear_rate);
 }
 
+bool has_mean_force(const Element& element) {
+  return !std::isnan(element.mean_force_min);
+}
+
 bool has_element_maxima(const Element& element) {
   return !std::isnan(element.maxima.force);
 }
@@ -165,7 +169,7 @@ constexpr ResponseQuantity of_response[] = {
      "depends on it",
      bounded<&Point::amplitude>},
     {"unbounded", "", "only if true: the amplitude grows without bound", is_unbounded, is_unbounded},
-    {"phase", "rad", "phase lag of the response's fundamental behind the force", bounded<&Point::phase>},
+    {"phase", "rad", "phase lag of the response's fundamental behind the excitation", bounded<&Point::phase>},
     {"truncation_estimate", "m",
      "estimated effect of the neglected harmonics on the amplitude at this frequency (or parameter value); "
      "at an event, on the amplitude of the event, which may move",
@@ -232,6 +236,12 @@ constexpr ElementQuantity of_element[] = {
      element<&Element::normal_load_max>, has_normal_load, is_part_with_normal_load},
     {"normal_load_min", "N", "likewise, the smallest normal load; 0 in separation",
      element<&Element::normal_load_min>, has_normal_load, is_part_with_normal_load},
+    {"mean_force_min", "N",
+     "friction elements that tell it: smallest mean force that is possible with this motion; equal to the "
+     "largest, unless the element sticks throughout the period",
+     element<&Element::mean_force_min>, has_mean_force, is_friction_part},
+    {"mean_force_max", "N", "likewise, the largest mean force", element<&Element::mean_force_max>,
+     has_mean_force, is_friction_part},
     {"slip_angles", "rad", "friction elements: onset of each slip phase", angles<&Element::slip_angles>,
      is_friction, is_friction_part},
     {"reversal_angles", "rad", "friction elements: end of each slip phase", angles<&Element::reversal_angles>,
@@ -280,7 +290,7 @@ constexpr ElementQuantity of_patch[] = {
 constexpr Quantity<NamedResponse> of_named_response[] = {
     {"amplitude", "m", "largest absolute displacement over the period",
      [](const NamedResponse& response) { return response.amplitude; }},
-    {"phase", "rad", "phase lag of the fundamental behind the force",
+    {"phase", "rad", "phase lag of the fundamental behind the excitation",
      [](const NamedResponse& response) { return response.phase; }},
 };
 

@@ -41,6 +41,10 @@ struct ElementResponse {
   double wear_rate = no_value;  // m^3/s; no_value without a wear coefficient
   bool of_patch = false;        // one of ResponsePoint::patches has it
 
+  // What the mean force may be, N: more than one where a slider sticks throughout the period, and the offset
+  // chosen for it decides. no_value: not told.
+  double mean_force_min = no_value, mean_force_max = no_value;
+
   // With one stick and one slip phase in each half period: theta_0 in [0, 2 pi), the angle of the largest
   // displacement of the element, where stick starts; theta_star in (theta_0, theta_0 + 2 pi), the next onset
   // of slip, rad. For antisymmetric motion stick_percent = 100 (theta_star - theta_0)/pi.

@@ -47,15 +47,35 @@ void check_excitation(const Scene& scene, Faults& faults) {
                                   : "/harmonics.period, which is " + std::to_string(order) + "/" +
                                         std::to_string(period)));
     }
+    if (harmonic == 0 && scene.excitation[i].type == &base_displacement_type())
+      faults.add(child(child("/excitation", i), "harmonic"),
+                 "found 0, must be at least 1 for a displacement of the ground: a constant one moves nothing "
+                 "relative to it");
     if (const double sine = scene.excitation[i].values[1]; harmonic == 0 && sine != 0) {
       faults.add(child(child("/excitation", i), "sine"),
-                 "found " + number_text(sine) + ", must be 0 where the harmonic is 0: the force is constant");
+                 "found " + number_text(sine) + ", must be 0 where the harmonic is 0: the " +
+                     (is_base_motion(*scene.excitation[i].type) ? "acceleration" : "force") + " is constant");
     }
   }
   const bool oscillates = std::any_of(scene.excitation.begin(), scene.excitation.end(),
                                       [](const Part& force) { return force.harmonic > 0; });
   if (!oscillates && !scene.excitation.empty())
-    faults.add("/excitation", "found constant forces alone, must have a force of a harmonic above 0");
+    faults.add(
+        "/excitation",
+        "found constant forces alone, must have a force or a motion of the ground of a harmonic above 0");
+}
+
+void check_frames(const Scene& scene, Faults& faults) {
+  const bool runs_away = std::any_of(scene.excitation.begin(), scene.excitation.end(), [](const Part& part) {
+    return part.type == &base_acceleration_type() && part.harmonic == 0;
+  });
+  if (!runs_away) return;
+  for (std::size_t i = 0; i < scene.responses.size(); ++i) {
+    if (scene.responses[i].frame == Frame::relative) continue;
+    const bool listed = !scene.responses[i].name.empty();
+    faults.add(child(listed ? child("/response", i) : "/response", "frame"),
+               "found \"absolute\", must be \"relative\" where the ground has a constant acceleration");
+  }
 }
 
 void check_structure(const Scene& scene, Faults& faults) {

@@ -9,6 +9,8 @@ namespace arcslip::scene::file {
 void check_samples(const Scene& scene, Faults& faults);
 /// No force beyond the highest harmonic.
 void check_excitation(const Scene& scene, Faults& faults);
+/// No absolute response where the ground runs away.
+void check_frames(const Scene& scene, Faults& faults);
 /// Some mass, some stiffness, and something that acts on each degree of freedom.
 void check_structure(const Scene& scene, Faults& faults);
 /// Tied fields have the same value.

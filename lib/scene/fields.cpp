@@ -3,6 +3,7 @@
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <array>
 #include <numbers>
 
 namespace arcslip::scene {
@@ -32,6 +33,34 @@ constexpr Field force_fields[] = {
      .upper = infinity,
      .default_value = 0.0,
      .help = "amplitude of the force along sin(harmonic w t)"},
+};
+constexpr Field base_displacement_fields[] = {
+    {.name = "cosine",
+     .unit = "m",
+     .lower = -infinity,
+     .upper = infinity,
+     .default_value = 0.0,
+     .help = "amplitude of the displacement of the ground along cos(harmonic w t)"},
+    {.name = "sine",
+     .unit = "m",
+     .lower = -infinity,
+     .upper = infinity,
+     .default_value = 0.0,
+     .help = "amplitude of the displacement of the ground along sin(harmonic w t)"},
+};
+constexpr Field base_acceleration_fields[] = {
+    {.name = "cosine",
+     .unit = "m/s^2",
+     .lower = -infinity,
+     .upper = infinity,
+     .default_value = 0.0,
+     .help = "amplitude of the acceleration of the ground along cos(harmonic w t)"},
+    {.name = "sine",
+     .unit = "m/s^2",
+     .lower = -infinity,
+     .upper = infinity,
+     .default_value = 0.0,
+     .help = "amplitude of the acceleration of the ground along sin(harmonic w t)"},
 };
 class Section final : public PartType {
  public:
@@ -64,6 +93,26 @@ const PartType& damper_type() {
 const PartType& force_type() {
   static const Section type("force", force_fields);
   return type;
+}
+
+const PartType& base_displacement_type() {
+  static const Section type("base_displacement", base_displacement_fields);
+  return type;
+}
+
+const PartType& base_acceleration_type() {
+  static const Section type("base_acceleration", base_acceleration_fields);
+  return type;
+}
+
+std::span<const PartType* const> excitation_types() {
+  static const std::array<const PartType*, 3> types = {&force_type(), &base_displacement_type(),
+                                                       &base_acceleration_type()};
+  return types;
+}
+
+bool is_base_motion(const PartType& type) {
+  return &type == &base_displacement_type() || &type == &base_acceleration_type();
 }
 
 std::span<const Field> Part::fields() const {

@@ -5,6 +5,7 @@
 #include <arcslip/scene/words.hpp>
 #include <arcslip/scene/write_values.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -124,11 +125,17 @@ Node place_object() {
 
 /// One place, or a list of places with names.
 Node responses() {
-  Object place{{"name", of_type("string")}};
-  add_place(place);
-  Object named = object_of(std::move(place), {"name"});
-  named.push_back({"oneOf", one_place()});
-  return of({{"oneOf", {Node::List{place_object(), list_of(of(std::move(named)), 1)}}}});
+  const auto response = [](bool named) {
+    Object place;
+    if (named) place.push_back({"name", of_type("string")});
+    add_place(place);
+    place.push_back({"frame", one_of_words(frames, Response{}.frame)});
+    Object object = object_of(std::move(place), {});
+    if (named) object.push_back({"required", node(std::vector<std::string>{"name"})});
+    object.push_back({"oneOf", one_place()});
+    return of(std::move(object));
+  };
+  return of({{"oneOf", {Node::List{response(false), list_of(response(true), 1)}}}});
 }
 
 /// A key with its meaning and default.
@@ -147,7 +154,7 @@ Node part_of(const PartType& type, bool with_type) {
   std::vector<std::string> required{"name"};
   if (with_type) {
     properties.push_back({"type", of({{"const", node(type.name())}})});
-    required.emplace_back("type");
+    if (&type != &force_type()) required.emplace_back("type");
   }
   const bool one_direction = type.slots().empty() && !type.names_directions();
   if (one_direction) add_place(properties);
@@ -159,26 +166,27 @@ Node part_of(const PartType& type, bool with_type) {
     properties.push_back({option.name, described_key(option)});
     if (option.required) required.push_back(option.name);
   }
-  if (&type == &force_type()) {
+  const auto excitations = excitation_types();
+  if (std::find(excitations.begin(), excitations.end(), &type) != excitations.end()) {
     properties.push_back(
         {"harmonic", of({{"type", node("integer")},
                          {"minimum", node(0)},
                          {"maximum", node(largest_order)},
                          {"default", node(Part{}.harmonic)},
-                         {"description", node("harmonic of the force; 0: constant force")}})});
+                         {"description", node("harmonic of the excitation; 0: constant")}})});
   }
   for (const Field& field : type.fields({})) {
     properties.push_back({std::string(field.name), number_of(field)});
-    if (!field.default_value && type.options().empty())  // options may bring others in its place
+    if (!field.default_value && !type.options_bring_fields())  // in its place
       required.emplace_back(field.name);
   }
   if (with_type) properties.push_back({std::string(wear_coefficient.name), number_of(wear_coefficient)});
   Object object = object_of(std::move(properties), required);
   if (type.names_directions())
     object.back().value = place_object();
-  else if (!type.options().empty())
+  else if (type.options_bring_fields())
     object.back().value = of_type("number");  // fields that the options bring
-  if (one_direction) object.push_back({"oneOf", one_place()});
+  if (one_direction && !is_base_motion(type)) object.push_back({"oneOf", one_place()});
   return of(std::move(object));
 }
 
@@ -222,7 +230,8 @@ Node schema_of(const Catalogue& catalogue) {
                    {"masses", list_of(part_of(mass_type(), false))},
                    {"springs", list_of(part_of(spring_type(), false))},
                    {"dampers", list_of(part_of(damper_type(), false))}};
-  Node::List elements, studies;
+  Node::List elements, excitations, studies;
+  for (const PartType* type : excitation_types()) excitations.push_back(part_of(*type, true));
   for (const PartType* type : catalogue.elements) elements.push_back(part_of(*type, true));
   for (const StudyType* type : catalogue.studies) studies.push_back(study_of(*type));
   Object samples{{"type", node("integer")}, {"default", node(Harmonics{}.samples)}};
@@ -239,7 +248,7 @@ Node schema_of(const Catalogue& catalogue) {
        {"structure", of(object_of(std::move(structure), {"dofs"}))},
        {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
        {"patches", list_of(patch())},
-       {"excitation", list_of(part_of(force_type(), false), 1)},
+       {"excitation", list_of(of({{"oneOf", {std::move(excitations)}}}), 1)},
        {"ties", map_of(list_of(of_type("string"), 1))},
        {"harmonics", of(object_of({{"order", of(std::move(order))},
                                    {"period", of(std::move(period))},

@@ -43,12 +43,14 @@ class PartType {
   }
 
   /// Fixed options of the part, which are not parameters: choices, tables in files. They may decide which
-  /// fields it has. file::KeyedPart (study_keys.hpp) implements all four functions.
+  /// fields it has. file::KeyedPart (study_keys.hpp) implements these four functions.
   virtual std::vector<Key> options() const { return {}; }
   virtual Settings read_options(const file::Reading&) const { return {}; }
   /// Files named by these options.
   virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
   virtual void write_options(const Settings&, const Scene&, file::Node::Object&) const {}
+  /// Whether they decide which fields it has; for the JSON Schema.
+  virtual bool options_bring_fields() const { return !options().empty(); }
 
   /// Whether a wear coefficient stands beside them: of elements that dissipate.
   virtual bool wears(const Settings&) const { return false; }

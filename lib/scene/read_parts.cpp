@@ -25,27 +25,40 @@ const PartType* read_type(const Keys& keys, std::span<const PartType* const> typ
   return nullptr;
 }
 
+bool is_excitation(const PartType* type) {
+  const auto types = excitation_types();
+  return std::find(types.begin(), types.end(), type) != types.end();
+}
+
 // The keys of a part. An element whose type is not known may have any.
-std::vector<std::string> keys_of(const Part& part, bool is_element, bool wears) {
+std::vector<std::string> keys_of(const Part& part, bool has_type, bool wears) {
   if (part.type == nullptr) return {};
   std::vector<std::string> keys = {"name"};
-  if (is_element) keys.emplace_back("type");
+  if (has_type) keys.emplace_back("type");
   const auto slots = part.type->slots_with(part.options);
   for (const std::string_view slot : slots) keys.emplace_back(slot);
   if (slots.empty() && !part.type->names_directions())
     keys.insert(keys.end(), {"at", "between", "direction"});
   for (const Key& option : part.type->options()) keys.push_back(option.name);
-  if (part.type == &force_type()) keys.emplace_back("harmonic");
+  if (is_excitation(part.type)) keys.emplace_back("harmonic");
   for (const Field& field : part.fields())
     if (field.place.empty()) keys.emplace_back(field.name);
   if (wears) keys.emplace_back(wear_coefficient.name);
   return keys;
 }
 
+Direction all_dofs(const Dofs& dofs) {
+  Direction all;
+  for (std::size_t i = 0; i < dofs.names.size(); ++i) all.push_back({static_cast<int>(i), 1.0});
+  return all;
+}
+
 std::vector<Direction> read_directions(const PartType& type, const Settings& options, const Keys& keys,
                                        const Dofs& dofs, Faults& faults) {
   const auto slots = type.slots_with(options);
   if (slots.empty() && !type.names_directions()) {
+    const bool has_place = keys.has("at") || keys.has("between") || keys.has("direction");
+    if (is_base_motion(type) && !has_place) return {all_dofs(dofs)};
     const auto direction = read_direction(keys, dofs, faults);
     return std::vector<Direction>(direction ? 1 : 0, direction.value_or(Direction{}));
   }
@@ -65,13 +78,15 @@ std::vector<Direction> read_directions(const PartType& type, const Settings& opt
   return directions;
 }
 
+// section_type: without a "type"; none: that key is required.
 Part read_part(const Location& place, const PartType* section_type, std::span<const PartType* const> types,
                const Dofs& dofs, const FileSource& source, Names& names, Faults& faults) {
   Part part;
   part.type = section_type;
-  if (section_type == nullptr && place.node->get<Node::Object>() != nullptr) {
+  if (!types.empty() && place.node->get<Node::Object>() != nullptr) {
     Faults duplicates;  // reported below, once the allowed keys are known from the type
-    part.type = read_type(Keys(place, {}, duplicates), types, faults);
+    const Keys all(place, {}, duplicates);
+    if (section_type == nullptr || all.has("type")) part.type = read_type(all, types, faults);
   }
   const std::size_t before = faults.count();
   if (part.type != nullptr) part.options = read_options(*part.type, place, dofs, source, faults);
@@ -80,7 +95,7 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
                             : Location{};
   const bool wears = section_type == nullptr && wear.node != nullptr &&
                      (faults.count() > before || part.type->wears(part.options));
-  const Keys keys(place, keys_of(part, section_type == nullptr, wears), faults);
+  const Keys keys(place, keys_of(part, !types.empty(), wears), faults);
   if (!keys.is_object()) {
     names.set_incomplete();
     return part;
@@ -101,7 +116,7 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
     return part;
   }
   part.directions = read_directions(*part.type, part.options, keys, dofs, faults);
-  if (part.type == &force_type())
+  if (is_excitation(part.type))
     part.harmonic = read_integer(keys.find("harmonic"), 0, largest_order, faults).value_or(part.harmonic);
   for (const Field& field : part.fields()) {
     const Location value = !field.place.empty()  ? at_pointer(place, field.place)

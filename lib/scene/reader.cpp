@@ -47,7 +47,7 @@ constexpr std::string_view wanted_response =
 Response read_named_response(const Location& place, const Dofs& dofs, const std::vector<Response>& before,
                              Faults& faults) {
   constexpr const char* wanted = "a string, the name of the response";
-  const Keys keys(place, {"name", "at", "between", "direction"}, faults);
+  const Keys keys(place, {"name", "at", "between", "direction", "frame"}, faults);
   Response response;
   if (!keys.is_object()) return response;
   const Location name = keys.require("name", wanted, faults);
@@ -62,6 +62,7 @@ Response read_named_response(const Location& place, const Dofs& dofs, const std:
     }
   }
   response.direction = read_direction(keys, dofs, faults).value_or(Direction{});
+  response.frame = read_choice(keys.find("frame"), frames, response.frame, faults);
   return response;
 }
 
@@ -80,8 +81,9 @@ std::vector<Response> read_responses(const Location& place, const Dofs& dofs, Fa
     return std::vector<Response>(1);
   }
   if (place.node->get<Node::List>() == nullptr) {
-    const Keys keys(place, {"at", "between", "direction"}, faults);
-    return {{"", read_direction(keys, dofs, faults).value_or(Direction{})}};
+    const Keys keys(place, {"at", "between", "direction", "frame"}, faults);
+    return {{"", read_direction(keys, dofs, faults).value_or(Direction{}),
+             read_choice(keys.find("frame"), frames, Frame::relative, faults)}};
   }
   std::vector<Response> responses;
   const Node::List& list = *place.node->get<Node::List>();
@@ -96,12 +98,13 @@ std::vector<Response> read_responses(const Location& place, const Dofs& dofs, Fa
 
 std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, const FileSource& source, Names& names,
                                   Faults& faults) {
-  constexpr const char* wanted = "a list of at least one force";
+  constexpr const char* wanted = "a list of at least one force or motion of the ground";
   const Location place = root.require("excitation", wanted, faults);
-  std::vector<Part> forces = read_parts(place, &force_type(), {}, dofs, source, names, faults);
-  if (place.node != nullptr && place.node->get<Node::List>() != nullptr && forces.empty())
+  std::vector<Part> excitation =
+      read_parts(place, &force_type(), excitation_types(), dofs, source, names, faults);
+  if (place.node != nullptr && place.node->get<Node::List>() != nullptr && excitation.empty())
     faults.add(place.pointer, std::string("found an empty list, must be ") + wanted);
-  return forces;
+  return excitation;
 }
 
 Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource& source, Faults& faults) {
@@ -151,6 +154,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   }
 
   scene.responses = read_responses(root.find("response"), dofs, faults);
+  if (excitation_sound) check_frames(scene, faults);
   scene.studies = read_studies(root.find("studies"), scene.frequency_unit,
                                Parameters(scene.ties, ties_sound, names), dofs, source, catalogue, faults);
   return scene;

@@ -24,6 +24,7 @@ struct Catalogue;
 
 enum class FrequencyUnit { hertz, radian_per_second };
 enum class Friction { exact, sampled };
+enum class Frame { relative, absolute };  // of a response: relative to the ground or not
 /// The direction in which a part acts on the degrees of freedom: sum of weight * x_dof. Ground has no term.
 struct Term {
   int dof;
@@ -38,7 +39,7 @@ struct Part {
   const PartType* type = nullptr;
   std::vector<Direction> directions;  // of the type's slots; one if it has none
   std::vector<double> values;
-  int harmonic = 1;             // excitation only: harmonic of the force; 0: constant
+  int harmonic = 1;             // excitation only: its harmonic; 0: constant
   Settings options{};           // of the type; empty: its defaults
   double wear_coefficient = 0;  // of elements that dissipate: volume worn for the energy, m^3/J
   bool detailed = true;         // false: an element of a patch of which results have the totals alone
@@ -78,6 +79,7 @@ struct Study {
 struct Response {
   std::string name{};  // empty for a single unnamed response
   Direction direction{};
+  Frame frame = Frame::relative;
   friend bool operator==(const Response&, const Response&) = default;
 };
 
@@ -102,11 +104,18 @@ struct Scene {
 /// The elements, then those of the patches.
 std::vector<Part> all_elements(const Scene& scene);
 
-/// The types of the other sections. Fields: value; value; value; cosine, sine.
+/// The types of the other sections. Fields: value; value; value; cosine, sine of each excitation.
 const PartType& mass_type();
 const PartType& spring_type();
 const PartType& damper_type();
 const PartType& force_type();
+/// Motions of the ground along the part's direction r: the ground under degree of freedom i moves by r_i
+/// times the displacement (m) or acceleration (m/s^2). Displacements are relative to the ground.
+const PartType& base_displacement_type();
+const PartType& base_acceleration_type();
+std::span<const PartType* const> excitation_types();
+/// Whether it is one of the motions of the ground.
+bool is_base_motion(const PartType& type);
 
 /// One fault of a scene file.
 struct Fault {

@@ -22,6 +22,8 @@ struct Word {
 
 inline constexpr std::array<Word<FrequencyUnit>, 2> frequency_units = {
     {{"Hz", FrequencyUnit::hertz}, {"rad/s", FrequencyUnit::radian_per_second}}};
+inline constexpr std::array<Word<Frame>, 2> frames = {
+    {{"relative", Frame::relative}, {"absolute", Frame::absolute}}};
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 

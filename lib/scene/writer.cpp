@@ -92,7 +92,7 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
       object.push_back({std::string(slots[i]), {Node::Object{place_member(part.directions[i], dofs)}}});
     part.type->write_options(part.options, scene, object);
     if (part.wear_coefficient != 0) object.push_back({"wear_coefficient", node(part.wear_coefficient)});
-    if (part.type == &force_type()) object.push_back({"harmonic", node(part.harmonic)});
+    if (&parts == &scene.excitation) object.push_back({"harmonic", node(part.harmonic)});
     const std::span<const Field> fields = part.fields();
     for (std::size_t i = 0; i < fields.size(); ++i)
       if (fields[i].place.empty())
@@ -132,6 +132,7 @@ Node responses_node(const Scene& scene) {
     Node::Object object;
     if (!response.name.empty()) object.push_back({"name", node(response.name)});
     object.push_back(place_member(response.direction, scene.dofs));
+    object.push_back({"frame", node(word_of(frames, response.frame))});
     list.push_back({std::move(object)});
   }
   const bool one = list.size() == 1 && scene.responses.front().name.empty();
@@ -157,7 +158,7 @@ Node tree(const Scene& scene) {
                    {"structure", structure},
                    {"elements", parts_node(scene.elements, scene, true)}};
   if (!scene.patches.empty()) all.push_back({"patches", parts_node(scene.patches, scene)});
-  all.insert(all.end(), {{"excitation", parts_node(scene.excitation, scene)},
+  all.insert(all.end(), {{"excitation", parts_node(scene.excitation, scene, true)},
                          {"ties", ties_node(scene.ties)},
                          {"harmonics", harmonics_node(scene.harmonics)},
                          {"response", responses_node(scene)},

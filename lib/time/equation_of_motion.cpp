@@ -18,6 +18,16 @@ void EquationOfMotion::force(double t, Vector& f) const {
   }
 }
 
+EquationOfMotion::Observed EquationOfMotion::observed(double t, const Vector& x, const Vector& v) const {
+  Observed at{response.dot(x), response.dot(v)};
+  for (const BaseMotion& part : base) {
+    const double rate = part.harmonic * omega, c = std::cos(rate * t), s = std::sin(rate * t);
+    at.x += part.cosine * c + part.sine * s;
+    at.v += rate * (part.sine * c - part.cosine * s);
+  }
+  return at;
+}
+
 void EquationOfMotion::add(std::string name, std::shared_ptr<const elements::Law> law,
                            std::vector<double> fields, Matrix directions) {
   elements.push_back({std::move(name), std::move(law), std::move(fields), std::move(directions), memory});
@@ -40,9 +50,13 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
       directions.col(static_cast<Eigen::Index>(i)) = part.directions[i];
     equation.add(part.name, part.law, part.fields(p), std::move(directions));
   }
-  for (const model::Force& part : model.forces)
-    equation.forces.push_back(
-        {part.direction, model.harmonics.excited(part.harmonic), p[part.cosine], p[part.sine]});
+  for (const model::Excitation& part : model.excitation) {
+    const int n = model.harmonics.excited(part.harmonic);
+    equation.forces.push_back({model::shape(model, part, p), n, p[part.cosine], p[part.sine]});
+    const double along = model.absolute ? part.direction.dot(model.response) : 0;
+    const double moved = along * part.displacement(p[model::frequency]);
+    if (moved != 0) equation.base.push_back({n, moved * p[part.cosine], moved * p[part.sine]});
+  }
   equation.response = model.response;
   equation.dof_names = model.dof_names;
   return equation;

@@ -36,12 +36,19 @@ struct HarmonicForce {
   double cosine = 0, sine = 0;  // N
 };
 
+/// cosine cos n omega t + sine sin n omega t: of the ground, along the response.
+struct BaseMotion {
+  int harmonic = 1;
+  double cosine = 0, sine = 0;  // m
+};
+
 struct EquationOfMotion {
   double omega = 0;  // base frequency, rad/s: n is an order of it
   Matrix M, C, K;    // dofs x dofs; kg, N s/m, N/m
   std::vector<TimeElement> elements;
   std::vector<HarmonicForce> forces;
   Vector response;                     // direction whose motion is observed
+  std::vector<BaseMotion> base;        // added to it
   int memory = 0;                      // numbers in MotionState::z
   std::vector<std::string> dof_names;  // for messages; may be empty
 
@@ -50,6 +57,11 @@ struct EquationOfMotion {
   double period() const;
   /// The excitation at time t (s), N.
   void force(double t, Vector& f) const;
+  /// The observed displacement and velocity.
+  struct Observed {
+    double x, v;
+  };
+  Observed observed(double t, const Vector& x, const Vector& v) const;
   /// With its memory after that of the elements before.
   void add(std::string name, std::shared_ptr<const elements::Law> law, std::vector<double> fields,
            Matrix directions);

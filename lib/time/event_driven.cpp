@@ -29,8 +29,21 @@ class Extremes {
  public:
   template <class Visit>
   void visit(const LinearMotion& piece, const Vector& d, double s_end, double lower, double upper,
-             Visit&& visit) {
+             Visit&& visit_extreme) {
     piece.displacement(d, series_);
+    visit_series(s_end, lower, upper, visit_extreme);
+  }
+  // Those of the observed displacement.
+  template <class Visit>
+  void visit_observed(const LinearMotion& piece, double s_end, double lower, double upper,
+                      Visit&& visit_extreme) {
+    piece.observed(series_, velocity_);
+    visit_series(s_end, lower, upper, visit_extreme);
+  }
+
+ private:
+  template <class Visit>
+  void visit_series(double s_end, double lower, double upper, Visit&& visit) {
     const double swing = sum(Coefficients(series_).subspan(1));
     if (series_[0] - swing > lower && series_[0] + swing < upper) return;
     visit(0.0, series_[0]);
@@ -42,8 +55,7 @@ class Extremes {
     visit(s_end, value(series_, s_end));
   }
 
- private:
-  LinearMotion::Series series_{};
+  LinearMotion::Series series_{}, velocity_{};
   std::vector<double> slope_, roots_;
 };
 
@@ -104,7 +116,7 @@ class Recorder {
       if (contact.mode().open) friction.open_time += s * h * contact.automaton.weight / record.sliders;
     }
     const double A = motion_.amplitude;
-    extremes_.visit(piece, equation_.response, s, -A, A, [&](double at, double x) {
+    extremes_.visit_observed(piece, s, -A, A, [&](double at, double x) {
       if (std::abs(x) <= motion_.amplitude) return;
       motion_.amplitude = std::abs(x);
       motion_.amplitude_time = march_.time() + at * h;
@@ -126,7 +138,8 @@ class Recorder {
           std::minmax({element.law->normal_load_at(element.fields, of.lowest),
                        element.law->normal_load_at(element.fields, of.highest)});
     }
-    if (motion_.amplitude < 0) motion_.amplitude = std::abs(equation_.response.dot(motion_.end.x));
+    if (motion_.amplitude < 0)
+      motion_.amplitude = std::abs(equation_.observed(motion_.time, motion_.end.x, motion_.end.v).x);
     return std::move(motion_);
   }
 
@@ -135,10 +148,10 @@ class Recorder {
     const LinearMotion& piece = march_.piece();
     TimeHistory& history = motion_.history;
     history.time.push_back(t);
-    piece.displacement(equation_.response, series_);
+    LinearMotion::Series velocity{};
+    piece.observed(series_, velocity);
     history.displacement.push_back(value(series_, s));
-    piece.velocity(equation_.response, series_);
-    history.velocity.push_back(value(series_, s));
+    history.velocity.push_back(value(velocity, s));
     for (const Contact& contact : march_.contacts()) {
       ElementTimeHistory& element = history.elements[static_cast<std::size_t>(contact.element)];
       const bool first = element.force.size() < history.time.size();
@@ -256,8 +269,9 @@ PeriodMap EventDriven::map(const MotionState& start, double to) {
   map.monodromy = march_->monodromy();
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (ranges[i].resting() && ranges[i].dhigh.size() > 0)
-      map.resting.push_back({contacts[i].memory, 0.5 * (ranges[i].high + ranges[i].low),
-                             0.5 * (ranges[i].dhigh + ranges[i].dlow).tail(map.monodromy.cols())});
+      map.resting.push_back(resting_slider(contacts[i].memory, contacts[i].room, ranges[i].high,
+                                           ranges[i].dhigh.tail(map.monodromy.cols()), ranges[i].low,
+                                           ranges[i].dlow.tail(map.monodromy.cols())));
   return map;
 }
 

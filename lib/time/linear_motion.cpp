@@ -118,6 +118,7 @@ void LinearMotion::expand_force(double t, double h) {
 }
 
 void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g) {
+  t_ = t;
   h_ = h;
   expand_force(t, h);
   X_[0] = X;
@@ -174,6 +175,20 @@ double LinearMotion::displacement(const Vector& d, Series& c) const {
 
 double LinearMotion::velocity(const Vector& d, Series& c) const {
   return project(V_, d, c);
+}
+
+void LinearMotion::observed(Series& x, Series& v) const {
+  displacement(equation_.response, x);
+  velocity(equation_.response, v);
+  for (const BaseMotion& part : equation_.base) {
+    const std::complex<double> rate(0, part.harmonic * equation_.omega);
+    std::complex<double> c = std::complex<double>(part.cosine, -part.sine) * std::exp(rate * t_);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x[k] += c.real();
+      v[k] += (rate * c).real();
+      c *= rate * h_ / static_cast<double>(k + 1);
+    }
+  }
 }
 
 LinearMotion::Work LinearMotion::work(double s) const {

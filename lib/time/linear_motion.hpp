@@ -54,6 +54,9 @@ class LinearMotion {
   double displacement(const Vector& d, Series& c) const;
   double velocity(const Vector& d, Series& c) const;
 
+  /// Series of the observed displacement and velocity, with those of the ground (EquationOfMotion::base).
+  void observed(Series& x, Series& v) const;
+
   /// Work of the force, integral of f . x' dt, and of the dampers, integral of x' . C x' dt, from 0 to s; J.
   struct Work {
     double input = 0, viscous = 0;
@@ -69,7 +72,7 @@ class LinearMotion {
   Matrix stiffness_, damping_;     // M^-1 K', M^-1 C
   std::vector<Matrix> over_mass_;  // M^-1 D of each part
   std::vector<Matrix> in_modes_;   // their stiffness now
-  double longest_ = 0, h_ = 0;
+  double longest_ = 0, t_ = 0, h_ = 0;
   std::vector<Matrix> X_, V_;    // order + 1
   Matrix force_, acceleration_;  // dofs x (order + 1): f_k, M^-1 f_k
   Matrix hilbert_;               // 1/(i + j + 1)

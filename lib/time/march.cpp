@@ -35,6 +35,7 @@ std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
       };
       contacts.push_back({static_cast<int>(e), std::move(automaton), element.directions, std::move(along),
                           row, k < 0 ? -1 : element.memory + k, slider, bound(-1), bound(1)});
+      if (slider >= 0) contacts.back().room = element.law->slider_room(element.fields, k);
       row += element.directions.cols();
     }
   }

@@ -20,6 +20,8 @@ struct Contact {
   int slider;                 // the direction that this memory follows; -1: it is no slider
   Vector lower, upper;        // its bounds move with lower . x and upper . x
   int now = 0;                // index of the mode
+  // Between its bounds: elements::Law::slider_room().
+  std::optional<double> room{};
 
   const elements::Mode& mode() const { return automaton.modes[static_cast<std::size_t>(now)]; }
   bool follows() const { return memory >= 0 && !mode().rests; }

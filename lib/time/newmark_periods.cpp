@@ -34,14 +34,16 @@ auto normal_of(const TimeElement& element) {
   return element.directions.col(element.directions.cols() - 1);
 }
 
+Range range_of(const Newmark& newmark) {
+  const auto at = newmark.equation().observed(newmark.time(), newmark.state().x, newmark.state().v);
+  return {at.x, at.v};
+}
+
 // Observes the steps of an integration.
 class Observation {
  public:
   Observation(const Newmark& newmark, bool with_history, long steps)
-      : newmark_(newmark),
-        with_history_(with_history),
-        response_(newmark.equation().response.dot(newmark.state().x),
-                  newmark.equation().response.dot(newmark.state().v)) {
+      : newmark_(newmark), with_history_(with_history), response_(range_of(newmark)) {
     const auto& equation = newmark.equation();
     for (const TimeElement& element : equation.elements) {
       if (element.law->has_contact()) result_.friction.emplace_back();
@@ -58,10 +60,11 @@ class Observation {
   void after_step() {
     const auto& equation = newmark_.equation();
     const double h = equation.period() / static_cast<double>(newmark_.steps_per_period());
+    const auto [x, v] = equation.observed(newmark_.time(), newmark_.state().x, newmark_.state().v);
+    response_.step(x, v, h);
     const auto step = [&](Range& range, const auto& d) {
       range.step(d.dot(newmark_.state().x), d.dot(newmark_.state().v), h);
     };
-    step(response_, equation.response);
     std::size_t k = 0;
     for (const TimeElement& element : equation.elements)
       if (element.law->has_normal_load()) step(normal_[k++], normal_of(element));
@@ -194,8 +197,9 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   const Eigen::Index n = equation.dofs(), size = 2 * n + equation.memory;
   struct Reach {
     int slider;
-    Vector lower, upper;  // its bounds move with lower . x and upper . x
-    double high, low;     // of the lower and of the upper one
+    std::optional<double> room;  // between its bounds: elements::Law::slider_room()
+    Vector lower, upper;         // its bounds move with lower . x and upper . x
+    double high, low;            // of the lower and of the upper one
     Eigen::RowVectorXd d_high, d_low;
     bool up, down;  // slips that way
 
@@ -216,8 +220,9 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
       const Vector lower = bound(-1), upper = bound(1);
       const auto change = map.monodromy.topRows(n);
       const bool free = element.law->traits(element.fields, along).limit == 0;
-      reaches.push_back({element.memory + k, lower, upper, lower.dot(start.x), upper.dot(start.x),
-                         lower.transpose() * change, upper.transpose() * change, free, free});
+      reaches.push_back({element.memory + k, element.law->slider_room(element.fields, k), lower, upper,
+                         lower.dot(start.x), upper.dot(start.x), lower.transpose() * change,
+                         upper.transpose() * change, free, free});
     }
   for (long k = 0; k < newmark.steps_per_period(); ++k) {
     const Solved solved = newmark.step();
@@ -246,8 +251,8 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   }
   for (std::size_t i = 0; i < reaches.size(); ++i)
     if (reaches[i].rests())
-      map.resting.push_back({reaches[i].slider, 0.5 * (reaches[i].high + reaches[i].low),
-                             0.5 * (reaches[i].d_high + reaches[i].d_low)});
+      map.resting.push_back(resting_slider(reaches[i].slider, reaches[i].room, reaches[i].high,
+                                           reaches[i].d_high, reaches[i].low, reaches[i].d_low));
   map.end = newmark.state();
   map.done = true;
   return map;

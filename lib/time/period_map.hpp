@@ -4,19 +4,31 @@
 #include <arcslip/time/equation_of_motion.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace arcslip::time {
 
 /// A slider that stuck throughout, or slipped in one direction only: in a periodic motion it sticks. Its
-/// offset is arbitrary, so that a periodic motion has to fix it: at the centre of the interval that its
-/// bounds leave free, (max lower + min upper)/2, the limit from the slipping side.
+/// offset is arbitrary, so that a periodic motion has to fix it, by the choice of elements/slider_offset.hpp
+/// between the largest lower bound and the smallest upper one.
 struct RestingSlider {
   int slider = 0;
-  double centre = 0;              // m
-  Eigen::RowVectorXd derivative;  // of the centre with respect to the start, 2 dofs + sliders
+  double offset = 0;              // m
+  Eigen::RowVectorXd derivative;  // of the offset with respect to the start, 2 dofs + sliders
 };
+
+/// high, low: the largest lower bound and the smallest upper one, but for the room (Law::slider_room()).
+inline RestingSlider resting_slider(int slider, std::optional<double> room, double high,
+                                    const Eigen::RowVectorXd& d_high, double low,
+                                    const Eigen::RowVectorXd& d_low) {
+  if (!room) return {slider, 0.5 * (high + low), 0.5 * (d_high + d_low)};
+  const double a = high - *room, b = low + *room;
+  if (a > 0) return {slider, a, d_high};
+  if (b < 0) return {slider, b, d_low};
+  return {slider, 0, Eigen::RowVectorXd::Zero(d_high.size())};
+}
 
 struct PeriodMap {
   bool done = false;

@@ -70,7 +70,7 @@ class Shooting {
     }
     defect = stacked(map.end) - y;
     for (const RestingSlider& slider : map.resting)
-      defect[2 * n_ + slider.slider] = slider.centre - y[2 * n_ + slider.slider];
+      defect[2 * n_ + slider.slider] = slider.offset - y[2 * n_ + slider.slider];
     return true;
   }
 

@@ -4,8 +4,8 @@
 //
 //   (I - M) dX = Phi(X) - X
 //
-// A slider that sticks throughout gives z = z, a row of zeros, which is replaced by the condition of a
-// centred offset (RestingSlider). Phi is piecewise smooth: a step is halved until the defect decreases, and
+// A slider that sticks throughout gives z = z, a row of zeros, which is replaced by the condition of its
+// offset (RestingSlider). Phi is piecewise smooth: a step is halved until the defect decreases, and
 // if no step does, the motion is integrated for some periods, a contraction due to friction and damping,
 // before Newton's method is tried again. That fails near resonances without viscous damping, where a start
 // from harmonic balance (from_harmonics.hpp) still converges in a few steps.

@@ -128,6 +128,13 @@ TEST_CASE("the documentation of scenes has a row for every field and option of e
   wanted += rows("force", scene::force_type());
   INFO("the table of parts is to be:\n" << wanted);
   CHECK(text.str().find(wanted) != std::string::npos);
+  for (const scene::PartType* type : scene::excitation_types()) {
+    if (!scene::is_base_motion(*type)) continue;
+    const std::string of_base =
+        rows("excitation of `\"type\": \"" + std::string(type->name()) + "\"`", *type);
+    INFO("the table of parts is to have:\n" << of_base);
+    CHECK(text.str().find(of_base) != std::string::npos);
+  }
 }
 
 TEST_CASE("a study is written with the keys of its kind, in their order, and read as it was") {

@@ -214,7 +214,7 @@ struct FullEquation {
     for (std::size_t k = 0; k < model.parameters.size(); ++k)
       p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
     p[model::frequency] = 40;
-    p[model.forces.front().sine] = 0.4;
+    p[model.excitation.front().sine] = 0.4;
     for (const auto& damper : model.dampers) p[damper.parameter] *= 50;  // so that resonances are wide
   }
   bool condense(hbm::Condensation& condensation, int n, const Vector& at, hbm::Condensed& into) {
@@ -244,7 +244,8 @@ TEST_CASE("a condensed equation has the solution of the full one, whatever its s
       const double s = n * full.p[model::frequency];
       const Eigen::MatrixXcd Z =
           matrix(full.model.springs) - s * s * matrix(full.model.masses) + i * s * matrix(full.model.dampers);
-      const Eigen::VectorXcd f = std::complex<double>(1, -0.4) * Vector(full.model.forces.front().direction);
+      const Eigen::VectorXcd f =
+          std::complex<double>(1, -0.4) * Vector(full.model.excitation.front().direction);
       const Eigen::VectorXcd expected = Z.partialPivLu().solve(0.7 * f);
       Eigen::VectorXcd y(row.dofs);
       y.head(row.unknowns) = condensed.Z.partialPivLu().solve(0.7 * condensed.f);
@@ -260,7 +261,7 @@ TEST_CASE("a condensed equation and what is observed change with parameters as t
     hbm::Condensed condensed;
     Eigen::VectorXcd y = Eigen::VectorXcd::Random(row.dofs), v(row.dofs);
     const Eigen::VectorXcd q = y.head(row.unknowns);
-    const auto& force = full.model.forces.front();
+    const auto& force = full.model.excitation.front();
     const int last = row.dofs - 1;
     for (const int k : {model::frequency, full.model.masses.front().parameter,
                         full.model.masses[static_cast<std::size_t>(last)].parameter,

@@ -23,7 +23,7 @@ struct Chain {
   Chain() {
     const int tied = model.masses[0].parameter;
     model.dampers[1].parameter = model.springs[2].parameter = tied;
-    model.forces[0].cosine = model.forces[0].sine = tied;
+    model.excitation[0].cosine = model.excitation[0].sine = tied;
     p.resize(static_cast<Eigen::Index>(model.parameters.size()));
     for (std::size_t k = 0; k < model.parameters.size(); ++k)
       p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
@@ -34,7 +34,7 @@ struct Chain {
   }
   Eigen::VectorXcd force(int n, const Vector& at) const {
     Eigen::VectorXcd f = Eigen::VectorXcd::Zero(3);
-    for (const auto& force : model.forces)
+    for (const auto& force : model.excitation)
       if (force.harmonic == n) f += Complex(at[force.cosine], -at[force.sine]) * Vector(force.direction);
     return f;
   }

@@ -44,6 +44,7 @@ scene::Scene read(const json& file, bool other) {
     if (element["type"] == "series_slider") {
       element["tangent"] = element["stiffness"];
       element.erase("stiffness");
+      element.erase("offset");  // an option of the law's own
     }
   catalogue.elements = {&renamed};
   for (const auto* law : elements::laws())

@@ -295,8 +295,10 @@ void add_rest(std::vector<BadScene>& rows) {
                   "found an empty list, must be a list of at least one force"});
   rows.push_back({"harmonic below zero", good_scene_with("\"cosine\": 1", "\"harmonic\": -1"),
                   "/excitation/0/harmonic", "found -1, must be an integer from 0 to 2000"});
-  rows.push_back({"constant force alone", good_scene_with("\"cosine\": 1", "\"harmonic\": 0, \"cosine\": 1"),
-                  "/excitation", "found constant forces alone, must have a force of a harmonic above 0"});
+  rows.push_back(
+      {"constant force alone", good_scene_with("\"cosine\": 1", "\"harmonic\": 0, \"cosine\": 1"),
+       "/excitation",
+       "found constant forces alone, must have a force or a motion of the ground of a harmonic above 0"});
   rows.push_back({"sine of a constant force",
                   good_scene_with("\"cosine\": 1}",
                                   "\"cosine\": 1}, {\"name\": \"load\", \"at\": \"a\", "

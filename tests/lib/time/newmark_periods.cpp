@@ -46,7 +46,7 @@ TEST_CASE("the derivative of the map over a period is that of differences") {
     const PeriodMap above = changed(i, step), below = changed(i, -step);
     const Vector difference = (stacked(above.end) - stacked(below.end)) / (2 * step);
     CHECK((difference - map.monodromy.col(i)).cwiseAbs().maxCoeff() < 1e-7);
-    CHECK((above.resting[0].centre - below.resting[0].centre) / (2 * step) ==
+    CHECK((above.resting[0].offset - below.resting[0].offset) / (2 * step) ==
           Approx(map.resting[0].derivative[i]).margin(1e-7));
   }
 }
