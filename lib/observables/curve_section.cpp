@@ -84,7 +84,7 @@ class AmplitudeGradient {
   AmplitudeGradient(const hbm::HbmProblem& problem, std::shared_ptr<const std::optional<double>> instant)
       : instant_(std::move(instant)),
         harmonics_(problem.harmonics()),
-        condensed_(problem.coordinates().linear() > 0),
+        changes_(problem.coordinates().linear() > 0 || problem.model().absolute),
         amplitude_(harmonics_),
         x_(harmonics_.size()),
         a_(x_.size()) {}
@@ -98,7 +98,7 @@ class AmplitudeGradient {
   }
 
   double by_parameter(const hbm::HbmEvaluator& at, In u, int k) {
-    if (!condensed_) return 0;
+    if (!changes_) return 0;
     at.stiffness().response(u, at.force_factor(), x_);
     const Extreme extreme = at_extreme();
     at.stiffness().response_derivative(k, u, at.force_factor(), x_);
@@ -110,7 +110,7 @@ class AmplitudeGradient {
 
   std::shared_ptr<const std::optional<double>> instant_;
   elements::Harmonics harmonics_;
-  bool condensed_;  // otherwise the response is a combination of the unknowns
+  bool changes_;  // the response, with parameters, at fixed u
   Amplitude amplitude_;
   Vector x_, a_;
 };

@@ -292,3 +292,23 @@ TEST_CASE("motions of the ground are written as they are read, with the degrees 
                  "must be \"relative\" where the ground has a constant acceleration"));
   CHECK(contains(fault(displaced, R"({"at": "x", "frame": "moving"})"), "must be"));
 }
+
+TEST_CASE("the absolute peaks over the amplitude of the ground are those of its frequency responses") {
+  auto s = oscillator(
+      R"({"name": "base", "type": "base_displacement", "cosine": 0.3})", absolute,
+      R"({"name": "d", "type": "jenkins", "at": "x", "stiffness": 1.7, "friction_coefficient": 0.5, "normal_load": 0.6})");
+  const auto curves = observables::resonance_peaks(s, {"base.cosine", 0.3, 0.6, 0.5, 3});
+  REQUIRE(curves.size() == 1);
+  CHECK(curves[0].status == observables::Status::complete);
+  for (const double ground : {0.3, 0.6}) {
+    scene::set(s, "base.cosine", ground);
+    const auto branches = observables::frequency_response(s, {0.5, 3});
+    REQUIRE(branches.size() == 1);
+    REQUIRE(branches[0].events.size() == 1);
+    const auto& peak = branches[0].events[0].point;
+    const auto& end = ground == 0.3 ? curves[0].points.front() : curves[0].points.back();
+    CHECK(std::abs(end.over - ground) < 1e-12);
+    CHECK(std::abs(end.amplitude / peak.amplitude - 1) < 1e-10);
+    CHECK(std::abs(end.omega / peak.omega - 1) < 1e-7);
+  }
+}
