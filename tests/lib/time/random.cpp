@@ -37,7 +37,7 @@ double frequency(const scene::Scene& s, double part) {
 void check_contact(const time::EquationOfMotion& equation, const time::TimeHistory& history) {
   for (std::size_t e = 0; e < equation.elements.size(); ++e) {
     const double limit = systems::limit_of(equation.elements[e]), rounding = 1e-13 * limit;
-    const auto& [name, displacement, force, slider] = history.elements[e];
+    const std::vector<double>&force = history.elements[e].force, &slider = history.elements[e].slider;
     double worst = 0, moved_in_stick = 0;
     for (std::size_t i = 0; i < force.size(); ++i) {
       worst = std::max(worst, std::abs(force[i]));
