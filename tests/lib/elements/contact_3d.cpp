@@ -332,3 +332,24 @@ TEST_CASE("a frequency response with slip in a plane and separation is traced to
   CHECK(opened > 0);
   CHECK(stuck > 0);
 }
+
+TEST_CASE("the example of an orbiting pad has the amplitude and the stick of its motion in time") {
+  scene::Scene s = scenes::example("orbiting_pad");
+  // The table of its README, at 34 Hz.
+  const struct {
+    double lift, amplitude, stick;
+  } rows[] = {{0, 3.52170e-3, 12.551}, {15, 3.59921e-3, 11.006}};
+  for (const auto& row : rows) {
+    CAPTURE(row.lift);
+    scene::set(s, "lift.cosine", row.lift);
+    std::array<double, 2> stepped;
+    for (int i = 0; i < 2; ++i) {
+      const auto motion = observables::motion_in_time(
+          s, {.frequency = 34, .method = observables::TimeMethod::newmark_shooting, .steps = 1000 << i});
+      REQUIRE(motion.status == observables::Status::complete);
+      stepped[static_cast<std::size_t>(i)] = motion.amplitude;
+      CHECK(std::abs(motion.elements[0].stick_percent - row.stick) < 0.2);
+    }
+    CHECK(std::abs((4 * stepped[1] - stepped[0]) / 3 / row.amplitude - 1) < 3e-4);
+  }
+}
