@@ -307,9 +307,11 @@ class Contact3dElement final : public Element {
       radius_ = most > 0 ? Eigen::VectorXd(frictionless * size / most * normal_.load()) : radius_;
     }
     disc_.set(u.head(c_), u.segment(c_, c_), radius_);
-    rigid_ = !(mu > 0) && !(disc_.motion_bound(0) > 0);
+    const bool finite = std::isfinite(disc_.motion_bound(3)) && std::isfinite(disc_.radius_bound(3)) &&
+                        std::isfinite(disc_.largest());
+    rigid_ = !finite || (!(mu > 0) && !(disc_.motion_bound(0) > 0));
     differentiated_ = false;
-    F_.head(2 * c_).setZero();
+    F_.head(2 * c_).setConstant(finite ? 0 : std::numeric_limits<double>::quiet_NaN());
     if (!rigid_) {
       stretch_.move_to(disc_, normal_);
       if (mu > 0) F_.head(2 * c_) = k_t * stretch_.coefficients();

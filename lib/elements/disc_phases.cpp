@@ -3,9 +3,11 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace arcslip::elements {
 namespace {
@@ -20,6 +22,7 @@ constexpr double edge = 1e-12;         // of the radius: a slider that is so clo
 constexpr double least_step = 1e-10;   // rad
 constexpr double phase_per_panel = 4;  // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
+constexpr int most_steps = 10000;  // towards an onset
 constexpr int newton_steps = 40, passes = 200;
 
 Eigen::Vector2d direction(double psi) {
@@ -38,6 +41,36 @@ std::uint64_t mixed(std::uint64_t x) {
 std::uint64_t code(const DiscPhase& phase) {
   const auto from = phase.from == DiscPhase::Begin::start ? DiscPhase::Begin::slip_end : phase.from;
   return static_cast<std::uint64_t>(1 + static_cast<int>(phase.state) + 3 * static_cast<int>(from));
+}
+
+// A lower bound of the first positive root of a polynomial that begins with positive coefficients: the root
+// of the one without the positive coefficients behind a negative one, which has one root. At most `most`.
+double first_root(const std::array<double, 7>& c, double most) {
+  std::size_t changes = 0;
+  while (changes < c.size() && c[changes] >= 0) ++changes;
+  const auto at = [&](double s) {
+    double value = 0, slope = 0;
+    for (std::size_t k = c.size(); k-- > 0;) {
+      slope = slope * s + value;
+      value = value * s + (k < changes ? c[k] : std::min(c[k], 0.0));
+    }
+    return std::pair(value, slope);
+  };
+  double below = 0, above = most, s = most;
+  for (int i = 0; i < newton_steps; ++i) {
+    const auto [value, slope] = at(s);
+    if (value >= 0) {
+      below = s;
+      if (s == most) return most;
+    } else {
+      above = s;
+    }
+    const double newton = s - value / slope;
+    const double next = slope < 0 && newton > below && newton < above ? newton : 0.5 * (below + above);
+    if (std::abs(next - s) <= 1e-15 * s) break;
+    s = next;
+  }
+  return s;
 }
 
 }  // namespace
@@ -69,36 +102,45 @@ DiscPhases::State DiscPhases::at_rest(const Disc& disc, double theta, const Eige
   return {n.dot(at.v) > at.dh, edge, psi};
 }
 
-// The first angle at which |x - w| exceeds h. At the edge |x - w|^2 - h^2 has a double root, and decreases.
+// The first angle at which |x - w| exceeds h, by steps over which it cannot: h^2 - |x - w|^2 exceeds a
+// polynomial from the derivatives up to the second and bounds of the third.
 double DiscPhases::onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, double begin,
                          double end) const {
-  const double V = disc.motion_bound(1), A = disc.motion_bound(2), H1 = disc.radius_bound(1),
-               H2 = disc.radius_bound(2), h = disc.largest();
-  const double B = 2 * (V * V + h * A + H1 * H1 + h * H2);
-  if (!(V > 0) && !(H1 > 0)) return never;
+  if (!(disc.motion_bound(1) > 0) && !(disc.radius_bound(1) > 0)) return never;
+  const double r3 = -(disc.motion_bound(3) + disc.radius_bound(3)) / 6;
   double theta = begin;
-  if (at_edge) {
+  for (int i = 0; i < most_steps && theta < end; ++i) {
     const DiscPoint p = disc.at(theta);
-    const double G2 = 2 * (p.v.squaredNorm() + (p.x - w).dot(p.a) - p.dh * p.dh - p.h * p.ddh);
-    const double B3 = 2 * (3 * V * A + h * disc.motion_bound(3) + 3 * H1 * H2 + h * disc.radius_bound(3));
-    theta += std::max(G2 < 0 ? -1.5 * G2 / B3 : 0.0, least_step);
-  }
-  while (theta < end) {
-    const DiscPoint p = disc.at(theta);
-    const Eigen::Vector2d y = p.x - w;
-    const double d = y.norm(), slope = 2 * (y.dot(p.v) - p.h * p.dh);
-    const double G = (d - p.h) * (d + p.h);
-    if (G >= 0) return theta;
-    const double step = -2 * G / (slope + std::sqrt(slope * slope - 2 * B * G));
-    if (!(step > 1e-15 * turn_angle)) return theta;
-    theta += slope > 0 ? step : std::max(step, least_step);
+    const Eigen::Vector2d y = p.x - w, a = 0.5 * p.a;
+    const double d = y.norm(), r2 = 0.5 * p.ddh;
+    const bool edge_now = at_edge && i == 0;
+    std::array<double, 7> c = {(p.h - d) * (p.h + d),
+                               2 * (p.h * p.dh - y.dot(p.v)),
+                               p.dh * p.dh + 2 * p.h * r2 - p.v.squaredNorm() - 2 * y.dot(a),
+                               2 * (p.h * r3 + p.dh * r2 - p.v.dot(a)),
+                               r2 * r2 + 2 * p.dh * r3 - a.squaredNorm(),
+                               2 * r2 * r3,
+                               r3 * r3};
+    if (edge_now) {
+      c[0] = 0;
+      c[1] = std::max(c[1], 0.0);
+    } else if (c[0] <= 0) {
+      return theta;
+    }
+    const double step = first_root(c, end - theta);
+    if (edge_now)
+      theta += std::max(0.5 * step, least_step);
+    else if (c[1] < 0 && !(step > 1e-15 * turn_angle))
+      return theta;
+    else
+      theta += c[1] < 0 ? step : std::max(step, least_step);
   }
   return never;
 }
 
 // From the state at `begin` until slip ends, or to `end`. decay: of a change of psi.
 double DiscPhases::slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends) {
-  double theta = begin, length = longest_;
+  double theta = begin, length = longest_, least = shortest;
   ends = false;
   decay = 1;
   while (theta < end) {
@@ -110,16 +152,17 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
     // The tail falls like the power of the number of nodes.
     const double ratio = std::pow(std::max(tail, 1e-6 * tolerance_) / tolerance_, -1.0 / panel_nodes);
     const double next = std::clamp(0.9 * ratio, 0.3, 3.0) * (to - theta);
-    const bool last_resort = !good && (to - theta < shortest || panels_.size() > most_panels);
-    if (!good && !last_resort) {
+    const bool held = !good && (to - theta < least || panels_.size() > most_panels);
+    if (!good && !held) {
       length = std::min(next, 0.7 * (to - theta));
       continue;
     }
-    if (last_resort) {  // where not even the direction is resolved: that of the motion
-      for (int j = 0; j < panel_nodes; ++j)
-        if (!std::isfinite(panel.psi[j])) panel.psi.setConstant(state.psi);
+    if (held) {  // in the direction of the motion, for ever longer
+      const DiscPoint at = disc.at(theta);
+      collocation_.hold(disc, theta, to, at.v.norm() > 0 ? std::atan2(at.v[1], at.v[0]) : state.psi, panel);
+      least *= 10;
     }
-    if (panel.spare.minCoeff() < 0 && !last_resort) {
+    if (panel.spare.minCoeff() < 0 && !held) {
       int first = 0;
       while (panel.spare[first] >= 0) ++first;
       double below = first == 0 ? theta : panel.theta[first - 1], above = panel.theta[first];
@@ -163,7 +206,7 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
     theta = panel.end;
     state.psi = panel.to();
     if (ends) return theta;
-    length = std::min(next, longest_);
+    length = held ? longest_ : std::min(next, longest_);
   }
   return end;
 }

@@ -6,7 +6,7 @@
 //   open   the disc is the point x where N = 0, and w = x
 //
 // The onset of slip is where |x - w|^2 - h^2, a trigonometric polynomial, becomes positive: it is approached
-// in steps that a bound of its curvature allows, so that none is missed. Slip ends where x'.n = h'.
+// in steps that a bound of its third derivative allows, so that none is missed. Slip ends where x'.n = h'.
 //
 // Where the contact opens, the phases follow from its closing in one pass. Else the map of w over one period
 // is non-expansive. If a rest is possible (stick_centre.hpp) there is full stick, with the centred rest. If

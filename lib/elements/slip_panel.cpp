@@ -138,6 +138,23 @@ double SlipCollocation::solve(const Disc& disc, double begin, double end, double
   return (tail_ * values).cwiseAbs().sum() * panel.h.maxCoeff();
 }
 
+void SlipCollocation::hold(const Disc& disc, double begin, double end, double psi, SlipPanel& panel) const {
+  panel.begin = begin;
+  panel.end = end;
+  panel.from = psi;
+  panel.psi.setConstant(psi);
+  panel.rate.setZero();
+  const double c = std::cos(psi), sine = std::sin(psi);
+  for (int j = 0; j < s; ++j) {
+    panel.theta[j] = j == s - 1 ? end : begin + 0.5 * (end - begin) * (1 + nodes_[j]);
+    const DiscPoint at = disc.at(panel.theta[j]);
+    panel.h[j] = std::max(at.h, 0.0);
+    panel.along[j] = c * at.v[0] + sine * at.v[1];
+    panel.across[j] = c * at.v[1] - sine * at.v[0];
+    panel.spare[j] = panel.along[j] - at.dh;
+  }
+}
+
 SlipPanel::Square SlipCollocation::matrix(const SlipPanel& panel) const {
   SlipPanel::Square m = (2 / panel.length() * panel.h).asDiagonal() * derivative_;
   m.diagonal() += panel.along;

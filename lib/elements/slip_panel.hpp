@@ -43,6 +43,9 @@ class SlipCollocation {
   double solve(const Disc& disc, double begin, double end, double from, double tolerance,
                SlipPanel& panel) const;
 
+  /// The panel with a constant psi, where no length resolves it.
+  void hold(const Disc& disc, double begin, double end, double psi, SlipPanel& panel) const;
+
   /// The matrix of the equation's derivative by psi at the nodes, and its column by psi at the beginning.
   SlipPanel::Square matrix(const SlipPanel& panel) const;
   SlipPanel::Nodes column(const SlipPanel& panel) const;

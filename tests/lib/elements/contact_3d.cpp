@@ -292,6 +292,25 @@ TEST_CASE("a contact in a plane stays finite and dissipates at every extreme") {
           }
 }
 
+TEST_CASE("motions that are almost straight or far beyond the disc end, and overflow is told") {
+  const elements::Harmonics h{4, false};
+  const Eigen::Index c = h.size();
+  for (const double size : {1.0, 1e3, 1e6, 1e9, 1e12})
+    for (const double across : {1e-15, 1e-9, 1e-6, 1e-3}) {
+      CAPTURE(size, across);
+      Vector u = random_motion(h, size, 1, 7);
+      u.segment(c, c) = 0.4 * u.head(c) + across * u.segment(c, c);
+      const Force at = evaluate(elements::contact_3d(), h, u, {1, 0, 0.3, 2});
+      CHECK(at.F.allFinite());
+      CHECK(at.J.allFinite());
+      // A slider that slips almost always, with the friction mu N = 0.6 against the motion.
+      if (size >= 1e6) CHECK(at.F.head(c).norm() < 2 * 0.6);
+    }
+  const Force overflow =
+      evaluate(elements::contact_3d(), h, random_motion(h, 1e300, 1e300, 7), {1, 1, 0.3, 2});
+  CHECK_FALSE(overflow.F.allFinite());
+}
+
 TEST_CASE("the error of harmonic balance with slip in a plane falls as the third power of the order") {
   for (const double f : {8.0, 25.0}) {
     CAPTURE(f);
