@@ -14,6 +14,8 @@ function(arcslip_compile_options target)
     target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined;-fno-sanitize=null,alignment>
       $<BUILD_INTERFACE:-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
     target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+    # What is read before it is set is NaN.
+    target_compile_definitions(${target} PUBLIC $<BUILD_INTERFACE:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
   endif()
 endfunction()
 

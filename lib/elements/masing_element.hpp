@@ -59,7 +59,8 @@ class MasingElement : public Element {
   };
   /// exp(i k t) - 1 or integrals of exp(i k t), k = 0 .. 2N.
   struct Powers {
-    explicit Powers(int order) : re(2 * order + 1), im(2 * order + 1) {}
+    explicit Powers(int order)
+        : re(Eigen::ArrayXd::Zero(2 * order + 1)), im(Eigen::ArrayXd::Zero(2 * order + 1)) {}
     void clear() { re.setZero(), im.setZero(); }
     Eigen::ArrayXd re, im;
   };
