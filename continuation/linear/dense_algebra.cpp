@@ -189,6 +189,14 @@ Vector symmetric_eigenvalues(const Matrix& A) {
   return of.info() == Eigen::Success ? of.eigenvalues() : Vector();
 }
 
+SymmetricModes symmetric_modes(const Matrix& A, const Matrix& B) {
+  const Eigen::LLT<Matrix> factors(B);
+  if (factors.info() != Eigen::Success) return {};
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> of(A, B);
+  if (of.info() != Eigen::Success) return {};
+  return {of.eigenvalues(), of.eigenvectors()};
+}
+
 Vector symmetric_eigenvalues(const Matrix& A, const Matrix& B) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> of(A, B, Eigen::EigenvaluesOnly);
   return of.info() == Eigen::Success ? of.eigenvalues() : Vector();

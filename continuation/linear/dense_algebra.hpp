@@ -110,6 +110,8 @@ struct SymmetricModes {
 };
 SymmetricModes symmetric_modes(const Matrix& A);
 Vector symmetric_eigenvalues(const Matrix& A);
+/// A V = B V diag(values), V^T B V = 1, of a symmetric A and a positive definite B.
+SymmetricModes symmetric_modes(const Matrix& A, const Matrix& B);
 /// Eigenvalues mu of A v = mu B v in increasing order, B positive definite.
 Vector symmetric_eigenvalues(const Matrix& A, const Matrix& B);
 

@@ -2,15 +2,21 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace arcslip::hbm {
 namespace {
 
-constexpr double pole = 1e-14;    // pivot of Z_ll, relative to the largest entry of its column
+constexpr double pole = 1e-14;        // pivot of Z_ll, relative to the largest entry of its column
+constexpr double modal_pole = 1e-14;  // D, relative to the sum of its terms
 constexpr Eigen::Index few = 16;  // unknowns, up to which blocks of a factorization cost more than they save
 constexpr double sparse_share = 0.1;  // of the multiplications of dense factors, each of which costs less
 
 using Sparse = continuation::ComplexSparseLU::Matrix;
+
+Complex product(Complex a, Complex b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
 
 // a - b c, without the tests for infinity of operator*.
 Complex less_product(Complex a, Complex b, Complex c) {
@@ -68,6 +74,93 @@ Complex Condensed::observed_change(const ComplexVector& v) const {
   Complex sum = 0;
   for (Eigen::Index k = 0; k < W.rows(); ++k) sum -= W(k, r + 1) * v[r + k];
   return sum;
+}
+
+ModalCondensation::ModalCondensation(const FixedInterfaceModes& modes, const Eigen::VectorXd& observed)
+    : r_(modes.K.qq.rows()),
+      l_(modes.K.ll.size()),
+      c_(observed.tail(l_)),
+      inverse_(l_),
+      Zlq_(l_, r_),
+      U_(l_, most_changes),
+      inverse_U_(l_, most_changes),
+      H_(r_, most_changes),
+      equations_(most_changes, most_changes),
+      forces_(most_changes, r_ + 2) {}
+
+bool ModalCondensation::condense(const LinearParts& parts, double s, const ComplexVector& f,
+                                 Condensed& into) {
+  const auto& [M, C, K] = std::tie(parts.modes()->M, parts.modes()->C, parts.modes()->K);
+  const double square = s * s;
+  for (Eigen::Index j = 0; j < l_; ++j) {
+    const double re = K.ll[j] - square * M.ll[j], im = s * C.ll[j], size = re * re + im * im;
+    const double least = modal_pole * (K.ll[j] + square * M.ll[j]);
+    if (!(size > least * least)) return false;
+    inverse_[j] = {re / size, -im / size};
+  }
+  into.Z.resize(r_, r_);
+  into.W.resize(l_, r_ + 2);
+  into.f = f.head(r_);
+  for (Eigen::Index i = 0; i < r_; ++i) {
+    for (Eigen::Index k = 0; k < r_; ++k) into.Z(k, i) = {K.qq(k, i) - square * M.qq(k, i), s * C.qq(k, i)};
+    for (Eigen::Index j = 0; j < l_; ++j) {
+      Zlq_(j, i) = {K.lq(j, i) - square * M.lq(j, i), s * C.lq(j, i)};
+      into.W(j, i) = product(Zlq_(j, i), inverse_[j]);
+    }
+  }
+  for (Eigen::Index j = 0; j < l_; ++j) {
+    into.W(j, r_) = product(inverse_[j], f[r_ + j]);
+    into.W(j, r_ + 1) = inverse_[j] * c_[j];
+  }
+  for (Eigen::Index i = 0; i < r_; ++i) {
+    for (Eigen::Index k = 0; k <= i; ++k) {
+      Complex sum = into.Z(k, i);
+      for (Eigen::Index j = 0; j < l_; ++j) sum = less_product(sum, Zlq_(j, k), into.W(j, i));
+      into.Z(k, i) = into.Z(i, k) = sum;
+    }
+    for (Eigen::Index j = 0; j < l_; ++j) into.f[i] = less_product(into.f[i], Zlq_(j, i), into.W(j, r_));
+  }
+  return parts.changes().empty() || add_changes(parts, s, f, into);
+}
+
+// With the forces t = v (d . y) in the changed parts, v = by g(s), as further unknowns, Z' of the modes alone
+// and H = d_q - Z'_ql D^-1 d_l:
+//
+//   l = D^-1 (f_l - Z'_lq q - d_l t),   (1 + v d_l^T D^-1 d_l) t = v (H^T q + d_l^T D^-1 f_l)
+bool ModalCondensation::add_changes(const LinearParts& parts, double s, const ComplexVector& f,
+                                    Condensed& into) {
+  const auto& changes = parts.changes();
+  const auto k = static_cast<Eigen::Index>(changes.size());
+  auto U = U_.leftCols(k);
+  auto inverse_U = inverse_U_.leftCols(k);
+  auto H = H_.leftCols(k);
+  U.setZero();
+  H.setZero();
+  for (Eigen::Index i = 0; i < k; ++i)
+    for (const auto& [at, d] : changes[static_cast<std::size_t>(i)].part->direction.entries())
+      if (at < r_)
+        H(at, i) = d;
+      else
+        U(at - r_, i) = d;
+  inverse_U.noalias() = inverse_.asDiagonal() * U;
+  H.noalias() -= Zlq_.transpose() * inverse_U;
+  ComplexMatrix A = U.transpose() * inverse_U, T(k, r_ + 2);
+  T.leftCols(r_) = H.transpose();
+  T.col(r_).noalias() = inverse_U.transpose() * f.tail(l_);
+  T.col(r_ + 1).noalias() = inverse_U.transpose() * c_;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const ChangedPart& change = changes[static_cast<std::size_t>(i)];
+    const Complex v = change.by * stiffness_factor(change.part->kind, s);
+    A.row(i) *= v;
+    A(i, i) += 1;
+    T.row(i) *= v;
+  }
+  if (!eliminate(A, T)) return false;
+  into.Z.noalias() += H * T.leftCols(r_);
+  into.f.noalias() -= H * T.col(r_);
+  into.W.leftCols(r_).noalias() += inverse_U * T.leftCols(r_);
+  into.W.rightCols(2).noalias() -= inverse_U * T.rightCols(2);
+  return true;
 }
 
 Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::VectorXd& observed)

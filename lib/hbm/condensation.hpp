@@ -29,6 +29,27 @@ struct Condensed {
   Complex observed_change(const ComplexVector& v) const;
 };
 
+/// The same with fixed-interface modes as linear coordinates (fixed_interface.hpp). Mutable, one for each
+/// evaluator.
+class ModalCondensation {
+ public:
+  explicit ModalCondensation(const FixedInterfaceModes& modes, const Eigen::VectorXd& observed);
+
+  /// At the place of parts, which has modes. False where Z_ll is singular to rounding.
+  bool condense(const LinearParts& parts, double s, const ComplexVector& f, Condensed& into);
+
+ private:
+  bool add_changes(const LinearParts& parts, double s, const ComplexVector& f, Condensed& into);
+
+  const Eigen::Index r_, l_;
+  Eigen::VectorXd c_;
+  ComplexVector inverse_;  // of D
+  ComplexMatrix Zlq_;
+  // Of the changes: d_l, D^-1 d_l, the forces in them.
+  Eigen::MatrixXd U_;
+  ComplexMatrix inverse_U_, H_, equations_, forces_;
+};
+
 /// Mutable, one for each evaluator. Z_ll^-1 is by what costs least for its size and for how few coordinates
 /// each part links: plain elimination, LU of a dense or of a sparse matrix.
 class Condensation {

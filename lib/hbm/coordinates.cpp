@@ -81,7 +81,7 @@ Directions stiff_between_elements(const Directions& stiff, const Independent& el
 
 }  // namespace
 
-Coordinates coordinates(const model::Model& model) {
+Coordinates coordinates(const model::Model& model, double frequency) {
   Directions directions;
   for (const auto& element : model.elements)
     directions.insert(directions.end(), element.directions.begin(), element.directions.end());
@@ -103,6 +103,8 @@ Coordinates coordinates(const model::Model& model) {
   c.P.leftCols(B.cols()) =
       B * continuation::solve(B.transpose() * B, Eigen::MatrixXd::Identity(B.cols(), B.cols()));
   if (B.cols() < model.dofs) c.P.rightCols(model.dofs - B.cols()) = continuation::orthogonal_complement(B);
+  if (frequency > 0 && stiff.empty()) c.modes = fixed_interface_modes(model, c.P, c.unknowns, frequency);
+  if (c.modes) c.P.rightCols(c.linear()) *= c.modes->of_linear;
   return c;
 }
 

@@ -9,18 +9,22 @@
 // all its digits, and the large stiffness appears in its row and column only, instead of cancelling in those
 // of both ends: in k (x_a - x_b)^2 with k = 1e20, softer springs are lost in double precision.
 
-#include <arcslip/model/model.hpp>
+#include <arcslip/hbm/fixed_interface.hpp>
+
+#include <memory>
 
 namespace arcslip::hbm {
 
 struct Coordinates {
-  int unknowns = 0;   // r >= 1
-  Eigen::MatrixXd P;  // dofs x dofs
+  int unknowns = 0;                                    // r >= 1
+  Eigen::MatrixXd P;                                   // dofs x dofs
+  std::shared_ptr<const FixedInterfaceModes> modes{};  // not null: they are the linear coordinates
 
   int linear() const { return static_cast<int>(P.cols()) - unknowns; }
 };
 
 /// Without elements in the model, the response takes their place. Parts have their default stiffness.
-Coordinates coordinates(const model::Model& model);
+/// frequency: typical, rad/s; 0: linear coordinates are no modes.
+Coordinates coordinates(const model::Model& model, double frequency = 0);
 
 }  // namespace arcslip::hbm

@@ -12,11 +12,12 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       size_(harmonics.size()),
       response_(coordinates.P.transpose() * model.response),
       ground_(model.dofs),
-      parts_(model, coordinates.P, harmonics),
+      parts_(model, coordinates.P, harmonics, coordinates.modes),
       condensation_(parts_.parts(), r_, response_),
       last_p_(Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""))),
       y_(r_ + l_),
       v_(r_ + l_) {
+  if (coordinates.modes) modal_.emplace(*coordinates.modes, response_);
   if (model.absolute) ground_ = model.response.sparseView();
   for (int h = 0; h < harmonics.cosines(); ++h) {
     const int n = harmonics.cosine_order(h);
@@ -30,7 +31,9 @@ bool DynamicStiffness::move_to(In p) {
   parts_.move_to(p);
   for (Harmonic& at : harmonics_) {
     parts_.force(at.order, v_);
-    if (!condensation_.condense(parts_.matrices(), at.order * base_frequency(), v_, at.condensed))
+    const double s = at.order * base_frequency();
+    if (!(parts_.modes() ? modal_->condense(parts_, s, v_, at.condensed)
+                         : condensation_.condense(parts_.matrices(), s, v_, at.condensed)))
       return false;
   }
   last_p_ = p.head(last_p_.size());

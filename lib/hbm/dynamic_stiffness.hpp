@@ -74,6 +74,7 @@ class DynamicStiffness {
   model::Direction ground_;  // along which the displacement of the ground belongs to the response
   LinearParts parts_;
   Condensation condensation_;
+  std::optional<ModalCondensation> modal_;
   std::vector<Harmonic> harmonics_;
   Vector last_p_;
   mutable ComplexVector y_, v_;  // a full motion, a residual of the full equation; q comes first in both

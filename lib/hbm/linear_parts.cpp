@@ -10,11 +10,6 @@ using Kind = PartInY::Kind;
 
 constexpr double rounding = 1e-13;  // of a direction in y, relative to its largest entry
 
-// g(s) and dg/ds.
-Complex factor(Kind kind, double s) {
-  if (kind == Kind::mass) return -s * s;
-  return kind == Kind::damper ? Complex(0, s) : 1;
-}
 Complex factor_rate(Kind kind, double s) {
   if (kind == Kind::mass) return -2 * s;
   return kind == Kind::damper ? Complex(0, 1) : 0;
@@ -36,8 +31,10 @@ DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_
 }
 
 LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
-                         const elements::Harmonics& harmonics)
-    : period_(harmonics.period) {
+                         const elements::Harmonics& harmonics,
+                         std::shared_ptr<const FixedInterfaceModes> modes)
+    : period_(harmonics.period), size_(P.cols()), modes_(std::move(modes)) {
+  changes_.reserve(most_changes + 1);
   const auto add = [&](Kind kind, const std::vector<model::LinearPart>& parts) {
     for (const model::LinearPart& part : parts)
       parts_.push_back({kind, part.parameter, {P, part.direction}, std::nan("")});
@@ -54,7 +51,13 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
     }
     forces_.push_back(std::move(force));
   }
-  for (Eigen::MatrixXd* sum : {&matrices_.M, &matrices_.C, &matrices_.K}) sum->setZero(P.cols(), P.cols());
+  if (modes_) return;
+  for (Eigen::MatrixXd* sum : {&matrices_.M, &matrices_.C, &matrices_.K}) sum->setZero(size_, size_);
+}
+
+double LinearParts::modal_value(const PartInY& part) const {
+  const bool known = part.parameter < modes_->p.size() && (part.kind != Kind::damper || modes_->damped);
+  return known ? modes_->p[part.parameter] : 0;
 }
 
 void LinearParts::move_to(In p) {
@@ -67,12 +70,24 @@ void LinearParts::move_to(In p) {
     same = same && part.value == p[part.parameter];
     part.value = p[part.parameter];
   }
-  if (same) return;
+  if (!same) set_values();
+}
+
+void LinearParts::set_values() {
+  changes_.clear();
+  modal_ = modes_ != nullptr;
+  for (const PartInY& part : parts_) {
+    if (!modal_) break;
+    const double by = part.value - modal_value(part);
+    if (by != 0) changes_.push_back({&part, by});
+    modal_ = changes_.size() <= most_changes;
+  }
+  if (modal_) return;
   const auto matrix_of = [&](Kind kind) -> Eigen::MatrixXd& {
     if (kind == Kind::mass) return matrices_.M;
     return kind == Kind::damper ? matrices_.C : matrices_.K;
   };
-  for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring}) matrix_of(kind).setZero();
+  for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring}) matrix_of(kind).setZero(size_, size_);
   for (const PartInY& part : parts_) {
     Eigen::MatrixXd& sum = matrix_of(part.kind);
     for (const auto& [j, at_j] : part.direction.entries())
@@ -122,12 +137,22 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
                                 ComplexVector& v) const {
   const double s = n * base_frequency_;
   v.setZero();
-  for (const PartInY& part : parts_) {
-    Complex rate = 0;  // of value * g
-    if (k == model::frequency)
-      rate = static_cast<double>(n) * factor_rate(part.kind, s) / static_cast<double>(period_) * part.value;
-    if (k == part.parameter) rate += factor(part.kind, s);
+  const auto by_frequency = [&](Kind kind) {
+    return static_cast<double>(n) * factor_rate(kind, s) / static_cast<double>(period_);
+  };
+  const auto add_part = [&](const PartInY& part, Complex rate) {  // of value * g
     if (rate != 0.0) part.direction.add(rate * part.direction.along(y), v);
+  };
+  if (k != model::frequency) {
+    for (const PartInY& part : parts_)
+      if (part.parameter == k) add_part(part, stiffness_factor(part.kind, s));
+  } else if (modal_) {
+    modes_->M.add_product(by_frequency(Kind::mass), y, v);
+    modes_->C.add_product(by_frequency(Kind::damper), y, v);
+    for (const ChangedPart& change : changes_)
+      add_part(*change.part, by_frequency(change.part->kind) * change.by);
+  } else {
+    for (const PartInY& part : parts_) add_part(part, by_frequency(part.kind) * part.value);
   }
   const double w = p_[model::frequency];
   for (const ForceInY& force : forces_) {
@@ -142,8 +167,15 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
 
 double LinearParts::quadratic_form(Kind kind, const ComplexVector& y) const {
   double sum = 0;
-  for (const PartInY& part : parts_)
-    if (part.kind == kind) sum += part.value * std::norm(part.direction.along(y));
+  if (!modal_) {
+    for (const PartInY& part : parts_)
+      if (part.kind == kind) sum += part.value * std::norm(part.direction.along(y));
+    return sum;
+  }
+  const ModalMatrix& whole = kind == Kind::mass ? modes_->M : kind == Kind::damper ? modes_->C : modes_->K;
+  sum = whole.form(y);
+  for (const ChangedPart& change : changes_)
+    if (change.part->kind == kind) sum += change.by * std::norm(change.part->direction.along(y));
   return sum;
 }
 

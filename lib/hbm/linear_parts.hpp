@@ -8,9 +8,10 @@
 // adds (cosine - i sine) d to the f of its harmonic. Most of d is zero. So do the forces of a moving ground
 // (model::Excitation), one for each mass.
 
-#include <arcslip/model/model.hpp>
+#include <arcslip/hbm/fixed_interface.hpp>
 
 #include <complex>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,12 @@ struct PartInY {
   double value;  // at the last place
 };
 
+/// g(s) = -s^2, i s, 1.
+inline Complex stiffness_factor(PartInY::Kind kind, double s) {
+  if (kind == PartInY::Kind::mass) return -s * s;
+  return kind == PartInY::Kind::damper ? Complex(0, s) : 1;
+}
+
 /// M, C, K in y, symmetric.
 struct StructuralMatrices {
   Eigen::MatrixXd M, C, K;
@@ -68,14 +75,25 @@ struct QuadraticForms {
   Complex force;                                // x^H f
 };
 
+/// A part beside the modes: its value less the one that they have.
+struct ChangedPart {
+  const PartInY* part;
+  double by;
+};
+
 /// Mutable, one for each evaluator. Values, frequency and forces are those of the last place.
 class LinearParts {
  public:
-  LinearParts(const model::Model& model, const Eigen::MatrixXd& P, const elements::Harmonics& harmonics);
+  /// modes: those in the linear coordinates of P, if they are that.
+  LinearParts(const model::Model& model, const Eigen::MatrixXd& P, const elements::Harmonics& harmonics,
+              std::shared_ptr<const FixedInterfaceModes> modes = {});
 
   void move_to(In p);
   double base_frequency() const { return base_frequency_; }  // rad/s
   const std::vector<PartInY>& parts() const { return parts_; }
+  /// Null where too many parts have other values than the modes; then matrices() are those of the place.
+  const FixedInterfaceModes* modes() const { return modal_ ? modes_.get() : nullptr; }
+  const std::vector<ChangedPart>& changes() const { return changes_; }
   const StructuralMatrices& matrices() const { return matrices_; }
   /// f of harmonic n.
   void force(int n, ComplexVector& f) const;
@@ -108,9 +126,15 @@ class LinearParts {
     Complex given;  // the amplitude as the scene gives it
   };
   double value(const ForceInY::Term& term) const { return term.mass < 0 ? 1 : p_[term.mass]; }
+  void set_values();
+  double modal_value(const PartInY& part) const;
   void add(const ForceInY& force, Complex amplitude, ComplexVector& f) const;
 
   int period_;
+  Eigen::Index size_;
+  std::shared_ptr<const FixedInterfaceModes> modes_;
+  bool modal_ = false;
+  std::vector<ChangedPart> changes_;
   std::vector<PartInY> parts_;
   std::vector<ForceInY> forces_;
   StructuralMatrices matrices_;

@@ -119,13 +119,20 @@ HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonic
     : model_(std::move(model)),
       harmonics_(harmonics),
       sampling_(sampling),
-      coordinates_(hbm::coordinates(*model_)),
+      coordinates_(hbm::coordinates(*model_, frequency)),
       blocks_(coordinates_.unknowns),
       parameters_(model_->parameters),
       displacement_(displacement) {
   parameters_[model::frequency].scale = frequency;
   parameters_.push_back({"excitation_factor", "-", 1, 1, 0, 1e300});
   for (const auto& element : model_->elements) blocks_ += element.law->auxiliary();
+}
+
+HbmProblem::HbmProblem(const HbmProblem& other, const Harmonics& harmonics,
+                       const elements::Sampling& sampling)
+    : HbmProblem(other) {
+  harmonics_ = harmonics;
+  sampling_ = sampling;
 }
 
 Vector HbmProblem::scales() const {

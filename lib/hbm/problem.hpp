@@ -71,6 +71,8 @@ class HbmProblem final : public continuation::Problem {
   /// With a sampling of the elements other than in the model's settings.
   HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
              double frequency, const elements::Sampling& sampling);
+  /// The same with other harmonics and another sampling, and with the same coordinates.
+  HbmProblem(const HbmProblem& other, const Harmonics& harmonics, const elements::Sampling& sampling);
 
   int size() const override { return blocks() * harmonics_.size(); }
   std::span<const continuation::Parameter> parameters() const override { return parameters_; }

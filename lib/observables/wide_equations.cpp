@@ -13,7 +13,7 @@ WideEquations::WideEquations(const hbm::HbmProblem& problem, const elements::Har
     : narrow_(problem),
       kept_(problem.harmonics()),
       wide_(wide),
-      problem_(problem.shared_model(), wide_, 1, 1, {.exact = true}),
+      problem_(problem, wide_, {.exact = true}),
       evaluator_(problem_.hbm_evaluator()),
       u_(problem_.size()),
       F_q_(u_.size()),

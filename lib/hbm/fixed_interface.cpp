@@ -1,0 +1,96 @@
+#include <arcslip/hbm/fixed_interface.hpp>
+
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::hbm {
+namespace {
+
+constexpr Eigen::Index few = 12, many = 500;  // linear coordinates
+constexpr double proportional = 1e-12;        // entries of C beside its diagonal
+
+// In (q, l).
+struct Blocks {
+  Eigen::MatrixXd qq, lq, ll;
+};
+Blocks blocks(const Eigen::MatrixXd& A, const Eigen::MatrixXd& P, Eigen::Index r) {
+  const Eigen::MatrixXd AP = A.sparseView() * P;
+  const auto Pq = P.leftCols(r), Pl = P.rightCols(P.cols() - r);
+  Blocks in_y{Pq.transpose() * AP.leftCols(r), Pl.transpose() * AP.leftCols(r),
+              Pl.transpose() * AP.rightCols(P.cols() - r)};
+  in_y.ll = 0.5 * (in_y.ll + in_y.ll.transpose()).eval();
+  return in_y;
+}
+
+}  // namespace
+
+void ModalMatrix::add_product(std::complex<double> factor, const Eigen::VectorXcd& y,
+                              Eigen::VectorXcd& v) const {
+  const Eigen::Index r = qq.rows(), l = ll.size();
+  for (Eigen::Index i = 0; i < r; ++i) {
+    std::complex<double> sum = 0;
+    for (Eigen::Index k = 0; k < r; ++k) sum += qq(i, k) * y[k];
+    for (Eigen::Index j = 0; j < l; ++j) sum += lq(j, i) * y[r + j];
+    v[i] += factor * sum;
+  }
+  for (Eigen::Index j = 0; j < l; ++j) {
+    std::complex<double> sum = ll[j] * y[r + j];
+    for (Eigen::Index k = 0; k < r; ++k) sum += lq(j, k) * y[k];
+    v[r + j] += factor * sum;
+  }
+}
+
+double ModalMatrix::form(const Eigen::VectorXcd& y) const {
+  const Eigen::Index r = qq.rows(), l = ll.size();
+  double sum = 0;
+  for (Eigen::Index j = 0; j < l; ++j) {
+    sum += ll[j] * std::norm(y[r + j]);
+    for (Eigen::Index k = 0; k < r; ++k) sum += 2 * lq(j, k) * std::real(std::conj(y[r + j]) * y[k]);
+  }
+  for (Eigen::Index k = 0; k < r; ++k)
+    for (Eigen::Index i = 0; i < r; ++i) sum += qq(i, k) * std::real(std::conj(y[i]) * y[k]);
+  return sum;
+}
+
+// With B = K + s^2 M definite, which it is for floating and for massless coordinates as well: M v = mu B v,
+// and in its modes M is mu and K is 1 - s^2 mu.
+std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Model& model,
+                                                                 const Eigen::MatrixXd& P, int unknowns,
+                                                                 double frequency) {
+  const Eigen::Index r = unknowns, l = P.cols() - r;
+  if (l <= few || l > many) return {};
+  auto modes = std::make_shared<FixedInterfaceModes>();
+  modes->p = model::defaults(model);
+  const auto& p = modes->p;
+  const auto negative = [&](const model::LinearPart& part) { return !(p[part.parameter] >= 0); };
+  for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
+    if (std::any_of(parts->begin(), parts->end(), negative)) return {};
+  const auto in_y = [&](const std::vector<model::LinearPart>& parts) {
+    return blocks(model::assemble(parts, p, model.dofs), P, r);
+  };
+  const Blocks M = in_y(model.masses), C = in_y(model.dampers), K = in_y(model.springs);
+  const double shift = frequency * frequency;
+  const auto [mu, V] = continuation::symmetric_modes(M.ll, K.ll + shift * M.ll);
+  if (mu.size() == 0 || !mu.allFinite() || !V.allFinite()) return {};
+  modes->M = {M.qq, V.transpose() * M.lq, mu.cwiseMax(0.0)};
+  modes->K = {K.qq, V.transpose() * K.lq, Eigen::VectorXd((1 - shift * modes->M.ll.array()).cwiseMax(0.0))};
+  modes->C = {C.qq, V.transpose() * C.lq, {}};
+  Eigen::MatrixXd damping = V.transpose() * C.ll * V;
+  modes->C.ll = damping.diagonal();
+  damping.diagonal().setZero();
+  modes->damped = damping.cwiseAbs().maxCoeff() <= proportional * modes->C.ll.cwiseAbs().maxCoeff();
+  if (!modes->damped) {
+    const auto dampers = std::count_if(model.dampers.begin(), model.dampers.end(),
+                                       [&](const auto& part) { return p[part.parameter] > 0; });
+    if (dampers > most_changes) return {};
+    modes->C.qq.setZero();
+    modes->C.lq.setZero();
+    modes->C.ll.setZero();
+  }
+  modes->of_linear = V;
+  return modes;
+}
+
+}  // namespace arcslip::hbm

@@ -1,0 +1,47 @@
+#pragma once
+// Fixed-interface modes: the linear coordinates l of y = (q, l) (coordinates.hpp) as modes of the structure
+// with the unknowns q held. At the values of the parameters for which they are made, the blocks ll of M, K
+// and, where damping is proportional, C are diagonal:
+//
+//   Z_qq - Z_ql Z_ll^-1 Z_lq = Z_qq - sum_j z_j z_j^T/D_j,   D_j = K_jj - s^2 M_jj + i s C_jj
+//
+// so that a harmonic costs O(l r^2) instead of a factorization. Parts with other values, and dampers that are
+// not proportional, are changes of low rank, value * g(s) d d^T each.
+
+#include <arcslip/model/model.hpp>
+
+#include <complex>
+#include <memory>
+
+namespace arcslip::hbm {
+
+/// A symmetric matrix in y whose block ll is diagonal.
+struct ModalMatrix {
+  Eigen::MatrixXd qq, lq;
+  Eigen::VectorXd ll;
+
+  /// v += factor (this y)
+  void add_product(std::complex<double> factor, const Eigen::VectorXcd& y, Eigen::VectorXcd& v) const;
+  /// y^H this y
+  double form(const Eigen::VectorXcd& y) const;
+};
+
+struct FixedInterfaceModes {
+  ModalMatrix M, C, K;
+  continuation::Vector p;     // the parameters of the model for which these hold
+  bool damped = false;        // C holds all dampers; else none
+  Eigen::MatrixXd of_linear;  // l x l: the modes in the linear coordinates that were given
+};
+
+/// Parts that may differ from the modes' values, or dampers outside of C, before a factorization costs less.
+inline constexpr int most_changes = 16;
+
+/// The modes of the model's structure at its default values. P: x = P y; frequency: rad/s, about which they
+/// are most accurate. Null where there are too few linear coordinates to gain from it, or too many, where
+/// masses and springs are not both positive semidefinite, or where more than `most_changes` dampers are not
+/// proportional.
+std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Model& model,
+                                                                 const Eigen::MatrixXd& P, int unknowns,
+                                                                 double frequency);
+
+}  // namespace arcslip::hbm
