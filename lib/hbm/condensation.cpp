@@ -144,7 +144,9 @@ bool ModalCondensation::add_changes(const LinearParts& parts, double s, const Co
         U(at - r_, i) = d;
   inverse_U.noalias() = inverse_.asDiagonal() * U;
   H.noalias() -= Zlq_.transpose() * inverse_U;
-  ComplexMatrix A = U.transpose() * inverse_U, T(k, r_ + 2);
+  ComplexMatrix &A = equations_, &T = forces_;
+  A.noalias() = U.transpose() * inverse_U;
+  T.resize(k, r_ + 2);
   T.leftCols(r_) = H.transpose();
   T.col(r_).noalias() = inverse_U.transpose() * f.tail(l_);
   T.col(r_ + 1).noalias() = inverse_U.transpose() * c_;

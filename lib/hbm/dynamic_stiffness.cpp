@@ -13,7 +13,6 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       response_(coordinates.P.transpose() * model.response),
       ground_(model.dofs),
       parts_(model, coordinates.P, harmonics, coordinates.modes),
-      condensation_(parts_.parts(), r_, response_),
       last_p_(Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""))),
       y_(r_ + l_),
       v_(r_ + l_) {
@@ -31,13 +30,18 @@ bool DynamicStiffness::move_to(In p) {
   parts_.move_to(p);
   for (Harmonic& at : harmonics_) {
     parts_.force(at.order, v_);
-    const double s = at.order * base_frequency();
-    if (!(parts_.modes() ? modal_->condense(parts_, s, v_, at.condensed)
-                         : condensation_.condense(parts_.matrices(), s, v_, at.condensed)))
-      return false;
+    if (!condense(at)) return false;
   }
   last_p_ = p.head(last_p_.size());
   return true;
+}
+
+// With its force in v_.
+bool DynamicStiffness::condense(Harmonic& at) {
+  const double s = at.order * base_frequency();
+  if (parts_.modes()) return modal_->condense(parts_, s, v_, at.condensed);
+  if (!direct_) direct_.emplace(parts_.parts(), r_, response_);
+  return direct_->condense(parts_.matrices(), s, v_, at.condensed);
 }
 
 void DynamicStiffness::gather(const In& u, const Harmonic& at) const {

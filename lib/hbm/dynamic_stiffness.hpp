@@ -65,6 +65,7 @@ class DynamicStiffness {
   void gather(const In& u, const Harmonic& at) const;
   void expand(const In& u, const Harmonic& at, double force_factor) const;
   void differentiate(int k, const In& u, const Harmonic& at, double force_factor) const;
+  bool condense(Harmonic& at);
   void scatter(const ComplexVector& q, const Harmonic& at, Out& x) const;
 
   const int r_, l_;
@@ -73,8 +74,8 @@ class DynamicStiffness {
   Vector response_;          // direction in y
   model::Direction ground_;  // along which the displacement of the ground belongs to the response
   LinearParts parts_;
-  Condensation condensation_;
   std::optional<ModalCondensation> modal_;
+  std::optional<Condensation> direct_;  // without modes, or where too many parts differ from them
   std::vector<Harmonic> harmonics_;
   Vector last_p_;
   mutable ComplexVector y_, v_;  // a full motion, a residual of the full equation; q comes first in both

@@ -8,15 +8,16 @@
 namespace arcslip::hbm {
 namespace {
 
-constexpr Eigen::Index few = 12, many = 500;  // linear coordinates
-constexpr double proportional = 1e-12;        // entries of C beside its diagonal
+constexpr Eigen::Index few = 1, many = 500;  // linear coordinates
+constexpr double proportional = 1e-12;       // entries of C beside its diagonal
 
 // In (q, l).
 struct Blocks {
   Eigen::MatrixXd qq, lq, ll;
 };
 Blocks blocks(const Eigen::MatrixXd& A, const Eigen::MatrixXd& P, Eigen::Index r) {
-  const Eigen::MatrixXd AP = A.sparseView() * P;
+  const Eigen::SparseMatrix<double> sparse = A.sparseView();
+  const Eigen::MatrixXd AP = sparse * P;
   const auto Pq = P.leftCols(r), Pl = P.rightCols(P.cols() - r);
   Blocks in_y{Pq.transpose() * AP.leftCols(r), Pl.transpose() * AP.leftCols(r),
               Pl.transpose() * AP.rightCols(P.cols() - r)};
@@ -84,7 +85,7 @@ std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Mo
   if (!modes->damped) {
     const auto dampers = std::count_if(model.dampers.begin(), model.dampers.end(),
                                        [&](const auto& part) { return p[part.parameter] > 0; });
-    if (dampers > most_changes) return {};
+    if (dampers > std::min<Eigen::Index>(most_changes, l / 2)) return {};
     modes->C.qq.setZero();
     modes->C.lq.setZero();
     modes->C.ll.setZero();

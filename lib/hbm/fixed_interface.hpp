@@ -38,8 +38,8 @@ inline constexpr int most_changes = 16;
 
 /// The modes of the model's structure at its default values. P: x = P y; frequency: rad/s, about which they
 /// are most accurate. Null where there are too few linear coordinates to gain from it, or too many, where
-/// masses and springs are not both positive semidefinite, or where more than `most_changes` dampers are not
-/// proportional.
+/// masses and springs are not both positive semidefinite, or where damping is not proportional and there are
+/// more than a few dampers.
 std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Model& model,
                                                                  const Eigen::MatrixXd& P, int unknowns,
                                                                  double frequency);

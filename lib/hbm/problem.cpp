@@ -110,22 +110,21 @@ std::uint64_t HbmEvaluator::piece() const {
 }
 
 HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics,
-                       double displacement, double frequency)
-    : HbmProblem(model, harmonics, displacement, frequency,
-                 {model->settings.friction == scene::Friction::exact, model->settings.samples}) {}
-
-HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics,
-                       double displacement, double frequency, const elements::Sampling& sampling)
+                       double displacement, double frequency, std::optional<double> about)
     : model_(std::move(model)),
       harmonics_(harmonics),
-      sampling_(sampling),
-      coordinates_(hbm::coordinates(*model_, frequency)),
+      sampling_{model_->settings.friction == scene::Friction::exact, model_->settings.samples},
+      coordinates_(hbm::coordinates(*model_, about.value_or(frequency))),
       blocks_(coordinates_.unknowns),
       parameters_(model_->parameters),
       displacement_(displacement) {
   parameters_[model::frequency].scale = frequency;
   parameters_.push_back({"excitation_factor", "-", 1, 1, 0, 1e300});
   for (const auto& element : model_->elements) blocks_ += element.law->auxiliary();
+}
+
+HbmProblem::HbmProblem(const HbmProblem& other, double displacement) : HbmProblem(other) {
+  displacement_ = displacement;
 }
 
 HbmProblem::HbmProblem(const HbmProblem& other, const Harmonics& harmonics,

@@ -64,14 +64,14 @@ class HbmEvaluator final : public continuation::Evaluator {
 
 class HbmProblem final : public continuation::Problem {
  public:
-  /// displacement: typical amplitude (m), the scale of the unknowns; frequency: of the excitation frequency
-  /// (rad/s).
+  /// displacement: typical amplitude (m), the scale of the unknowns; frequency: the scale of the excitation
+  /// frequency (rad/s); about: a frequency of the study (rad/s), about which modes of the structure are most
+  /// accurate, where it is not that scale.
   HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
-             double frequency);
-  /// With a sampling of the elements other than in the model's settings.
-  HbmProblem(std::shared_ptr<const model::Model> model, const Harmonics& harmonics, double displacement,
-             double frequency, const elements::Sampling& sampling);
-  /// The same with other harmonics and another sampling, and with the same coordinates.
+             double frequency, std::optional<double> about = {});
+  /// The same with another typical amplitude.
+  HbmProblem(const HbmProblem& other, double displacement);
+  /// The same with other harmonics and another sampling than in the model's settings.
   HbmProblem(const HbmProblem& other, const Harmonics& harmonics, const elements::Sampling& sampling);
 
   int size() const override { return blocks() * harmonics_.size(); }

@@ -65,13 +65,13 @@ void speak_of_scene(const model::Model& model, const Vector& p, continuation::Br
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on) {
+  const hbm::HbmProblem unscaled(model, model->harmonics, 1, frequency_scale, omega);
   const auto problem_with = [&](double displacement) {
     const double scale = displacement > 0 && std::isfinite(displacement) ? displacement : 1;
-    return std::make_shared<const hbm::HbmProblem>(model, model->harmonics, scale, frequency_scale);
+    return std::make_shared<const hbm::HbmProblem>(unscaled, scale);
   };
-  auto problem = problem_with(1);
-  const Vector p = hbm::parameters_at(*problem, omega);
-  problem = problem_with(hbm::linear_response(*problem, p).norm());
+  const Vector p = hbm::parameters_at(unscaled, omega);
+  const auto problem = problem_with(hbm::linear_response(unscaled, p).norm());
   if (const auto dof = model::drifting_dof(*model, p))
     return {
         problem,

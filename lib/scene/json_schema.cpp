@@ -37,6 +37,7 @@ Node map_of(Node value) {
 
 /// An object with these keys and no others.
 Object object_of(Object properties, const std::vector<std::string>& required) {
+  properties.push_back({std::string(comment_key), of_type("string")});
   Object object{{"type", node("object")}, {"properties", of(std::move(properties))}};
   if (!required.empty()) object.push_back({"required", node(required)});
   object.push_back({"additionalProperties", {false}});
@@ -203,6 +204,14 @@ Node patch() {
   return of(std::move(object));
 }
 
+Node range() {
+  return of(object_of({{"from", of_type("number")},
+                       {"to", of_type("number")},
+                       {"count", of({{"type", node("integer")}, {"minimum", node(2)}})},
+                       {"spacing", one_of_words(spacings, Spacing::linear)}},
+                      {"from", "to", "count"}));
+}
+
 Node study_of(const StudyType& type) {
   Object properties{
       {"name", of({{"type", node("string")}, {"minLength", node(1)}, {"maxLength", node(100)}})},
@@ -218,7 +227,8 @@ Node study_of(const StudyType& type) {
       for (const std::string& each : beside) needs.push_back({each, node(std::vector{key.name})});
     }
   }
-  properties.push_back({"for_each", map_of(list_of(of_type("number"), 1))});
+  properties.push_back(
+      {"for_each", map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}}))});
   Object study = object_of(std::move(properties), required);
   if (!needs.empty()) study.push_back({"dependentRequired", of(std::move(needs))});
   study.push_back({"title", node(type.help())});

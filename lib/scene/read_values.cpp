@@ -26,6 +26,8 @@ Keys::Keys(const Location& place, std::vector<std::string> allowed, Faults& faul
     if (!seen.insert(member.key).second) {
       faults.add(child(pointer_, member.key),
                  "found the key " + shown(member.key) + " again, must stand only once");
+    } else if (!allowed.empty() && member.key == comment_key) {
+      read_string({&member.value, child(pointer_, member.key)}, "a string, a comment", faults);
     } else if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), member.key) == allowed.end()) {
       const std::string belongs = elsewhere ? elsewhere(member.key) : "";
       faults.add(child(pointer_, member.key),

@@ -24,6 +24,9 @@ struct Location {
 /// Explains a key that is not allowed: "which belongs to studies of kind "frf"", or "".
 using Elsewhere = std::function<std::string(std::string_view)>;
 
+/// An object whose keys are not names may have a comment under this one.
+inline constexpr std::string_view comment_key = "comment";
+
 /// The keys of an object. A wrong type, duplicate keys and unknown keys are reported at once; an empty list
 /// of allowed keys allows every key. Of duplicates the first counts.
 class Keys {

@@ -2,10 +2,13 @@
 #include <arcslip/scene/words.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace arcslip::scene::file {
 namespace {
+
+constexpr int largest_range = 100'000;  // values
 
 // What every one of the fields allows.
 Field common(const std::vector<const Field*>& fields) {
@@ -22,9 +25,46 @@ Field common(const std::vector<const Field*>& fields) {
   return all;
 }
 
+// {"from": 1, "to": 100, "count": 21, "spacing": "logarithmic"}
+std::vector<double> read_range(const Location& place, const std::vector<const Field*>& fields,
+                               Faults& faults) {
+  const std::size_t before = faults.count();
+  const Field bounds = fields.empty() || fields.front() == nullptr ? any_number : common(fields);
+  const Keys keys(place, {"from", "to", "count", "spacing"}, faults);
+  const auto from = read_number(keys.require("from", allowed_text(bounds), faults), bounds, faults);
+  const auto to = read_number(keys.require("to", allowed_text(bounds), faults), bounds, faults);
+  const auto count =
+      read_integer(keys.require("count", "an integer from 2 to " + std::to_string(largest_range), faults), 2,
+                   largest_range, faults);
+  const auto spacing = read_choice(keys.find("spacing"), spacings, Spacing::linear, faults);
+  if (faults.count() > before || !from || !to || !count) return {};
+  const bool logarithmic = spacing == Spacing::logarithmic;
+  if (logarithmic && !(*from > 0 && *to > 0)) {
+    faults.add(keys.find(*from > 0 ? "to" : "from").pointer,
+               "found " + number_text(*from > 0 ? *to : *from) +
+                   ", must be above 0 where the spacing is \"logarithmic\"");
+    return {};
+  }
+  if (*from == *to) {
+    faults.add(keys.find("to").pointer, "found " + number_text(*to) + ", must differ from \"from\"");
+    return {};
+  }
+  std::vector<double> values;
+  for (int i = 0; i < *count; ++i) {
+    const double share = i / (*count - 1.0);
+    const double value =
+        logarithmic ? *from * std::pow(*to / *from, share) : (1 - share) * *from + share * *to;
+    values.push_back(std::clamp(value, std::min(*from, *to), std::max(*from, *to)));
+  }
+  values.back() = *to;
+  return values;
+}
+
 std::vector<double> read_values(const Location& place, const std::vector<const Field*>& fields,
                                 Faults& faults) {
   constexpr std::string_view wanted = "a list of at least one number";
+  if (place.node != nullptr && place.node->get<Node::Object>() != nullptr)
+    return read_range(place, fields, faults);
   std::vector<double> values;
   const Node::List* list = read_list(place, wanted, faults);
   if (list != nullptr && list->empty())

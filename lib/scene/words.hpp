@@ -14,6 +14,8 @@ namespace arcslip::scene::file {
 inline constexpr std::string_view format_name = "arcslip-scene-1";
 inline constexpr std::string_view ground = "ground";
 
+enum class Spacing { linear, logarithmic };  // of the values of a range
+
 template <class Choice>
 struct Word {
   std::string_view text;
@@ -22,6 +24,8 @@ struct Word {
 
 inline constexpr std::array<Word<FrequencyUnit>, 2> frequency_units = {
     {{"Hz", FrequencyUnit::hertz}, {"rad/s", FrequencyUnit::radian_per_second}}};
+inline constexpr std::array<Word<Spacing>, 2> spacings = {
+    {{"linear", Spacing::linear}, {"logarithmic", Spacing::logarithmic}}};
 inline constexpr std::array<Word<Frame>, 2> frames = {
     {{"relative", Frame::relative}, {"absolute", Frame::absolute}}};
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {

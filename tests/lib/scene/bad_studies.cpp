@@ -65,6 +65,25 @@ void add_studies(std::vector<BadScene>& rows) {
                   "found an empty list, must be a list of at least one number"});
   rows.push_back({"sweep that is no list", with_sweep("{\"m.value\": 3}"), "/studies/0/for_each/m.value",
                   "found 3 (a number), must be a list of at least one number"});
+  rows.push_back({"sweep over a range without its end",
+                  with_sweep("{\"m.value\": {\"from\": 1, \"count\": 3}}"), "/studies/0/for_each/m.value/to",
+                  "found no key \"to\", which is required: must be at least 0 kg"});
+  rows.push_back({"sweep over a range of one value",
+                  with_sweep("{\"m.value\": {\"from\": 1, \"to\": 2, \"count\": 1}}"),
+                  "/studies/0/for_each/m.value/count", "found 1, must be an integer from 2 to 100000"});
+  rows.push_back({"sweep over a range out of bounds",
+                  with_sweep("{\"m.value\": {\"from\": 1, \"to\": -2, \"count\": 3}}"),
+                  "/studies/0/for_each/m.value/to", "found -2, must be at least 0 kg"});
+  rows.push_back(
+      {"sweep over a logarithmic range from 0",
+       with_sweep("{\"m.value\": {\"from\": 0, \"to\": 2, \"count\": 3, \"spacing\": \"logarithmic\"}}"),
+       "/studies/0/for_each/m.value/from", "found 0, must be above 0 where the spacing is \"logarithmic\""});
+  rows.push_back({"sweep over an empty range",
+                  with_sweep("{\"m.value\": {\"from\": 2, \"to\": 2, \"count\": 3}}"),
+                  "/studies/0/for_each/m.value/to", "found 2, must differ from \"from\""});
+  rows.push_back({"comment that is no text",
+                  with_sweep("{\"m.value\": {\"from\": 1, \"to\": 2, \"count\": 3, \"comment\": 1}}"),
+                  "/studies/0/for_each/m.value/comment", "found 1 (a number), must be a string, a comment"});
   rows.push_back({"sweep over strings", with_sweep("{\"m.value\": [1, \"2\"]}"),
                   "/studies/0/for_each/m.value/1",
                   "found \"2\" (a string), must be a number, at least 0 kg"});

@@ -3,6 +3,7 @@
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <sstream>
@@ -138,6 +139,40 @@ TEST_CASE("a study over a parameter has its range, and one frequency or a window
   CHECK(folds.settings.as<CurveRange>() == CurveRange{"d.normal_load", 0, 5, 0.5, 2.5});
   CHECK(scene.studies[2].type == &arcslip::studies::frf());
   CHECK(scene.studies[2].settings.as<FrequencyRange>() == FrequencyRange{1, 2});
+}
+
+TEST_CASE("values of for_each are a list or a range, linear or logarithmic, with its ends exact") {
+  const auto values = [](const std::string& range) {
+    const Scene scene = read_text(R"({"format": "arcslip-scene-1",
+      "structure": {"dofs": ["a"], "masses": [{"name": "m", "at": "a", "value": 1}],
+                    "springs": [{"name": "k", "at": "a", "value": 1}]},
+      "excitation": [{"name": "f", "at": "a"}],
+      "studies": [{"kind": "frf", "from": 1, "to": 2, "for_each": {"k.value": )" +
+                                  range + "}}]}");
+    return scene.studies.front().for_each.front().second;
+  };
+  CHECK(values(R"({"from": 1, "to": 3, "count": 5})") == std::vector<double>{1, 1.5, 2, 2.5, 3});
+  CHECK(values(R"({"from": 0.3, "to": -0.1, "count": 2, "spacing": "linear"})") ==
+        std::vector<double>{0.3, -0.1});
+  const auto decades = values(R"({"from": 0.1, "to": 1e3, "count": 5, "spacing": "logarithmic"})");
+  REQUIRE(decades.size() == 5);
+  for (int i = 0; i < 5; ++i)
+    CHECK(std::abs(decades[static_cast<std::size_t>(i)] / std::pow(10.0, i - 1) - 1) < 1e-15);
+  CHECK(decades.back() == 1e3);
+}
+
+TEST_CASE("objects may have comments, which are ignored, where keys are not names") {
+  const Scene scene = read_text(R"({"format": "arcslip-scene-1", "comment": "all",
+    "structure": {"comment": "linear", "dofs": ["a", "comment"],
+                  "masses": [{"name": "m", "at": "a", "value": 1, "comment": "of the blade"},
+                             {"name": "n", "direction": {"comment": 2}, "value": 3}],
+                  "springs": [{"name": "k", "at": "a", "value": 1}, {"name": "l", "at": "comment", "value": 1}]},
+    "excitation": [{"name": "f", "at": "a", "comment": ""}], "response": {"at": "a", "comment": "tip"},
+    "harmonics": {"comment": "few", "order": 3},
+    "studies": [{"kind": "frf", "from": 1, "to": 2, "comment": "near resonance"}]})");
+  CHECK(scene.masses[1].directions.front() == Direction{{1, 2.0}});
+  CHECK(scene.harmonics.order == 3);
+  CHECK(write(scene).find("resonance") == std::string::npos);
 }
 
 TEST_CASE("a study in time has one frequency and its settings, with defaults") {
