@@ -78,6 +78,13 @@ class Contact2dElement final : public Element {
     return true;
   }
 
+  bool place_slider(double share) override {
+    phases_.place(share);
+    return true;
+  }
+
+  void contact(std::vector<ContactInterval>& intervals) const override { phases_.tell(intervals); }
+
  private:
   auto tangential_rows(int field) { return by_field_.col(field).head(h_.size()); }
   auto normal_rows(int field) { return by_field_.col(field).tail(h_.size()); }
