@@ -17,6 +17,7 @@ using continuation::In;
 using continuation::Vector;
 
 constexpr double same = 1e-10;          // relative: amplitudes that are one
+constexpr double least_slope = 1e-9;    // of the amplitude, over the whole way of a slider
 constexpr double least_way = 1.0 / 64;  // of a segment: a shorter step is not tried
 constexpr int rounds = 40;              // of a search
 constexpr int line_steps = 40;          // of golden sections
@@ -97,19 +98,18 @@ class Search {
     return now;
   }
 
-  /// The corner that a slope points to; where it is 0 the shares stay.
-  static Shares corner(const Shares& from, const Eigen::ArrayXd& slope) {
-    const double least = 1e-9 * slope.abs().maxCoeff();
-    Shares to = from;
+  /// The corner that a slope points to; where it moves nothing the shares stay.
+  static Shares corner(const Place& from, const Eigen::ArrayXd& slope) {
+    Shares to = from.shares;
     for (Eigen::Index e = 0; e < to.size(); ++e)
-      if (from[e] >= 0 && std::abs(slope[e]) > least) to[e] = slope[e] > 0 ? 1 : 0;
+      if (to[e] >= 0 && std::abs(slope[e]) > least_slope * from.amplitude) to[e] = slope[e] > 0 ? 1 : 0;
     return to;
   }
 
   /// From corner to corner as long as the amplitude grows.
   Place highest_from(Place now) {
     for (int i = 0; i < rounds; ++i) {
-      const auto next = go(now, corner(now.shares, now.slope));
+      const auto next = go(now, corner(now, now.slope));
       if (!next || !(next->amplitude > now.amplitude * (1 + same))) break;
       now = *next;
     }
@@ -119,7 +119,7 @@ class Search {
   /// The least amplitude along lines to the corners that the slopes point away from.
   Place lowest_from(Place now) {
     for (int i = 0; i < rounds; ++i) {
-      const Place next = lowest_between(now, corner(now.shares, -now.slope));
+      const Place next = lowest_between(now, corner(now, -now.slope));
       if (!(next.amplitude < now.amplitude * (1 - same))) break;
       now = next;
     }
@@ -129,6 +129,7 @@ class Search {
   /// By golden sections.
   Place lowest_between(const Place& from, const Shares& to) {
     Place best = from;
+    if ((to == from.shares).all()) return best;
     const auto value = [&](double t) {
       const auto found = go(best, from.shares + t * (to - from.shares));
       if (!found) return std::numeric_limits<double>::infinity();
@@ -215,7 +216,7 @@ OffsetRange offset_range(const hbm::HbmProblem& of, In u, const Vector& p) {
   if (range.sliders == 0) return range;
   Place least = *start;
   for (const double sign : {1.0, -1.0}) {
-    const auto end = search.go(*start, Search::corner(start->shares, sign * start->mean_slope));
+    const auto end = search.go(*start, Search::corner(*start, sign * start->mean_slope));
     if (!end) {
       range.failure = "the responses at the bounds of the sliders were not all found";
       continue;

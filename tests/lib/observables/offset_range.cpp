@@ -142,6 +142,43 @@ TEST_CASE("a body that nothing but friction holds has no range, and the message 
   CHECK(contains(found.failure, "nothing but friction holds the mean position"));
 }
 
+TEST_CASE(
+    "a slider that loads another contact changes its slip, not the mean: between two dampers of closed "
+    "form") {
+  // The slider moves n, at rest, by p/(k + k_n) to either side, so that the pad slips under 1 -+ 0.2 N.
+  const auto scene = [](const std::string& pad) {
+    return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"dofs": ["t", "n"],
+        "masses": [{"name": "mt", "at": "t", "value": 1}, {"name": "mn", "at": "n", "value": 1}],
+        "springs": [{"name": "kt", "at": "t", "value": 1}, {"name": "kn", "at": "n", "value": 1}],
+        "dampers": [{"name": "ct", "at": "t", "value": 0.05}, {"name": "cn", "at": "n", "value": 0.05}]},
+      "elements": [{"name": "pad", )" +
+                         pad +
+                         R"(, "friction_coefficient": 0.3}, {"name": "held", "type": "jenkins", "at": "n",
+                    "stiffness": 2, "friction_coefficient": 0.5, "normal_load": 0.8}], "excitation": [{"name": "f", "at": "t", "cosine": 0.3}], "response": {"at": "t"},
+      "harmonics": {"order": 15}, "studies": [{"kind": "frf", "from": 0.5, "to": 3}]})");
+  };
+  for (const double w : {1.1, 1.3}) {
+    CAPTURE(w);
+    const auto found = *at(scene(R"("type": "contact_2d", "tangential": {"at": "t"}, "normal": {"at": "n"},
+      "tangential_stiffness": 1, "normal_stiffness": 1, "normal_load": 1)"),
+                           w)
+                            .offset_range;
+    CHECK(found.failure.empty());
+    CHECK(found.sliders == 1);
+    double amplitudes[2];
+    for (const int side : {0, 1})
+      amplitudes[side] = at(scene(R"("type": "jenkins", "at": "t", "stiffness": 1, "normal_load": )" +
+                                  std::string(side ? "1.2" : "0.8")),
+                            w)
+                             .point.amplitude;
+    CAPTURE(amplitudes[0], amplitudes[1]);
+    CHECK(std::abs(amplitudes[0] / amplitudes[1] - 1) > 0.05);
+    CHECK(std::abs(found.amplitude_min / std::min(amplitudes[0], amplitudes[1]) - 1) < 1e-9);
+    CHECK(std::abs(found.amplitude_max / std::max(amplitudes[0], amplitudes[1]) - 1) < 1e-9);
+  }
+}
+
 TEST_CASE("motions in time whose sliders begin anywhere stay within the range, and come to its ends") {
   for (const double slips : {0.05, 5.0}) {
     CAPTURE(slips);
