@@ -176,7 +176,8 @@ class ExactJenkins final : public Element {
     if (h_.odd) phases_.find(A_, limit_ / kd);  // A is u here
     const double mean = h_.odd ? 0 : u_0_;
     state.mean_min = kd * (mean - phases_.lowest().x) - limit_;
-    state.mean_max = kd * (mean - phases_.highest().x) + limit_;
+    state.mean_max =
+        std::max(kd * (mean - phases_.highest().x) + limit_, state.mean_min);  // but for rounding
   }
 
   // Integral of the basis over an interval from the powers at its middle (sum_) and its half length (half_).
