@@ -74,9 +74,17 @@ class Contact2dElement final : public Element {
       const double a = phases_.largest_lower().x, b = phases_.smallest_upper().x;
       state.mean_min -= law_.k_t * (1 - held.upper) * b - law_.k_t * held.lower * a;
       state.mean_max -= law_.k_t * (1 - held.lower) * a - law_.k_t * held.upper * b;
+      state.mean_max = std::max(state.mean_max, state.mean_min);  // but for rounding
     }
     return true;
   }
+
+  bool place_slider(double share) override {
+    phases_.place(share);
+    return true;
+  }
+
+  void contact(std::vector<ContactInterval>& intervals) const override { phases_.tell(intervals); }
 
  private:
   auto tangential_rows(int field) { return by_field_.col(field).head(h_.size()); }

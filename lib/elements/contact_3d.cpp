@@ -160,6 +160,7 @@ class Contact3d final : public PlainLaw {
 
   bool antisymmetric() const override { return false; }
   bool has_contact() const override { return true; }
+  bool tells_contact() const override { return true; }
   bool has_normal_load() const override { return true; }
   double normal_load_at(Fields fields, double x_n) const override { return contact(fields).load(x_n); }
   Traits traits(Fields fields, int direction) const override {

@@ -363,6 +363,22 @@ class Contact3dElement final : public Element {
     return true;
   }
 
+  void contact(std::vector<ContactInterval>& intervals) const override {
+    if (!rigid_ && fields_[friction_coefficient] > 0) return stretch_.phases().tell(intervals);
+    intervals.clear();
+    double before = 0;
+    for (const auto& [begin, end] : normal_.closed()) {
+      if (!intervals.empty()) intervals.push_back({"open", before, begin});
+      intervals.push_back({"slip", begin, end});
+      before = end;
+    }
+    constexpr double turn = 2 * std::numbers::pi;
+    if (intervals.empty())
+      intervals.push_back({"open", 0, turn});
+    else
+      intervals.push_back({"open", before, intervals.front().begin + turn});
+  }
+
  private:
   void differentiate() const {
     if (!differentiated_) stretch_.differentiate();

@@ -127,7 +127,7 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
   full_stick_ = largest_lower_.x <= smallest_upper_.x;
   if (full_stick_) {
     ContactPhase phase{ContactPhase::State::stick, 0, turn_angle};
-    held_ = stuck_slider(offset_, largest_lower_.x, smallest_upper_.x);
+    held_ = stuck_slider(offset_, largest_lower_.x, smallest_upper_.x, share_);
     phase.rest.w = held_.lower * largest_lower_.x + held_.upper * smallest_upper_.x;
     phases_.push_back(phase);
   } else {
@@ -245,6 +245,15 @@ void ContactPhases::tell(FrictionState& state) const {
   std::sort(state.slip_ends.begin(), state.slip_ends.end());
   state.stick_share = full_stick_ ? 1 : stuck / turn_angle;
   state.open_share = closed_.empty() ? 1 : open / turn_angle;
+}
+
+void ContactPhases::tell(std::vector<ContactInterval>& intervals) const {
+  using State = ContactPhase::State;
+  intervals.clear();
+  for (const auto& [state, begin, end, sign, rest] : phases_) {
+    const char* slip = sign > 0 ? "slip+" : sign < 0 ? "slip-" : "slip";
+    intervals.push_back({state == State::open ? "open" : state == State::stick ? "stick" : slip, begin, end});
+  }
 }
 
 }  // namespace arcslip::elements

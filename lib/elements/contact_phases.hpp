@@ -54,6 +54,9 @@ class ContactPhases {
   /// no place of rest.
   const std::vector<ContactPhase>& find(In u_t, In u_n, const ContactLaw& law);
 
+  /// Where it rests in full stick, from now on: Offset::placed.
+  void place(double share) { offset_ = Offset::placed, share_ = share; }
+
   // Of the last search.
   bool full_stick() const { return full_stick_; }
   Reversal largest_lower() const { return largest_lower_; }    // a, where the contact never opens
@@ -65,6 +68,7 @@ class ContactPhases {
   /// A number for the sequence of phases, wherever it begins.
   std::uint64_t sequence() const;
   void tell(FrictionState& state) const;
+  void tell(std::vector<ContactInterval>& intervals) const;
 
   const std::vector<Reversal>& reversals_of_lower() const { return lower_.turns; }
   const std::vector<Reversal>& reversals_of_upper() const { return upper_.turns; }
@@ -98,6 +102,7 @@ class ContactPhases {
   std::vector<std::pair<double, double>> closed_;
   std::vector<ContactPhase> phases_;
   Offset offset_;
+  double share_ = 0.5;
   StuckSlider held_;
   Reversal largest_lower_{}, smallest_upper_{};
   bool opens_ = false, full_stick_ = false, frictionless_ = false, gap_ = false;

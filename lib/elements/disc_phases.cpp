@@ -399,4 +399,12 @@ void DiscPhases::tell(FrictionState& state) const {
   state.open_share = open / turn_angle;
 }
 
+void DiscPhases::tell(std::vector<ContactInterval>& intervals) const {
+  intervals.clear();
+  for (const DiscPhase& phase : phases_) {
+    const bool open = phase.state == DiscPhase::State::open, stuck = phase.state == DiscPhase::State::stick;
+    intervals.push_back({open ? "open" : stuck ? "stick" : "slip", phase.begin, phase.end});
+  }
+}
+
 }  // namespace arcslip::elements

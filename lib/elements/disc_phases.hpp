@@ -57,6 +57,7 @@ class DiscPhases {
   /// A number for the sequence of phases, wherever it begins.
   std::uint64_t sequence() const;
   void tell(FrictionState& state) const;
+  void tell(std::vector<ContactInterval>& intervals) const;
 
  private:
   struct State {

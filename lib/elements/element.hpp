@@ -6,6 +6,7 @@
 // coefficients of f are those of its Fourier series in the layout of harmonics.hpp:
 //   F_n = (1/pi) integral of f(theta) (cos n theta, sin n theta) over a period (1/(2 pi) for the mean).
 
+#include <arcslip/elements/contact_interval.hpp>
 #include <arcslip/elements/series.hpp>
 
 #include <cstdint>
@@ -57,6 +58,18 @@ class Element {
 
   /// False if the element has no contact. Angles of the last point.
   virtual bool friction(FrictionState&) const { return false; }
+
+  /// Where a slider that sticks throughout the period rests at the next places, in place of its law's choice
+  /// (slider_offset.hpp): at this share of the way from its lower bound, 0, to its upper one, 1. The mean
+  /// force falls linearly from FrictionState::mean_max to mean_min. False if it cannot be placed.
+  virtual bool place_slider(double share) {
+    static_cast<void>(share);
+    return false;
+  }
+
+  /// What its contact does at the last point: intervals that follow each other over one period, in any
+  /// representation that put_in_order() takes. Empty: not told.
+  virtual void contact(std::vector<ContactInterval>& intervals) const { intervals.clear(); }
 };
 
 }  // namespace arcslip::elements

@@ -47,11 +47,11 @@ class GapSpring final : public scene::file::KeyedPart<GapSpringOptions, LawType>
  private:
   using Shape = PiecewiseLinearShape;
   const std::shared_ptr<const Law> one_sided_ =
-      std::make_shared<const PiecewiseLinearLaw>(Shape{{1}, {{{0, 0}, {1, -1}}}, {"open", "closed"}},
-                                                 Shape{{-1}, {{{0, -1}, {1, 0}}}, {"open", "closed"}});
+      std::make_shared<const PiecewiseLinearLaw>(Shape{{1}, {{{0, 0}, {1, -1}}}, {"open", "closed"}, true},
+                                                 Shape{{-1}, {{{0, -1}, {1, 0}}}, {"open", "closed"}, true});
   const std::shared_ptr<const Law> two_sided_ = std::make_shared<const PiecewiseLinearLaw>(
-      Shape{{-1, 1}, {{{1, 1}, {0, 0}, {1, -1}}}, {"closed-", "open", "closed+"}},
-      Shape{{-1, 1}, {{{1, -1}, {2, 0}, {1, 1}}}, {"closed-", "closed", "closed+"}});
+      Shape{{-1, 1}, {{{1, 1}, {0, 0}, {1, -1}}}, {"closed-", "open", "closed+"}, true},
+      Shape{{-1, 1}, {{{1, -1}, {2, 0}, {1, 1}}}, {"closed-", "closed", "closed+"}, true});
 };
 
 }  // namespace

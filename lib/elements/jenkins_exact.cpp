@@ -117,6 +117,28 @@ class ExactJenkins final : public Element {
     return true;
   }
 
+  bool place_slider(double share) override {
+    offset_ = Offset::placed;
+    share_ = share;
+    return true;
+  }
+
+  void contact(std::vector<ContactInterval>& intervals) const override {
+    intervals.clear();
+    if (!sliding_) {
+      intervals.push_back({frictionless_ ? "slip" : "stick", 0, 2 * std::numbers::pi});
+      return;
+    }
+    const auto slip = [](double sign) { return sign > 0 ? "slip+" : "slip-"; };
+    double mirror = 1;
+    for (double shift = 0; shift < 2 * std::numbers::pi - 1e-9; shift += h_.span(), mirror = -mirror) {
+      for (const FrictionPhase& phase : *sliding_) {
+        intervals.push_back({"stick", phase.begin + shift, phase.end + shift});
+        intervals.push_back({slip(mirror * phase.slip_sign), phase.end + shift, phase.slip_end + shift});
+      }
+    }
+  }
+
  private:
   void stick(In u, double kd, bool jacobian) {
     A_ = u;
@@ -127,7 +149,7 @@ class ExactJenkins final : public Element {
     }
     if (!h_.odd) {
       const Reversal high = phases_.highest(), low = phases_.lowest();
-      held_ = stuck_slider(offset_, high.x - limit_ / kd, low.x + limit_ / kd);
+      held_ = stuck_slider(offset_, high.x - limit_ / kd, low.x + limit_ / kd, share_);
       A_[0] -= held_.lower * high.x + held_.upper * low.x;
       B_[0] = held_.lower - held_.upper;
       if (jacobian) {
@@ -142,7 +164,7 @@ class ExactJenkins final : public Element {
 
   // Another number where w follows another extreme.
   std::uint64_t piece_of_stick() const {
-    if (offset_ == Offset::centred) return 2 + phases_.extremes();
+    if (offset_ != Offset::static_loads) return 2 + phases_.extremes();
     if (held_.lower == 0 && held_.upper == 0) return 1;
     return 2 + 2 * phases_.extremes() + (held_.upper > 0 ? 1 : 0);
   }
@@ -154,7 +176,8 @@ class ExactJenkins final : public Element {
     if (h_.odd) phases_.find(A_, limit_ / kd);  // A is u here
     const double mean = h_.odd ? 0 : u_0_;
     state.mean_min = kd * (mean - phases_.lowest().x) - limit_;
-    state.mean_max = kd * (mean - phases_.highest().x) + limit_;
+    state.mean_max =
+        std::max(kd * (mean - phases_.highest().x) + limit_, state.mean_min);  // but for rounding
   }
 
   // Integral of the basis over an interval from the powers at its middle (sum_) and its half length (half_).
@@ -222,6 +245,7 @@ class ExactJenkins final : public Element {
 
   Harmonics h_;
   Offset offset_;
+  double share_ = 0.5;  // where it is placed
   mutable FrictionPhases phases_;
   Moments moments_;
   Eigen::VectorXd A_, B_, F_;

@@ -121,6 +121,8 @@ class Law {
   virtual bool antisymmetric() const = 0;
   /// Whether it sticks and slips: Element::friction().
   virtual bool has_contact() const { return false; }
+  /// Whether it tells what its contact does: Element::contact().
+  virtual bool tells_contact() const { return false; }
   /// Whether it has a normal load that varies, and may open.
   virtual bool has_normal_load() const { return false; }
   /// That load, N, at a displacement along the last direction, where there is one; monotonic.

@@ -33,6 +33,7 @@ struct PiecewiseLinearShape {
   std::vector<double> corners;           // c, ascending
   std::vector<std::vector<Line>> terms;  // for each p_a, corners.size() + 1 lines, from the left
   std::vector<std::string_view> names;   // of the lines, as modes in time: literals
+  bool contact = false;                  // the lines are states of a contact
 
   std::size_t lines() const { return corners.size() + 1; }
 };
@@ -45,6 +46,7 @@ class PiecewiseLinearLaw final : public Law {
   PiecewiseLinearLaw(PiecewiseLinearShape positive, PiecewiseLinearShape negative);
 
   bool antisymmetric() const override { return antisymmetric_; }
+  bool tells_contact() const override { return shapes_.front().contact; }
   Traits traits(Fields fields, int direction) const override;
   double stiffness(Fields fields, int direction, double reach) const override;
 

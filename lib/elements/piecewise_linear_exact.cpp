@@ -31,6 +31,7 @@ class PiecewiseLinearElement final : public Element {
         half_(middle_.size()),
         numbers_(shapes.front().corners.size()) {
     path_.reserve(static_cast<std::size_t>(8 * h.order + 33));
+    if (shapes.front().contact) intervals_.reserve(path_.capacity() * shapes.front().lines());
     std::uint64_t number = 1;
     for (std::uint64_t& each : numbers_) each = number *= spread;
   }
@@ -42,6 +43,7 @@ class PiecewiseLinearElement final : public Element {
     l_.setZero();
     for (Moments& moments : moments_) moments.clear();
     piece_ = 0;
+    intervals_.clear();
     find(u, curve);
     F_.setZero();
     if (jacobian) J_.setZero();
@@ -70,6 +72,7 @@ class PiecewiseLinearElement final : public Element {
       dF.noalias() = length_sign_ * (l_ * factors_);
   }
   std::uint64_t piece() const override { return piece_; }
+  void contact(std::vector<ContactInterval>& intervals) const override { intervals = intervals_; }
 
  private:
   // The intervals of a period that lie on one line, between the reversals that enclose their ends. A motion
@@ -112,6 +115,7 @@ class PiecewiseLinearElement final : public Element {
   }
 
   void add(const PiecewiseLinearCurve& curve, std::size_t line, double begin, double end) {
+    if (curve.shape().contact) intervals_.push_back({curve.shape().names[line], begin, end});
     const auto& terms = curve.shape().terms;
     const auto without_force = [&](const auto& lines) { return lines[line] == PiecewiseLinearShape::Line{}; };
     if (std::all_of(terms.begin(), terms.end(), without_force)) return;
@@ -142,7 +146,8 @@ class PiecewiseLinearElement final : public Element {
   Eigen::VectorXd integral_, F_;
   Eigen::MatrixXd J_;
   std::vector<std::complex<double>> middle_, half_;
-  std::vector<std::uint64_t> numbers_;  // of the corners
+  std::vector<std::uint64_t> numbers_;      // of the corners
+  std::vector<ContactInterval> intervals_;  // of a contact
   double length_sign_ = 0;
   std::uint64_t piece_ = 0;  // how often each corner is passed, or the line that is never left; the shape
 };

@@ -36,6 +36,8 @@ class HbmEvaluator final : public continuation::Evaluator {
   double force_factor() const { return force_factor_; }
   std::size_t element_count() const { return parts_.size(); }
   const elements::Element& element(std::size_t e) const { return *parts_[e].element; }
+  /// From now on: Element::place_slider().
+  bool place_slider(std::size_t e, double share) { return parts_[e].element->place_slider(share); }
   const Vector& element_motion(std::size_t e) const { return parts_[e].motion; }
   In unknowns() const { return u_; }
 

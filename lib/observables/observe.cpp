@@ -114,6 +114,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     ElementResponse response;
     response.name = problem_->model().elements[e].name;
+    state.open_share = 0;
     state.mean_min = state.mean_max = no_value;
     response.has_stick = at.element(e).friction(state);
     if (stops_.at_reversals(at.element(e), e, now.p)) {
@@ -131,6 +132,8 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
     }
     if (const double wear = problem_->model().elements[e].wear_coefficient; wear > 0)
       response.wear_rate = wear * response.energy * at.stiffness().base_frequency() / (2 * std::numbers::pi);
+    at.element(e).contact(response.contact);
+    elements::put_in_order(response.contact);
     if (response.has_stick) {
       response.stick_percent = 100 * state.stick_share;
       response.has_normal_load = law.has_normal_load();

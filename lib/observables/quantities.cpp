@@ -70,6 +70,22 @@ double largest_of(const Element& element) {
   return element.maxima.*member;
 }
 
+results::Value contact_states(const Element& element) {
+  results::Value::List states;
+  for (const auto& interval : element.contact) states.emplace_back(interval.state);
+  return states;
+}
+
+results::Value contact_angles(const Element& element) {
+  results::Value::Numbers angles;
+  for (const auto& interval : element.contact) angles.push_back(interval.begin);
+  return angles;
+}
+
+bool has_contact_states(const Element& element) {
+  return !element.contact.empty();
+}
+
 bool is_unbounded(const Point& point) {
   return point.unbounded;
 }
@@ -126,6 +142,10 @@ std::shared_ptr<const elements::Law> law_of(const scene::Part& part) {
 
 bool is_part_with_normal_load(const scene::Part& part) {
   return law_of(part)->has_normal_load();
+}
+
+bool is_part_that_tells_contact(const scene::Part& part) {
+  return law_of(part)->tells_contact();
 }
 
 bool is_part_with_wear(const scene::Part& part) {
@@ -246,6 +266,13 @@ constexpr ElementQuantity of_element[] = {
      is_friction, is_friction_part},
     {"reversal_angles", "rad", "friction elements: end of each slip phase", angles<&Element::reversal_angles>,
      is_friction, is_friction_part},
+    {"contact_states", "",
+     "contacts with exact integrals, in the order of time: `stick`, `slip+` or `slip-` by the sign of the "
+     "friction force, or `slip`; `open`, `closed`, `closed+` or `closed-` by the side of a spring with two",
+     contact_states, has_contact_states, is_part_that_tells_contact},
+    {"contact_angles", "rad",
+     "likewise, where each state begins, ascending; the last one lasts until the first", contact_angles,
+     has_contact_states, is_part_that_tells_contact},
     {"energy", "J", "dissipated per period", element<&Element::energy>},
     {"wear_rate", "m³/s",
      "elements with a `wear_coefficient`: worn volume per second, the coefficient times the dissipated power",

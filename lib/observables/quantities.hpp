@@ -3,6 +3,7 @@
 // the columns of tables and figures, the limits of the optimizer and docs/results.md are derived from here.
 
 #include <arcslip/observables/response.hpp>
+#include <arcslip/results/value.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <span>
@@ -40,12 +41,13 @@ struct Quantity {
   using Number = double (*)(const Of&);  // no_value if undefined
   using Flag = bool (*)(const Of&);
   using List = const std::vector<double>& (*)(const Of&);
+  using Values = results::Value (*)(const Of&);
   using Origin = typename OriginOf<Of>::Type;
 
   std::string_view path;     // keys, joined by points: "force_per_displacement.in_phase.total"
   std::string_view unit;     // "m", "J"; "" of a flag
   std::string_view meaning;  // one line of Markdown
-  std::variant<Number, Flag, List> get;
+  std::variant<Number, Flag, List, Values> get;
   Flag has = nullptr;                   // whether the response has it; null: always
   bool (*in)(const Origin&) = nullptr;  // whether one of the scene, or element, may have it; null: always
 };

@@ -1,6 +1,7 @@
 #pragma once
 // Branches of periodic responses and their observables, as plain data.
 
+#include <arcslip/elements/contact_interval.hpp>
 #include <arcslip/results/reason.hpp>
 
 #include <cstddef>
@@ -29,11 +30,12 @@ struct ForceMaxima {
 /// Observables of one nonlinear element over a period; empty or zero if not applicable.
 struct ElementResponse {
   std::string name;
-  bool has_stick = false;               // true for friction elements
-  double stick_percent = 0;             // share of the period in stick, 0 to 100
-  std::vector<double> slip_angles;      // onset of each slip phase, rad in [0, 2 pi)
-  std::vector<double> reversal_angles;  // end of each slip phase, rad in [0, 2 pi)
-  double energy = 0;                    // dissipated per period, J
+  bool has_stick = false;                          // true for friction elements
+  double stick_percent = 0;                        // share of the period in stick, 0 to 100
+  std::vector<double> slip_angles;                 // onset of each slip phase, rad in [0, 2 pi)
+  std::vector<double> reversal_angles;             // end of each slip phase, rad in [0, 2 pi)
+  double energy = 0;                               // dissipated per period, J
+  std::vector<elements::ContactInterval> contact;  // of the period, in order; empty: not told
 
   // With a normal load that varies: the share of the period in separation, 0 to 100, and that load, N.
   bool has_normal_load = false;

@@ -127,6 +127,10 @@ class Points {
       return result;
     }
     result.point = std::move(*point);
+    if (settings_.offset_range)
+      result.offset_range =
+          offset_range(*problem, Eigen::Map<const Vector>(result.point.unknowns.data(), problem->size()),
+                       hbm::parameters_at(*problem, omega_));
     result.history = history(scene_, {}, result.point, loop_angles(result.point, settings_.steps));
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return result;

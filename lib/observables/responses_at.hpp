@@ -5,10 +5,12 @@
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/histories.hpp>
+#include <arcslip/observables/offset_range.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +30,9 @@ ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, doubl
                          const GoOn& go_on = {});
 
 struct PointSettings {
-  double frequency = 0;  // of the excitation, in the scene's unit
-  int steps = 1000;      // of the history, in addition to the onsets and ends of slip
+  double frequency = 0;       // of the excitation, in the scene's unit
+  int steps = 1000;           // of the history, in addition to the onsets and ends of slip
+  bool offset_range = false;  // whether to search for PointResponse::offset_range
   friend bool operator==(const PointSettings&, const PointSettings&) = default;
 };
 
@@ -43,6 +46,7 @@ struct PointResponse {
   std::vector<int> harmonics;                              // n of the coefficients
   std::string doubt;                                       // why other responses may be missing; empty: none
   ResponsePoint point;
+  std::optional<OffsetRange> offset_range;
   History history;  // over one period, both ends included
   SolverSummary solver;
 };

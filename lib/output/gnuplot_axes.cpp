@@ -150,6 +150,7 @@ Axes axes_of(const results::FigureData& data, const results::Figure& figure) {
                        [](const results::FigureMark& mark) { return mark.kind == "minimum"; });
   };
   const bool has_minima = std::any_of(data.lines.begin(), data.lines.end(), has_minimum);
+  if (!figure.areas.empty()) return {axis_of(data.columns[figure.x], false), {{0, 360}}};
   // What a study goes over fills its axis; in a curve of folds it is the result that the frequency shows.
   return {axis_of(data.columns[figure.x], figure.x != 0), axis_of(data.columns[figure.y], true, has_minima)};
 }
@@ -157,6 +158,7 @@ Axes axes_of(const results::FigureData& data, const results::Figure& figure) {
 void write_axes(std::ostream& out, const results::Figure& figure, const Axes& axes) {
   write_axis(out, 'x', figure.x_label, axes.x);
   write_axis(out, 'y', figure.y_label, axes.y);
+  if (!figure.areas.empty()) out << "set ytics 90\n";
 }
 
 }  // namespace arcslip::output

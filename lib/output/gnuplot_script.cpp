@@ -15,6 +15,7 @@ namespace arcslip::output {
 namespace {
 
 using results::Figure;
+using results::FigureArea;
 using results::FigureBand;
 using results::FigureColumn;
 using results::FigureData;
@@ -42,6 +43,10 @@ constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
     "pointtype 7 pointsize 0.8",  "pointtype 4 pointsize 1 linewidth 1.5",
     "pointtype 9 pointsize 1",    "pointtype 11 pointsize 1",
     "pointtype 13 pointsize 1.1", "pointtype 5 pointsize 0.7"};
+
+/// Colours of the areas, in the order of area_kinds: alike where two kinds never meet.
+constexpr std::array<const char*, results::area_kinds.size()> area_colours = {
+    "#46039f", "#ed7953", "#ed7953", "#fdb42f", "#ececec", "#46039f", "#7e03a8", "#cc4778"};
 
 constexpr double band_opacity = 0.12;
 
@@ -154,6 +159,30 @@ bool is_in(const Figure& figure, const FigureLine& line, std::string_view kind) 
                      [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
 }
 
+/// The blocks of the data before the areas.
+int blocks_of_lines(const FigureData& data) {
+  int blocks = 0;
+  for (const FigureLine& line : data.lines) {
+    ++blocks;
+    for (const std::string_view kind : mark_kinds) blocks += has_mark(line, kind) ? 1 : 0;
+  }
+  return blocks;
+}
+
+/// first: the block of the first area.
+void write_areas(std::ostream& out, const Figure& figure, int first) {
+  const char* separator = "plot ";
+  for (const FigureArea& area : figure.areas) {
+    const auto kind = std::find(results::area_kinds.begin(), results::area_kinds.end(), area.kind);
+    const auto rank = static_cast<std::size_t>(kind - results::area_kinds.begin());
+    out << separator << "data index " << first++ << " using 1:2:3 with filledcurves fillcolor rgb '"
+        << area_colours.at(rank) << "' fillstyle solid 1 noborder title " << quoted(area.kind)
+        << " noenhanced";
+    separator = ", \\\n     ";
+  }
+  out << '\n';
+}
+
 /// Key entries of the bands, narrowest first, from one line, as all lines have the same.
 void add_bands_to_key(const FigureData& data, std::vector<std::string>& curves) {
   const auto has_bands = [](const FigureLine& line) { return !line.bands.empty(); };
@@ -245,6 +274,17 @@ void write_figure_data(std::ostream& out, const FigureData& data) {
       out << (any ? "\n\n" : "");
     }
   }
+  for (const Figure& figure : data.figures) {
+    for (const FigureArea& area : figure.areas) {
+      out << "# " << figure.x_label << ", from and to: " << results::visible(figure.y_label) << ", "
+          << area.kind << '\n';
+      for (const auto& strip : area.strips) {
+        for (const Record& values : strip) write_record(out, values);
+        out << '\n';
+      }
+      out << '\n';
+    }
+  }
 }
 
 void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::string& name,
@@ -260,17 +300,26 @@ void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::
       << "set grid xtics ytics back linetype 1 linewidth 0.5 linecolor rgb '#dddddd'\n"
       << "set key outside right center vertical Left reverse samplen 3.5 spacing 1.2 noenhanced\n";
   write_key_title(out, data);
+  int next_area = blocks_of_lines(data);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const Figure& figure = data.figures[i];
     const std::string& image = images[i];
     const Axes axes = axes_of(data, figure);
     out << "\n# " << image << '\n';
     write_axes(out, figure, axes);
-    write_bands(out, data, figure);
-    write_labels(out, data, figure, axes);
+    if (figure.areas.empty()) {
+      write_bands(out, data, figure);
+      write_labels(out, data, figure, axes);
+    } else {
+      out << "unset object\nunset label\n";
+    }
     out << "set terminal svg size 800,500 font 'Helvetica,15' background rgb 'white' dashlength 0.5\n"
         << "set output '" << image << ".svg'.suffix\n";
-    write_plot(out, data, figure);
+    if (figure.areas.empty())
+      write_plot(out, data, figure);
+    else
+      write_areas(out, figure, next_area);
+    next_area += static_cast<int>(figure.areas.size());
     out << "set terminal pngcairo size 1600,1000 font 'Sans,15' fontscale 1.6 linewidth 2 pointscale 2 "
            "dashlength 0.5\n"
         << "set output '" << image << ".png'.suffix\n"

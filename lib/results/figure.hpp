@@ -52,11 +52,22 @@ struct FigureLine {
   std::vector<FigureBand> bands{};  // the widest first
 };
 
-/// One column over another, both counted from 0.
+/// The kinds of areas that are drawn, in the order of the key.
+inline constexpr std::array<std::string_view, 8> area_kinds = {"stick", "slip",   "slip+",   "slip-",
+                                                               "open",  "closed", "closed+", "closed-"};
+
+/// Strips of a plane that are filled: of each, at some x, its lower and its upper end.
+struct FigureArea {
+  std::string kind;
+  std::vector<std::vector<Record>> strips;  // records {x, lower, upper}
+};
+
+/// One column over another, both counted from 0; or areas over column x and an angle, 0 to 360 degrees.
 struct Figure {
   std::string name;  // "amplitude"
   std::size_t x = 0, y = 1;
-  std::string x_label, y_label;  // "amplitude (m)"
+  std::string x_label{}, y_label{};  // "amplitude (m)"
+  std::vector<FigureArea> areas{};   // in place of the lines
 };
 
 /// The data of figures with the same lines.

@@ -2,6 +2,7 @@
 
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/studies/contact_figures.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <algorithm>
@@ -175,6 +176,11 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
   }
   set_ranges(kind, data);
   set_figures(kind, shares, data);
+  if (data.lines.size() == 1 && kind != BranchKind::folds) {
+    const auto column_0 = [&](const ResponsePoint& point) { return record(scene, kind, {}, point)[0]; };
+    for (Figure& figure : contact_figures(branches, data.columns[0].label, column_0))
+      data.figures.push_back(std::move(figure));
+  }
   return data;
 }
 

@@ -22,7 +22,8 @@ enum class BranchKind { responses, over_parameter, peaks, folds };
 /// friction element. For frequency responses and traces: the amplitude and the stick share of each friction
 /// element ("amplitude", "stick"). For resonance peaks: their amplitude, their frequency ("frequency"), and
 /// the amplitude over the stick share of each friction element ("amplitude_over_stick"). For folds: the
-/// parameter over the frequency ("folds").
+/// parameter over the frequency ("folds"). Of a single line, but folds, also what each contact does
+/// (contact_figures.hpp).
 results::FigureData figures_of(const scene::Scene& scene, BranchKind kind,
                                std::span<const observables::ResponseBranch> branches);
 

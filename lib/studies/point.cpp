@@ -24,6 +24,9 @@ scene::file::KeysOf<PointSettings> keys() {
   keys.add(scene::file::one_frequency(&PointSettings::frequency, "the excitation frequency"));
   keys.add(
       scene::file::whole("steps", &PointSettings::steps, 1, most_steps, "number of instants of the history"));
+  keys.add(scene::file::flag("offset_range", &PointSettings::offset_range,
+                             "whether to search for the least and the largest amplitude that sliders which "
+                             "stick throughout the period leave open, wherever they rest"));
   return keys;
 }
 
@@ -88,6 +91,14 @@ std::string doubt_of(const PointResponse& response) {
   return response.doubt.empty() ? doubt_of_stops(response.point.stops) : response.doubt;
 }
 
+results::Object offset_range(const observables::OffsetRange& range) {
+  results::Object object{{"amplitude_min", range.amplitude_min, "m"},
+                         {"amplitude_max", range.amplitude_max, "m"},
+                         {"sliders", range.sliders}};
+  if (!range.failure.empty()) object.push_back({"message", range.failure});
+  return object;
+}
+
 results::Object facts(const scene::Scene& scene, const PointResponse& response) {
   results::Object all;
   if (response.status == observables::Status::complete) {
@@ -96,6 +107,7 @@ results::Object facts(const scene::Scene& scene, const PointResponse& response) 
   }
   all.push_back({"period", scene.harmonics.period});
   all.push_back({"harmonics", results::Value::List(response.harmonics.begin(), response.harmonics.end())});
+  if (response.offset_range) all.push_back({"offset_range", offset_range(*response.offset_range)});
   all.push_back({"solver", solver(response.solver)});
   return all;
 }

@@ -16,6 +16,16 @@ constexpr int samples_of_all = 8, samples_of_each = 8;                          
 constexpr double as_active = 1e-6;  // relative: a linear limit that is nearer is active
 constexpr const char* linear_name = "a linear limit";
 
+// Whether the responses tell the mean force that a contact may hold.
+bool tells_mean_force(const model::Model& model, const model::NonlinearPart& part) {
+  const auto element = part.law->element(
+      model.harmonics, {model.settings.friction == scene::Friction::exact, model.settings.samples});
+  const Eigen::Index size = model.harmonics.size() * (part.law->directions() + part.law->auxiliary());
+  element->move_to(Vector::Zero(size), part.fields(model::defaults(model)), false);
+  elements::FrictionState state;
+  return element->friction(state) && std::isfinite(state.mean_max);
+}
+
 }  // namespace
 
 DesignSpace::DesignSpace(const scene::Scene& scene, const OptimumProblem& problem)
@@ -152,12 +162,13 @@ PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const
   for (std::size_t e = 0; e < model_->elements.size(); ++e)
     for (const std::string_view path :
          {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping", "open_percent",
-          "normal_load_max", "normal_load_min", "wear_rate"}) {
+          "normal_load_max", "normal_load_min", "mean_force_min", "mean_force_max", "wear_rate"}) {
       const auto& element = model_->elements[e];
       const bool is_of_friction = path == "stick_percent" || path == "energy";
       const bool is_of_load = path == "open_percent" || path.starts_with("normal_load");
       if ((is_of_friction && !element.law->has_contact()) ||
           (is_of_load && !element.law->has_normal_load()) ||
+          (path.starts_with("mean_force") && !tells_mean_force(*model_, element)) ||
           (path == "wear_rate" && element.wear_coefficient == 0) ||
           !is_wanted(element.name + "." + std::string(path)))
         continue;

@@ -259,3 +259,52 @@ TEST_CASE("equivalent stiffness can be limited from both sides, and the optimum 
     CHECK(std::abs(found.point.elements[0].equivalent_stiffness / (factor * stiffness) - 1) < 1e-6);
   }
 }
+
+TEST_CASE("the mean force that a contact may hold can be limited, against the closed form of one mass") {
+  // Stuck at its peak, X = f/(c w_n sqrt(1 - z^2)), the damper may hold a mean force of up to p - k_d X. A
+  // stiffer one has a lower peak, but may hold less.
+  auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "d", "type": "jenkins", "at": "x", "stiffness": 1, "friction_coefficient": 0.5,
+                  "normal_load": 100}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "harmonics": {"order": 3},
+    "studies": [{"kind": "frf", "from": 0.5, "to": 4}]})");
+  const double c = 0.1, p = 50;
+  const auto amplitude = [&](double k_d) {
+    const double w = std::sqrt(1 + k_d), z = c / (2 * w);
+    return 1 / (c * w * std::sqrt(1 - z * z));
+  };
+  for (const bool even : {false, true}) {
+    if (even)
+      s.excitation.push_back(s.excitation[0]), s.excitation.back().name = "g",
+                                               s.excitation.back().harmonic = 2;
+    if (even) scene::set(s, "g.cosine", 0);
+    for (const double least : {45.0, 40.0}) {
+      CAPTURE(even, least);
+      double low = 0, high = 10;  // where p - k_d X = least
+      for (int i = 0; i < 200; ++i) {
+        const double middle = 0.5 * (low + high);
+        (p - middle * amplitude(middle) > least ? low : high) = middle;
+      }
+      optimize::OptimumProblem problem{{{"d.stiffness", 0.1, 8}}, 0.5, 4};
+      problem.limits = {{.observable = "d.mean_force_max", .at_least = least}};
+      const auto found = optimize::optimum(s, problem);
+      CAPTURE(found.stop.message);
+      REQUIRE(found.status == observables::Status::complete);
+      CHECK(std::abs(found.design[0] / low - 1) < 1e-6);
+      CHECK(std::abs(found.amplitude / amplitude(low) - 1) < 1e-6);
+      problem.limits = {{.observable = "d.mean_force_min", .at_most = -least}};
+      const auto other = optimize::optimum(s, problem);
+      CHECK(std::abs(other.design[0] / low - 1) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("of an element that does not tell its mean force none can be limited") {
+  auto s = scenes::paper(3, 3);
+  s.harmonics.friction = scene::Friction::sampled;
+  optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 18, 22};
+  problem.limits = {{.observable = "damper.mean_force_max", .at_least = 1}};
+  CHECK_THROWS_AS(optimize::optimum(s, problem), optimize::OptionsError);
+}

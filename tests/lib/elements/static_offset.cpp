@@ -317,6 +317,19 @@ TEST_CASE("the offset is an option of the elements that have it, and written wit
   } catch (const scene::SceneError& error) {
     CHECK(contains(error.what(), "\"static\""));
   }
+  std::string joint = R"({"format": "arcslip-scene-1", "structure": {"dofs": ["x"],
+    "masses": [{"name": "m", "at": "x", "value": 1}], "springs": [{"name": "k", "at": "x", "value": 1}]},
+    "elements": [{"name": "j", "type": "iwan", "at": "x", "stiffness": 1, "slip_force": 1, "offset": "static"}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "studies": [{"kind": "frf", "from": 1, "to": 2}]})";
+  try {
+    scenes::parse(joint);
+    FAIL("a joint has no offset");
+  } catch (const scene::SceneError& error) {
+    REQUIRE(error.faults().size() == 1);
+    CHECK(error.faults()[0].pointer == "/elements/0/offset");
+    CHECK(contains(error.faults()[0].message,
+                   "as some do in microslip, hold no mean force; where one is to be held"));
+  }
 }
 
 TEST_CASE("from resonance to resonance friction holds a load, lets go where it slips, and holds it again") {

@@ -81,7 +81,7 @@ TEST_CASE("no name or title runs a command or breaks a figure") {
   auto branch = support::branch();
   for (auto& point : branch.points) {
     point.elements[0].name = evil;
-    point.elements.push_back({"other", true, 10, {}, {}, 0});
+    point.elements.push_back({"other", true, 10, {}, {}, 0, {}});
   }
   auto scene = support::scene(evil);
   scene.elements[0].name = evil;

@@ -69,7 +69,7 @@ inline arcslip::observables::ResponsePoint point(double hertz, double amplitude,
   point.truncation_estimate = 1e-9;
   point.energy_friction = 0.25;
   point.energy_viscous = 0.125;
-  point.elements.push_back({"damper", true, stick_percent, {1.5, 4.5}, {0.5, 3.5}, 0.25});
+  point.elements.push_back({"damper", true, stick_percent, {1.5, 4.5}, {0.5, 3.5}, 0.25, {}});
   point.coefficients = {amplitude, 0, 0, -amplitude};
   point.energy_input = 0.375;
   point.forces = {-40, 30, 2, {10, 6}, {}, {0.5, 8}};

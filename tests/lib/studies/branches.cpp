@@ -170,7 +170,7 @@ TEST_CASE("maxima over the period are written where there are any") {
 
 TEST_CASE("with a nonlinear spring its part of the forces is written, and no angles of contact for it") {
   auto branch = support::branch();
-  branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
+  branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0, {}});
   branch.points[0].forces.nonlinear_spring = {7, 0};
   const Json json =
       written(with_element("spring", elements::cubic_spring()), {branch})["branches"][0]["points"][0];
@@ -203,7 +203,7 @@ TEST_CASE("what is not finite never reaches JSON") {
 
 TEST_CASE("stick_percent stands at the top of a point only with exactly one friction element") {
   auto branch = support::branch();
-  branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0});
+  branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0, {}});
   branch.points[2].elements.clear();
   const Json points =
       written(with_element("spring", elements::cubic_spring()), {branch})["branches"][0]["points"];
@@ -211,7 +211,7 @@ TEST_CASE("stick_percent stands at the top of a point only with exactly one fric
   CHECK_FALSE(points[0]["elements"]["spring"].contains("stick_percent"));
   CHECK_FALSE(points[2].contains("stick_percent"));
   CHECK(points[2]["elements"] == Json::object());
-  branch.points[1].elements.push_back({"second", true, 10, {}, {}, 0});
+  branch.points[1].elements.push_back({"second", true, 10, {}, {}, 0, {}});
   const Json two = written(with_element("second", elements::jenkins()), {branch})["branches"][0]["points"][1];
   CHECK_FALSE(two.contains("stick_percent"));
   CHECK(two["elements"]["second"]["stick_percent"] == 10.0);
