@@ -18,6 +18,7 @@ constexpr double resolved = 1e-10;     // of h psi within a panel, of the larges
 constexpr double same_value = 1e-13;   // of the motion
 constexpr double shortest = 1e-12;     // rad: a panel that is not divided any further
 constexpr double negligible = 1e-9;    // rad: slip so short before separation would come and go by rounding
+constexpr double same_end = 1e-6;      // rad: slip that ends so near to the end of the period began it
 constexpr double edge = 1e-12;         // of the radius: a slider that is so close is at the edge
 constexpr double least_step = 1e-10;   // rad
 constexpr double phase_per_panel = 4;  // rad, of the highest harmonic
@@ -138,6 +139,40 @@ double DiscPhases::onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edg
   return never;
 }
 
+// x'.n - h' within a panel, and its slope.
+std::pair<double, double> DiscPhases::spare(const Disc& disc, const SlipPanel& panel, double theta) const {
+  const DiscPoint p = disc.at(theta);
+  const double psi = collocation_.psi(panel, theta);
+  const Eigen::Vector2d n = direction(psi);
+  const double turning = across(psi).dot(p.v);  // h psi'
+  return {n.dot(p.v) - p.dh, n.dot(p.a) - p.ddh + (p.h > 0 ? turning * turning / p.h : 0)};
+}
+
+// Where the speed of slip first becomes negative in a panel, if it does: at a node, or in a dip between two.
+std::optional<DiscPhases::Bracket> DiscPhases::end_of_slip(const Disc& disc, const SlipPanel& panel) const {
+  double theta = panel.begin;
+  auto [speed, slope] = spare(disc, panel, theta);
+  for (int j = 0; j < panel_nodes; ++j) {
+    if (panel.spare[j] < 0) return Bracket{theta, speed, panel.theta[j], panel.spare[j]};
+    const double length = panel.theta[j] - theta;
+    // No lower than where the tangents meet, if it is convex.
+    if (slope < 0 && panel.gain[j] > 0 &&
+        speed * panel.gain[j] - panel.spare[j] * slope + slope * panel.gain[j] * length < 0) {
+      double below = theta, above = panel.theta[j];
+      for (int i = 0; i < 40 && above - below > 1e-6 * length; ++i) {
+        const double middle = 0.5 * (below + above);
+        const auto [value, rise] = spare(disc, panel, middle);
+        if (value < 0) return Bracket{theta, speed, middle, value};
+        (rise < 0 ? below : above) = middle;
+      }
+    }
+    theta = panel.theta[j];
+    speed = panel.spare[j];
+    slope = panel.gain[j];
+  }
+  return {};
+}
+
 // From the state at `begin` until slip ends, or to `end`. decay: of a change of psi.
 double DiscPhases::slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends) {
   double theta = begin, length = longest_, least = shortest;
@@ -162,20 +197,14 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
       collocation_.hold(disc, theta, to, at.v.norm() > 0 ? std::atan2(at.v[1], at.v[0]) : state.psi, panel);
       least *= 10;
     }
-    if (panel.spare.minCoeff() < 0 && !held) {
-      int first = 0;
-      while (panel.spare[first] >= 0) ++first;
-      double below = first == 0 ? theta : panel.theta[first - 1], above = panel.theta[first];
-      const auto spare = [&](double at) {
-        const DiscPoint p = disc.at(at);
-        return direction(collocation_.psi(panel, at)).dot(p.v) - p.dh;
-      };
-      double f_below = first == 0 ? spare(theta) : panel.spare[first - 1], f_above = panel.spare[first];
+    const auto bracket = held ? std::nullopt : end_of_slip(disc, panel);
+    if (bracket) {
+      auto [below, f_below, above, f_above] = *bracket;
       double root = f_below > 0 ? above : below;
       for (int i = 0; i < 80 && f_below > 0 && above - below > 1e-14; ++i) {
         // Regula falsi after Illinois, with bisection every third step.
         root = i % 3 == 2 ? 0.5 * (below + above) : below + f_below / (f_below - f_above) * (above - below);
-        const double f = spare(root);
+        const double f = spare(disc, panel, root).first;
         if (f >= 0) {
           below = root;
           f_below = f;
@@ -215,6 +244,7 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
 void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
                        Eigen::Matrix2d* by) {
   const auto most = static_cast<std::size_t>(16 * harmonics_.order + 64);
+  const bool closes = from == DiscPhase::Begin::slip_end;  // after the period
   double theta = begin;
   const std::size_t first = phases_.size();
   while (theta < end) {
@@ -228,7 +258,10 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
       phase.state = DiscPhase::State::stick;
       phase.w = state.w;
       phase.end = std::min(until, end);
-      phases_.push_back(phase);
+      if (phases_.size() > first && phases_.back().state == DiscPhase::State::stick)
+        phases_.back().end = phase.end;  // without slip at the onset
+      else
+        phases_.push_back(phase);
       theta = phase.end;
       if (until == never) return;
       const DiscPoint p = disc.at(theta);
@@ -252,7 +285,7 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
       *by = ratio * across(state.psi) * across(psi).transpose() * *by;
     }
     if (until > theta) phases_.push_back(phase);
-    if (end - until < negligible) return;
+    if (end - until < (closes ? same_end : negligible)) return;
     if (ends) {
       state.w = p.x - std::max(p.h, 0.0) * direction(state.psi);
       state.slips = false;

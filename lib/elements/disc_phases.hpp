@@ -18,6 +18,7 @@
 #include <arcslip/elements/stick_centre.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -69,12 +70,18 @@ class DiscPhases {
     Eigen::Matrix2d by;  // dw at the end by w at the beginning
   };
 
+  struct Bracket {
+    double below, f_below, above, f_above;
+  };
+
   State closing(const Disc& disc, double theta) const;
   State at_rest(const Disc& disc, double theta, const Eigen::Vector2d& w) const;
   Eigen::Vector2d slider(const DiscPoint& at, const State& state) const;
   void march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
              Eigen::Matrix2d* by);
   double onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, double begin, double end) const;
+  std::pair<double, double> spare(const Disc& disc, const SlipPanel& panel, double theta) const;
+  std::optional<Bracket> end_of_slip(const Disc& disc, const SlipPanel& panel) const;
   double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);
   Period period(const Disc& disc, double begin, const Eigen::Vector2d& w);
   double iterate(const Disc& disc, double enough, Eigen::Vector2d& w);
