@@ -25,6 +25,7 @@ constexpr double phase_per_panel = 4;  // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
 constexpr int most_steps = 10000;  // towards an onset
 constexpr int newton_steps = 40, passes = 200;
+constexpr double shortest_share = 0.01;  // of Newton's step
 
 Eigen::Vector2d direction(double psi) {
   return {std::cos(psi), std::sin(psi)};
@@ -173,7 +174,7 @@ std::optional<DiscPhases::Bracket> DiscPhases::end_of_slip(const Disc& disc, con
   return {};
 }
 
-// From the state at `begin` until slip ends, or to `end`. decay: of a change of psi.
+// From the state at `begin` until slip ends, or to `end`. decay: of a change of w across n.
 double DiscPhases::slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends) {
   double theta = begin, length = longest_, least = shortest;
   ends = false;
@@ -230,7 +231,7 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
     const SlipPanel::Nodes weights = collocation_.weights(panel);
     double exponent = 0;
     for (int j = 0; j < panel_nodes; ++j)
-      exponent += panel.h[j] > 0 ? weights[j] * panel.along[j] / panel.h[j] : never;
+      exponent += panel.h[j] > 0 ? weights[j] * panel.spare[j] / panel.h[j] : never;
     decay *= std::exp(-std::max(exponent, 0.0));
     theta = panel.end;
     state.psi = panel.to();
@@ -273,18 +274,21 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
     }
     phase.state = DiscPhase::State::slip;
     phase.first_panel = panels_.size();
-    const double psi = state.psi, h = std::max(disc.at(theta).h, 0.0);
+    const DiscPoint onset_point = disc.at(theta);
+    const double psi = state.psi;
+    const Eigen::Vector2d before = slider(onset_point, state);
     double decay = 1;
     bool ends = false;
     const double until = slip(disc, state, theta, end, decay, ends);
     phase.end = until;
     phase.last_panel = panels_.size();
     const DiscPoint p = disc.at(until);
-    if (by != nullptr && until > theta) {
-      const double ratio = h > 0 ? std::max(p.h, 0.0) / h * decay : 0;
-      *by = ratio * across(state.psi) * across(psi).transpose() * *by;
+    if (by != nullptr && until > theta) *by = decay * across(state.psi) * across(psi).transpose() * *by;
+    if (until > theta) {
+      state.moved += phase.last_panel == phase.first_panel + 1 ? displacement(panels_.back())
+                                                               : slider(p, state) - before;
+      phases_.push_back(phase);
     }
-    if (until > theta) phases_.push_back(phase);
     if (end - until < (closes ? same_end : negligible)) return;
     if (ends) {
       state.w = p.x - std::max(p.h, 0.0) * direction(state.psi);
@@ -295,38 +299,54 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
   }
 }
 
+// Of the slider in slip over a panel, to relative precision.
+Eigen::Vector2d DiscPhases::displacement(const SlipPanel& panel) const {
+  const SlipPanel::Nodes weights = collocation_.weights(panel);
+  Eigen::Vector2d sum(0, 0);
+  for (int j = 0; j < panel_nodes; ++j) sum += weights[j] * panel.spare[j] * direction(panel.psi[j]);
+  return sum;
+}
+
 DiscPhases::Period DiscPhases::period(const Disc& disc, double begin, const Eigen::Vector2d& w) {
   phases_.clear();
   panels_.clear();
   State state = at_rest(disc, begin, w);
-  Period map{w, Eigen::Matrix2d::Identity()};
+  Period map{{0, 0}, Eigen::Matrix2d::Identity()};
   march(disc, state, DiscPhase::Begin::start, begin, begin + turn_angle, &map.by);
-  map.w = slider(disc.at(begin), state);
+  map.moved = state.moved;
   return map;
 }
 
-// Newton's method for w after one period, from w. Returns what is left.
+// Newton's method for w after one period, from w. Returns what is left, as a change of w: next to full stick
+// the slider moves along one line only, so that this is by far larger than its change over the period. A step
+// counts if it makes the next one shorter, with the same derivative.
 double DiscPhases::iterate(const Disc& disc, double enough, Eigen::Vector2d& w) {
   Period map = period(disc, 0, w);
-  double error = (map.w - w).norm();
-  for (int i = 0; i < passes && error > enough; ++i) {
+  double left = map.moved.norm();
+  for (int i = 0; i < passes && map.moved.norm() > 0; ++i) {
+    left = map.moved.norm();
     const Eigen::Matrix2d A = Eigen::Matrix2d::Identity() - map.by;
-    if (i < newton_steps && A.determinant() > 1e-12) {
-      const Eigen::Vector2d next = at_rest(disc, 0, w + A.inverse() * (map.w - w)).w;
-      const Period there = period(disc, 0, next);
-      const double remains = (there.w - next).norm();
-      if (remains < error) {
+    bool better = false;
+    if (i < newton_steps && A.determinant() > 1e-15) {
+      const Eigen::Matrix2d inverse = A.inverse();
+      const Eigen::Vector2d step = inverse * map.moved;
+      left = step.norm();
+      if (left <= enough) break;
+      for (double share = 1; share > shortest_share && !better; share *= 0.5) {
+        const Eigen::Vector2d next = at_rest(disc, 0, w + share * step).w;
+        const Period there = period(disc, 0, next);
+        better = (inverse * there.moved).norm() < (1 - 0.25 * share) * left;
+        if (!better) continue;
         w = next;
         map = there;
-        error = remains;
-        continue;
       }
     }
-    w = map.w;  // never farther from the periodic motion
+    if (better) continue;
+    if (map.moved.norm() <= enough) break;
+    w = at_rest(disc, 0, w + map.moved).w;  // never farther from the periodic motion
     map = period(disc, 0, w);
-    error = (map.w - w).norm();
   }
-  return error;
+  return left;
 }
 
 void DiscPhases::find_periodic(const Disc& disc) {

@@ -64,10 +64,11 @@ class DiscPhases {
     bool slips = false;
     Eigen::Vector2d w = Eigen::Vector2d::Zero();
     double psi = 0;
+    Eigen::Vector2d moved = Eigen::Vector2d::Zero();  // of w, by slip
   };
   struct Period {
-    Eigen::Vector2d w;   // at the end
-    Eigen::Matrix2d by;  // dw at the end by w at the beginning
+    Eigen::Vector2d moved;  // change of w
+    Eigen::Matrix2d by;     // dw at the end by w at the beginning
   };
 
   struct Bracket {
@@ -83,6 +84,7 @@ class DiscPhases {
   std::pair<double, double> spare(const Disc& disc, const SlipPanel& panel, double theta) const;
   std::optional<Bracket> end_of_slip(const Disc& disc, const SlipPanel& panel) const;
   double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);
+  Eigen::Vector2d displacement(const SlipPanel& panel) const;
   Period period(const Disc& disc, double begin, const Eigen::Vector2d& w);
   double iterate(const Disc& disc, double enough, Eigen::Vector2d& w);
   void find_periodic(const Disc& disc);
