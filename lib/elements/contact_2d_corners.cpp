@@ -2,6 +2,7 @@
 // 8 and 9 where a bound begins to carry a slider with a static offset from w = 0.
 #include <arcslip/elements/contact_2d.hpp>
 
+#include <arcslip/elements/load_corner.hpp>
 #include <arcslip/elements/reversal_angle.hpp>
 
 #include <algorithm>
@@ -43,19 +44,15 @@ class Contact2dCorners final : public Corners {
 
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
     set(contact_law(fields), w);
+    if (corner.guard < first_onset)
+      return set_load_corner(h_, corner, corner.guard == closing, w.tail(c_), {law_.k_n, law_.N_0, 1, 3}, at);
     at.values.setZero();
     for (Eigen::MatrixXd* m : {&at.by_motion, &at.by_angle, &at.by_field}) m->setZero();
-    if (corner.guard < first_onset) {
-      const double side = corner.guard == closing ? 1 : -1;
-      add_load(side, corner.angles[0], 0, 0, at);
-      add_slope(0, 1, corner.angles[0], 0, 1, at);
-      return;
-    }
     if (corner.guard >= carried_up) {  // k_t x_t - mu N, or -(k_t x_t + mu N)
       const double sign = corner.guard == carried_up ? 1 : -1;
       add_bound(sign * law_.k_t, -sign, corner.angles[0], 0, at);
       at.by_field(0, 0) += at.values[0] / law_.k_t;
-      add_slope(1, -sign, corner.angles[0], 0, 1, at);
+      add_slope(-sign, corner.angles[0], 0, 1, at);
       return;
     }
     const SlipOnset onset = onset_of(corner);
@@ -63,11 +60,11 @@ class Contact2dCorners final : public Corners {
     add_bound(k, -onset.slip, corner.angles[1], 1, at);
     add_bound(-k, sign_of(onset.rest), corner.angles[0], 0, at);
     at.by_field(0, 0) += at.values[0] / law_.k_t;
-    add_slope(1, -onset.slip, corner.angles[1], 1, 2, at);
+    add_slope(-onset.slip, corner.angles[1], 1, 2, at);
     if (onset.rest == SliderRest::At::closing)
-      add_load(1, corner.angles[0], 0, 1, at);
+      add_load(corner.angles[0], 0, 1, at);
     else
-      add_slope(1, sign_of(onset.rest), corner.angles[0], 0, 1, at);
+      add_slope(sign_of(onset.rest), corner.angles[0], 0, 1, at);
   }
 
   double size(const Corner&, In w, Fields fields) override {
@@ -162,30 +159,29 @@ class Contact2dCorners final : public Corners {
     at.by_field(0, 2) += factor * sign * N / law_.k_t;
     at.by_field(0, 3) += by_N;
   }
-  // side N at an angle, to a row.
-  void add_load(double side, double theta, int angle, int row, Equations& at) {
+  // N at an angle, to a row.
+  void add_load(double theta, int angle, int row, Equations& at) {
     const Values n = series_values(h_, w_.tail(c_), theta);
     series_basis(h_, theta, phi_);
-    at.values[row] += side * (law_.N_0 + law_.k_n * n.x);
-    at.by_motion.row(row).tail(c_) += side * law_.k_n * phi_.transpose();
-    at.by_angle(row, angle) += side * law_.k_n * n.d1;
-    at.by_field(row, 1) += side * n.x;
-    at.by_field(row, 3) += side;
+    at.values[row] += law_.N_0 + law_.k_n * n.x;
+    at.by_motion.row(row).tail(c_) += law_.k_n * phi_.transpose();
+    at.by_angle(row, angle) += law_.k_n * n.d1;
+    at.by_field(row, 1) += n.x;
+    at.by_field(row, 3) += 1;
   }
-  // The slope of tangential x_t + sign mu k_n/k_t x_n, or of x_n, at an angle.
-  void add_slope(double tangential, double sign, double theta, int angle, int row, Equations& at) {
-    const double normal = tangential == 0 ? 1 : sign * law_.mu * law_.k_n / law_.k_t;
+  // The slope of x_t + sign mu k_n/k_t x_n at an angle.
+  void add_slope(double sign, double theta, int angle, int row, Equations& at) {
+    const double normal = sign * law_.mu * law_.k_n / law_.k_t;
     const Values t = series_values(h_, w_.head(c_), theta), n = series_values(h_, w_.tail(c_), theta);
     derivative_[0] = 0;
     for (int k = 1; k <= h_.order; ++k) {
       derivative_[h_.cosine_index(k)] = -k * std::sin(k * theta);
       derivative_[h_.sine_index(k)] = k * std::cos(k * theta);
     }
-    at.values[row] += tangential * t.d1 + normal * n.d1;
-    at.by_motion.row(row).head(c_) += tangential * derivative_.transpose();
+    at.values[row] += t.d1 + normal * n.d1;
+    at.by_motion.row(row).head(c_) += derivative_.transpose();
     at.by_motion.row(row).tail(c_) += normal * derivative_.transpose();
-    at.by_angle(row, angle) += tangential * t.d2 + normal * n.d2;
-    if (tangential == 0) return;
+    at.by_angle(row, angle) += t.d2 + normal * n.d2;
     at.by_field(row, 0) -= normal / law_.k_t * n.d1;
     at.by_field(row, 1) += sign * law_.mu / law_.k_t * n.d1;
     at.by_field(row, 2) += sign * law_.k_n / law_.k_t * n.d1;

@@ -186,6 +186,9 @@ class Contact3d final : public PlainLaw {
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {
     return make_contact_3d(harmonics);
   }
+  std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
+    return make_contact_3d_corners(harmonics);
+  }
   Eigen::MatrixXd force_at(const Harmonics& h, In u, Fields fields, Angles angles) const override {
     return contact_3d_force(h, u, fields, angles);
   }

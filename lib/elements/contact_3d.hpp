@@ -13,10 +13,11 @@
 // collocation (slip_panel.hpp) with errors of 1e-12 of the largest mu N. With h = mu N/k_t, the derivatives
 // of the direction psi of slip and of the rests w follow the history,
 //
-//   h dpsi' + (x'.n) dpsi = dx'.t - psi' dh                          in slip, n = (cos psi, sin psi), t = n
-//   turned dpsi = t.(dx - dw)/h                                             at the onset of slip dw = dx - dh
-//   n - h t dpsi                                        at its end dw = dx - (x'/h') dh where stick begins at
-//   closing dpsi = (t.dx' - psi' dh)/|x'|,  psi' = t.x''/(h' + |x'|)         where slip begins at closing
+//   in slip, n = (cos psi, sin psi), t = n turned   h dpsi' + (x'.n) dpsi = dx'.t - psi' dh
+//   at the onset of slip                            dpsi = t.(dx - dw)/h
+//   at its end                                      dw = dx - dh n - h t dpsi
+//   where stick begins at closing                   dw = dx - (x'/h') dh
+//   where slip begins at closing                    dpsi = (t.dx' - psi' dh)/|x'|,  psi' = t.x''/(h' + |x'|)
 //
 // and close over the period where the contact never opens. Without slip w is centred (stick_centre.hpp). The
 // error of harmonic balance falls as N^-3.
@@ -35,6 +36,7 @@ namespace arcslip::elements {
 const PlainLaw& contact_3d();
 
 std::unique_ptr<Element> make_contact_3d(const Harmonics& harmonics);
+std::unique_ptr<Corners> make_contact_3d_corners(const Harmonics& harmonics);
 /// The exact force at some angles, as Law::force_at.
 Eigen::MatrixXd contact_3d_force(const Harmonics& harmonics, In u, Fields fields, Angles angles);
 

@@ -18,12 +18,14 @@ constexpr double resolved = 1e-10;     // of h psi within a panel, of the larges
 constexpr double same_value = 1e-13;   // of the motion
 constexpr double shortest = 1e-12;     // rad: a panel that is not divided any further
 constexpr double negligible = 1e-9;    // rad: slip so short before separation would come and go by rounding
+constexpr double same_end = 1e-6;      // rad: slip that ends so near to the end of the period began it
 constexpr double edge = 1e-12;         // of the radius: a slider that is so close is at the edge
 constexpr double least_step = 1e-10;   // rad
 constexpr double phase_per_panel = 4;  // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
 constexpr int most_steps = 10000;  // towards an onset
 constexpr int newton_steps = 40, passes = 200;
+constexpr double shortest_share = 0.01;  // of Newton's step
 
 Eigen::Vector2d direction(double psi) {
   return {std::cos(psi), std::sin(psi)};
@@ -138,7 +140,41 @@ double DiscPhases::onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edg
   return never;
 }
 
-// From the state at `begin` until slip ends, or to `end`. decay: of a change of psi.
+// x'.n - h' within a panel, and its slope.
+std::pair<double, double> DiscPhases::spare(const Disc& disc, const SlipPanel& panel, double theta) const {
+  const DiscPoint p = disc.at(theta);
+  const double psi = collocation_.psi(panel, theta);
+  const Eigen::Vector2d n = direction(psi);
+  const double turning = across(psi).dot(p.v);  // h psi'
+  return {n.dot(p.v) - p.dh, n.dot(p.a) - p.ddh + (p.h > 0 ? turning * turning / p.h : 0)};
+}
+
+// Where the speed of slip first becomes negative in a panel, if it does: at a node, or in a dip between two.
+std::optional<DiscPhases::Bracket> DiscPhases::end_of_slip(const Disc& disc, const SlipPanel& panel) const {
+  double theta = panel.begin;
+  auto [speed, slope] = spare(disc, panel, theta);
+  for (int j = 0; j < panel_nodes; ++j) {
+    if (panel.spare[j] < 0) return Bracket{theta, speed, panel.theta[j], panel.spare[j]};
+    const double length = panel.theta[j] - theta;
+    // No lower than where the tangents meet, if it is convex.
+    if (slope < 0 && panel.gain[j] > 0 &&
+        speed * panel.gain[j] - panel.spare[j] * slope + slope * panel.gain[j] * length < 0) {
+      double below = theta, above = panel.theta[j];
+      for (int i = 0; i < 40 && above - below > 1e-6 * length; ++i) {
+        const double middle = 0.5 * (below + above);
+        const auto [value, rise] = spare(disc, panel, middle);
+        if (value < 0) return Bracket{theta, speed, middle, value};
+        (rise < 0 ? below : above) = middle;
+      }
+    }
+    theta = panel.theta[j];
+    speed = panel.spare[j];
+    slope = panel.gain[j];
+  }
+  return {};
+}
+
+// From the state at `begin` until slip ends, or to `end`. decay: of a change of w across n.
 double DiscPhases::slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends) {
   double theta = begin, length = longest_, least = shortest;
   ends = false;
@@ -162,20 +198,14 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
       collocation_.hold(disc, theta, to, at.v.norm() > 0 ? std::atan2(at.v[1], at.v[0]) : state.psi, panel);
       least *= 10;
     }
-    if (panel.spare.minCoeff() < 0 && !held) {
-      int first = 0;
-      while (panel.spare[first] >= 0) ++first;
-      double below = first == 0 ? theta : panel.theta[first - 1], above = panel.theta[first];
-      const auto spare = [&](double at) {
-        const DiscPoint p = disc.at(at);
-        return direction(collocation_.psi(panel, at)).dot(p.v) - p.dh;
-      };
-      double f_below = first == 0 ? spare(theta) : panel.spare[first - 1], f_above = panel.spare[first];
+    const auto bracket = held ? std::nullopt : end_of_slip(disc, panel);
+    if (bracket) {
+      auto [below, f_below, above, f_above] = *bracket;
       double root = f_below > 0 ? above : below;
       for (int i = 0; i < 80 && f_below > 0 && above - below > 1e-14; ++i) {
         // Regula falsi after Illinois, with bisection every third step.
         root = i % 3 == 2 ? 0.5 * (below + above) : below + f_below / (f_below - f_above) * (above - below);
-        const double f = spare(root);
+        const double f = spare(disc, panel, root).first;
         if (f >= 0) {
           below = root;
           f_below = f;
@@ -201,7 +231,7 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
     const SlipPanel::Nodes weights = collocation_.weights(panel);
     double exponent = 0;
     for (int j = 0; j < panel_nodes; ++j)
-      exponent += panel.h[j] > 0 ? weights[j] * panel.along[j] / panel.h[j] : never;
+      exponent += panel.h[j] > 0 ? weights[j] * panel.spare[j] / panel.h[j] : never;
     decay *= std::exp(-std::max(exponent, 0.0));
     theta = panel.end;
     state.psi = panel.to();
@@ -215,6 +245,7 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
 void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
                        Eigen::Matrix2d* by) {
   const auto most = static_cast<std::size_t>(16 * harmonics_.order + 64);
+  const bool closes = from == DiscPhase::Begin::slip_end;  // after the period
   double theta = begin;
   const std::size_t first = phases_.size();
   while (theta < end) {
@@ -228,7 +259,10 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
       phase.state = DiscPhase::State::stick;
       phase.w = state.w;
       phase.end = std::min(until, end);
-      phases_.push_back(phase);
+      if (phases_.size() > first && phases_.back().state == DiscPhase::State::stick)
+        phases_.back().end = phase.end;  // without slip at the onset
+      else
+        phases_.push_back(phase);
       theta = phase.end;
       if (until == never) return;
       const DiscPoint p = disc.at(theta);
@@ -240,19 +274,22 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
     }
     phase.state = DiscPhase::State::slip;
     phase.first_panel = panels_.size();
-    const double psi = state.psi, h = std::max(disc.at(theta).h, 0.0);
+    const DiscPoint onset_point = disc.at(theta);
+    const double psi = state.psi;
+    const Eigen::Vector2d before = slider(onset_point, state);
     double decay = 1;
     bool ends = false;
     const double until = slip(disc, state, theta, end, decay, ends);
     phase.end = until;
     phase.last_panel = panels_.size();
     const DiscPoint p = disc.at(until);
-    if (by != nullptr && until > theta) {
-      const double ratio = h > 0 ? std::max(p.h, 0.0) / h * decay : 0;
-      *by = ratio * across(state.psi) * across(psi).transpose() * *by;
+    if (by != nullptr && until > theta) *by = decay * across(state.psi) * across(psi).transpose() * *by;
+    if (until > theta) {
+      state.moved += phase.last_panel == phase.first_panel + 1 ? displacement(panels_.back())
+                                                               : slider(p, state) - before;
+      phases_.push_back(phase);
     }
-    if (until > theta) phases_.push_back(phase);
-    if (end - until < negligible) return;
+    if (end - until < (closes ? same_end : negligible)) return;
     if (ends) {
       state.w = p.x - std::max(p.h, 0.0) * direction(state.psi);
       state.slips = false;
@@ -262,38 +299,54 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
   }
 }
 
+// Of the slider in slip over a panel, to relative precision.
+Eigen::Vector2d DiscPhases::displacement(const SlipPanel& panel) const {
+  const SlipPanel::Nodes weights = collocation_.weights(panel);
+  Eigen::Vector2d sum(0, 0);
+  for (int j = 0; j < panel_nodes; ++j) sum += weights[j] * panel.spare[j] * direction(panel.psi[j]);
+  return sum;
+}
+
 DiscPhases::Period DiscPhases::period(const Disc& disc, double begin, const Eigen::Vector2d& w) {
   phases_.clear();
   panels_.clear();
   State state = at_rest(disc, begin, w);
-  Period map{w, Eigen::Matrix2d::Identity()};
+  Period map{{0, 0}, Eigen::Matrix2d::Identity()};
   march(disc, state, DiscPhase::Begin::start, begin, begin + turn_angle, &map.by);
-  map.w = slider(disc.at(begin), state);
+  map.moved = state.moved;
   return map;
 }
 
-// Newton's method for w after one period, from w. Returns what is left.
+// Newton's method for w after one period, from w. Returns what is left, as a change of w: next to full stick
+// the slider moves along one line only, so that this is by far larger than its change over the period. A step
+// counts if it makes the next one shorter, with the same derivative.
 double DiscPhases::iterate(const Disc& disc, double enough, Eigen::Vector2d& w) {
   Period map = period(disc, 0, w);
-  double error = (map.w - w).norm();
-  for (int i = 0; i < passes && error > enough; ++i) {
+  double left = map.moved.norm();
+  for (int i = 0; i < passes && map.moved.norm() > 0; ++i) {
+    left = map.moved.norm();
     const Eigen::Matrix2d A = Eigen::Matrix2d::Identity() - map.by;
-    if (i < newton_steps && A.determinant() > 1e-12) {
-      const Eigen::Vector2d next = at_rest(disc, 0, w + A.inverse() * (map.w - w)).w;
-      const Period there = period(disc, 0, next);
-      const double remains = (there.w - next).norm();
-      if (remains < error) {
+    bool better = false;
+    if (i < newton_steps && A.determinant() > 1e-15) {
+      const Eigen::Matrix2d inverse = A.inverse();
+      const Eigen::Vector2d step = inverse * map.moved;
+      left = step.norm();
+      if (left <= enough) break;
+      for (double share = 1; share > shortest_share && !better; share *= 0.5) {
+        const Eigen::Vector2d next = at_rest(disc, 0, w + share * step).w;
+        const Period there = period(disc, 0, next);
+        better = (inverse * there.moved).norm() < (1 - 0.25 * share) * left;
+        if (!better) continue;
         w = next;
         map = there;
-        error = remains;
-        continue;
       }
     }
-    w = map.w;  // never farther from the periodic motion
+    if (better) continue;
+    if (map.moved.norm() <= enough) break;
+    w = at_rest(disc, 0, w + map.moved).w;  // never farther from the periodic motion
     map = period(disc, 0, w);
-    error = (map.w - w).norm();
   }
-  return error;
+  return left;
 }
 
 void DiscPhases::find_periodic(const Disc& disc) {

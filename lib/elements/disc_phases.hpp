@@ -18,6 +18,7 @@
 #include <arcslip/elements/stick_centre.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -64,10 +65,15 @@ class DiscPhases {
     bool slips = false;
     Eigen::Vector2d w = Eigen::Vector2d::Zero();
     double psi = 0;
+    Eigen::Vector2d moved = Eigen::Vector2d::Zero();  // of w, by slip
   };
   struct Period {
-    Eigen::Vector2d w;   // at the end
-    Eigen::Matrix2d by;  // dw at the end by w at the beginning
+    Eigen::Vector2d moved;  // change of w
+    Eigen::Matrix2d by;     // dw at the end by w at the beginning
+  };
+
+  struct Bracket {
+    double below, f_below, above, f_above;
   };
 
   State closing(const Disc& disc, double theta) const;
@@ -76,7 +82,10 @@ class DiscPhases {
   void march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
              Eigen::Matrix2d* by);
   double onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, double begin, double end) const;
+  std::pair<double, double> spare(const Disc& disc, const SlipPanel& panel, double theta) const;
+  std::optional<Bracket> end_of_slip(const Disc& disc, const SlipPanel& panel) const;
   double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);
+  Eigen::Vector2d displacement(const SlipPanel& panel) const;
   Period period(const Disc& disc, double begin, const Eigen::Vector2d& w);
   double iterate(const Disc& disc, double enough, Eigen::Vector2d& w);
   void find_periodic(const Disc& disc);

@@ -131,8 +131,10 @@ double SlipCollocation::solve(const Disc& disc, double begin, double end, double
     panel.along[j] = c * p.v[0] + sine * p.v[1];
     panel.across[j] = c * p.v[1] - sine * p.v[0];
     panel.spare[j] = panel.along[j] - p.dh;
+    panel.gain[j] = c * p.a[0] + sine * p.a[1] - p.ddh;
   }
   panel.rate = (derivative_ * panel.psi + by_first_ * from) / half;
+  panel.gain += panel.rate.cwiseProduct(panel.across);
   Eigen::Matrix<double, s + 1, 1> values;
   values << from, panel.psi;
   return (tail_ * values).cwiseAbs().sum() * panel.h.maxCoeff();
@@ -152,6 +154,7 @@ void SlipCollocation::hold(const Disc& disc, double begin, double end, double ps
     panel.along[j] = c * at.v[0] + sine * at.v[1];
     panel.across[j] = c * at.v[1] - sine * at.v[0];
     panel.spare[j] = panel.along[j] - at.dh;
+    panel.gain[j] = c * at.a[0] + sine * at.a[1] - at.ddh;
   }
 }
 

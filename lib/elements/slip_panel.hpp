@@ -28,6 +28,7 @@ struct SlipPanel {
   Nodes along, across;  // x'.n and x'.t there
   Nodes rate;           // psi'
   Nodes spare;          // x'.n - h', the speed of slip
+  Nodes gain;           // its derivative
 
   double length() const { return end - begin; }
   double to() const { return psi[panel_nodes - 1]; }

@@ -54,6 +54,48 @@ struct Basis {
 
 }  // namespace
 
+StickMargin stick_margin(const DiscInstant& a, const DiscInstant& b) {
+  const double d = (b.x - a.x).norm();
+  if (d <= std::abs(a.h - b.h)) {  // the larger disc encloses the smaller one's centre by more
+    const DiscInstant& least = a.h < b.h ? a : b;
+    return {least.x, -least.h};
+  }
+  const double r = 0.5 * (d - a.h - b.h);
+  return {a.x + (r + a.h) / d * (b.x - a.x), r};
+}
+
+// |x_i - w| = r + h_i for all three. Differences of the squares are linear in w and r.
+std::optional<StickMargin> stick_margin(const DiscInstant& a, const DiscInstant& b, const DiscInstant& c) {
+  Eigen::Matrix2d A;
+  A << (b.x - a.x).transpose(), (c.x - a.x).transpose();
+  const double scale = A.row(0).norm() * A.row(1).norm();
+  if (!(std::abs(A.determinant()) > 1e-12 * scale)) return {};
+  const auto side = [&](const DiscInstant& p) {
+    return 0.5 * ((p.x - a.x).squaredNorm() - (p.h - a.h) * (p.h + a.h));
+  };
+  const Eigen::Matrix2d inverse = A.inverse();
+  const Eigen::Vector2d at = inverse * Eigen::Vector2d(side(b), side(c));  // w - x_a = at + by r
+  const Eigen::Vector2d by = inverse * Eigen::Vector2d(-(b.h - a.h), -(c.h - a.h));
+  const double p = by.squaredNorm() - 1, q = at.dot(by) - a.h, s = at.squaredNorm() - a.h * a.h;
+  double roots[2];
+  if (std::abs(p) < 1e-14) {
+    if (q == 0) return {};
+    roots[0] = roots[1] = -0.5 * s / q;
+  } else {
+    const double under = q * q - p * s;
+    if (!(under >= 0)) return {};
+    const double far = -(q + std::copysign(std::sqrt(under), q));
+    roots[0] = far / p;
+    roots[1] = far != 0 ? s / far : roots[0];
+  }
+  std::sort(roots, roots + 2);
+  for (const double r : roots) {
+    if (r + std::min({a.h, b.h, c.h}) < 0) continue;
+    return StickMargin{a.x + at + r * by, r};
+  }
+  return {};
+}
+
 StickCentre::StickCentre(const Harmonics& harmonics)
     : harmonics_(harmonics),
       samples_(static_cast<std::size_t>(12 * harmonics.order + 48)),
@@ -112,80 +154,32 @@ StickCentre::Point StickCentre::farthest(const Disc& disc) {
   return best;
 }
 
-void StickCentre::pair(const Point& a, const Point& b) {
-  const double d = (b.x - a.x).norm();
-  if (d <= std::abs(a.h - b.h)) {  // the larger disc encloses the smaller one's centre by more
-    const Point& least = a.h < b.h ? a : b;
-    w_ = least.x;
-    r_ = -least.h;
-    return;
-  }
-  r_ = 0.5 * (d - a.h - b.h);
-  w_ = a.x + (r_ + a.h) / d * (b.x - a.x);
-}
-
-// |x_i - w| = r + h_i for all three. Differences of the squares are linear in w and r.
-bool StickCentre::triple(const Point& a, const Point& b, const Point& c) {
-  Eigen::Matrix2d A;
-  A << (b.x - a.x).transpose(), (c.x - a.x).transpose();
-  const double scale = A.row(0).norm() * A.row(1).norm();
-  if (!(std::abs(A.determinant()) > 1e-12 * scale)) return false;
-  const auto side = [&](const Point& p) {
-    return 0.5 * ((p.x - a.x).squaredNorm() - (p.h - a.h) * (p.h + a.h));
-  };
-  const Eigen::Matrix2d inverse = A.inverse();
-  const Eigen::Vector2d at = inverse * Eigen::Vector2d(side(b), side(c));  // w - x_a = at + by r
-  const Eigen::Vector2d by = inverse * Eigen::Vector2d(-(b.h - a.h), -(c.h - a.h));
-  const double p = by.squaredNorm() - 1, q = at.dot(by) - a.h, s = at.squaredNorm() - a.h * a.h;
-  double roots[2];
-  if (std::abs(p) < 1e-14) {
-    if (q == 0) return false;
-    roots[0] = roots[1] = -0.5 * s / q;
-  } else {
-    const double under = q * q - p * s;
-    if (!(under >= 0)) return false;
-    const double far = -(q + std::copysign(std::sqrt(under), q));
-    roots[0] = far / p;
-    roots[1] = far != 0 ? s / far : roots[0];
-  }
-  std::sort(roots, roots + 2);
-  for (const double r : roots) {
-    if (r + std::min({a.h, b.h, c.h}) < 0) continue;
-    r_ = r;
-    w_ = a.x + at + r * by;
-    return true;
-  }
-  return false;
-}
-
 // The minimiser for a few points, of which those that decide it are kept: the subset with the largest r.
 void StickCentre::solve(std::vector<Point>& basis) {
   std::vector<Point> best;
   Eigen::Vector2d w = basis[0].x;
   double r = -basis[0].h;
   best = {basis[0]};
-  const auto take = [&](std::vector<Point> points) {
-    if (!(r_ > r)) return;
-    r = r_;
-    w = w_;
+  const auto take = [&](const StickMargin& margin, std::vector<Point> points) {
+    if (!(margin.r > r)) return;
+    r = margin.r;
+    w = margin.w;
     best = std::move(points);
   };
   for (std::size_t i = 0; i < basis.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      pair(basis[i], basis[j]);
-      take({basis[i], basis[j]});
-    }
+    for (std::size_t j = 0; j < i; ++j) take(stick_margin(basis[i], basis[j]), {basis[i], basis[j]});
   for (std::size_t i = 0; i < basis.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (std::size_t k = 0; k < j; ++k) {
         // Only if no pair of them decides already.
         const Point &a = basis[i], &b = basis[j], &c = basis[k];
         const auto decides = [&](const Point& one, const Point& two, const Point& other) {
-          pair(one, two);
-          return excess(other, w_) <= r_ + 1e-15 * (std::abs(r_) + other.h + other.x.norm());
+          const StickMargin margin = stick_margin(one, two);
+          return excess(other, margin.w) <=
+                 margin.r + 1e-15 * (std::abs(margin.r) + other.h + other.x.norm());
         };
         if (decides(a, b, c) || decides(a, c, b) || decides(b, c, a)) continue;
-        if (triple(a, b, c)) take({a, b, c});
+        if (const auto margin = stick_margin(a, b, c)) take(*margin, {a, b, c});
       }
   basis = best;
   w_ = w;

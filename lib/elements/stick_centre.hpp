@@ -7,9 +7,25 @@
 
 #include <arcslip/elements/disc.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace arcslip::elements {
+
+/// The disc at one angle, rad.
+struct DiscInstant {
+  double theta;
+  Eigen::Vector2d x;
+  double h;
+};
+/// w and r with |x - w| - h = r at two or three instants: the minimiser for these, if all of them decide it.
+struct StickMargin {
+  Eigen::Vector2d w;
+  double r;
+};
+StickMargin stick_margin(const DiscInstant& a, const DiscInstant& b);
+/// None: they lie on a line, or no r is common to them.
+std::optional<StickMargin> stick_margin(const DiscInstant& a, const DiscInstant& b, const DiscInstant& c);
 
 class StickCentre {
  public:
@@ -25,18 +41,12 @@ class StickCentre {
   void derivative(const Disc& disc, Eigen::Ref<Eigen::MatrixXd> dw) const;
 
  private:
-  struct Point {
-    double theta;
-    Eigen::Vector2d x;
-    double h;
-  };
+  using Point = DiscInstant;
   double excess(const Point& at, const Eigen::Vector2d& w) const { return (at.x - w).norm() - at.h; }
   Point point(const Disc& disc, double theta) const;
   Point farthest(const Disc& disc);
   double climb(const Disc& disc, double theta) const;
   void solve(std::vector<Point>& basis);
-  void pair(const Point& a, const Point& b);
-  bool triple(const Point& a, const Point& b, const Point& c);
   void polish(const Disc& disc);
 
   Harmonics harmonics_;

@@ -7,16 +7,22 @@
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/contact_3d.hpp>
 #include <arcslip/elements/disc_phases.hpp>
+
 #include <arcslip/elements/largest_value.hpp>
 #include <arcslip/elements/stick_centre.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/time_study.hpp>
 
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <set>
 #include <sstream>
+
+#include <Eigen/SVD>
 
 using namespace arcslip;
 using continuation::Vector;
@@ -309,6 +315,128 @@ TEST_CASE("motions that are almost straight or far beyond the disc end, and over
   const Force overflow =
       evaluate(elements::contact_3d(), h, random_motion(h, 1e300, 1e300, 7), {1, 1, 0.3, 2});
   CHECK_FALSE(overflow.F.allFinite());
+}
+
+namespace {
+
+constexpr double friction = 0.6;
+
+// From one motion to another, with a change of the piece between them at `place`.
+struct Way {
+  Vector from, to;
+  std::vector<double> fields;
+  double low = 0, high = 1;
+
+  Vector at(double s) const { return from + s * (to - from); }
+  std::uint64_t piece(const elements::Harmonics& h, double s) const {
+    return evaluate(elements::contact_3d(), h, at(s), fields).piece;
+  }
+};
+
+std::optional<Way> way_across_pieces(const elements::Harmonics& h, double size, unsigned seed) {
+  const Vector from = random_motion(h, size, size, seed);
+  Way way{from, from + random_motion(h, 0.1 * size, 0.1 * size, seed + 1000), {2, 1.5, friction, 0.7}};
+  const auto first = way.piece(h, way.low);
+  if (first == way.piece(h, way.high)) return {};
+  while (way.high - way.low > 1e-13) {
+    const double middle = 0.5 * (way.low + way.high);
+    (way.piece(h, middle) == first ? way.low : way.high) = middle;
+  }
+  return way;
+}
+
+Vector row_of_field_changes(const std::function<Vector(const std::vector<double>&)>& f,
+                            const std::vector<double>& fields, std::size_t k) {
+  std::vector<double> above = fields, below = fields;
+  above[k] += 1e-6;
+  below[k] -= 1e-6;
+  return (f(above) - f(below)) / 2e-6;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "corners of a contact in a plane have the gradients of differences, and lie where the piece changes") {
+  const elements::Harmonics h{3, false};
+  const auto corners = elements::contact_3d().corners(h);
+  std::map<int, int> guards;
+  for (unsigned seed = 1; seed < 700; ++seed) {
+    const auto way = way_across_pieces(h, seed % 3 == 0 ? 0.45 : 1, seed);
+    if (!way) continue;
+    const Vector there = way->at(way->low);
+    for (const auto& corner : corners->near(there, way->fields, 1e-9)) {
+      CAPTURE(seed, way->low, corner.guard);
+      ++guards[corner.guard];
+      const auto angles = static_cast<int>(corner.angles.size());
+      elements::Corners::Equations at(there.size(), angles, 4);
+      corners->equations(corner, there, way->fields, at);
+      CHECK(at.values.cwiseAbs().maxCoeff() < 1e-8);
+      const auto values = [&](const elements::Corner& moved, const Vector& u, const std::vector<double>& f) {
+        elements::Corners::Equations beside(u.size(), angles, 4);
+        corners->equations(moved, u, f, beside);
+        return Vector(beside.values);
+      };
+      // On both sides: the rest of a slider that slips in each period depends on the slip that is born.
+      const Vector dh = at.by_motion.row(0).transpose();
+      for (const double side : {-1, 1}) {
+        const Vector u = there + side * 2e-4 * dh.normalized();
+        corners->equations(corner, u, way->fields, at);
+        const MatrixXd by_motion =
+            every_law::differences([&](const Vector& v) { return values(corner, v, way->fields); }, u, 1e-6);
+        CHECK((by_motion - at.by_motion).cwiseAbs().maxCoeff() < 1e-7);
+        for (std::size_t k = 0; k < 4; ++k) {
+          const auto by_fields = [&](const std::vector<double>& f) { return values(corner, u, f); };
+          CHECK((row_of_field_changes(by_fields, way->fields, k) - at.by_field.col(static_cast<int>(k)))
+                    .cwiseAbs()
+                    .maxCoeff() < 1e-7);
+        }
+        const MatrixXd by_angle = every_law::differences(
+            [&](const Vector& t) {
+              return values({corner.guard, {t.begin(), t.end()}}, u, way->fields);
+            },
+            Eigen::Map<const Vector>(corner.angles.data(), angles), 1e-6);
+        CHECK((by_angle - at.by_angle).cwiseAbs().maxCoeff() < 1e-7);
+      }
+      elements::Corner near = corner;
+      for (double& angle : near.angles) angle += 1e-3;
+      REQUIRE(corners->polish(near, there, way->fields));
+      for (std::size_t i = 0; i < near.angles.size(); ++i)
+        CHECK(std::abs(near.angles[i] - corner.angles[i]) < 1e-8);
+    }
+  }
+  for (int guard = 0; guard < 5; ++guard) CHECK(guards[guard] > 5);
+}
+
+TEST_CASE("at a birth of slip in a plane the Jacobian jumps along the corner's gradient, by rank one") {
+  const elements::Harmonics h{3, false};
+  const auto corners = elements::contact_3d().corners(h);
+  std::map<int, int> jumps;
+  for (unsigned seed = 1; seed < 700; ++seed) {
+    const auto way = way_across_pieces(h, seed % 3 == 0 ? 0.45 : 1, seed);
+    if (!way) continue;
+    const Vector there = way->at(way->low);
+    const auto found = corners->near(there, way->fields, 1e-9);
+    if (found.size() != 1 || found[0].guard < 2) continue;
+    const auto angles = static_cast<int>(found[0].angles.size());
+    elements::Corners::Equations at(there.size(), angles, 4);
+    corners->equations(found[0], there, way->fields, at);
+    const Vector dh = at.by_motion.row(0).transpose();
+    const auto jacobian = [&](double side) {
+      return evaluate(elements::contact_3d(), h, there + side * dh / dh.squaredNorm(), way->fields).J;
+    };
+    // Beside the corner the Jacobian changes with the root of h, which two distances take away.
+    const auto limit = [&](double side) -> MatrixXd {
+      return 2 * jacobian(side * 1e-10) - jacobian(side * 4e-10);
+    };
+    const MatrixXd jump = limit(1) - limit(-1);
+    const Eigen::JacobiSVD<MatrixXd> svd(jump, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    if (svd.singularValues()[0] < 1e-2) continue;
+    ++jumps[found[0].guard];
+    CAPTURE(seed, found[0].guard, svd.singularValues()[0], svd.singularValues()[1]);
+    CHECK(svd.singularValues()[1] < 1e-3 * svd.singularValues()[0]);
+    CHECK(std::abs(svd.matrixV().col(0).dot(dh)) > (1 - 1e-6) * dh.norm());
+  }
+  for (int guard = 2; guard < 5; ++guard) CHECK(jumps[guard] > 2);
 }
 
 TEST_CASE("the error of harmonic balance with slip in a plane falls as the third power of the order") {
