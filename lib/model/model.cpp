@@ -211,6 +211,7 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
       if (const auto traits = element.law->traits(element.fields(p), static_cast<int>(i));
           traits.holds_mean || (in_stick && traits.holds_in_stick))
         add_outer(typical, element.directions[i], K);
+  if (!K.allFinite()) return {};  // overflow: nothing is known
   const Eigen::VectorXd size = K.cwiseAbs().rowwise().maxCoeff();
   for (int i = 0; i < model.dofs; ++i)
     if (size[i] == 0) return i;

@@ -127,7 +127,7 @@ class Points {
       return result;
     }
     result.point = std::move(*point);
-    if (settings_.offset_range)
+    if (settings_.offsets == Offsets::range)
       result.offset_range =
           offset_range(*problem, Eigen::Map<const Vector>(result.point.unknowns.data(), problem->size()),
                        hbm::parameters_at(*problem, omega_));

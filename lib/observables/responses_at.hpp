@@ -29,10 +29,14 @@ struct ResponsesAt {
 ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega,
                          const GoOn& go_on = {});
 
+/// Of sliders that stick throughout the period: the choices of their elements, or also a search for the range
+/// of what they leave open, PointResponse::offset_range.
+enum class Offsets { chosen, range };
+
 struct PointSettings {
-  double frequency = 0;       // of the excitation, in the scene's unit
-  int steps = 1000;           // of the history, in addition to the onsets and ends of slip
-  bool offset_range = false;  // whether to search for PointResponse::offset_range
+  double frequency = 0;  // of the excitation, in the scene's unit
+  int steps = 1000;      // of the history, in addition to the onsets and ends of slip
+  Offsets offsets = Offsets::chosen;
   friend bool operator==(const PointSettings&, const PointSettings&) = default;
 };
 

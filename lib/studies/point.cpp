@@ -9,24 +9,30 @@
 #include <arcslip/studies/figures.hpp>
 #include <arcslip/studies/study_of.hpp>
 
+#include <array>
 #include <memory>
 
 namespace arcslip::studies {
 namespace {
 
+using observables::Offsets;
 using observables::PointResponse;
 using observables::PointSettings;
 
 constexpr int most_steps = 10'000'000;
+
+constexpr std::array<scene::file::Word<Offsets>, 2> offset_words = {
+    {{"chosen", Offsets::chosen}, {"range", Offsets::range}}};
 
 scene::file::KeysOf<PointSettings> keys() {
   scene::file::KeysOf<PointSettings> keys;
   keys.add(scene::file::one_frequency(&PointSettings::frequency, "the excitation frequency"));
   keys.add(
       scene::file::whole("steps", &PointSettings::steps, 1, most_steps, "number of instants of the history"));
-  keys.add(scene::file::flag("offset_range", &PointSettings::offset_range,
-                             "whether to search for the least and the largest amplitude that sliders which "
-                             "stick throughout the period leave open, wherever they rest"));
+  keys.add(
+      scene::file::word("offsets", &PointSettings::offsets, offset_words,
+                        "of sliders that stick throughout the period: as their elements choose, or also the "
+                        "range of the amplitude over all places where they may rest"));
   return keys;
 }
 

@@ -250,7 +250,7 @@ TEST_CASE("run writes every study into out/NAME and tells the places of the file
     CAPTURE(figure);
     CHECK(std::filesystem::exists(place / ("out/two/peaks" + std::string(figure) + ".svg")));
   }
-  CHECK(place.files().size() == 2 + 2 + 22 + 13 + 18);  // scenes, folders, results
+  CHECK(place.files().size() == 2 + 2 + 24 + 15 + 20);  // scenes, folders, results
   CHECK(Json::parse(place.read("out/two/frf.json"))["branches"].size() == 12);
 }
 

@@ -374,7 +374,7 @@ TEST_CASE("in units a thousand times larger a contact has the same events") {
   }
 }
 
-TEST_CASE("the figures of a contact show stick and separation over the frequency") {
+TEST_CASE("the figures of a contact show stick and separation over the frequency, and what it does") {
   scene::Scene s = pad(7, 20, 12);
   const auto branches = observables::frequency_response(s, scenes::window(s));
   const auto names = [](const results::FigureData& data) {
@@ -383,7 +383,7 @@ TEST_CASE("the figures of a contact show stick and separation over the frequency
     return all;
   };
   const auto shares = studies::figures_of(s, studies::BranchKind::responses, branches);
-  CHECK(names(shares) == std::vector<std::string>{"amplitude", "stick", "separation"});
+  CHECK(names(shares) == std::vector<std::string>{"amplitude", "stick", "separation", "contact"});
   double most = 0;
   for (const auto& part : shares.lines[0].parts)
     for (const auto& record : part) {

@@ -34,6 +34,10 @@ class RenamedElement final : public elements::Element {
   }
   std::uint64_t piece() const override { return inner_->piece(); }
   bool friction(elements::FrictionState& state) const override { return inner_->friction(state); }
+  bool place_slider(double share) override { return inner_->place_slider(share); }
+  void contact(std::vector<elements::ContactInterval>& intervals) const override {
+    inner_->contact(intervals);
+  }
 
  private:
   std::unique_ptr<Element> inner_;
@@ -68,6 +72,7 @@ class RenamedJenkins final : public elements::PlainLaw {
 
   bool antisymmetric() const override { return law().antisymmetric(); }
   bool has_contact() const override { return law().has_contact(); }
+  bool tells_contact() const override { return law().tells_contact(); }
   elements::Traits traits(Fields fields, int direction) const override {
     elements::Traits traits = law().traits(in_order(fields), direction);
     traits.stiffness_field = 2;

@@ -27,7 +27,8 @@ using continuation::Vector;
 namespace {
 
 observables::PointResponse at(const scene::Scene& s, double frequency) {
-  const auto found = observables::point_responses(s, {.frequency = frequency, .offset_range = true});
+  const auto found =
+      observables::point_responses(s, {.frequency = frequency, .offsets = observables::Offsets::range});
   REQUIRE(found.size() == 1);
   REQUIRE(found[0].status == observables::Status::complete);
   REQUIRE(found[0].offset_range);
