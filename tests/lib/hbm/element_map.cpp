@@ -76,8 +76,8 @@ TEST_CASE("the Jacobian of one order is that part of the whole one") {
     const int place[2] = {h.cosine_index(n), h.sine_index(n)};
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j)
-        CHECK(std::abs(J_n(i, j) - 1 -
-                       J(i / 2 * h.size() + place[i % 2], j / 2 * h.size() + place[j % 2])) < 1e-14);
+        CHECK(std::abs(J_n(i, j) - 1 - J(i / 2 * h.size() + place[i % 2], j / 2 * h.size() + place[j % 2])) <
+              1e-14);
   }
 }
 
