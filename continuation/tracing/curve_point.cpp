@@ -7,12 +7,13 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double finest_kink = 1e-12;  // of the search interval: accuracy of the kink
+constexpr double finest_kink = 1e-12;  // of the search interval, or of |u|: accuracy of the kink
 constexpr double least_slope = 0.1;    // of a tangent relative to the first one, to predict along it
 constexpr double farther = 8;          // factor after a prediction short of the end of the piece
 constexpr double first_margin = 1e-2, least_margin = 1e-12, largest_margin = 0.5;
 constexpr double wider = 10;  // margin after passing the end
 constexpr int most_kink_corrections = 60;
+constexpr int most_bisections = 20;  // where no prediction leaves the piece
 
 }  // namespace
 
@@ -25,13 +26,14 @@ bool settle(Corrector& at, CurvePoint& place) {
 bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePoint& kink, Correction& last,
                  const Inside& is_inside) {
   const Vector row = with.border_row(from.tangent);
-  const double finest = finest_kink * length;
+  const double finest = finest_kink * std::max(length, with.norm_u(from.v));
   // Along from.tangent: of `kink`, which is in the piece of `from`, and of what is not.
   double lower = 0, upper = length, ahead = length;
   // Share of the distance to the predicted end of the piece that is kept, so that it is not passed. The error
   // of a prediction is quadratic in the distance, and is known from the next prediction.
   double margin = first_margin, predicted = 0, way = 0;
   bool factors_fit = false;
+  int bisections = 0;
   kink = from;
   Vector v = from.v;
   const auto predict = [&](double x) {
@@ -64,8 +66,10 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
     if (inside == lower || outside - lower <= finest) return true;  // the piece ends here
     if (way > 0)
       margin = std::min(first_margin, 2 * std::abs(outside - predicted) / (way * way) * (outside - lower));
-    const bool bisected = inside == upper || margin > largest_margin;
-    const double aim = bisected ? 0.5 * (lower + upper) : inside - margin * (inside - lower);
+    const bool stays = inside == upper, bisected = stays || margin > largest_margin;
+    if (stays && ++bisections > most_bisections) return false;
+    const bool at_end = stays && bisections == 1 && upper == length;  // whether the piece ends at all
+    const double aim = at_end ? upper : bisected ? 0.5 * (lower + upper) : inside - margin * (inside - lower);
     predict(aim);
     const Correction at = with.correct(v, row, factors_fit);
     factors_fit = at.converged && inside_at();
@@ -76,6 +80,7 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
       way = 0;
       continue;
     }
+    if (at_end) return false;
     way = bisected ? 0 : aim - lower;
     if (bisected) margin = largest_margin;
     predicted = outside;

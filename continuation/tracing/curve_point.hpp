@@ -14,6 +14,8 @@
 
 namespace arcslip::continuation {
 
+constexpr double visible_corner = 0.05;  // rad: smaller kinks are invisible in a plotted curve
+
 struct CurvePoint {
   Vector v, tangent;  // n + 1: (u, p) and d(u, p)/ds
   double arclength = 0;

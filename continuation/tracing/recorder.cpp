@@ -9,8 +9,6 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double visible_corner = 0.05;  // rad: smaller kinks are invisible in a plotted curve
-
 // The events of a section in order of arclength, with its branch point: the first terminal one ends the
 // branch.
 std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found,

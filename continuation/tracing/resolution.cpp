@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::continuation {
 namespace {
@@ -12,6 +13,11 @@ constexpr double quantity_rounding = 1e-9;  // relative changes of a quantity be
 constexpr double middle_share = 0.7;  // of the maximum error of the curve: its value in the middle of a step
 constexpr double smallest_relevant_curve = 1e-6;  // |u| in scales: below, the curve's error is absolute
 constexpr double unknown_curve_error = 1 / 0.3;   // where the problem cannot be evaluated in the middle
+// A kink that turns the branch by an angle, anywhere in a step, takes it off the cubic by at least 1/20 of
+// the angle times the length of the step at one of these shares of it.
+constexpr double shares_across_kinks[] = {0.25, 0.5, 0.75};
+constexpr double least_departure = 1.0 / 20;
+constexpr double slope_safety = 10;  // of a slope's sign, at a kink
 
 // Whether a slope with values a and b at the ends of a step, and a deviation bend s (1 - s) from the straight
 // line between them, has no more zeros than a and b imply, even with a safety factor on bend of either sign:
@@ -24,7 +30,41 @@ bool is_resolved(double a, double b, double bend) {
 
 }  // namespace
 
+bool Resolution::passes_kinks(Trial& trial) {
+  const CurvePoint &from = s_.here, &to = trial.end;
+  if (!looks_for_kinks_ || from.piece == to.piece || from.part != to.part) return false;
+  const double length = distance(main_, from.v, to.v);
+  double farthest = 0;
+  for (const double share : shares_across_kinks) {
+    hermite(from.v, from.tangent, to.v, to.tangent, length, share, middle_);
+    const double departure = main_.distance_from_branch(middle_);
+    if (!(departure <= allowed_error(from, to))) return false;
+    farthest = std::max(farthest, departure);
+  }
+  const double turn = farthest / (least_departure * length);
+  if (!(turn < visible_corner) || !keeps_signs(from, to, turn) || !resolves(from, to, trial)) return false;
+  trial.curve_error = options_.step.curve_tolerance > 0 ? farthest / allowed_error(from, to) : 0;
+  return trial.passes_kinks = true;
+}
+
+// Whether no slope of a monitored quantity can pass zero where the tangent turns by this angle.
+bool Resolution::keeps_signs(const CurvePoint& from, const CurvePoint& to, double turn) const {
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (monitors_[m].kind == MonitorKind::kink) return false;
+    if (!monitors_[m].quantity) continue;
+    const double a = from.monitors[m], b = to.monitors[m];
+    const double gradient =
+        monitors_[m].quantity_is_parameter
+            ? main_.parameter_scale()
+            : std::abs(to.quantities[m]) / std::max(main_.norm_u(to.v), smallest_relevant_curve);
+    const double jump = slope_safety * turn * std::max({gradient, std::abs(a), std::abs(b)});
+    if (!(a * b > 0 && std::min(std::abs(a), std::abs(b)) > jump)) return false;
+  }
+  return true;
+}
+
 void Resolution::measure_curve(Trial& trial) {
+  if (trial.passes_kinks) return;
   trial.curve_error = 0;
   trial.other_piece_between = false;
   if (!(options_.step.curve_tolerance > 0)) return;
@@ -41,15 +81,20 @@ void Resolution::measure_curve(Trial& trial) {
 
 // The error of one cubic: in its middle, where it is largest up to the variation of the fourth derivative.
 double Resolution::curve_error(const CurvePoint& from, Trial& trial, const CurvePoint& to) {
-  const double size = std::max({main_.norm_u(from.v), main_.norm_u(to.v), smallest_relevant_curve});
-  const double allowed = middle_share * options_.step.curve_tolerance * size;
   const double length = distance(main_, from.v, to.v);
   if (!(length > 0)) return 0;
   hermite(from.v, from.tangent, to.v, to.tangent, length, 0.5, middle_);
-  const double error = main_.distance_from_branch(middle_) / allowed;
+  const double error = main_.distance_from_branch(middle_) / allowed_error(from, to);
   std::uint64_t piece = 0;
   if (main_.piece(piece) && piece != to.piece) trial.other_piece_between = true;
   return std::isfinite(error) ? error : unknown_curve_error;
+}
+
+// In the middle of the cubic. Infinite without a tolerance.
+double Resolution::allowed_error(const CurvePoint& from, const CurvePoint& to) const {
+  if (!(options_.step.curve_tolerance > 0)) return std::numeric_limits<double>::infinity();
+  const double size = std::max({main_.norm_u(from.v), main_.norm_u(to.v), smallest_relevant_curve});
+  return middle_share * options_.step.curve_tolerance * size;
 }
 
 bool Resolution::misses_kinks(const Trial& trial) {

@@ -23,6 +23,11 @@ class Resolution {
         s_(state),
         main_(corrector) {}
 
+  /// Whether a step between two pieces may go over its kinks as if it were smooth, as they turn the branch
+  /// too little to change the sign of any monitored slope, or to be seen. Decided by the distance of the
+  /// branch from the cubic. Fills passes_kinks, and then curve_error.
+  bool passes_kinks(Trial& trial);
+
   /// Fills curve_error, the largest error of the cubics along the smooth pieces relative to the tolerance,
   /// and other_piece_between.
   void measure_curve(Trial& trial);
@@ -44,6 +49,8 @@ class Resolution {
 
  private:
   double curve_error(const CurvePoint& from, Trial& trial, const CurvePoint& to);
+  double allowed_error(const CurvePoint& from, const CurvePoint& to) const;
+  bool keeps_signs(const CurvePoint& from, const CurvePoint& to, double turn) const;
   bool resolves(const CurvePoint& from, const CurvePoint& to, Trial& trial) const;
   double chord_departure(const CurvePoint& from, const CurvePoint& to, std::size_t m, double length) const;
 

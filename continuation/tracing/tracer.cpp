@@ -116,13 +116,14 @@ Tracer::Impl::Outcome Tracer::Impl::attempt() {
   if (moved > parameter_overrun * most)
     return refuse(Rejected::parameter_step, moved, most, Outcome::unresolved);
   end.arclength = s_.here.arclength + chord;
-  trial_.corners = events_.corners(s_.here, end);
+  evaluate(monitors_, main_, end);
+  if (!resolution_.passes_kinks(trial_)) trial_.corners = events_.corners(s_.here, end);
   if (!trial_.corners.empty()) {
     const CurvePoint& last = trial_.corners.back().beyond;
     trial_.length = last.arclength - s_.here.arclength + distance(main_, last.v, end.v);
     end.arclength = s_.here.arclength + trial_.length;
   }
-  if (!measure()) return refuse(Rejected::singular, 0, 0);
+  if (!settle_signs()) return refuse(Rejected::singular, 0, 0);
   resolution_.measure_curve(trial_);
   divide();
   if (trial_.curve_error > 1 || resolution_.misses_kinks(trial_))
@@ -236,12 +237,17 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
   return {};
 }
 
-// The monitors at the solution of the last correction. Its factors, and thus the tangent, belong to a point
-// within the corrector's tolerance, which near a sharp peak can change the sign of a monitor: a sign change
-// is accepted only with the linearization at the solution itself.
+// The monitors at the solution of the last correction.
 bool Tracer::Impl::measure() {
+  evaluate(monitors_, main_, trial_.end);
+  return settle_signs();
+}
+
+// The factors of the last correction, and thus the tangent, belong to a point within the corrector's
+// tolerance, which near a sharp peak can change the sign of a monitor: a sign change is accepted only with
+// the linearization at the solution itself.
+bool Tracer::Impl::settle_signs() {
   CurvePoint& place = trial_.end;
-  evaluate(monitors_, main_, place);
   if (!events_.changes_sign(trial_.last_section(s_.here), place)) return true;
   main_.border_row(place.tangent, v_);
   if (!main_.linearize(place.v, v_) || !settle(main_, place)) return false;

@@ -53,6 +53,7 @@ class Tracer::Impl {
   std::optional<Outcome> look_for_crossing();
   bool is_kink();
   bool measure();
+  bool settle_signs();
   void divide();
   Outcome take(double next_step);
   Outcome end_at_bound(const Exit& exit);

@@ -24,6 +24,7 @@ struct Trial {
   std::optional<LocatedEvent> crossing;  // the branch point on the way
   double curve_error = 0;                // of the cubics along it, relative to the tolerance
   bool other_piece_between = false;      // unnoticed by its sections
+  bool passes_kinks = false;             // which are too weak to be looked for
   double chord_error = 0;                // of the monitored quantities, relative to the tolerance
   Rejection rejection;                   // why it was rejected
   std::size_t unresolved = 0;            // the monitor of the unresolved quantity
@@ -32,7 +33,7 @@ struct Trial {
 
   void begin() {
     length = turn = curve_error = chord_error = 0;
-    kink = other_piece_between = false;
+    kink = other_piece_between = passes_kinks = false;
     corners.clear();
     crossing.reset();
   }

@@ -86,6 +86,17 @@ void DynamicStiffness::add_to(Eigen::MatrixXd& J) const {
   }
 }
 
+void DynamicStiffness::add_order(int n, Eigen::MatrixXd& J_n) const {
+  const auto& Z = harmonics_[static_cast<std::size_t>(layout_.cosine_index(n))].condensed.Z;
+  for (int j = 0; j < r_; ++j)
+    for (int i = 0; i < r_; ++i) {
+      J_n(2 * i, 2 * j) += Z(i, j).real();
+      J_n(2 * i + 1, 2 * j + 1) += Z(i, j).real();
+      J_n(2 * i, 2 * j + 1) += Z(i, j).imag();
+      J_n(2 * i + 1, 2 * j) -= Z(i, j).imag();
+    }
+}
+
 void DynamicStiffness::force(Out f) const {
   for (const Harmonic& at : harmonics_) scatter(at.condensed.f, at, f);
 }

@@ -26,6 +26,7 @@ class DynamicStiffness {
 
   void residual(In u, double force_factor, Out R) const;                      // R = Z u - force_factor f
   void add_to(Eigen::MatrixXd& J) const;                                      // J += Z
+  void add_order(int n, Eigen::MatrixXd& J_n) const;                          // of one order, as ElementMap
   void force(Out f) const;                                                    // f
   void parameter_derivative(int k, In u, double force_factor, Out dR) const;  // zero for element parameters
   void solve(Out x) const;  // Z_n^-1 of each harmonic, in place

@@ -74,4 +74,22 @@ void ElementMap::add(const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J) const
     }
 }
 
+void ElementMap::add_order(int n, const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J_n) const {
+  const int a = harmonics_.cosine_index(n), b = harmonics_.sine_index(n);
+  const auto turn = [n](double angle) {
+    const double c = std::cos(n * angle), s = std::sin(n * angle);
+    return Eigen::Matrix2d{{c, s}, {-s, c}};
+  };
+  for (const Share& j : shares_)
+    for (const Share& i : shares_) {
+      const int row = i.block * c_, column = j.block * c_;
+      Eigen::Matrix2d from;
+      from << J_element(row + a, column + a), J_element(row + a, column + b),  //
+          J_element(row + b, column + a), J_element(row + b, column + b);
+      if (i.phase != 0) from = turn(i.phase).transpose() * from;
+      if (j.phase != 0) from = from * turn(j.phase);
+      J_n.block<2, 2>(2 * i.coordinate, 2 * j.coordinate) += (i.weight * j.weight) * from;
+    }
+}
+
 }  // namespace arcslip::hbm

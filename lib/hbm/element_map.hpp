@@ -32,6 +32,9 @@ class ElementMap {
   void add(elements::In F, elements::Out R) const;
   /// J += E^T J_element E.
   void add(const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J) const;
+  /// The same of the cosines and sines of order n > 0 alone: rows and columns 2 i and 2 i + 1 for coordinate
+  /// i.
+  void add_order(int n, const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J_n) const;
 
  private:
   // sum += factor block, turned by an angle: sign 1 for u, -1 for its transpose.

@@ -68,6 +68,12 @@ void HbmEvaluator::assemble() const {
   assembled_ = true;
 }
 
+void HbmEvaluator::jacobian_of_order(int n, Eigen::MatrixXd& J_n) const {
+  J_n.setZero();
+  for (const Part& part : parts_) part.map.add_order(n, part.element->jacobian(), J_n);
+  stiffness_.add_order(n, J_n);
+}
+
 void HbmEvaluator::apply_jacobian(In x, continuation::Out y) const {
   y.tail(y.size() - displacements_).setZero();
   stiffness_.residual(x, 0, y);

@@ -28,6 +28,10 @@ class HbmEvaluator final : public continuation::Evaluator {
   void parameter_derivative(int k, continuation::Out dR) const override;
   std::uint64_t piece() const override;
 
+  /// The rows and columns of J of the cosine and sine of order n > 0, those of block i at 2 i and 2 i + 1,
+  /// from the parts of J. J_n: 2 blocks() x 2 blocks().
+  void jacobian_of_order(int n, Eigen::MatrixXd& J_n) const;
+
   /// y = J x from the parts of J, without putting it together.
   void apply_jacobian(In x, continuation::Out y) const;
 

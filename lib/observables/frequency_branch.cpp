@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace arcslip::observables {
 namespace {
@@ -113,7 +115,7 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   options.upper = window.upper;
   options.check_jacobian = false;
   options.step.largest_parameter = width / points_in_window;
-  if (steps == Steps::curve) options.step.curve_tolerance = curve_tolerance;
+  if (steps != Steps::events) options.step.curve_tolerance = curve_tolerance;
   if (steps == Steps::events)
     options.step.largest_parameter = std::clamp(step_between_events * window.upper,
                                                 options.step.largest_parameter, width / events_in_window);
@@ -130,11 +132,14 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
       return record(*observer, now, event);
     };
   const Vector p = hbm::parameters_at(*problem, from);
-  const continuation::Monitor peaks = peak_monitor(observer);
-  continuation::Monitor folds = continuation::fold_monitor();
-  folds.divides_at_kinks = peaks.divides_at_kinks;
+  std::vector monitors{continuation::fold_monitor()};  // so that no pair of folds is stepped over
+  monitors[0].divides_at_kinks = false;
+  if (steps != Steps::passage) {
+    monitors.insert(monitors.begin(), peak_monitor(observer));
+    monitors[1].divides_at_kinks = monitors[0].divides_at_kinks;
+  }
   FrequencyBranch traced{problem, continuation::trace(problem, {*first.u, p, model::frequency, direction},
-                                                      options, {peaks, folds}, each)};
+                                                      options, std::move(monitors), each)};
   speak_of_scene(*model, p, traced.branch);
   return traced;
 }

@@ -51,8 +51,9 @@ void speak_of_scene(const model::Model& model, const continuation::Vector& p, co
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
 
 /// Maximum step. curve: about 1/150 of the window, for plots. events: for peaks and folds only, at least
-/// 1/200 of the highest frequency, but at most 1/20 of the window.
-enum class Steps { curve, events };
+/// 1/200 of the highest frequency, but at most 1/20 of the window. passage: as curve, without peaks, and with
+/// folds at kinks to the length of a step only, for where the branch passes a frequency.
+enum class Steps { curve, events, passage };
 
 /// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). If go_on returns false
 /// the branch ends with reason user.

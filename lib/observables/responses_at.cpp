@@ -32,7 +32,7 @@ void add_others(const std::shared_ptr<const model::Model>& model, double omega, 
                 ResponsesAt& found) {
   if (!may_have_several(*model)) return;
   const FrequencyWindow window{omega / search_ratio, omega * search_ratio};
-  const auto swept = frequency_branch(model, window, window.lower, {}, 1, Steps::curve, go_on);
+  const auto swept = frequency_branch(model, window, window.lower, {}, 1, Steps::passage, go_on);
   const Vector p = hbm::parameters_at(*swept.problem, omega);
   const auto& points = swept.branch.points;
   const auto& stop = swept.branch.stop;

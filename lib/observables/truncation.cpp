@@ -73,6 +73,7 @@ Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p
     : problem_(problem),
       free_(free),
       wide_(problem, widened(problem.harmonics())),
+      narrow_(problem, problem.harmonics()),
       highest_(highest_natural_frequency(problem.model(), p)),
       stiffens_(stiffen(problem.model(), p)),
       base_(wide_.problem().size()),
@@ -141,46 +142,54 @@ Truncation::Step Truncation::step_along(const continuation::Accepted& now, HeldB
   if (held == HeldBy::extremum) return {0, true};
   if (held == HeldBy::corner) return {0, false};
   if (held == HeldBy::parameter && std::abs(d) <= near_a_fold * size * std::abs(t)) return {-d / t, true};
-  const auto by = slopes(now);
-  if (!by) return {0, false};
-  if (held == HeldBy::fold) return {-by->change / by->tangent, true};
-  const double root = t * t - 2 * by->tangent * d;  // on the parabola of the branch
-  if (root < 0) return {-t / by->tangent, false};   // which ends before: its fold is next
+  if (held == HeldBy::fold) {
+    const auto slope = slope_along(wide_, change_, true, now);
+    const auto bend = slope_along(wide_, tangent_, false, now);
+    return slope && bend ? Step{-*slope / *bend, true} : Step{0, false};
+  }
+  const auto bend = bend_of_branch(now);
+  if (!bend) return {0, false};
+  const double root = t * t - 2 * *bend * d;  // on the parabola of the branch
+  if (root < 0) return {-t / *bend, false};   // which ends before: its fold is next
   return {-2 * d / (t + std::copysign(std::sqrt(root), t)), true};
 }
 
-// d_q' and q'' along the branch, from J d + r and J t near the point.
-std::optional<Truncation::Slopes> Truncation::slopes(const continuation::Accepted& now) {
-  wide_.embed(now.u, base_);
+// q'', from the equations of order N: what the harmonics above add to it is of higher order.
+std::optional<double> Truncation::bend_of_branch(const continuation::Accepted& now) {
+  const Eigen::Index n = problem_.size();
+  if (!narrow_.move_to(now.u, now.p)) return {};
+  narrow_.factorize(free_);
+  return slope_along(narrow_, {now.tangent.head(n), now.tangent[n]}, false, now);
+}
+
+// The parameter of the solution for the right-hand side (J x + r)' or (J x)', the derivative along t at
+// fixed x.
+std::optional<double> Truncation::slope_along(WideEquations& in, const WideEquations::Change& x,
+                                              bool with_residual, const continuation::Accepted& now) {
+  in.embed(now.u, base_);
+  in.embed(now.tangent.head(now.u.size()), along_);
   const double size = std::max(1.0, now.u.norm() / problem_.displacement());
-  Vector place, p = now.p;
-  std::array<std::array<Vector, 2>, 2> beside;
-  std::array<Vector, 2> middle;
-  wide_.apply(change_, free_, middle[0]);
-  middle[0] += wide_.at().residual();
-  wide_.apply(tangent_, free_, middle[1]);
-  const auto quotient = continuation::difference_within_piece(
-      continuation::difference_step * size, [&](std::size_t i, double h) {
-        place = base_ + h * tangent_.u;
-        p = now.p;
-        p[free_] += h * tangent_.parameter;
-        if (!wide_.look_beside(place, p)) return false;
-        wide_.apply_beside(change_, free_, beside[i][0]);
-        beside[i][0] += wide_.residual_beside();
-        wide_.apply_beside(tangent_, free_, beside[i][1]);
-        return true;
-      });
+  Vector place, p = now.p, middle;
+  std::array<Vector, 2> beside;
+  in.apply(x, free_, middle);
+  if (with_residual) middle += in.at().residual();
+  const auto quotient = continuation::difference_within_piece(continuation::difference_step * size,
+                                                              [&](std::size_t i, double h) {
+                                                                place = base_ + h * along_;
+                                                                p = now.p;
+                                                                p[free_] += h * now.tangent[now.u.size()];
+                                                                if (!in.look_beside(place, p)) return false;
+                                                                in.apply_beside(x, free_, beside[i]);
+                                                                if (with_residual)
+                                                                  beside[i] += in.residual_beside();
+                                                                return true;
+                                                              });
   if (!quotient) return {};
-  WideEquations::Change slope;
-  Slopes found{};
-  for (const int k : {0, 1}) {
-    const auto which = static_cast<std::size_t>(k);
-    const Vector r = quotient->here * middle[which] + quotient->weight[0] * beside[0][which] +
-                     quotient->weight[1] * beside[1][which];
-    wide_.solve(now.bordered, r, {}, slope);
-    (k == 0 ? found.change : found.tangent) = slope.parameter;
-  }
-  return found;
+  const Vector slope =
+      quotient->here * middle + quotient->weight[0] * beside[0] + quotient->weight[1] * beside[1];
+  WideEquations::Change change;
+  in.solve(now.bordered, slope, {}, change);
+  return change.parameter;
 }
 
 // The change at which the slip corner next to the point remains one.

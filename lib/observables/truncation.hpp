@@ -45,27 +45,26 @@ class Truncation {
   TruncationEstimate estimate(const continuation::Accepted& now, const Extreme& extreme, HeldBy held);
 
  private:
-  struct Slopes {
-    double change, tangent;  // d_q', q''
-  };
   struct Step {
     double length;
     bool known;  // otherwise what holds the point may need another one
   };
 
-  std::optional<Slopes> slopes(const continuation::Accepted& now);
+  std::optional<double> bend_of_branch(const continuation::Accepted& now);
+  std::optional<double> slope_along(WideEquations& in, const WideEquations::Change& x, bool with_residual,
+                                    const continuation::Accepted& now);
   Step step_along(const continuation::Accepted& now, HeldBy held);
   bool to_corner(const continuation::Accepted& now);
   bool resonance_left_out(const continuation::Accepted& now);
 
   const hbm::HbmProblem& problem_;
   int free_;
-  WideEquations wide_;
+  WideEquations wide_, narrow_;  // narrow_: those of order N, with exact friction
   double highest_;
   bool stiffens_;
   std::unique_ptr<continuation::LinearSolver> solver_;
   WideEquations::Change change_, tangent_;
-  continuation::Vector base_, residual_, response_, by_parameter_;
+  continuation::Vector base_, along_, residual_, response_, by_parameter_;
 };
 
 /// Highest natural frequency (rad/s) of M x'' + (K + sum of element stiffnesses) x = 0 at p; massless motions

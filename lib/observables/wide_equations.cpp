@@ -35,12 +35,8 @@ bool WideEquations::move_to(In u, In p) {
 }
 
 void WideEquations::factorize(int q) {
-  const auto& J = std::get<Eigen::MatrixXd>(evaluator_->jacobian());
-  const int r = narrow_.blocks(), c = wide_.size();
   for (std::size_t k = 0; k < orders_.size(); ++k) {
-    const int place[2] = {wide_.cosine_index(orders_[k]), wide_.sine_index(orders_[k])};
-    for (int j = 0; j < 2 * r; ++j)
-      for (int i = 0; i < 2 * r; ++i) block_(i, j) = J(i / 2 * c + place[i % 2], j / 2 * c + place[j % 2]);
+    evaluator_->jacobian_of_order(orders_[k], block_);
     lus_[k].factorize(block_);
   }
   evaluator_->parameter_derivative(q, F_q_);

@@ -315,3 +315,84 @@ TEST_CASE(
         CHECK(std::abs(branch.events[0].point.parameter - d) < 1e-12);
       }
 }
+
+namespace {
+
+// u = sin p + the sum of e_k max(0, p - p_k), e_k = -+1e-6, p_k = 0.01 k + 0.005: 250 kinks up to p = 2.5.
+constexpr double weak = 1e-6;
+double bend_of(int k) {
+  return k % 2 == 0 ? -weak : weak;
+}
+double place_of(int k) {
+  return 0.01 * k + 0.005;
+}
+
+std::shared_ptr<const Problem> many_weak_kinks() {
+  const auto slopes = [](double p, auto&& add) {
+    for (int k = 0; place_of(k) < p; ++k) add(bend_of(k), p - place_of(k));
+  };
+  return from_functions({.size = 1,
+                         .parameters = {parameter("p", 0)},
+                         .residual =
+                             [=](In u, In p, Out F) {
+                               F[0] = u[0] - std::sin(p[0]);
+                               slopes(p[0], [&](double bend, double beyond) { F[0] -= bend * beyond; });
+                             },
+                         .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+                         .derivative =
+                             [=](In, In p, int, Out dF) {
+                               dF[0] = -std::cos(p[0]);
+                               slopes(p[0], [&](double bend, double) { dF[0] -= bend; });
+                             },
+                         .piece = [](In, In p) { return static_cast<std::uint64_t>(100 * p[0] + 0.5); }});
+}
+
+}  // namespace
+
+TEST_CASE("kinks too weak to matter are passed without a look, and the maximum among them is exact") {
+  Options options = window(0, 2.5);
+  options.step.curve_tolerance = 1e-5;
+  const Monitor maximum{"maximum", [](const Accepted& now) { return now.tangent[0]; }, Crossing::falling,
+                        [](const Accepted& now) { return now.u[0]; }};
+  const Branch branch = trace(many_weak_kinks(), at(0, 0), options, {maximum});
+  REQUIRE(branch.stop.reason == StopReason::boundary);
+  REQUIRE(branch.events.size() == 1);
+  // 157 kinks lie below pi/2: their bends add up to that of the first.
+  CHECK(std::abs(branch.events[0].point.parameter - std::acos(weak)) < 1e-11);
+  CHECK(branch.counts.residuals < 10 * branch.counts.points);
+  const Branch with = trace(many_weak_kinks(), at(0, 0), options, {maximum, kink_monitor()});
+  CHECK(with.events.size() == 1);  // below 1e-4 rad they are no events
+  CHECK(with.counts.residuals > 10 * branch.counts.residuals);
+}
+
+TEST_CASE("a maximum and a minimum at two kinks of one step are found, however weak the kinks") {
+  // u = s p, of slope -s between p = 0 and p = d.
+  for (const double slope : {1e-2, 1e-4, 1e-6})
+    for (const double d : {5e-3, 1e-3})
+      for (const double from : {-0.9137, -0.8513, -0.7331}) {
+        const auto problem = from_functions(
+            {.size = 1,
+             .parameters = {parameter("p", 0)},
+             .residual =
+                 [=](In u, In p, Out F) {
+                   F[0] = u[0] - slope * (p[0] - 2 * std::max(0.0, p[0]) + 2 * std::max(0.0, p[0] - d));
+                 },
+             .jacobian = [](In, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1; },
+             .derivative = [=](In, In p, int, Out dF) { dF[0] = p[0] > 0 && p[0] < d ? slope : -slope; },
+             .piece = [=](In, In p) { return p[0] > d   ? 3
+                                             : p[0] > 0 ? 2
+                                                        : 1; }});
+        const auto du = [](const Accepted& now) { return now.tangent[0]; };
+        const auto u = [](const Accepted& now) { return now.u[0]; };
+        Options options = window(-1, 1);
+        options.step.curve_tolerance = 1e-5;
+        const Branch branch =
+            trace(problem, at(slope * from, from), options,
+                  {{"maximum", du, Crossing::falling, u}, {"minimum", du, Crossing::rising, u}});
+        CAPTURE(slope, d, from, branch.points.size());
+        REQUIRE(branch.events.size() == 2);
+        CHECK(branch.events[0].monitor == "maximum");
+        CHECK(std::abs(branch.events[0].point.parameter) < 1e-11);
+        CHECK(std::abs(branch.events[1].point.parameter - d) < 1e-11);
+      }
+}

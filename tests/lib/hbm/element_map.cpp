@@ -63,6 +63,24 @@ TEST_CASE("forces and Jacobians go back by the transposed map") {
   }
 }
 
+TEST_CASE("the Jacobian of one order is that part of the whole one") {
+  const elements::Harmonics h{4, false};
+  const hbm::ElementMap map(shares, 2, h);
+  std::srand(3);
+  const MatrixXd J_element = MatrixXd::Random(map.size(), map.size());
+  MatrixXd J = MatrixXd::Zero(3 * h.size(), 3 * h.size());
+  map.add(J_element, J);
+  for (const int n : {1, 3, 4}) {
+    MatrixXd J_n = MatrixXd::Ones(6, 6);
+    map.add_order(n, J_element, J_n);
+    const int place[2] = {h.cosine_index(n), h.sine_index(n)};
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)
+        CHECK(std::abs(J_n(i, j) - 1 - J(i / 2 * h.size() + place[i % 2], j / 2 * h.size() + place[j % 2])) <
+              1e-14);
+  }
+}
+
 TEST_CASE("a model keeps of a direction what is not zero: 10 000 springs on 10 000 degrees of freedom") {
   constexpr int n = 10'000;
   scene::Scene s;

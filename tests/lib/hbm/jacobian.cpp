@@ -125,3 +125,25 @@ TEST_CASE("a tie is one parameter whose derivative is the sum over its members")
   CHECK(sum.norm() > 0.1);
   CHECK_THROWS_WITH(model::parameter_index(*apart, "d1.normal_lod"), Catch::Contains("d1.normal_load"));
 }
+
+TEST_CASE("the Jacobian of one order is made of the entries of the whole one") {
+  scene::Scene s = scenes::example("gap_limited_chain");
+  s.harmonics.order = 3;
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  const auto at = problem.hbm_evaluator();
+  std::srand(5);
+  const Vector u = Vector::Random(problem.size());
+  REQUIRE(at->move_to(u, hbm::parameters_at(problem, 1.3), Needs::jacobian) == continuation::Evaluated::ok);
+  const auto& h = problem.harmonics();
+  const auto J = std::get<Eigen::MatrixXd>(at->jacobian());
+  for (int n = 1; n <= 3; ++n) {
+    Eigen::MatrixXd J_n(2 * problem.blocks(), 2 * problem.blocks());
+    at->jacobian_of_order(n, J_n);
+    const int place[2] = {h.cosine_index(n), h.sine_index(n)};
+    for (int i = 0; i < J_n.rows(); ++i)
+      for (int j = 0; j < J_n.cols(); ++j)
+        CHECK(std::abs(J_n(i, j) - J(i / 2 * h.size() + place[i % 2], j / 2 * h.size() + place[j % 2])) <
+              1e-13 * J.cwiseAbs().maxCoeff());
+  }
+}

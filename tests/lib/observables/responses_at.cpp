@@ -74,6 +74,31 @@ TEST_CASE(
     CHECK(each.doubt.find("other responses may be missing, since the branch from a quarter") == 0);
 }
 
+TEST_CASE("between folds at kinks a response is found for each passage of the frequency response") {
+  const scene::Scene s = scenes::example("gap_limited_chain");
+  const auto& window = scenes::window(s);
+  const auto branch = observables::frequency_response(s, {window.from, window.to}).at(0);
+  REQUIRE(branch.status == Status::complete);
+  for (const double omega : {1.3, 1.55, 1.6, 1.627, 1.65}) {
+    // Over the folds, too, which lie between points.
+    std::size_t passages = 0, event = 0;
+    double last = branch.points.front().omega;
+    const auto go_to = [&](double next) {
+      passages += (last < omega) != (next < omega);
+      last = next;
+    };
+    for (std::size_t k = 0; k < branch.points.size(); ++k) {
+      go_to(branch.points[k].omega);
+      for (; event < branch.events.size() && branch.events[event].after == k; ++event)
+        go_to(branch.events[event].point.omega);
+    }
+    const auto found = at(s, omega);
+    CAPTURE(omega);
+    CHECK(found.size() == passages);
+    CHECK(found[0].doubt.empty());
+  }
+}
+
 TEST_CASE("a response at one frequency is the point of the frequency response there") {
   const scene::Scene s = scenes::paper(31, 3);
   const auto found = at(s, 20);
