@@ -195,12 +195,6 @@ class Contact3d final : public PlainLaw {
 
   int memory() const override { return 2; }
   int slider_direction(int k) const override { return k; }
-  Eigen::RowVectorXd slider_bound(Fields fields, int k, int side) const override {
-    const ContactLaw law = contact(fields);
-    Eigen::RowVectorXd bound = Eigen::RowVectorXd::Unit(3, k);
-    bound[normal] = side * law.mu * law.k_n / law.k_t;
-    return bound;
-  }
   bool symmetric_step() const override { return false; }
 
   void memory_at(Fields fields, In q, In f, Out z) const override {

@@ -182,8 +182,8 @@ class Law {
     static_cast<void>(k);
     return -1;
   }
-  /// Memory k, a slider, rests between two bounds that move with the displacement: the derivative by q of the
-  /// lower one (side -1) or of the upper one (1). Their centre at q = 0 is 0.
+  /// Memory k, a slider in the one direction of all, rests between two bounds that move: the derivative by q
+  /// of the lower one (side -1) or of the upper one (1). Their centre at q = 0 is 0.
   virtual Eigen::RowVectorXd slider_bound(Fields fields, int k, int side) const {
     static_cast<void>(fields), static_cast<void>(side);
     return Eigen::RowVectorXd::Unit(directions(), slider_direction(k));

@@ -66,15 +66,14 @@ class Rows {
   std::vector<PatchRow> read(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
     std::vector<PatchRow> rows;
-    bool sound = true;
+    const std::size_t before = faults_.count();
     for (const std::string_view line : split(text, '\n')) {
       ++line_;
       if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
       std::vector<std::string_view> cells = split(line, ',');
       for (std::string_view& cell : cells) cell = trimmed(cell);
       if (columns_.empty()) {
-        sound = header(cells);
-        if (!sound) return {};
+        if (!header(cells)) return {};
       } else if (cells.size() != columns_.size()) {
         fault("found " + std::to_string(cells.size()) + " values, must be " +
               std::to_string(columns_.size()) + " as in the header");
@@ -83,7 +82,7 @@ class Rows {
         lines_.push_back(line_);
       }
     }
-    if (rows.empty()) {
+    if (rows.empty() && faults_.count() == before) {
       line_ = 0;
       fault("found no rows, must have a header and at least one row");
     }
@@ -162,7 +161,7 @@ class Rows {
     return row;
   }
 
-  // "a", "a - b", "0.6*a.x + 0.8*a.z": terms between signs that stand alone.
+  // "a", "-a", "a - b", "0.6*a.x + 0.8*a.z": terms between signs that stand alone.
   Direction direction(std::string_view text) {
     Direction direction;
     double sign = 1;
@@ -192,6 +191,11 @@ class Rows {
         name = word.substr(star + 1);
         found = dofs_.index.find(name);
       }
+    if (found == dofs_.index.end() && name.starts_with('-')) {
+      weight = -weight;
+      name.erase(0, 1);
+      found = dofs_.index.find(name);
+    }
     if (name == ground) return true;
     if (found == dofs_.index.end()) {
       if (dofs_.complete)

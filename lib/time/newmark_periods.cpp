@@ -1,5 +1,7 @@
 #include <arcslip/time/newmark_periods.hpp>
 
+#include <arcslip/time/plane_slider.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -210,7 +212,12 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   map.monodromy = Matrix::Identity(size, size);
   newmark.resume(start);
   std::vector<Reach> reaches;
-  for (const TimeElement& element : equation.elements)
+  std::vector<PlaneSlider> planes;
+  for (const TimeElement& element : equation.elements) {
+    if (PlaneSlider::among(*element.law)) {
+      planes.emplace_back(element, newmark.steps_per_period(), size);
+      continue;
+    }
     for (int k = 0; k < element.law->memory(); ++k) {
       const int along = element.law->slider_direction(k);
       if (along < 0) continue;
@@ -224,6 +231,7 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
                          lower.dot(start.x), upper.dot(start.x), lower.transpose() * change,
                          upper.transpose() * change, free, free});
     }
+  }
   for (long k = 0; k < newmark.steps_per_period(); ++k) {
     const Solved solved = newmark.step();
     if (solved != Solved::yes) {
@@ -233,6 +241,8 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
     newmark.differentiate(map.monodromy);
     const MotionState& state = newmark.state();
     map.size = std::max(map.size, std::hypot(state.x.norm(), state.v.norm() / equation.omega));
+    for (PlaneSlider& plane : planes)
+      plane.step(state.x, newmark.elements().memory_change(), map.monodromy.topRows(n));
     for (std::size_t i = 0; i < reaches.size(); ++i) {
       Reach& reach = reaches[i];
       const double slip = newmark.elements().memory_change()[reach.slider];
@@ -253,6 +263,8 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
     if (reaches[i].rests())
       map.resting.push_back(resting_slider(reaches[i].slider, reaches[i].room, reaches[i].high,
                                            reaches[i].d_high, reaches[i].low, reaches[i].d_low));
+  for (const PlaneSlider& plane : planes)
+    if (plane.rests()) plane.add_to(map.resting);
   map.end = newmark.state();
   map.done = true;
   return map;

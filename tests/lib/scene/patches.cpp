@@ -140,13 +140,17 @@ TEST_CASE("a scene with a patch is written, read, checked and hashed with its fi
 
 TEST_CASE("contacts may have names, and laws of one direction a place") {
   const Folder folder;
-  folder.write("one.csv", "name,at,area,pressure\nleft,t,1e-4,1e4\nright,t - n,2e-4,1e4\n");
+  folder.write("one.csv",
+               "name,at,area,pressure\nleft,-t,1e-4,1e4\nright,t - n,2e-4,1e4\n"
+               "low,-0.5*t + -n,1,0\n");
   const scene::Scene s =
       read(text(R"("patches": [{"name": "rim", "law": "jenkins", "file": "one.csv", "details": false,
         "stiffness": 1e7, "friction_coefficient": 0.3, "pressure_factor": 2, "wear_coefficient": 1e-13}],)"),
            folder.path());
   const auto elements = scene::all_elements(s);
-  REQUIRE(elements.size() == 2);
+  REQUIRE(elements.size() == 3);
+  CHECK(elements[0].directions[0] == scene::Direction{{0, -1}});
+  CHECK(elements[2].directions[0] == scene::Direction{{0, -0.5}, {1, -1}});
   CHECK(elements[1].name == "rim.right");
   CHECK(elements[1].directions[0] == scene::Direction{{0, 1}, {1, -1}});
   CHECK(elements[1].values[2] == Approx(4).epsilon(1e-14));
@@ -201,6 +205,7 @@ TEST_CASE("faults of a patch name the line of its file") {
     CAPTURE(found);
     CHECK(contains(found, "/patches/0/file"));
     CHECK(contains(found, each.fault));
+    CHECK(contains(found, "found no rows") == contains(each.fault, "found no rows"));
   }
   std::string many = "tangential,normal,area\n";
   for (int i = 0; i < 5000; ++i) many += "t,n\n";
