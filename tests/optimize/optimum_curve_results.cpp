@@ -13,6 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -60,7 +62,8 @@ TEST_CASE("result files tell every point of the curve and every event") {
   results::write_csv(events, all, "events");
   CHECK(contains(events.str(), "\r\nlevels,1,bound_left,damper.normal_load,"));
 
-  const auto folder = std::filesystem::temp_directory_path() / "arcslip_optimum_curve";
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("arcslip_optimum_curve_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const auto figures = output::draw_figures(figures_of(s, results), folder.string(), "best");
   std::ifstream script(folder / "best.gp");

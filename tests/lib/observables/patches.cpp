@@ -18,6 +18,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -30,7 +32,7 @@ namespace {
 // A plate of two translations and a rotation on a patch of three contacts, one of them behind a gap.
 scene::Scene plate(int order, bool details = true) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "arcslip_plate";
+  const fs::path folder = fs::temp_directory_path() / ("arcslip_plate_" + std::to_string(::getpid()));
   fs::create_directories(folder);
   std::ofstream(folder / "pad.csv") << "tangential,normal,area,pressure,gap\n"
                                        "t + 0.01*r,n,2e-4,2e4,0\n"

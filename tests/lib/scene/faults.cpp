@@ -1,5 +1,7 @@
 #include <arcslip/scene/scene.hpp>
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -39,7 +41,8 @@ std::vector<Fault> faults_of(const std::string& text) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() / ("arcslip_" + std::to_string(counter()) + ".json")) {
+      : path_(std::filesystem::temp_directory_path() /
+              ("arcslip_" + std::to_string(::getpid()) + "_" + std::to_string(counter()) + ".json")) {
     std::ofstream(path_, std::ios::binary) << text;
   }
   TemporaryFile(const TemporaryFile&) = delete;

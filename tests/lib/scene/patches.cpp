@@ -8,6 +8,8 @@
 #include <arcslip/scene/json_schema.hpp>
 #include <arcslip/scene/patch.hpp>
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -27,7 +29,7 @@ constexpr const char* rows =
 
 class Folder {
  public:
-  Folder() : path_(fs::temp_directory_path() / "arcslip_patches") {
+  Folder() : path_(fs::temp_directory_path() / ("arcslip_patches_" + std::to_string(::getpid()))) {
     fs::remove_all(path_);
     fs::create_directories(path_ / "contacts");
     fs::create_directories(path_ / "out");
