@@ -64,7 +64,8 @@ struct Monitor {
   double chord_tolerance = 0;
 
   /// If value() is the slope of quantity(): steps are divided at their kinks, so that the slopes on both
-  /// sides decide about a zero there. False: steps are not divided, as for many small kinks.
+  /// sides decide about a zero there, but at those across which the step is resolved to the curve tolerance
+  /// and no slope changes its sign. False: steps are not divided, as for many small kinks.
   bool divides_at_kinks = true;
 
   /// If quantity() is the maximum of several smooth quantities: the index of the largest, called after
