@@ -73,7 +73,9 @@ Directions stiff_between_elements(const Directions& stiff, const Independent& el
     all.add(d);
     if (elements.spans(d)) found.push_back(d);
   }
-  const auto angles = continuation::singular_values(all.orthonormal().transpose() * elements.orthonormal());
+  const Eigen::MatrixXd cosines = all.orthonormal().transpose() * elements.orthonormal();
+  if (cosines.size() == 0 || !cosines.allFinite()) return found;  // of directions that overflow
+  const auto angles = continuation::singular_values(cosines);
   for (Eigen::Index i = 0; i < angles.values.size(); ++i)
     if (angles.values[i] > 1 - independent) found.push_back(elements.orthonormal() * angles.V.col(i));
   return found;
