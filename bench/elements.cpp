@@ -2,14 +2,14 @@
 //
 //   element/LAW/H:N               exact
 //   sampled_element/LAW/H:N       the force alone of as many steps in two periods as bring its coefficients
-//   to
-//                                 1e-6 of the largest, and their projection; no Jacobian
+//                                 to 1e-6 of the largest, and their projection; no Jacobian
 //
 // The counter `samples` is that number of steps in a period.
 
 #include "sampled.hpp"
 
 #include <arcslip/elements/contact_2d.hpp>
+#include <arcslip/elements/contact_3d.hpp>
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/iwan.hpp>
 #include <arcslip/elements/jenkins.hpp>
@@ -43,6 +43,12 @@ Example contact_2d() {
 }
 Example separating_contact_2d() {
   return {elements::contact_2d().law({}), {2, 1.5, 0.5, 0.3}};
+}
+Example contact_3d() {
+  return {elements::contact_3d().law({}), {2, 1.5, 0.5, 1}};
+}
+Example separating_contact_3d() {
+  return {elements::contact_3d().law({}), {2, 1.5, 0.5, 0.3}};
 }
 Example iwan() {
   return {elements::iwan().law({}), {2, 0.5}};
@@ -116,11 +122,14 @@ BENCHMARK_CAPTURE(element, jenkins, jenkins)->Apply(orders);
 BENCHMARK_CAPTURE(element, gap_spring, gap_spring)->Apply(orders);
 BENCHMARK_CAPTURE(element, contact_2d, contact_2d)->Apply(orders);
 BENCHMARK_CAPTURE(element, separating_contact_2d, separating_contact_2d)->Apply(orders);
+BENCHMARK_CAPTURE(element, contact_3d, contact_3d)->Apply(orders);
+BENCHMARK_CAPTURE(element, separating_contact_3d, separating_contact_3d)->Apply(orders);
 BENCHMARK_CAPTURE(element, iwan, iwan)->Apply(orders);
 BENCHMARK(iwan_table)->Name("element/iwan_table_100")->Apply(orders);
 BENCHMARK_CAPTURE(sampled_element, jenkins, jenkins)->Apply(orders);
 BENCHMARK_CAPTURE(sampled_element, gap_spring, gap_spring)->Apply(orders);
 BENCHMARK_CAPTURE(sampled_element, contact_2d, contact_2d)->Apply(orders);
 BENCHMARK_CAPTURE(sampled_element, separating_contact_2d, separating_contact_2d)->Apply(orders);
+BENCHMARK_CAPTURE(sampled_element, separating_contact_3d, separating_contact_3d)->Apply(orders);
 
 }  // namespace

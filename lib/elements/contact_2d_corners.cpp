@@ -102,7 +102,7 @@ class Contact2dCorners final : public Corners {
       if (std::abs(at.values[0]) <= tolerance * size(corner, w, fields) && !is_listed(found, corner, w))
         found.push_back(std::move(corner));
     };
-    for (const Reversal& turn : search.reversals_of_load())
+    for (const Reversal& turn : search.normal().reversals())
       add(series_values(h_, w.tail(c_), turn.theta).d2 < 0 ? closing : separation, {turn.theta});
     if (!(law.mu > 0)) return found;
     if (search.full_stick()) {

@@ -24,11 +24,9 @@ class Contact2dElement final : public Element {
   Contact2dElement(const Harmonics& h, Offset offset)
       : h_(h),
         phases_(h, offset),
-        closed_(h),
         stick_(h),
         slip_(h),
         by_field_(2 * h.size(), field_count),
-        n_(h.size()),
         g_(h.size()),
         phi_(h.size()),
         F_(2 * h.size()),
@@ -44,12 +42,10 @@ class Contact2dElement final : public Element {
     F_.setZero();
     by_field_.setZero();
     if (jacobian) J_.setZero();
-    n_ = law_.k_n * u_n;
-    n_[0] += law_.N_0;
-    normal(u_n, jacobian);
+    normal(jacobian);
     if (phases_.full_stick())
       full_stick(u_t, u_n, jacobian);
-    else if (!phases_.closed().empty())
+    else if (!phases_.normal().closed().empty())
       tangential(phases, u_t, u_n, jacobian);
   }
 
@@ -60,14 +56,6 @@ class Contact2dElement final : public Element {
 
   bool friction(FrictionState& state) const override {
     phases_.tell(state);
-    double high = n_[0], low = n_[0];
-    for (const Reversal& turn : phases_.reversals_of_load()) {
-      const double N = law_.N_0 + law_.k_n * turn.x;
-      high = std::max(high, N);
-      low = std::min(low, N);
-    }
-    state.load_max = std::max(high, 0.0);
-    state.load_min = std::max(low, 0.0);
     state.mean_min = state.mean_max = F_[0];
     if (phases_.full_stick()) {  // k_t (u_0 - w) for w from a to b
       const StuckSlider held = phases_.held();
@@ -90,36 +78,13 @@ class Contact2dElement final : public Element {
   auto tangential_rows(int field) { return by_field_.col(field).head(h_.size()); }
   auto normal_rows(int field) { return by_field_.col(field).tail(h_.size()); }
 
-  void normal(In u_n, bool jacobian) {
+  void normal(bool jacobian) {
     const Eigen::Index c = h_.size();
-    auto F = F_.tail(c);
-    if (!phases_.opens()) {
-      F = n_;
-      normal_rows(normal_stiffness) = u_n;
-      normal_rows(normal_load)[0] = 1;
-      if (jacobian) J_.bottomRightCorner(c, c).diagonal().setConstant(law_.k_n);
-    } else {
-      closed_.clear();
-      for (const auto& [begin, end] : phases_.closed()) {
-        set_powers(begin, end);
-        closed_.add_interval(end - begin, middle_.data(), half_.data());
-      }
-      closed_.close();
-      auto by_stiffness = normal_rows(normal_stiffness), by_load = normal_rows(normal_load);
-      closed_.times(u_n, kappa, by_stiffness);
-      by_stiffness[0] *= 0.5;
-      closed_.integral(by_load);
-      by_load *= kappa;
-      by_load[0] *= 0.5;
-      F = law_.k_n * by_stiffness + law_.N_0 * by_load;
-      if (jacobian) {
-        auto J = J_.bottomRightCorner(c, c);
-        closed_.add_to(J, kappa * law_.k_n);
-        J.row(0) *= 0.5;
-      }
-    }
-    F[0] -= std::max(law_.N_0, 0.0);
-    if (law_.N_0 > 0) normal_rows(normal_load)[0] -= 1;
+    const NormalContact& normal = phases_.normal();
+    F_.tail(c) = normal.force();
+    normal_rows(normal_stiffness) = normal.by_stiffness();
+    normal_rows(normal_load) = normal.by_load();
+    if (jacobian) normal.jacobian(J_.bottomRightCorner(c, c));
   }
 
   // phi_: at the rest.
@@ -250,9 +215,9 @@ class Contact2dElement final : public Element {
   Harmonics h_;
   ContactLaw law_{};
   ContactPhases phases_;
-  Moments closed_, stick_, slip_;
+  Moments stick_, slip_;
   Eigen::MatrixXd by_field_;
-  Eigen::VectorXd n_, g_, phi_, F_;
+  Eigen::VectorXd g_, phi_, F_;
   Eigen::MatrixXd J_;
   std::vector<std::complex<double>> middle_, half_;
 };

@@ -30,7 +30,7 @@ using Eigen::Vector2d;
 constexpr double turn_angle = 2 * std::numbers::pi;
 constexpr double same_place = 1e-9;  // rad
 constexpr double same_corner = 0.3;  // rad: an angle that moves farther is another one
-constexpr double just_born = 1e-5;      // rad: the root of rounding
+constexpr double just_born = 1e-5;   // rad: the root of rounding
 constexpr double short_slip = 0.3;   // rad: slip that may just have been born
 constexpr int newton_steps = 30;
 

@@ -30,12 +30,11 @@ std::uint64_t code(const ContactPhase& phase) {
 }  // namespace
 
 ContactPhases::ContactPhases(const Harmonics& harmonics, Offset offset)
-    : harmonics_(harmonics), reversals_(harmonics), offset_(offset) {
+    : harmonics_(harmonics), reversals_(harmonics), normal_(harmonics), offset_(offset) {
   const auto most = static_cast<std::size_t>(2 * harmonics.order + 2);
   lower_.u.resize(harmonics.size());
   upper_.u.resize(harmonics.size());
-  for (auto* turns : {&lower_.turns, &upper_.turns, &load_turns_}) turns->reserve(2 * most);
-  closed_.reserve(most);
+  for (auto* turns : {&lower_.turns, &upper_.turns}) turns->reserve(2 * most);
   phases_.reserve(8 * most);
 }
 
@@ -55,45 +54,13 @@ long ContactPhases::Bound::piece(double theta) const {
   return static_cast<long>(before) * static_cast<long>(turns.size()) + (after - turns.begin()) - 1;
 }
 
-// The intervals where N > 0, between the reversals that enclose their ends.
-void ContactPhases::find_closed(In u_n, const ContactLaw& law) {
-  closed_.clear();
-  opens_ = false;
-  load_turns_.clear();
-  if (law.k_n > 0) load_turns_ = reversals_.find(u_n);
-  const double level = -law.N_0 / law.k_n;
-  const auto always = [&](bool closed) {
-    opens_ = !closed;
-    if (closed) closed_.emplace_back(0, turn_angle);
-  };
-  if (load_turns_.empty()) return always(law.N_0 + law.k_n * u_n[0] > 0);
-  const auto is_closed = [&](const Reversal& at) { return at.x > level; };
-  if (std::all_of(load_turns_.begin(), load_turns_.end(), is_closed)) return always(true);
-  if (std::none_of(load_turns_.begin(), load_turns_.end(), is_closed)) return always(false);
-  opens_ = true;
-  double last_end = -never;
-  for (std::size_t i = 0; i < load_turns_.size(); ++i) {
-    const Reversal from = load_turns_[i];
-    Reversal to = load_turns_[i + 1 == load_turns_.size() ? 0 : i + 1];
-    if (i + 1 == load_turns_.size()) to.theta += turn_angle;
-    if (is_closed(from) == is_closed(to)) continue;
-    const double at = reversals_.crossing(u_n, from, to, level);
-    if (is_closed(to))
-      closed_.emplace_back(at, never);
-    else if (closed_.empty())
-      last_end = at + turn_angle;
-    else
-      closed_.back().second = at;
-  }
-  if (closed_.back().second == never) closed_.back().second = last_end;
-}
-
 const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const ContactLaw& law) {
   phases_.clear();
   full_stick_ = false;
   frictionless_ = !(law.mu > 0);
   gap_ = law.N_0 <= 0;  // a preload is balanced at rest, so that the force by N_0 has a kink there
-  find_closed(u_n, law);
+  normal_.move_to(u_n, law.k_n, law.N_0);
+  const auto closed = normal_.closed();
   const double ratio = law.mu * law.k_n / law.k_t, h = law.mu * law.N_0 / law.k_t;
   lower_.u = u_t - ratio * u_n;
   upper_.u = u_t + ratio * u_n;
@@ -101,17 +68,17 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
   upper_.u[0] += h;
   lower_.turns.clear();
   upper_.turns.clear();
-  if (closed_.empty()) {
+  if (closed.empty()) {
     phases_.push_back({ContactPhase::State::open, 0, turn_angle});
     return phases_;
   }
   lower_.turns = reversals_.find(lower_.u);
   upper_.turns = reversals_.find(upper_.u);
-  if (opens_) {
-    for (std::size_t i = 0; i < closed_.size(); ++i) {
-      const auto [begin, end] = closed_[i];
+  if (normal_.opens()) {
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+      const auto [begin, end] = closed[i];
       sweep({SliderRest::At::closing, begin, series_values(harmonics_, u_t, begin).x}, end);
-      const double next = i + 1 < closed_.size() ? closed_[i + 1].first : closed_[0].first + turn_angle;
+      const double next = i + 1 < closed.size() ? closed[i + 1].first : closed[0].first + turn_angle;
       phases_.push_back({ContactPhase::State::open, end, next});
     }
     return phases_;
@@ -204,7 +171,7 @@ std::uint64_t ContactPhases::sequence() const {
 }
 
 std::uint64_t ContactPhases::sequence_of_phases() const {
-  if (frictionless_) return (opens_ ? 1 : 0) + 2 * closed_.size();
+  if (frictionless_) return (normal_.opens() ? 1 : 0) + 2 * normal_.closed().size();
   if (full_stick_) {  // its offset follows one extreme, or both
     const bool at_lower = held_.lower > 0, at_upper = held_.upper > 0;
     if (!at_lower && !at_upper) return 2;
@@ -244,7 +211,8 @@ void ContactPhases::tell(FrictionState& state) const {
   std::sort(state.slip_onsets.begin(), state.slip_onsets.end());
   std::sort(state.slip_ends.begin(), state.slip_ends.end());
   state.stick_share = full_stick_ ? 1 : stuck / turn_angle;
-  state.open_share = closed_.empty() ? 1 : open / turn_angle;
+  state.open_share = normal_.closed().empty() ? 1 : open / turn_angle;
+  normal_.tell(state);
 }
 
 void ContactPhases::tell(std::vector<ContactInterval>& intervals) const {

@@ -13,8 +13,7 @@
 // All events are roots of trigonometric polynomials: N = 0, the reversals of the bounds, and the onsets of
 // slip between reversals, where a bound is monotonic.
 
-#include <arcslip/elements/element.hpp>
-#include <arcslip/elements/reversals.hpp>
+#include <arcslip/elements/normal_contact.hpp>
 #include <arcslip/elements/slider_offset.hpp>
 
 #include <cstdint>
@@ -62,9 +61,7 @@ class ContactPhases {
   Reversal largest_lower() const { return largest_lower_; }    // a, where the contact never opens
   Reversal smallest_upper() const { return smallest_upper_; }  // b
   StuckSlider held() const { return held_; }                   // in full stick
-  /// The intervals in contact: begin, end.
-  std::span<const std::pair<double, double>> closed() const { return closed_; }
-  bool opens() const { return opens_; }
+  const NormalContact& normal() const { return normal_; }
   /// A number for the sequence of phases, wherever it begins.
   std::uint64_t sequence() const;
   void tell(FrictionState& state) const;
@@ -72,7 +69,6 @@ class ContactPhases {
 
   const std::vector<Reversal>& reversals_of_lower() const { return lower_.turns; }
   const std::vector<Reversal>& reversals_of_upper() const { return upper_.turns; }
-  const std::vector<Reversal>& reversals_of_load() const { return load_turns_; }
 
  private:
   struct Bound {
@@ -90,22 +86,20 @@ class ContactPhases {
 
   std::uint64_t sequence_of_phases() const;
   void choose_nearest();
-  void find_closed(In u_n, const ContactLaw& law);
   Onset onset(const Bound& bound, bool upwards, double begin, double end, double until, double w) const;
   void sweep(SliderRest rest, double end);
   void slip(double sign, Onset from, double end, SliderRest& rest);
 
   Harmonics harmonics_;
   Reversals reversals_;
+  NormalContact normal_;
   Bound lower_, upper_;
-  std::vector<Reversal> load_turns_;
-  std::vector<std::pair<double, double>> closed_;
   std::vector<ContactPhase> phases_;
   Offset offset_;
   double share_ = 0.5;
   StuckSlider held_;
   Reversal largest_lower_{}, smallest_upper_{};
-  bool opens_ = false, full_stick_ = false, frictionless_ = false, gap_ = false;
+  bool full_stick_ = false, frictionless_ = false, gap_ = false;
 };
 
 }  // namespace arcslip::elements

@@ -21,7 +21,7 @@ constexpr double negligible = 1e-9;    // rad: slip so short before separation w
 constexpr double same_end = 1e-6;      // rad: slip that ends so near to the end of the period began it
 constexpr double edge = 1e-12;         // of the radius: a slider that is so close is at the edge
 constexpr double least_step = 1e-10;   // rad
-constexpr double phase_per_panel = 4;  // rad, of the highest harmonic
+constexpr double phase_per_panel = 12; // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
 constexpr int most_steps = 10000;  // towards an onset
 constexpr int newton_steps = 40, passes = 200;

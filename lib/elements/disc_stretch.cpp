@@ -10,6 +10,7 @@ namespace arcslip::elements {
 namespace {
 
 constexpr double kappa = 1 / std::numbers::pi;
+constexpr int batch = 8;  // panels in one product of matrices
 
 double tangent(int i, double psi) {
   return i == 0 ? -std::sin(psi) : std::cos(psi);
@@ -25,16 +26,17 @@ DiscStretch::DiscStretch(const Harmonics& h)
       c_(h.size()),
       phases_(h),
       stick_(h),
+      slipping_{Moments(h), Moments(h)},
       S_(2 * c_),
       by_(2 * c_, 3 * c_ + 2),
       dw_(2, 3 * c_ + 2),
       kept_(2, 3 * c_ + 2),
       dpsi_(3 * c_ + 2),
       first_(2, 3 * c_ + 2),
-      rows_(panel_nodes, 3 * c_ + 2),
       phi_(panel_nodes, c_),
       slope_(panel_nodes, c_),
-      weighted_(panel_nodes, 2 * c_),
+      rows_(batch * panel_nodes, 3 * c_ + 2),
+      weighted_(batch * panel_nodes, 2 * c_),
       g_(c_),
       basis_(c_),
       middle_(static_cast<std::size_t>(2 * h.order + 1)),
@@ -129,6 +131,8 @@ void DiscStretch::differentiate_full_stick() {
 void DiscStretch::differentiate() {
   if (phases_.full_stick()) return differentiate_full_stick();
   by_.setZero();
+  for (Moments& m : slipping_) m.clear();
+  filled_ = 0;
   bool sticks = false;
   for (std::size_t k = 0; k < phases_.list().size(); ++k) {
     const DiscPhase& phase = phases_.list()[k];
@@ -142,11 +146,12 @@ void DiscStretch::differentiate() {
       slip(phase);
     }
   }
-  if (sticks)
-    for (int i = 0; i < 2; ++i) {
-      auto block = by_.block(i * c_, i * c_, c_, c_);
-      stick_.add_to(block, kappa);
-    }
+  add_nodes();
+  for (int i = 0; i < 2; ++i) {
+    if (sticks) stick_.add_to(by_.block(i * c_, i * c_, c_, c_), kappa);
+    slipping_[i].close();
+    slipping_[i].add_to(by_.block(i * c_, 2 * c_, c_, c_), 1);
+  }
   if (keep_ != nothing) first_.setZero();
   if (phases_.list().front().from != DiscPhase::Begin::closing &&
       phases_.list().front().state != DiscPhase::State::open)
@@ -215,27 +220,39 @@ void DiscStretch::stick(const DiscPhase& phase) {
 
 void DiscStretch::slip(const DiscPhase& phase) {
   for (std::size_t k = phase.first_panel; k < phase.last_panel; ++k) {
+    if (filled_ == rows_.rows()) add_nodes();
     const SlipPanel& panel = phases_.panel(k);
     const SlipPanel::Nodes weights = kappa * phases_.collocation().weights(panel);
     set_bases(panel);
-    for (int j = 0; j < panel_nodes; ++j) {
-      for (int i = 0; i < 2; ++i) rows_.row(j).segment(i * c_, c_) = tangent(i, panel.psi[j]) * slope_.row(j);
-      rows_.row(j).segment(2 * c_, c_) = -panel.rate[j] * phi_.row(j);
+    auto rows = rows_.middleRows(filled_, panel_nodes);
+    auto weighted = weighted_.middleRows(filled_, panel_nodes);
+    filled_ += panel_nodes;
+    SlipPanel::Nodes t[2], n[2];
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < panel_nodes; ++j) {
+        t[i][j] = tangent(i, panel.psi[j]);
+        n[i][j] = outward(i, panel.psi[j]);
+      }
+    for (int i = 0; i < 2; ++i) {
+      rows.middleCols(i * c_, c_) = t[i].asDiagonal() * slope_;
+      weighted.middleCols(i * c_, c_) = weights.cwiseProduct(panel.h).cwiseProduct(t[i]).asDiagonal() * phi_;
     }
-    rows_.rightCols(2).setZero();
-    rows_.noalias() -= phases_.collocation().column(panel) * dpsi_;
+    rows.middleCols(2 * c_, c_) = -(panel.rate.asDiagonal() * phi_);
+    rows.rightCols(2).setZero();
+    rows.noalias() -= phases_.collocation().column(panel) * dpsi_;
     const auto lu = phases_.collocation().matrix(panel).partialPivLu();
-    rows_ = lu.solve(rows_).eval();
-    dpsi_ = rows_.row(panel_nodes - 1);
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < panel_nodes; ++j)
-        weighted_.row(j).segment(i * c_, c_) =
-            weights[j] * panel.h[j] * tangent(i, panel.psi[j]) * phi_.row(j);
-    by_.noalias() += weighted_.transpose() * rows_;
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < panel_nodes; ++j)
-        weighted_.row(j).segment(i * c_, c_) = weights[j] * outward(i, panel.psi[j]) * phi_.row(j);
-    columns(2).noalias() += weighted_.transpose() * phi_;
+    rows.applyOnTheLeft(lu.permutationP());
+    lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(rows);
+    lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(rows);
+    dpsi_ = rows.row(panel_nodes - 1);
+    for (int j = 0; j < panel_nodes; ++j) {
+      powers(panel.theta[j], slipping_[0].count(), middle_.data());
+      for (int i = 0; i < 2; ++i)
+        for (int q = 0; q < slipping_[i].count(); ++q) {
+          const std::complex<double> z = weights[j] * n[i][j] * middle_[static_cast<std::size_t>(q)];
+          slipping_[i].add(q, z.real(), z.imag());
+        }
+    }
   }
   const double psi = phase.last_panel > phase.first_panel ? phases_.panel(phase.last_panel - 1).to() : 0;
   const DiscPoint at = disc_->at(phase.end);
@@ -245,6 +262,12 @@ void DiscStretch::slip(const DiscPhase& phase) {
     dw_.row(i).segment(i * c_, c_) += basis_.transpose();
     dw_.row(i).segment(2 * c_, c_) -= outward(i, psi) * basis_.transpose();
   }
+}
+
+// The integrals over slip of h t dpsi, of the nodes whose dpsi is in rows_.
+void DiscStretch::add_nodes() {
+  by_.noalias() += weighted_.topRows(filled_).transpose() * rows_.topRows(filled_);
+  filled_ = 0;
 }
 
 // What follows from the state at the beginning, which is that after the period.

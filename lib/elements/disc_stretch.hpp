@@ -36,9 +36,9 @@ class DiscStretch {
   void begin(const DiscPhase& phase);
   void stick(const DiscPhase& phase);
   void slip(const DiscPhase& phase);
+  void add_nodes();
   void close_period();
 
-  auto columns(int coordinate) { return by_.middleCols(coordinate * c_, c_); }
   void turn_basis();
   void integrate_basis(double begin, double end);
   void set_bases(const SlipPanel& panel);
@@ -48,12 +48,15 @@ class DiscStretch {
   DiscPhases phases_;
   const Disc* disc_ = nullptr;
   Moments stick_;
+  Moments slipping_[2];  // weighted with n
   Eigen::VectorXd S_;
   // By the coefficients, and by the two coordinates of w at the beginning.
   Eigen::MatrixXd by_, dw_, kept_;
   std::size_t keep_ = nothing;
   Eigen::RowVectorXd dpsi_;
-  Eigen::MatrixXd first_, rows_, phi_, slope_, weighted_;
+  Eigen::MatrixXd first_, phi_, slope_;
+  Eigen::MatrixXd rows_, weighted_;  // dpsi and its weights at nodes of slip, until add_nodes()
+  Eigen::Index filled_ = 0;
   Eigen::VectorXd g_, basis_;
   std::vector<std::complex<double>> middle_, half_;
 };

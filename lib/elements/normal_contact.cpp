@@ -48,11 +48,12 @@ void NormalContact::move_to(In u_n, double k_n, double N_0) {
       moments_.add_interval(end - begin, middle_.data(), half_.data());
     }
     moments_.close();
-    moments_.times(n_, kappa, F_);
     moments_.times(u_n, kappa, by_stiffness_);
     moments_.integral(by_load_);
     by_load_ *= kappa;
-    for (Eigen::VectorXd* v : {&F_, &by_stiffness_, &by_load_}) (*v)[0] *= 0.5;
+    by_stiffness_[0] *= 0.5;
+    by_load_[0] *= 0.5;
+    F_ = k_n * by_stiffness_ + N_0 * by_load_;
   }
   F_[0] -= std::max(N_0, 0.0);
   if (N_0 > 0) by_load_[0] -= 1;

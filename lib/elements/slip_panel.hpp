@@ -16,7 +16,7 @@
 
 namespace arcslip::elements {
 
-constexpr int panel_nodes = 10;
+constexpr int panel_nodes = 16;
 
 struct SlipPanel {
   using Nodes = Eigen::Matrix<double, panel_nodes, 1>;
