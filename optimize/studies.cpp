@@ -232,6 +232,7 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
   results::Schema schema(const scene::Scene& scene, const scene::Study& study,
                          const scene::RunOptions& /*options*/) const override {
     const auto& settings = study.settings.as<OptimumSettings>();
+    check_limits(scene, settings.problem);  // before the first study of a run
     return studies::with_set(scene, study,
                              settings.along
                                  ? described_curves(scene, settings.problem, settings.along->name).schema

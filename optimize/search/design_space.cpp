@@ -191,7 +191,7 @@ PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const
   for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
   const std::string near = scene::nearest(name, known);
   throw OptionsError("no observable \"" + name + "\" to limit" +
-                     (near.empty() ? "" : "; did you mean \"" + near + "\"?") + " Known: " + list);
+                     (near.empty() ? "." : "; did you mean \"" + near + "\"?") + " Known: " + list);
 }
 
 double DesignSpace::value(const Linear& limit, std::span<const double> design) const {

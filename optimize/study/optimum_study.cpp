@@ -1,5 +1,6 @@
 #include <arcslip/optimize/study/optimum_study.hpp>
 
+#include <arcslip/optimize/search/design_space.hpp>
 #include <arcslip/optimize/search/scaled_parameter.hpp>
 #include <arcslip/optimize/search/watch.hpp>
 
@@ -195,6 +196,12 @@ OptimumProblem with_distinct_cases(OptimumProblem problem) {
   }
   problem.cases = std::move(cases);
   return problem;
+}
+
+void check_limits(const scene::Scene& scene, const OptimumProblem& problem) {
+  if (problem.limits.empty()) return;
+  const DesignSpace space(scene, problem);
+  for (const auto& limit : problem.limits) space.observable(limit.observable);
 }
 
 OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,

@@ -77,6 +77,9 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const L
 /// largest of their weights (worst) or their sum (mean).
 OptimumProblem with_distinct_cases(OptimumProblem problem);
 
+/// Throws OptionsError for a limit on an unknown observable, and as optimum() does for an invalid design.
+void check_limits(const scene::Scene& scene, const OptimumProblem& problem);
+
 /// The search, over distinct cases, with the curves for its figures. alone: with responses at half and twice
 /// the optimum. progress: called throughout, in all phases (`phase`), with the number of evaluations
 /// (`points`) and the lowest amplitude (`best`) so far; false stops. Throws as optimum() does.

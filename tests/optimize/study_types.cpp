@@ -250,6 +250,30 @@ TEST_CASE("a study that was built without its kind or its settings is a fault, a
   }
 }
 
+TEST_CASE("a limit on what no response has is refused before the first study of a run begins") {
+  const auto catalogue = all_kinds();
+  const auto schema_of = [&](const std::string& observable) {
+    std::istringstream text(R"({"format": "arcslip-scene-1",
+      "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+                    "springs": [{"name": "k", "at": "x", "value": 1e4}],
+                    "dampers": [{"name": "c", "at": "x", "value": 2}]},
+      "elements": [{"name": "d", "type": "jenkins", "at": "x", "stiffness": 5e3, "friction_coefficient": 0.5,
+                    "normal_load": 10}],
+      "excitation": [{"name": "f", "at": "x", "cosine": 10}],
+      "studies": [{"kind": "optimum", "over": ["d.normal_load"], "bounds": [[1, 100]], "frequency": [10, 25],
+                   "constraints": [{"observable": ")" +
+                            observable + R"(", "at_most": 1}]}]})");
+    const scene::Scene s = scene::read(text, catalogue);
+    return s.studies[0].type->schema(s, s.studies[0], {}).list;
+  };
+  CHECK(schema_of("d.energy") == "optima");
+  CHECK_THROWS_WITH(
+      schema_of("d.enrgy"),
+      Catch::Contains("no observable \"d.enrgy\" to limit; did you mean \"d.energy\"? Known: omega, "));
+  CHECK_THROWS_WITH(schema_of("nonsense"),
+                    Catch::Contains("no observable \"nonsense\" to limit. Known: omega, "));
+}
+
 TEST_CASE("a scene may name its schema") {
   Json json = Json::parse(scene::write(scenes::paper(5, 3)));
   json["$schema"] = "scene.schema.json";
