@@ -187,8 +187,7 @@ OffsetRange offset_range(const hbm::HbmProblem& of, In u, const Vector& p) {
   // Antisymmetric motions have no mean, but others beside them have.
   elements::Harmonics all = of.harmonics();
   all.odd = false;
-  const hbm::HbmProblem problem(of.shared_model(), all, of.displacement(), p[model::frequency],
-                                of.sampling());
+  const hbm::HbmProblem problem(of, all, of.sampling());
   Vector guess(problem.size());
   elements::transfer(of.harmonics(), u, all, guess);
   const auto evaluator = problem.hbm_evaluator();
