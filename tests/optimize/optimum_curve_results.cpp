@@ -68,9 +68,10 @@ TEST_CASE("result files tell every point of the curve and every event") {
   const auto figures = output::draw_figures(figures_of(s, results), folder.string(), "best");
   std::ifstream script(folder / "best.gp");
   const std::string commands{std::istreambuf_iterator<char>(script), {}};
-  for (const char* figure : {"best_damper.normal_load.svg", "best_amplitude.svg", "best_stick.svg"})
+  for (const char* figure :
+       {"best_damper.normal_load.svg", "best_amplitude.svg", "best_stick.svg", "best_contact.svg"})
     CHECK(contains(commands, figure));
-  CHECK((figures.images.size() == 6 || !figures.problem.empty()));
+  CHECK((figures.images.size() == 8 || !figures.problem.empty()));
   std::filesystem::remove_all(folder);
 }
 

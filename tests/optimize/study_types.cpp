@@ -185,7 +185,7 @@ TEST_CASE("the JSON Schema has the keys of every kind, and those that are requir
     const scene::StudyType& type = *all_kinds().studies[i];
     CHECK(kinds[i]["properties"]["kind"]["const"] == type.name());
     CHECK(kinds[i]["additionalProperties"] == false);
-    std::set<std::string> known{"name", "kind", "for_each"}, required{"kind"};
+    std::set<std::string> known{"name", "kind", "comment", "for_each"}, required{"kind"};
     for (const scene::Key& key : type.keys()) {
       known.insert(key.name);
       if (key.required) required.insert(key.name);
