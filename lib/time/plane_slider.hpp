@@ -1,7 +1,6 @@
 #pragma once
 // A slider in a plane over a period of Newmark's method: whether it rests, and where.
 
-#include <arcslip/elements/element.hpp>
 #include <arcslip/time/period_map.hpp>
 
 #include <memory>
