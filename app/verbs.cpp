@@ -8,6 +8,7 @@
 #include "sinks.hpp"
 #include "standard_output.hpp"
 
+#include <arcslip/observables/prepare.hpp>
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/results/progress.hpp>
 #include <arcslip/results/table_writer.hpp>
@@ -260,6 +261,8 @@ ExitCode run(scene::Scene scene, CommandOptions options) {
 
 ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue) {
   scene::Scene scene = resolve(options, catalogue);
+  if (const std::string done = observables::prepare(scene, interrupted); !done.empty() && !options.quiet)
+    tell(done);
   if (options.verb == "run") return run(std::move(scene), options);
   if (options.type == nullptr) return check(scene, options);
   const scene::Study study = study_of_verb(scene, options);

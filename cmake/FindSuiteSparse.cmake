@@ -1,9 +1,11 @@
-# SuiteSparse 5.12 ships no CMake configuration. This module finds its sparse LU solver, SuiteSparse::KLU, and sets
+# SuiteSparse 5.12 ships no CMake configuration. This module finds its sparse LU solver, SuiteSparse::KLU,
+# and its sparse Cholesky solver, SuiteSparse::CHOLMOD, and sets
 # SuiteSparse_FOUND and SuiteSparse_VERSION.
 
 find_path(SuiteSparse_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse)
 find_library(SuiteSparse_KLU_LIBRARY klu)
-mark_as_advanced(SuiteSparse_INCLUDE_DIR SuiteSparse_KLU_LIBRARY)
+find_library(SuiteSparse_CHOLMOD_LIBRARY cholmod)
+mark_as_advanced(SuiteSparse_INCLUDE_DIR SuiteSparse_KLU_LIBRARY SuiteSparse_CHOLMOD_LIBRARY)
 
 set(SuiteSparse_VERSION "")
 if(SuiteSparse_INCLUDE_DIR AND EXISTS ${SuiteSparse_INCLUDE_DIR}/SuiteSparse_config.h)
@@ -19,12 +21,14 @@ endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(SuiteSparse
-  REQUIRED_VARS SuiteSparse_KLU_LIBRARY SuiteSparse_INCLUDE_DIR
+  REQUIRED_VARS SuiteSparse_KLU_LIBRARY SuiteSparse_CHOLMOD_LIBRARY SuiteSparse_INCLUDE_DIR
   VERSION_VAR SuiteSparse_VERSION)
 
-if(SuiteSparse_FOUND AND NOT TARGET SuiteSparse::KLU)
-  add_library(SuiteSparse::KLU UNKNOWN IMPORTED)
-  set_target_properties(SuiteSparse::KLU PROPERTIES
-    IMPORTED_LOCATION ${SuiteSparse_KLU_LIBRARY}
-    INTERFACE_INCLUDE_DIRECTORIES ${SuiteSparse_INCLUDE_DIR})
-endif()
+foreach(solver KLU CHOLMOD)
+  if(SuiteSparse_FOUND AND NOT TARGET SuiteSparse::${solver})
+    add_library(SuiteSparse::${solver} UNKNOWN IMPORTED)
+    set_target_properties(SuiteSparse::${solver} PROPERTIES
+      IMPORTED_LOCATION ${SuiteSparse_${solver}_LIBRARY}
+      INTERFACE_INCLUDE_DIRECTORIES ${SuiteSparse_INCLUDE_DIR})
+  endif()
+endforeach()

@@ -91,20 +91,20 @@ ModalCondensation::ModalCondensation(const FixedInterfaceModes& modes, const Eig
 bool ModalCondensation::condense(const LinearParts& parts, double s, const ComplexVector& f,
                                  Condensed& into) {
   const auto& [M, C, K] = std::tie(parts.modes()->M, parts.modes()->C, parts.modes()->K);
-  const double square = s * s;
+  const Factors g = parts.factors(s);
   for (Eigen::Index j = 0; j < l_; ++j) {
-    const double re = K.ll[j] - square * M.ll[j], im = s * C.ll[j], size = re * re + im * im;
-    const double least = modal_pole * (K.ll[j] + square * M.ll[j]);
+    const Complex D = g.combine(M.ll[j], C.ll[j], K.ll[j]);
+    const double size = std::norm(D), least = modal_pole * (K.ll[j] + s * s * M.ll[j]);
     if (!(size > least * least)) return false;
-    inverse_[j] = {re / size, -im / size};
+    inverse_[j] = std::conj(D) / size;
   }
   into.Z.resize(r_, r_);
   into.W.resize(l_, r_ + 2);
   into.f = f.head(r_);
   for (Eigen::Index i = 0; i < r_; ++i) {
-    for (Eigen::Index k = 0; k < r_; ++k) into.Z(k, i) = {K.qq(k, i) - square * M.qq(k, i), s * C.qq(k, i)};
+    for (Eigen::Index k = 0; k < r_; ++k) into.Z(k, i) = g.combine(M.qq(k, i), C.qq(k, i), K.qq(k, i));
     for (Eigen::Index j = 0; j < l_; ++j) {
-      Zlq_(j, i) = {K.lq(j, i) - square * M.lq(j, i), s * C.lq(j, i)};
+      Zlq_(j, i) = g.combine(M.lq(j, i), C.lq(j, i), K.lq(j, i));
       into.W(j, i) = product(Zlq_(j, i), inverse_[j]);
     }
   }
@@ -120,14 +120,14 @@ bool ModalCondensation::condense(const LinearParts& parts, double s, const Compl
     }
     for (Eigen::Index j = 0; j < l_; ++j) into.f[i] = less_product(into.f[i], Zlq_(j, i), into.W(j, r_));
   }
-  return parts.changes().empty() || add_changes(parts, s, f, into);
+  return parts.changes().empty() || add_changes(parts, g, f, into);
 }
 
 // With the forces t = v (d . y) in the changed parts, v = by g(s), as further unknowns, Z' of the modes alone
 // and H = d_q - Z'_ql D^-1 d_l:
 //
 //   l = D^-1 (f_l - Z'_lq q - d_l t),   (1 + v d_l^T D^-1 d_l) t = v (H^T q + d_l^T D^-1 f_l)
-bool ModalCondensation::add_changes(const LinearParts& parts, double s, const ComplexVector& f,
+bool ModalCondensation::add_changes(const LinearParts& parts, const Factors& g, const ComplexVector& f,
                                     Condensed& into) {
   const auto& changes = parts.changes();
   const auto k = static_cast<Eigen::Index>(changes.size());
@@ -152,7 +152,7 @@ bool ModalCondensation::add_changes(const LinearParts& parts, double s, const Co
   T.col(r_ + 1).noalias() = inverse_U.transpose() * c_;
   for (Eigen::Index i = 0; i < k; ++i) {
     const ChangedPart& change = changes[static_cast<std::size_t>(i)];
-    const Complex v = change.by * stiffness_factor(change.part->kind, s);
+    const Complex v = change.by * g.of(change.part->kind);
     A.row(i) *= v;
     A(i, i) += 1;
     T.row(i) *= v;
@@ -192,18 +192,18 @@ void Condensation::choose_sparse(const std::vector<PartInY>& parts) {
 }
 
 // W = Z_ll^-1 rhs_
-bool Condensation::solve_linear(const StructuralMatrices& of, double s, ComplexMatrix& W) {
+bool Condensation::solve_linear(const StructuralMatrices& of, const Factors& g, ComplexMatrix& W) {
   if (sparse_lu_) {
     for (int j = 0; j < l_; ++j)
       for (Sparse::InnerIterator entry(sparse_Zll_, j); entry; ++entry)
-        entry.valueRef() = of.at(s, r_ + entry.row(), r_ + j);
+        entry.valueRef() = of.at(g, r_ + entry.row(), r_ + j);
     if (!sparse_lu_->factorize(sparse_Zll_, pole)) return false;
     W = rhs_;
     sparse_lu_->solve_in_place(W);
     return true;
   }
   for (Eigen::Index j = 0; j < l_; ++j)
-    for (Eigen::Index i = 0; i < l_; ++i) Zll_(i, j) = of.at(s, r_ + i, r_ + j);
+    for (Eigen::Index i = 0; i < l_; ++i) Zll_(i, j) = of.at(g, r_ + i, r_ + j);
   if (l_ <= few) {
     W = rhs_;
     return eliminate(Zll_, W);
@@ -215,20 +215,21 @@ bool Condensation::solve_linear(const StructuralMatrices& of, double s, ComplexM
   return true;
 }
 
-bool Condensation::condense(const StructuralMatrices& of, double s, const ComplexVector& f, Condensed& into) {
+bool Condensation::condense(const StructuralMatrices& of, const Factors& g, const ComplexVector& f,
+                            Condensed& into) {
   ComplexMatrix &Z = into.Z, &W = into.W;
   Z.resize(r_, r_);
   for (Eigen::Index j = 0; j < r_; ++j)
-    for (Eigen::Index i = 0; i < r_; ++i) Z(i, j) = of.at(s, i, j);
+    for (Eigen::Index i = 0; i < r_; ++i) Z(i, j) = of.at(g, i, j);
   into.f = f.head(r_);
   if (l_ == 0) return true;
 
   for (Eigen::Index k = 0; k < l_; ++k) {
-    for (Eigen::Index i = 0; i < r_; ++i) rhs_(k, i) = of.at(s, r_ + k, i);
+    for (Eigen::Index i = 0; i < r_; ++i) rhs_(k, i) = of.at(g, r_ + k, i);
     rhs_(k, r_) = f[r_ + k];
     rhs_(k, r_ + 1) = c_[r_ + k];
   }
-  if (!solve_linear(of, s, W)) return false;
+  if (!solve_linear(of, g, W)) return false;
   for (Eigen::Index j = 0; j < r_; ++j)
     for (Eigen::Index i = 0; i <= j; ++i) {  // Z is symmetric
       Complex sum = Z(i, j);

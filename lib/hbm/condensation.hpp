@@ -39,7 +39,7 @@ class ModalCondensation {
   bool condense(const LinearParts& parts, double s, const ComplexVector& f, Condensed& into);
 
  private:
-  bool add_changes(const LinearParts& parts, double s, const ComplexVector& f, Condensed& into);
+  bool add_changes(const LinearParts& parts, const Factors& g, const ComplexVector& f, Condensed& into);
 
   const Eigen::Index r_, l_;
   Eigen::VectorXd c_;
@@ -57,12 +57,12 @@ class Condensation {
   /// The first `unknowns` coordinates remain.
   Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::VectorXd& observed);
 
-  /// For Z = K - s^2 M + i s C. False where Z_ll is singular to rounding.
-  bool condense(const StructuralMatrices& of, double s, const ComplexVector& f, Condensed& into);
+  /// False where Z_ll is singular to rounding.
+  bool condense(const StructuralMatrices& of, const Factors& g, const ComplexVector& f, Condensed& into);
 
  private:
   void choose_sparse(const std::vector<PartInY>& parts);
-  bool solve_linear(const StructuralMatrices& of, double s, ComplexMatrix& W);
+  bool solve_linear(const StructuralMatrices& of, const Factors& g, ComplexMatrix& W);
 
   const Eigen::Index r_, l_;
   Eigen::VectorXd c_;

@@ -41,7 +41,7 @@ bool DynamicStiffness::condense(Harmonic& at) {
   const double s = at.order * base_frequency();
   if (parts_.modes()) return modal_->condense(parts_, s, v_, at.condensed);
   if (!direct_) direct_.emplace(parts_.parts(), r_, response_);
-  return direct_->condense(parts_.matrices(), s, v_, at.condensed);
+  return direct_->condense(parts_.matrices(), parts_.factors(s), v_, at.condensed);
 }
 
 void DynamicStiffness::gather(const In& u, const Harmonic& at) const {
@@ -177,8 +177,7 @@ double DynamicStiffness::viscous_energy(In u, double force_factor) const {
   double energy = 0;
   for (const Harmonic& at : harmonics_) {
     expand(u, at, force_factor);
-    const double n = at.order;
-    energy += std::numbers::pi * base_frequency() * n * n * parts_.quadratic_form(PartInY::Kind::damper, y_);
+    energy += std::numbers::pi * at.order * parts_.damping_form(at.order, y_);
   }
   return energy;
 }

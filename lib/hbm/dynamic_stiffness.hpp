@@ -42,7 +42,8 @@ class DynamicStiffness {
   void response_transposed(In a, Out g) const;
   void response_derivative(int k, In u, double force_factor, Out dx) const;
 
-  /// Energy dissipated by the dampers in a period: pi omega_b sum n^2 (a^T C a + b^T C b), J.
+  /// Energy lost by dampers and by proportional damping in a period: pi sum n Im x_n^H Z_n x_n, J; of
+  /// dampers pi omega_b sum n^2 (a^T C a + b^T C b).
   double viscous_energy(In u, double force_factor) const;
   /// Of order n, one of the harmonics, at the last place.
   QuadraticForms quadratic_forms(int n, In u, double force_factor) const;

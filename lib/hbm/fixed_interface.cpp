@@ -10,6 +10,7 @@ namespace {
 
 constexpr Eigen::Index few = 1, many = 500;  // linear coordinates
 constexpr double proportional = 1e-12;       // entries of C beside its diagonal
+constexpr double indefinite = 1e-9;          // a negative eigenvalue of M or K, relative to the largest
 
 // In (q, l).
 struct Blocks {
@@ -68,13 +69,13 @@ std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Mo
   const auto negative = [&](const model::LinearPart& part) { return !(p[part.parameter] >= 0); };
   for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
     if (std::any_of(parts->begin(), parts->end(), negative)) return {};
-  const auto in_y = [&](const std::vector<model::LinearPart>& parts) {
-    return blocks(model::assemble(parts, p, model.dofs), P, r);
-  };
-  const Blocks M = in_y(model.masses), C = in_y(model.dampers), K = in_y(model.springs);
+  const auto in_y = [&](model::LinearKind kind) { return blocks(model::sum_of(model, kind, p), P, r); };
+  const Blocks M = in_y(model::LinearKind::mass), C = in_y(model::LinearKind::damper),
+               K = in_y(model::LinearKind::spring);
   const double shift = frequency * frequency;
   const auto [mu, V] = continuation::symmetric_modes(M.ll, K.ll + shift * M.ll);
   if (mu.size() == 0 || !mu.allFinite() || !V.allFinite()) return {};
+  if (mu.minCoeff() < -indefinite * mu.maxCoeff() || shift * mu.maxCoeff() > 1 + indefinite) return {};
   modes->M = {M.qq, V.transpose() * M.lq, mu.cwiseMax(0.0)};
   modes->K = {K.qq, V.transpose() * K.lq, Eigen::VectorXd((1 - shift * modes->M.ll.array()).cwiseMax(0.0))};
   modes->C = {C.qq, V.transpose() * C.lq, {}};
@@ -85,7 +86,10 @@ std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Mo
   if (!modes->damped) {
     const auto dampers = std::count_if(model.dampers.begin(), model.dampers.end(),
                                        [&](const auto& part) { return p[part.parameter] > 0; });
-    if (dampers > std::min<Eigen::Index>(most_changes, l / 2)) return {};
+    const bool matrices = std::any_of(model.matrices.begin(), model.matrices.end(), [](const auto& part) {
+      return part.kind == model::LinearKind::damper;
+    });
+    if (matrices || dampers > std::min<Eigen::Index>(most_changes, l / 2)) return {};
     modes->C.qq.setZero();
     modes->C.lq.setZero();
     modes->C.ll.setZero();

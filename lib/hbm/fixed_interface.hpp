@@ -3,7 +3,7 @@
 // with the unknowns q held. At the values of the parameters for which they are made, the blocks ll of M, K
 // and, where damping is proportional, C are diagonal:
 //
-//   Z_qq - Z_ql Z_ll^-1 Z_lq = Z_qq - sum_j z_j z_j^T/D_j,   D_j = K_jj - s^2 M_jj + i s C_jj
+//   Z_qq - Z_ql Z_ll^-1 Z_lq = Z_qq - sum_j z_j z_j^T/D_j,   D_j = g_m M_jj + g_c C_jj + g_k K_jj
 //
 // so that a harmonic costs O(l r^2) instead of a factorization. Parts with other values, and dampers that are
 // not proportional, are changes of low rank, value * g(s) d d^T each.

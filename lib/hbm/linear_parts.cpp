@@ -6,14 +6,9 @@
 namespace arcslip::hbm {
 namespace {
 
-using Kind = PartInY::Kind;
+using Kind = model::LinearKind;
 
 constexpr double rounding = 1e-13;  // of a direction in y, relative to its largest entry
-
-Complex factor_rate(Kind kind, double s) {
-  if (kind == Kind::mass) return -2 * s;
-  return kind == Kind::damper ? Complex(0, 1) : 0;
-}
 
 // The complex amplitude a - i b of a force; of the mean, it is a.
 Complex amplitude(int harmonic, double cosine, double sine) {
@@ -42,6 +37,10 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   add(Kind::mass, model.masses);
   add(Kind::damper, model.dampers);
   add(Kind::spring, model.springs);
+  for (const model::MatrixPart& part : model.matrices)
+    matrix_parts_.push_back({part.kind, part.parameter, P.transpose() * part.A * P});
+  matrix_values_.assign(matrix_parts_.size(), std::nan(""));
+  damping_ = model.damping;
   for (const model::Excitation& excitation : model.excitation) {
     ForceInY force{excitation, harmonics.excited(excitation.harmonic), {}, 0};
     if (!excitation.moves_base()) force.terms.push_back({-1, {P, excitation.direction}});
@@ -49,6 +48,10 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
       const double along = excitation.moves_base() ? mass.direction.dot(excitation.direction) : 0;
       if (along != 0) force.terms.push_back({mass.parameter, {P, model::Direction(along * mass.direction)}});
     }
+    for (const model::MatrixPart& part : model.matrices)
+      if (excitation.moves_base() && part.kind == Kind::mass)
+        force.terms.push_back(
+            {part.parameter, {P, model::Direction((part.A * excitation.direction).eval().sparseView())}});
     forces_.push_back(std::move(force));
   }
   if (modes_) return;
@@ -70,6 +73,11 @@ void LinearParts::move_to(In p) {
     same = same && part.value == p[part.parameter];
     part.value = p[part.parameter];
   }
+  for (std::size_t k = 0; k < matrix_parts_.size(); ++k) {
+    const double value = matrix_parts_[k].value(p);
+    same = same && matrix_values_[k] == value;
+    matrix_values_[k] = value;
+  }
   if (!same) set_values();
 }
 
@@ -82,6 +90,8 @@ void LinearParts::set_values() {
     if (by != 0) changes_.push_back({&part, by});
     modal_ = changes_.size() <= most_changes;
   }
+  for (const model::MatrixPart& part : matrix_parts_)
+    modal_ = modal_ && (part.parameter < 0 || part.value(p_) == part.value(modes_->p));
   if (modal_) return;
   const auto matrix_of = [&](Kind kind) -> Eigen::MatrixXd& {
     if (kind == Kind::mass) return matrices_.M;
@@ -93,6 +103,24 @@ void LinearParts::set_values() {
     for (const auto& [j, at_j] : part.direction.entries())
       for (const auto& [i, at_i] : part.direction.entries()) sum(i, j) += part.value * at_i * at_j;
   }
+  for (const model::MatrixPart& part : matrix_parts_) matrix_of(part.kind) += part.value(p_) * part.A;
+}
+
+Factors LinearParts::factors(double s) const {
+  Factors g{-s * s, Complex(0, s), 1};
+  if (!damping_ || s == 0) return g;
+  g.mass += Complex(0, s * damping_->alpha_at(p_));
+  g.spring += Complex(0, s * damping_->beta_at(p_) + damping_->loss_factor_at(p_));
+  return g;
+}
+
+Factors LinearParts::factor_rates(int n, double s) const {
+  const double ds = static_cast<double>(n) / period_;
+  Factors rates{-2 * s * ds, Complex(0, ds), 0};
+  if (!damping_) return rates;
+  rates.mass += Complex(0, ds * damping_->alpha_at(p_));
+  rates.spring += Complex(0, ds * damping_->beta_at(p_));
+  return rates;
 }
 
 void LinearParts::add(const ForceInY& force, Complex amplitude, ComplexVector& f) const {
@@ -127,6 +155,9 @@ Complex LinearParts::base_derivative(int k, int n, const model::Direction& direc
 
 bool LinearParts::depend_on(int k) const {
   return k == model::frequency ||
+         (damping_ && (k == damping_->alpha || k == damping_->beta || k == damping_->loss_factor)) ||
+         std::any_of(matrix_parts_.begin(), matrix_parts_.end(),
+                     [k](const model::MatrixPart& part) { return part.parameter == k; }) ||
          std::any_of(parts_.begin(), parts_.end(),
                      [k](const PartInY& part) { return part.parameter == k; }) ||
          std::any_of(forces_.begin(), forces_.end(),
@@ -137,22 +168,19 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
                                 ComplexVector& v) const {
   const double s = n * base_frequency_;
   v.setZero();
-  const auto by_frequency = [&](Kind kind) {
-    return static_cast<double>(n) * factor_rate(kind, s) / static_cast<double>(period_);
-  };
-  const auto add_part = [&](const PartInY& part, Complex rate) {  // of value * g
-    if (rate != 0.0) part.direction.add(rate * part.direction.along(y), v);
-  };
-  if (k != model::frequency) {
-    for (const PartInY& part : parts_)
-      if (part.parameter == k) add_part(part, stiffness_factor(part.kind, s));
-  } else if (modal_) {
-    modes_->M.add_product(by_frequency(Kind::mass), y, v);
-    modes_->C.add_product(by_frequency(Kind::damper), y, v);
-    for (const ChangedPart& change : changes_)
-      add_part(*change.part, by_frequency(change.part->kind) * change.by);
+  if (k == model::frequency) {
+    add_product(factor_rates(n, s), y, v);
   } else {
-    for (const PartInY& part : parts_) add_part(part, by_frequency(part.kind) * part.value);
+    const Factors g = factors(s);
+    for (const PartInY& part : parts_)
+      if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y), v);
+    for (const model::MatrixPart& part : matrix_parts_)
+      if (part.parameter == k) v.noalias() += g.of(part.kind) * (part.A * y);
+  }
+  if (damping_ && s > 0) {
+    const double by_alpha = k == damping_->alpha ? s : 0;
+    const double by_spring = (k == damping_->beta ? s : 0) + (k == damping_->loss_factor ? 1 : 0);
+    if (by_alpha != 0 || by_spring != 0) add_product({Complex(0, by_alpha), 0, Complex(0, by_spring)}, y, v);
   }
   const double w = p_[model::frequency];
   for (const ForceInY& force : forces_) {
@@ -165,8 +193,27 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
   }
 }
 
+// v += (g_m M + g_c C + g_k K) y
+void LinearParts::add_product(const Factors& g, const ComplexVector& y, ComplexVector& v) const {
+  if (modal_) {
+    modes_->M.add_product(g.mass, y, v);
+    modes_->C.add_product(g.damper, y, v);
+    if (g.spring != 0.0) modes_->K.add_product(g.spring, y, v);
+    for (const ChangedPart& change : changes_)
+      change.part->direction.add(g.of(change.part->kind) * change.by * change.part->direction.along(y), v);
+  } else if (matrix_parts_.empty()) {
+    for (const PartInY& part : parts_)
+      if (const Complex factor = g.of(part.kind) * part.value; factor != 0.0)
+        part.direction.add(factor * part.direction.along(y), v);
+  } else {
+    for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
+      if (g.of(kind) != 0.0) v.noalias() += g.of(kind) * (matrices_.of(kind) * y);
+  }
+}
+
 double LinearParts::quadratic_form(Kind kind, const ComplexVector& y) const {
   double sum = 0;
+  if (!modal_ && !matrix_parts_.empty()) return y.dot(matrices_.of(kind) * y).real();
   if (!modal_) {
     for (const PartInY& part : parts_)
       if (part.kind == kind) sum += part.value * std::norm(part.direction.along(y));
@@ -179,9 +226,16 @@ double LinearParts::quadratic_form(Kind kind, const ComplexVector& y) const {
   return sum;
 }
 
+double LinearParts::damping_form(int n, const ComplexVector& y) const {
+  const Factors g = factors(n * base_frequency_);
+  double sum = 0;
+  for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
+    if (const double loss = g.of(kind).imag(); loss != 0) sum += loss * quadratic_form(kind, y);
+  return sum;
+}
+
 QuadraticForms LinearParts::quadratic_forms(int n, const ComplexVector& y, double force_factor) const {
-  QuadraticForms forms{quadratic_form(Kind::mass, y), quadratic_form(Kind::damper, y),
-                       quadratic_form(Kind::spring, y), 0};
+  QuadraticForms forms{quadratic_form(Kind::mass, y), quadratic_form(Kind::spring, y), damping_form(n, y), 0};
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n) continue;
     const Complex amplitude = force_factor * force.of.factor(p_[model::frequency]) * force.given;

@@ -2,16 +2,18 @@
 // Masses, dampers, springs and forces in the coordinates y, x = P y (coordinates.hpp), before condensation.
 // For harmonic n of the motion, with s = n times the base frequency:
 //
-//   Z y = f,   Z = K - s^2 M + i s C
+//   Z y = f,   Z = g_m M + g_c C + g_k K
+//   g_m = -s^2 + i s alpha,   g_c = i s,   g_k = 1 + i s beta + i loss_factor (s > 0)
 //
-// A part adds value * g(s) d d^T to Z, where g = -s^2, i s, 1 for a mass, a damper, a spring, and a force
+// A mass, a damper or a spring adds value * g d d^T to Z, a matrix of the structure value * g A, and a force
 // adds (cosine - i sine) d to the f of its harmonic. Most of d is zero. So do the forces of a moving ground
-// (model::Excitation), one for each mass.
+// (model::Excitation), one for each mass. alpha, beta, loss_factor: model::ProportionalDamping.
 
 #include <arcslip/hbm/fixed_interface.hpp>
 
 #include <complex>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,34 +47,45 @@ class DirectionInY {
 };
 
 struct PartInY {
-  enum class Kind { mass, damper, spring };
-
-  Kind kind;
+  model::LinearKind kind;
   int parameter;
   DirectionInY direction;
   double value;  // at the last place
 };
 
-/// g(s) = -s^2, i s, 1.
-inline Complex stiffness_factor(PartInY::Kind kind, double s) {
-  if (kind == PartInY::Kind::mass) return -s * s;
-  return kind == PartInY::Kind::damper ? Complex(0, s) : 1;
-}
+/// g of the masses, the dampers and the springs at one s.
+struct Factors {
+  Complex mass, damper, spring;
+
+  Complex of(model::LinearKind kind) const {
+    if (kind == model::LinearKind::mass) return mass;
+    return kind == model::LinearKind::damper ? damper : spring;
+  }
+  /// Of an entry of Z.
+  Complex combine(double M, double C, double K) const {
+    return {mass.real() * M + spring.real() * K, mass.imag() * M + damper.imag() * C + spring.imag() * K};
+  }
+};
 
 /// M, C, K in y, symmetric.
 struct StructuralMatrices {
   Eigen::MatrixXd M, C, K;
 
+  const Eigen::MatrixXd& of(model::LinearKind kind) const {
+    if (kind == model::LinearKind::mass) return M;
+    return kind == model::LinearKind::damper ? C : K;
+  }
   /// An entry of Z.
-  Complex at(double s, Eigen::Index i, Eigen::Index j) const {
-    return {K(i, j) - s * s * M(i, j), s * C(i, j)};
+  Complex at(const Factors& g, Eigen::Index i, Eigen::Index j) const {
+    return g.combine(M(i, j), C(i, j), K(i, j));
   }
 };
 
 /// Products of the linear parts and the forces with one harmonic of the motion x of all degrees of freedom.
 struct QuadraticForms {
-  double mass = 0, damping = 0, stiffness = 0;  // x^H M x, x^H C x, x^H K x
-  Complex force;                                // x^H f
+  double mass = 0, stiffness = 0;  // x^H M x, x^H K x
+  double damping = 0;              // Im x^H Z x
+  Complex force;                   // x^H f
 };
 
 /// A part beside the modes: its value less the one that they have.
@@ -90,6 +103,7 @@ class LinearParts {
 
   void move_to(In p);
   double base_frequency() const { return base_frequency_; }  // rad/s
+  Factors factors(double s) const;
   const std::vector<PartInY>& parts() const { return parts_; }
   /// Null where too many parts have other values than the modes; then matrices() are those of the place.
   const FixedInterfaceModes* modes() const { return modal_ ? modes_.get() : nullptr; }
@@ -108,8 +122,10 @@ class LinearParts {
   /// dZ/dp_k y - force_factor df/dp_k of harmonic n.
   void differentiate(int k, int n, const ComplexVector& y, double force_factor, ComplexVector& v) const;
 
-  /// The sum of value |d . y|^2 over the parts of one kind: y^H M y, y^H C y or y^H K y.
-  double quadratic_form(PartInY::Kind kind, const ComplexVector& y) const;
+  /// y^H M y, y^H C y or y^H K y.
+  double quadratic_form(model::LinearKind kind, const ComplexVector& y) const;
+  /// Im y^H Z y: over pi times the order, the energy that harmonic n of the motion loses in a period.
+  double damping_form(int n, const ComplexVector& y) const;
   /// f is that of harmonic n, times force_factor.
   QuadraticForms quadratic_forms(int n, const ComplexVector& y, double force_factor) const;
 
@@ -126,6 +142,8 @@ class LinearParts {
     Complex given;  // the amplitude as the scene gives it
   };
   double value(const ForceInY::Term& term) const { return term.mass < 0 ? 1 : p_[term.mass]; }
+  Factors factor_rates(int n, double s) const;  // by the excitation frequency
+  void add_product(const Factors& g, const ComplexVector& y, ComplexVector& v) const;
   void set_values();
   double modal_value(const PartInY& part) const;
   void add(const ForceInY& force, Complex amplitude, ComplexVector& f) const;
@@ -136,6 +154,9 @@ class LinearParts {
   bool modal_ = false;
   std::vector<ChangedPart> changes_;
   std::vector<PartInY> parts_;
+  std::vector<model::MatrixPart> matrix_parts_;  // in y
+  std::vector<double> matrix_values_;            // at the last place
+  std::optional<model::ProportionalDamping> damping_;
   std::vector<ForceInY> forces_;
   StructuralMatrices matrices_;
   Eigen::VectorXd p_;

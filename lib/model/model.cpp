@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/scene/patch.hpp>
+#include <arcslip/structure/reduction.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +12,8 @@
 namespace arcslip::model {
 namespace {
 
-constexpr double held = 1e-12;  // a mean position: its stiffness relative to that of its springs
-
-Direction sparse(const scene::Direction& direction, int dofs) {
-  Direction d(dofs);
-  for (const scene::Term& term : direction) d.coeffRef(term.dof) += term.weight;
-  return d;
-}
+constexpr double massless = 1e-14;  // a mode: its mu relative to the largest
+constexpr double held = 1e-12;      // a mean position: its stiffness relative to that of its springs
 
 Excitation::Kind kind_of(const scene::Part& part) {
   if (part.type == &scene::base_displacement_type()) return Excitation::Kind::base_displacement;
@@ -27,9 +23,8 @@ Excitation::Kind kind_of(const scene::Part& part) {
 
 class Builder {
  public:
-  explicit Builder(const scene::Scene& scene) : scene_(scene) {
-    model_.dofs = static_cast<int>(scene.dofs.size());
-    model_.dof_names = scene.dofs;
+  Builder(const scene::Scene& scene, const scene::StopRequest& stop) : scene_(scene) {
+    set_dofs(stop);
     model_.parameters.push_back({"frequency", "rad/s", 0, 1, 0, 1e300});
   }
 
@@ -37,6 +32,7 @@ class Builder {
     for (const auto& part : scene_.masses) model_.masses.push_back(linear(part));
     for (const auto& part : scene_.dampers) model_.dampers.push_back(linear(part));
     for (const auto& part : scene_.springs) model_.springs.push_back(linear(part));
+    for (const auto& part : scene_.damping) add_damping(part);
     for (const auto& part : scene_.elements) {
       std::vector<Share> shares;
       for (std::size_t k = 0; k < part.values.size(); ++k)
@@ -48,15 +44,15 @@ class Builder {
     model_.force_harmonic = scene_.harmonics.order;
     for (const auto& part : scene_.excitation) {
       model_.excitation.push_back({kind_of(part), part.harmonic, parameter(part, 0), parameter(part, 1),
-                                   sparse(part.directions.front(), model_.dofs)});
+                                   sparse(part.directions.front())});
       even = even || part.harmonic * scene_.harmonics.period % 2 == 0;
       if (part.harmonic > 0) model_.force_harmonic = std::min(model_.force_harmonic, part.harmonic);
     }
-    model_.response = sparse(scene_.response(), model_.dofs);
+    model_.response = sparse(scene_.response());
     model_.absolute = scene_.responses.front().frame == scene::Frame::absolute;
     for (const scene::Response& response : scene_.responses) {
       if (response.name.empty()) continue;
-      model_.named_responses.push_back(sparse(response.direction, model_.dofs));
+      model_.named_responses.push_back(sparse(response.direction));
       model_.named_absolute.push_back(response.frame == scene::Frame::absolute);
     }
     model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
@@ -65,15 +61,144 @@ class Builder {
   }
 
  private:
-  LinearPart linear(const scene::Part& part) {
-    return {parameter(part, 0), sparse(part.directions.front(), model_.dofs)};
+  // The degrees of freedom of the scene; in large structures those that it uses; then what describes the
+  // rest of the matrices: their other rows or, where they are reduced, a few coordinates.
+  void set_dofs(const scene::StopRequest& stop) {
+    if (!scene_.matrices) {
+      model_.dof_names = scene_.dofs;
+    } else if (scene_.matrices->highest_frequency > 0) {
+      add_reduced(*scene_.matrices, stop);
+    } else {
+      add_whole(*scene_.matrices);
+    }
+    model_.dofs = static_cast<int>(model_.dof_names.size());
+    for (MatrixPart& part : model_.matrices) {
+      const Eigen::Index size = part.A.rows();
+      part.A.conservativeResize(model_.dofs, model_.dofs);
+      part.A.rightCols(model_.dofs - size).setZero();
+      part.A.bottomRows(model_.dofs - size).setZero();
+    }
   }
+
+  void add_whole(const scene::Matrices& files) {
+    const auto named = files.rows.size();
+    std::vector<int> place(static_cast<std::size_t>(files.size()), -1);
+    for (std::size_t i = 0; i < named; ++i)
+      place[static_cast<std::size_t>(files.rows[i])] = static_cast<int>(i);
+    model_.dof_names.assign(scene_.dofs.begin(), scene_.dofs.begin() + static_cast<std::ptrdiff_t>(named));
+    for (std::size_t row = 0; row < place.size(); ++row) {
+      if (place[row] >= 0) continue;
+      place[row] = static_cast<int>(model_.dof_names.size());
+      model_.dof_names.push_back("row " + std::to_string(row + 1));
+    }
+    for (std::size_t i = 0; i < scene_.dofs.size(); ++i)
+      dof_of_.push_back(static_cast<int>(i < named ? i : place.size() + i - named));
+    model_.dof_names.insert(model_.dof_names.end(), scene_.dofs.begin() + static_cast<std::ptrdiff_t>(named),
+                            scene_.dofs.end());
+    const auto add = [&](LinearKind kind, const scene::MatrixFile& file) {
+      if (!file.matrix) return;
+      const scene::SparseMatrix& of = *file.matrix;
+      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(of.rows, of.columns);
+      for (std::size_t j = 0; j < place.size(); ++j)
+        for (auto k = static_cast<std::size_t>(of.starts[j]); k < static_cast<std::size_t>(of.starts[j + 1]);
+             ++k)
+          A(place[static_cast<std::size_t>(of.row_of[k])], place[j]) = of.values[k];
+      model_.matrices.push_back({kind, -1, 0.5 * (A + A.transpose())});
+    };
+    add(LinearKind::mass, files.mass);
+    add(LinearKind::spring, files.stiffness);
+    add(LinearKind::damper, files.damping);
+  }
+
+  void add_reduced(const scene::Matrices& files, const scene::StopRequest& stop) {
+    const std::vector<bool> used = used_dofs();
+    const auto named = files.rows.size();
+    std::vector<int> kept;
+    std::string key;
+    dof_of_.assign(scene_.dofs.size(), -1);
+    for (std::size_t i = 0; i < named; ++i) {
+      if (!used[i]) continue;
+      dof_of_[i] = static_cast<int>(kept.size());
+      kept.push_back(files.rows[i]);
+      key += std::to_string(files.rows[i]) + ' ';
+      model_.dof_names.push_back(scene_.dofs[i]);
+    }
+    const double highest = files.highest_frequency * scene::to_rad_per_s(scene_.frequency_unit);
+    const auto reduced =
+        files.derived->get<structure::Reduced>("reduced for " + std::to_string(highest) + " rad/s to " + key,
+                                               [&] { return structure::reduce(files, kept, highest, stop); });
+    const auto coordinates = static_cast<int>(reduced->M.rows()) - static_cast<int>(kept.size());
+    for (int k = 1; k <= coordinates; ++k) model_.dof_names.push_back("coordinate " + std::to_string(k));
+    for (std::size_t i = named; i < scene_.dofs.size(); ++i) {
+      dof_of_[i] = static_cast<int>(model_.dof_names.size());
+      model_.dof_names.push_back(scene_.dofs[i]);
+    }
+    model_.matrices.push_back({LinearKind::mass, -1, reduced->M});
+    model_.matrices.push_back({LinearKind::spring, -1, reduced->K});
+    if (reduced->C.size() > 0) model_.matrices.push_back({LinearKind::damper, -1, reduced->C});
+    model_.reduction = {files.size(), static_cast<int>(kept.size()), coordinates, highest, reduced->error};
+  }
+
+  std::vector<bool> used_dofs() const {
+    std::vector<bool> used(scene_.dofs.size(), false);
+    const auto use = [&](const scene::Direction& direction) {
+      for (const scene::Term& term : direction) used[static_cast<std::size_t>(term.dof)] = true;
+    };
+    const auto elements = scene::all_elements(scene_);
+    for (const auto* parts :
+         {&scene_.masses, &scene_.springs, &scene_.dampers, &scene_.excitation, &elements})
+      for (const scene::Part& part : *parts)
+        for (const scene::Direction& direction : part.directions) use(direction);
+    for (const scene::Response& response : scene_.responses) use(response.direction);
+    return used;
+  }
+
+  Direction sparse(const scene::Direction& direction) const {
+    Direction d(model_.dofs);
+    for (const scene::Term& term : direction)
+      d.coeffRef(dof_of_.empty() ? term.dof : dof_of_[static_cast<std::size_t>(term.dof)]) += term.weight;
+    return d;
+  }
+
+  void add_damping(const scene::Part& part) {
+    if (part.type == &scene::modal_damping_type()) {
+      model_.matrices.push_back({LinearKind::damper, parameter(part, 0), modal_damping()});
+      return;
+    }
+    if (!model_.damping) model_.damping.emplace();
+    if (part.type == &scene::rayleigh_type()) {
+      model_.damping->alpha = parameter(part, 0);
+      model_.damping->beta = parameter(part, 1);
+    } else {
+      model_.damping->loss_factor = parameter(part, 0);
+    }
+  }
+
+  // Of the modes V of M and K with natural frequencies w_j, V^T M V = 1, C = M V diag(2 w_j) V^T M over the
+  // damping ratio. With B = K + s^2 M, definite, M V = B V mu, w_j^2 = 1/mu - s^2; massless modes have none.
+  Eigen::MatrixXd modal_damping() {
+    const continuation::Vector p = defaults(model_);
+    const Eigen::MatrixXd M = mass_matrix(model_, p), K = stiffness_matrix(model_, p);
+    const double shift = K.trace() / M.trace();
+    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(model_.dofs, model_.dofs);
+    const auto modes = continuation::symmetric_modes(M, K + shift * M);
+    if (modes.values.size() == 0) return C;
+    const double least = massless * modes.values.maxCoeff();
+    for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
+      const double mu = modes.values[j];
+      if (!(mu > least)) continue;
+      const Eigen::VectorXd Mv = M * modes.V.col(j) / std::sqrt(mu);
+      C += 2 * std::sqrt(std::max(1 / mu - shift, 0.0)) * Mv * Mv.transpose();
+    }
+    return C;
+  }
+
+  LinearPart linear(const scene::Part& part) { return {parameter(part, 0), sparse(part.directions.front())}; }
 
   void add_element(const scene::Part& part, std::vector<Share> shares) {
     NonlinearPart element{part.name, elements::law_of(part), std::move(shares),
                           {},        part.values.size(),     part.wear_coefficient};
-    for (const auto& direction : part.directions)
-      element.directions.push_back(sparse(direction, model_.dofs));
+    for (const auto& direction : part.directions) element.directions.push_back(sparse(direction));
     if (element.directions.size() != static_cast<std::size_t>(element.law->directions()))
       throw std::invalid_argument("the element \"" + part.name + "\" has " +
                                   std::to_string(element.directions.size()) + " directions, its law " +
@@ -117,13 +242,14 @@ class Builder {
   }
 
   const scene::Scene& scene_;
+  std::vector<int> dof_of_;  // in the model, of those of a scene with matrices
   Model model_;
 };
 
 }  // namespace
 
-Model build(const scene::Scene& scene) {
-  return Builder(scene).build();
+Model build(const scene::Scene& scene, const scene::StopRequest& stop) {
+  return Builder(scene, stop).build();
 }
 
 int parameter_index(const Model& model, const std::string& name) {
@@ -180,6 +306,8 @@ Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const co
   } else {
     for (const LinearPart& mass : model.masses)
       g += p[mass.parameter] * mass.direction.dot(excitation.direction) * mass.direction;
+    for (const MatrixPart& part : model.matrices)
+      if (part.kind == LinearKind::mass) g += part.value(p) * (part.A * excitation.direction);
   }
   return excitation.factor(p[frequency]) * g;
 }
@@ -189,22 +317,47 @@ void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum) {
     for (Direction::InnerIterator i(d); i; ++i) sum(i.index(), j.index()) += factor * i.value() * j.value();
 }
 
-Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuation::Vector& p, int dofs) {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dofs, dofs);
+Eigen::MatrixXd sum_of(const Model& model, LinearKind kind, const continuation::Vector& p) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(model.dofs, model.dofs);
+  const auto& parts = kind == LinearKind::mass     ? model.masses
+                      : kind == LinearKind::damper ? model.dampers
+                                                   : model.springs;
   for (const LinearPart& part : parts) add_outer(p[part.parameter], part.direction, sum);
+  for (const MatrixPart& part : model.matrices)
+    if (part.kind == kind) sum += part.value(p) * part.A;
   return sum;
+}
+
+Eigen::MatrixXd mass_matrix(const Model& model, const continuation::Vector& p) {
+  return sum_of(model, LinearKind::mass, p);
+}
+
+Eigen::MatrixXd damping_matrix(const Model& model, const continuation::Vector& p) {
+  Eigen::MatrixXd C = sum_of(model, LinearKind::damper, p);
+  if (!model.damping) return C;
+  const double alpha = model.damping->alpha_at(p), beta = model.damping->beta_at(p);
+  if (alpha != 0) C += alpha * sum_of(model, LinearKind::mass, p);
+  if (beta != 0) C += beta * sum_of(model, LinearKind::spring, p);
+  return C;
+}
+
+Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector& p) {
+  return sum_of(model, LinearKind::spring, p);
 }
 
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick) {
   if (model.harmonics.odd) return {};
   // Springs of any stiffness hold what they are between: a stiff link takes nothing from the softer ones.
-  // Only where some are negative it takes their values to tell.
-  const bool negative = std::any_of(model.springs.begin(), model.springs.end(),
+  // Only where some are negative, or beside matrices, it takes their values to tell.
+  const bool by_value = !model.matrices.empty() ||
+                        std::any_of(model.springs.begin(), model.springs.end(),
                                     [&](const LinearPart& spring) { return p[spring.parameter] < 0; });
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(model.dofs, model.dofs);
   for (const LinearPart& spring : model.springs)
     if (const double k = p[spring.parameter]; k != 0)
-      add_outer(negative ? k : 1 / spring.direction.squaredNorm(), spring.direction, K);
+      add_outer(by_value ? k : 1 / spring.direction.squaredNorm(), spring.direction, K);
+  for (const MatrixPart& part : model.matrices)
+    if (part.kind == LinearKind::spring) K += part.value(p) * part.A;
   const double largest = K.cwiseAbs().maxCoeff(), typical = largest > 0 ? largest : 1;
   for (const NonlinearPart& element : model.elements)
     for (std::size_t i = 0; i < element.directions.size(); ++i)

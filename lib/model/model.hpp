@@ -27,6 +27,31 @@ struct LinearPart {
   Direction direction;
 };
 
+enum class LinearKind { mass, damper, spring };
+
+/// A symmetric matrix of the structure: value * A, with the parameter's value, or 1 where there is none.
+struct MatrixPart {
+  LinearKind kind;
+  int parameter = -1;
+  Eigen::MatrixXd A;  // dofs x dofs
+
+  double value(continuation::In p) const { return parameter < 0 ? 1 : p[parameter]; }
+};
+
+/// Damping in proportion to the masses and the stiffnesses of the structure, but not to elements: the dynamic
+/// stiffness of a motion exp(i s t) has
+///
+///   K (1 + i s beta + i loss_factor) + M (-s^2 + i s alpha) + i s C
+///
+/// and no loss at s = 0. Indices of the parameters; -1: none.
+struct ProportionalDamping {
+  int alpha = -1, beta = -1, loss_factor = -1;
+
+  double alpha_at(continuation::In p) const { return alpha < 0 ? 0 : p[alpha]; }
+  double beta_at(continuation::In p) const { return beta < 0 ? 0 : p[beta]; }
+  double loss_factor_at(continuation::In p) const { return loss_factor < 0 ? 0 : p[loss_factor]; }
+};
+
 /// What a parameter adds to a field of an element: factor * p[parameter].
 struct Share {
   int field, parameter;
@@ -77,6 +102,15 @@ struct Excitation {
   double displacement_rate(double w) const;
 };
 
+/// How the matrices of the scene were reduced.
+struct Reduction {
+  int rows = 0;                  // of the matrices
+  int kept = 0;                  // of them
+  int coordinates = 0;           // beside the degrees of freedom with names
+  double highest_frequency = 0;  // rad/s
+  double error = 0;              // structure::Reduced::error
+};
+
 /// Index of the excitation frequency in the parameters.
 inline constexpr int frequency = 0;
 
@@ -85,6 +119,8 @@ struct Model {
   std::vector<std::string> dof_names;
   std::vector<continuation::Parameter> parameters;  // [0] is "frequency", rad/s; ties stand for their members
   std::vector<LinearPart> masses, dampers, springs;
+  std::vector<MatrixPart> matrices;
+  std::optional<ProportionalDamping> damping;
   std::vector<NonlinearPart> elements;
   std::vector<Patch> patches;
   std::vector<Excitation> excitation;
@@ -96,11 +132,14 @@ struct Model {
   elements::Harmonics harmonics;  // odd only, where no even one is excited and all laws are antisymmetric
   bool antisymmetric = true;      // all laws are
   scene::Harmonics settings;
-  int force_harmonic = 1;  // lowest of the excitation: the fundamental
+  std::optional<Reduction> reduction;  // of its matrices
+  int force_harmonic = 1;              // lowest of the excitation: the fundamental
 };
 
-/// From a validated scene.
-Model build(const scene::Scene& scene);
+/// From a validated scene. The matrices of a large structure are reduced to the rows that the scene uses
+/// (structure/reduction.hpp), once for all copies of the scene. Throws structure::ReductionError and
+/// scene::Interrupted.
+Model build(const scene::Scene& scene, const scene::StopRequest& stop = {});
 
 /// Index of a parameter; a tied field leads to its tie. Throws scene::ParameterError.
 int parameter_index(const Model& model, const std::string& name);
@@ -114,8 +153,12 @@ Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const co
 /// sum += factor d d^T.
 void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum);
 
-/// sum of p * d d^T.
-Eigen::MatrixXd assemble(const std::vector<LinearPart>& parts, const continuation::Vector& p, int dofs);
+/// The sum of p d d^T and of the matrices of one kind.
+Eigen::MatrixXd sum_of(const Model& model, LinearKind kind, const continuation::Vector& p);
+/// M, C and K of M x'' + C x' + K x, without a loss factor, which has no equation in time.
+Eigen::MatrixXd mass_matrix(const Model& model, const continuation::Vector& p);
+Eigen::MatrixXd damping_matrix(const Model& model, const continuation::Vector& p);
+Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector& p);
 
 /// With a mean among the unknowns: a degree of freedom whose mean position is supported by no spring or law,
 /// directly or through others. Friction forces do not depend on it, so that it would be arbitrary or drift.

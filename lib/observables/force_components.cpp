@@ -32,7 +32,7 @@ ForceComponents force_components(const hbm::HbmProblem& problem, const hbm::HbmE
   const hbm::QuadraticForms forms = at.stiffness().quadratic_forms(n, at.unknowns(), at.force_factor());
   result.inertia = -omega * omega * forms.mass / square;
   result.spring = forms.stiffness / square;
-  result.viscous = omega * forms.damping / square;
+  result.viscous = forms.damping / square;
   result.excitation += forms.force / square;
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     const auto& law = *problem.model().elements[e].law;

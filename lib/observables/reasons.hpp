@@ -71,11 +71,11 @@ inline constexpr Reason not_piecewise_linear{"not_piecewise_linear",
                                              "event-driven integration requires piecewise linear laws"};
 inline constexpr Reason massless{"massless",
                                  "event-driven integration requires a mass at every degree of freedom"};
-inline constexpr Reason set_valued{
-    "set_valued", "friction without a stiffness has a force at rest that integration in time does not take"};
 using time::reasons::event_limit;
+using time::reasons::loss_factor;
 using time::reasons::no_convergence;
 using time::reasons::not_finite;
+using time::reasons::set_valued;
 using time::reasons::singular;
 
 /// The reasons of a branch, or of a curve of peaks or folds.
@@ -89,7 +89,7 @@ inline constexpr std::array of_responses = {solved, unbounded, user, start_faile
 /// The reasons of a motion in time.
 inline constexpr std::array of_motions = {
     periodic,       steady,   periods,    period_limit,         user,     unbounded,  no_periodic_motion,
-    no_convergence, singular, not_finite, not_piecewise_linear, massless, set_valued, event_limit,
+    no_convergence, singular, not_finite, not_piecewise_linear, massless, set_valued, loss_factor, event_limit,
     energy_defect};
 
 }  // namespace reasons

@@ -21,7 +21,7 @@ double Stops::inertia(const model::Direction& d, const continuation::Vector& p) 
     values[static_cast<Eigen::Index>(k)] = p[model_.masses[k].parameter];
   if (values.size() != masses_.size() || values != masses_) {
     masses_ = values;
-    M_ = model::assemble(model_.masses, p, model_.dofs);
+    M_ = model::mass_matrix(model_, p);
     factors_.compute(M_);
   }
   const continuation::Vector full = d, y = factors_.solve(full);

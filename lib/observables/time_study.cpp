@@ -118,8 +118,8 @@ class InTime {
     p_[model::frequency] = motion_.omega;
     try {
       equation_ = time::equation_of_motion(*model_, p_);
-    } catch (const time::SetValued& error) {
-      end(Status::failed, reasons::set_valued, 0, 0, error.what());
+    } catch (const time::NotInTime& error) {
+      end(Status::failed, error.reason(), 0, 0, error.what());
     }
     progress_.frequency = settings_.frequency;
     progress_.item = "motion";

@@ -47,8 +47,8 @@ HeldBy held_by(const continuation::Event& event) {
 
 double highest_natural_frequency(const model::Model& model, const Vector& p,
                                  const std::vector<double>& motions) {
-  const Eigen::MatrixXd M = model::assemble(model.masses, p, model.dofs);
-  Eigen::MatrixXd K = model::assemble(model.springs, p, model.dofs);
+  const Eigen::MatrixXd M = model::mass_matrix(model, p);
+  Eigen::MatrixXd K = model::stiffness_matrix(model, p);
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const auto& element = model.elements[e];
     for (std::size_t i = 0; i < element.directions.size(); ++i) {

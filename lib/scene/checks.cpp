@@ -1,4 +1,5 @@
 #include <arcslip/scene/checks.hpp>
+#include <arcslip/scene/part_type.hpp>
 
 #include <algorithm>
 
@@ -47,6 +48,11 @@ void check_excitation(const Scene& scene, Faults& faults) {
                                   : "/harmonics.period, which is " + std::to_string(order) + "/" +
                                         std::to_string(period)));
     }
+    if (scene.matrices && is_base_motion(*scene.excitation[i].type))
+      faults.add(child(child("/excitation", i), "type"),
+                 "found " + shown(scene.excitation[i].type->name()) +
+                     ", must be \"force\" with matrices from files: the ground would move their rows without "
+                     "names as well");
     if (harmonic == 0 && scene.excitation[i].type == &base_displacement_type())
       faults.add(child(child("/excitation", i), "harmonic"),
                  "found 0, must be at least 1 for a displacement of the ground: a constant one moves nothing "
@@ -79,10 +85,15 @@ void check_frames(const Scene& scene, Faults& faults) {
 }
 
 void check_structure(const Scene& scene, Faults& faults) {
-  if (!any_value(scene.masses))
+  for (std::size_t i = 0; i < scene.damping.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (scene.damping[k].type == scene.damping[i].type)
+        faults.add(child(child("/structure/damping", i), "type"),
+                   "found " + shown(scene.damping[i].type->name()) + " again, must be given once");
+  if (!scene.matrices && !any_value(scene.masses))
     faults.add("/structure/masses", "found no mass, must have at least one mass with a value above 0 kg");
   const std::vector<Part> elements = all_elements(scene);
-  if (!any_value(scene.springs) && elements.empty()) {
+  if (!scene.matrices && !any_value(scene.springs) && elements.empty()) {
     faults.add(
         "/structure/springs",
         "found no stiffness, must have at least one spring with a value other than 0 N/m, or an element");
@@ -92,10 +103,12 @@ void check_structure(const Scene& scene, Faults& faults) {
   mark(scene.springs, false, acted_on);
   mark(scene.dampers, false, acted_on);
   mark(elements, true, acted_on);
-  if (std::find(acted_on.begin(), acted_on.end(), true) == acted_on.end()) return;  // reported above
-  for (std::size_t i = 0; i < acted_on.size(); ++i) {
+  if (!scene.matrices && std::find(acted_on.begin(), acted_on.end(), true) == acted_on.end())
+    return;  // reported above
+  const std::size_t rows = scene.matrices ? scene.matrices->rows.size() : 0;
+  for (std::size_t i = rows; i < acted_on.size(); ++i) {
     if (!acted_on[i]) {
-      faults.add(child("/structure/dofs", i),
+      faults.add(child("/structure/dofs", i - rows),
                  "found nothing that acts on " + shown(scene.dofs[i]) +
                      ", must have a mass, spring or damper with a value other than 0, or an element");
     }

@@ -181,9 +181,12 @@ Node part_of(const PartType& type, bool with_type) {
     if (!field.default_value && !type.options_bring_fields())  // in its place
       required.emplace_back(field.name);
   }
-  if (with_type) properties.push_back({std::string(wear_coefficient.name), number_of(wear_coefficient)});
+  const auto dampings = damping_types();
+  const bool of_structure = std::find(dampings.begin(), dampings.end(), &type) != dampings.end();
+  if (with_type && !of_structure)
+    properties.push_back({std::string(wear_coefficient.name), number_of(wear_coefficient)});
   Object object = object_of(std::move(properties), required);
-  if (type.names_directions())
+  if (type.names_directions() && !of_structure)
     object.back().value = place_object();
   else if (type.options_bring_fields())
     object.back().value = of_type("number");  // fields that the options bring
@@ -240,6 +243,15 @@ Node schema_of(const Catalogue& catalogue) {
                    {"masses", list_of(part_of(mass_type(), false))},
                    {"springs", list_of(part_of(spring_type(), false))},
                    {"dampers", list_of(part_of(damper_type(), false))}};
+  structure.push_back({"matrices", of(object_of({{"mass", of_type("string")},
+                                                 {"stiffness", of_type("string")},
+                                                 {"damping", of_type("string")},
+                                                 {"highest_frequency", of_type("number")}},
+                                                {"mass", "stiffness"}))});
+  structure.push_back({"names", of_type("string")});
+  Node::List dampings;
+  for (const PartType* type : damping_types()) dampings.push_back(part_of(*type, true));
+  structure.push_back({"damping", list_of(of({{"oneOf", {std::move(dampings)}}}))});
   Node::List elements, excitations, studies;
   for (const PartType* type : excitation_types()) excitations.push_back(part_of(*type, true));
   for (const PartType* type : catalogue.elements) elements.push_back(part_of(*type, true));
@@ -255,7 +267,7 @@ Node schema_of(const Catalogue& catalogue) {
        {"format", of({{"const", node(format_name)}})},
        {"title", of_type("string")},
        {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
-       {"structure", of(object_of(std::move(structure), {"dofs"}))},
+       {"structure", of(object_of(std::move(structure), {}))},
        {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
        {"patches", list_of(patch())},
        {"excitation", list_of(of({{"oneOf", {std::move(excitations)}}}), 1)},

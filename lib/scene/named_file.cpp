@@ -15,6 +15,11 @@ std::vector<NamedFile*> files(Scene& scene) {
     const auto found = type->files(settings);
     all.insert(all.end(), found.begin(), found.end());
   };
+  if (scene.matrices) {
+    Matrices& own = *scene.matrices;
+    all = {&own.stiffness.file, &own.mass.file, &own.names};
+    if (own.has_damping()) all.push_back(&own.damping.file);
+  }
   for (Part& part : scene.elements) add(part.type, part.options);
   for (Part& patch : scene.patches) add(patch.type, patch.options);
   for (Study& study : scene.studies) add(study.type, study.settings);

@@ -1,10 +1,12 @@
 #pragma once
 // Files named by a scene: tables, matrices. They are read with the scene, and its hash covers their content.
 
+#include <arcslip/scene/sparse_matrix.hpp>
 #include <arcslip/scene/stop_request.hpp>
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace arcslip::scene {
@@ -24,6 +26,8 @@ struct NamedFile {
   }
 };
 
+class Derived;  // matrices.hpp
+
 namespace file {
 
 /// Context for reading named files.
@@ -31,6 +35,9 @@ struct FileSource {
   Folder folder{};
   StopRequest stop{};
   std::vector<NamedFile> read{};  // already
+  // The matrices in texts that have been read.
+  std::vector<std::pair<std::shared_ptr<const std::string>, std::shared_ptr<const SparseMatrix>>> matrices{};
+  std::shared_ptr<Derived> derived{};  // of them
 };
 
 }  // namespace file

@@ -19,7 +19,7 @@ struct Slot {
 
 template <class AnyScene>
 auto sections(AnyScene& scene) {
-  return std::array{&scene.masses,   &scene.springs, &scene.dampers,
+  return std::array{&scene.masses,   &scene.springs, &scene.dampers,   &scene.damping,
                     &scene.elements, &scene.patches, &scene.excitation};
 }
 

@@ -323,9 +323,8 @@ bool read_weights(const Location& place, const Dofs& dofs, Direction& direction,
 
 }  // namespace
 
-Dofs read_dofs(const Location& place, Faults& faults) {
-  Dofs dofs;
-  const std::size_t before = faults.count();
+void read_dofs(const Location& place, Dofs& dofs, Faults& faults) {
+  const std::size_t before = faults.count(), named = dofs.names.size();
   const Node::List* list = read_list(place, dofs_wanted, faults);
   if (list != nullptr && list->empty())
     faults.add(place.pointer, "found an empty list, must be " + std::string(dofs_wanted));
@@ -346,16 +345,17 @@ Dofs read_dofs(const Location& place, Faults& faults) {
       faults.add(item.pointer,
                  "found \"ground\", which is reserved for the fixed frame; must be another name");
     } else if (first != dofs.index.end()) {
-      faults.add(item.pointer, "found " + shown(*name) + " again, which is also at " +
-                                   child(place.pointer, static_cast<std::size_t>(first->second)) +
+      const auto earlier = static_cast<std::size_t>(first->second);
+      faults.add(item.pointer, "found " + shown(*name) + " again, which is also " +
+                                   (earlier < named ? "a row of the matrices"
+                                                    : "at " + child(place.pointer, earlier - named)) +
                                    "; each degree of freedom must stand only once");
     } else {
-      dofs.index.emplace(*name, static_cast<int>(i));
+      dofs.index.emplace(*name, static_cast<int>(dofs.names.size()));
       dofs.names.push_back(*name);
     }
   }
-  dofs.complete = list != nullptr && faults.count() == before;
-  return dofs;
+  dofs.complete = dofs.complete && list != nullptr && faults.count() == before;
 }
 
 std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults) {

@@ -58,7 +58,13 @@ inline constexpr Field wear_coefficient{.name = "wear_coefficient",
                                         .default_value = 0.0,
                                         .help = "volume worn for the energy dissipated"};
 
-Dofs read_dofs(const Location& place, Faults& faults);
+/// Why a name is not allowed for a further degree of freedom; empty if it is.
+std::string objection_of_dof(const std::string& name, const Dofs& dofs);
+/// The matrices of "structure", if it has any; the rows with names are the first degrees of freedom.
+std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit, const FileSource& source,
+                                      Dofs& dofs, Faults& faults);
+/// Those of the list after those already there.
+void read_dofs(const Location& place, Dofs& dofs, Faults& faults);
 /// The direction of an object with one of "at", "between" and "direction".
 std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faults& faults);
 /// The options of a part of this type.

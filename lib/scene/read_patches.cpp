@@ -1,4 +1,5 @@
 // Patches of contacts, and the CSV files of their rows.
+#include <arcslip/scene/csv_text.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
@@ -27,22 +28,6 @@ constexpr Field gap_field{.name = "gap",
                           .upper = std::numeric_limits<double>::infinity()};
 constexpr Field pressure_field{
     .name = "pressure", .unit = "Pa", .lower = 0, .upper = std::numeric_limits<double>::infinity()};
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> all;
-  for (std::size_t at = text.find(separator); at != std::string_view::npos; at = text.find(separator)) {
-    all.push_back(text.substr(0, at));
-    text.remove_prefix(at + 1);
-  }
-  all.push_back(text);
-  return all;
-}
 
 std::optional<double> number_of(std::string_view text) {
   double value = 0;

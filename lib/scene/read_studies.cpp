@@ -19,14 +19,6 @@ bool is_file_name(const std::string& name) {
          std::none_of(name.begin(), name.end(), forbidden);
 }
 
-Field frequency_field(FrequencyUnit unit) {
-  return {.name = "frequency",
-          .unit = unit_name(unit),
-          .lower = 0,
-          .upper = std::numeric_limits<double>::infinity(),
-          .lower_open = true};
-}
-
 std::vector<std::string> names_of(const Catalogue& catalogue) {
   std::vector<std::string> names;
   for (const StudyType* type : catalogue.studies) names.emplace_back(type->name());
@@ -78,6 +70,14 @@ std::string unused_name(const std::string& wish, std::unordered_map<std::string,
 }
 
 }  // namespace
+
+Field frequency_field(FrequencyUnit unit) {
+  return {.name = "frequency",
+          .unit = unit_name(unit),
+          .lower = 0,
+          .upper = std::numeric_limits<double>::infinity(),
+          .lower_open = true};
+}
 
 std::vector<Study> read_studies(const Location& place, FrequencyUnit unit, const Parameters& all,
                                 const Dofs& dofs, const FileSource& source, const Catalogue& catalogue,

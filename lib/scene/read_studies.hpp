@@ -9,6 +9,8 @@
 
 namespace arcslip::scene::file {
 
+/// Bounds of a frequency in the scene's unit.
+Field frequency_field(FrequencyUnit unit);
 /// Reads "ties". check_ties() checks that tied fields have the same value.
 std::vector<Tie> read_ties(const Location& place, Names& names, Faults& faults);
 /// Reads "studies", of the kinds of the catalogue. all: the ties that were read, and the names of parts.

@@ -18,14 +18,14 @@ namespace {
 constexpr std::size_t chunk = 1 << 16;
 constexpr int poll_milliseconds = 50;
 
-std::string largest_text(const std::string& noun) {
-  return "a " + noun + " must be at most " + std::to_string(largest_size >> 20) + " MB";
+std::string largest_text(const std::string& noun, std::size_t largest) {
+  return "a " + noun + " must be at most " + std::to_string(largest >> 20) + " MB";
 }
 
-void check_size(const std::string& text, const std::string& noun) {
-  if (text.size() > largest_size) {
+void check_size(const std::string& text, const std::string& noun, std::size_t largest) {
+  if (text.size() > largest) {
     throw SceneError(
-        {{"", "found more than " + std::to_string(largest_size) + " bytes, " + largest_text(noun)}});
+        {{"", "found more than " + std::to_string(largest) + " bytes, " + largest_text(noun, largest)}});
   }
 }
 
@@ -70,14 +70,15 @@ std::string read_text(std::istream& in) {
     text.resize(before + chunk);
     in.read(text.data() + before, static_cast<std::streamsize>(chunk));
     text.resize(before + static_cast<std::size_t>(in.gcount()));
-    check_size(text, "scene");
+    check_size(text, "scene", largest_size);
   }
   if (in.bad() || !in.eof())
     throw FileError("reading the scene failed after " + std::to_string(text.size()) + " bytes");
   return text;
 }
 
-std::string read_text(const std::string& path, const StopRequest& stop, const std::string& noun) {
+std::string read_text(const std::string& path, const StopRequest& stop, const std::string& noun,
+                      std::size_t largest) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -87,13 +88,14 @@ std::string read_text(const std::string& path, const StopRequest& stop, const st
   }
   if (fs::is_regular_file(status)) {
     const std::uintmax_t size = fs::file_size(path, error);
-    if (!error && size > largest_size)
-      throw SceneError({{"", "found a file of " + std::to_string(size) + " bytes, " + largest_text(noun)}});
+    if (!error && size > largest)
+      throw SceneError(
+          {{"", "found a file of " + std::to_string(size) + " bytes, " + largest_text(noun, largest)}});
   }
   const OpenFile file(path);
   std::string text;
   while (file.read_some(text)) {
-    check_size(text, noun);
+    check_size(text, noun, largest);
     if (is_asked(stop)) throw Interrupted("interrupted while " + results::visible(path) + " was read");
   }
   if (errno != 0) {

@@ -1,8 +1,10 @@
 #pragma once
 // Reading of the bytes of a scene.
 
+#include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/stop_request.hpp>
 
+#include <cstddef>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -13,7 +15,9 @@ namespace arcslip::scene::file {
 std::string read_text(std::istream& in);
 
 /// All bytes of a file, or of a pipe, which is opened once; `stop` is called while waiting for its writer.
-/// Throws the same, FileError if it cannot be opened, and Interrupted. noun: the kind of file, for messages.
-std::string read_text(const std::string& path, const StopRequest& stop, const std::string& noun = "scene");
+/// Throws the same, FileError if it cannot be opened, and Interrupted. noun: the kind of file, for messages;
+/// largest: its size in bytes.
+std::string read_text(const std::string& path, const StopRequest& stop, const std::string& noun = "scene",
+                      std::size_t largest = largest_size);
 
 }  // namespace arcslip::scene::file

@@ -125,13 +125,21 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   const std::size_t before_parts = faults.count();
   Names names;
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
-  const Keys structure(structure_place, {"dofs", "masses", "springs", "dampers"}, faults);
+  const Keys structure(structure_place,
+                       {"matrices", "names", "dofs", "masses", "springs", "dampers", "damping"}, faults);
   if (!structure.is_object()) names.set_incomplete();
-  const Dofs dofs = read_dofs(structure.require("dofs", "a list of at least one name", faults), faults);
+  Dofs dofs;
+  scene.matrices = read_matrices(structure, scene.frequency_unit, source, dofs, faults);
+  if (!structure.has("matrices"))
+    read_dofs(structure.require("dofs", "a list of at least one name", faults), dofs, faults);
+  else if (structure.has("dofs"))
+    read_dofs(structure.find("dofs"), dofs, faults);
   scene.dofs = dofs.names;
   scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
   scene.springs = read_parts(structure.find("springs"), &spring_type(), {}, dofs, source, names, faults);
   scene.dampers = read_parts(structure.find("dampers"), &damper_type(), {}, dofs, source, names, faults);
+  scene.damping =
+      read_parts(structure.find("damping"), nullptr, damping_types(), dofs, source, names, faults);
   scene.elements =
       read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, source, names, faults);
   scene.patches = read_patches(root.find("patches"), catalogue.elements, dofs, source, names, faults);
@@ -172,6 +180,10 @@ Scene read_scene(const Node& root, const Catalogue& catalogue, const FileSource&
 FileSource source_of(Scene scene) {
   FileSource source{scene.folder};
   for (const NamedFile* file : files(scene)) source.read.push_back(*file);
+  if (!scene.matrices) return source;
+  source.derived = scene.matrices->derived;
+  for (const MatrixFile* of : {&scene.matrices->stiffness, &scene.matrices->mass, &scene.matrices->damping})
+    if (of->matrix) source.matrices.emplace_back(of->file.text, of->matrix);
   return source;
 }
 

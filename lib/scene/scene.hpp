@@ -2,8 +2,10 @@
 // A scene, validated and resolved, as plain data in the user's units.
 
 #include <arcslip/scene/field.hpp>
+#include <arcslip/scene/matrices.hpp>
 #include <arcslip/scene/named_file.hpp>
 #include <arcslip/scene/settings.hpp>
+#include <arcslip/scene/stop_request.hpp>
 
 #include <cstddef>
 #include <iosfwd>
@@ -86,7 +88,9 @@ struct Response {
 struct Scene {
   std::string title;
   FrequencyUnit frequency_unit = FrequencyUnit::hertz;
-  std::vector<std::string> dofs;
+  std::vector<std::string> dofs;  // first those of the rows of the matrices that have names
+  std::optional<Matrices> matrices{};
+  std::vector<Part> damping{};  // in proportion to masses and stiffnesses
   std::vector<Part> masses, springs, dampers, elements;
   std::vector<Part> patches;  // of contacts (patch.hpp), which all_elements() has after the elements
   std::vector<Part> excitation;
@@ -109,6 +113,12 @@ const PartType& mass_type();
 const PartType& spring_type();
 const PartType& damper_type();
 const PartType& force_type();
+/// Damping of the whole structure, but not of elements: C = alpha M + beta K; a complex stiffness
+/// K (1 + i loss_factor); or the same damping ratio for every mode of the structure. One part of each.
+const PartType& rayleigh_type();
+const PartType& loss_factor_type();
+const PartType& modal_damping_type();
+std::span<const PartType* const> damping_types();
 /// Motions of the ground along the part's direction r: the ground under degree of freedom i moves by r_i
 /// times the displacement (m) or acceleration (m/s^2). Displacements are relative to the ground.
 const PartType& base_displacement_type();

@@ -28,8 +28,8 @@ void check_frequency(double value, const std::string& pointer, const Reading& re
 
 }  // namespace
 
-std::optional<NamedFile> read_file_of(const Location& place, const std::string& what,
-                                      const Reading& reading) {
+std::optional<NamedFile> read_file_of(const Location& place, const std::string& what, const Reading& reading,
+                                      std::size_t largest) {
   const auto path = read_string(place, what, reading.faults);
   if (!path) return {};
   for (const NamedFile& file : reading.source.read)
@@ -39,7 +39,8 @@ std::optional<NamedFile> read_file_of(const Location& place, const std::string& 
   };
   try {
     const auto at = (std::filesystem::path(reading.source.folder.path) / *path).string();
-    return NamedFile{*path, std::make_shared<const std::string>(read_text(at, reading.source.stop, "file"))};
+    return NamedFile{
+        *path, std::make_shared<const std::string>(read_text(at, reading.source.stop, "file", largest))};
   } catch (const FileError& error) {
     fault(error.what());
   } catch (const SceneError& error) {

@@ -155,8 +155,9 @@ KeyGroup<S> text(const std::string& name, std::string S::*value, const std::stri
           }};
 }
 
-/// The text of a file, of at most largest_size bytes.
-std::optional<NamedFile> read_file_of(const Location& place, const std::string& what, const Reading& reading);
+/// The text of a file, of at most so many bytes.
+std::optional<NamedFile> read_file_of(const Location& place, const std::string& what, const Reading& reading,
+                                      std::size_t largest = largest_size);
 
 /// The path of a file, which is read with the scene. what: "a string, the path of a table of q and f".
 template <class S>

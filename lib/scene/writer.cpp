@@ -104,6 +104,16 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
   return {std::move(list)};
 }
 
+void add_matrices(const Matrices& matrices, Node::Object& structure) {
+  Node::Object files{{"mass", node(matrices.mass.file.path)},
+                     {"stiffness", node(matrices.stiffness.file.path)}};
+  if (matrices.has_damping()) files.push_back({"damping", node(matrices.damping.file.path)});
+  if (matrices.highest_frequency > 0)
+    files.push_back({"highest_frequency", node(matrices.highest_frequency)});
+  structure.push_back({"matrices", {std::move(files)}});
+  structure.push_back({"names", node(matrices.names.path)});
+}
+
 Node ties_node(const std::vector<Tie>& ties) {
   Node::Object object;
   for (const Tie& tie : ties) object.push_back({tie.name, node(tie.members)});
@@ -148,14 +158,19 @@ Node studies_node(const Scene& scene) {
 }  // namespace
 
 Node tree(const Scene& scene) {
-  const Node structure{Node::Object{{"dofs", node(scene.dofs)},
-                                    {"masses", parts_node(scene.masses, scene)},
-                                    {"springs", parts_node(scene.springs, scene)},
-                                    {"dampers", parts_node(scene.dampers, scene)}}};
+  Node::Object structure;
+  if (scene.matrices) add_matrices(*scene.matrices, structure);
+  const auto named = static_cast<std::ptrdiff_t>(scene.matrices ? scene.matrices->rows.size() : 0);
+  const std::vector<std::string> dofs(scene.dofs.begin() + named, scene.dofs.end());
+  if (named == 0 || !dofs.empty()) structure.push_back({"dofs", node(dofs)});
+  structure.insert(structure.end(), {{"masses", parts_node(scene.masses, scene)},
+                                     {"springs", parts_node(scene.springs, scene)},
+                                     {"dampers", parts_node(scene.dampers, scene)}});
+  if (!scene.damping.empty()) structure.push_back({"damping", parts_node(scene.damping, scene, true)});
   Node::Object all{{"format", node(format_name)},
                    {"title", node(scene.title)},
                    {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))},
-                   {"structure", structure},
+                   {"structure", {std::move(structure)}},
                    {"elements", parts_node(scene.elements, scene, true)}};
   if (!scene.patches.empty()) all.push_back({"patches", parts_node(scene.patches, scene)});
   all.insert(all.end(), {{"excitation", parts_node(scene.excitation, scene, true)},
@@ -178,14 +193,16 @@ std::string hash(const Scene& scene) {
     for (const char c : text) state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   };
   Scene copy = scene;
-  std::vector<std::string> texts;
+  std::vector<std::shared_ptr<const std::string>> texts;
   for (NamedFile* file : files(copy)) {  // what they hold, wherever they are
-    const std::string text = file->text ? *file->text : "";
-    texts.push_back(std::to_string(text.size()) + ':' + text);
+    texts.push_back(file->text);
     file->path.clear();
   }
   add(write(copy));
-  for (const std::string& text : texts) add(text);
+  for (const auto& text : texts) {
+    add(std::to_string(text ? text->size() : 0) + ':');
+    if (text) add(*text);
+  }
   std::array<char, 16> digits{};
   for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, state >>= 4)
     *digit = "0123456789abcdef"[state & 15];

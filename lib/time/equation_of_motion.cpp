@@ -37,14 +37,19 @@ void EquationOfMotion::add(std::string name, std::shared_ptr<const elements::Law
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p) {
   EquationOfMotion equation;
   equation.omega = model.harmonics.base_frequency(p[model::frequency]);
-  equation.M = model::assemble(model.masses, p, model.dofs);
-  equation.C = model::assemble(model.dampers, p, model.dofs);
-  equation.K = model::assemble(model.springs, p, model.dofs);
+  if (model.damping && model.damping->loss_factor_at(p) != 0)
+    throw NotInTime(reasons::loss_factor,
+                    "damping by a loss factor has no equation of motion in time; give \"beta\" in its place, "
+                    "loss_factor/(angular frequency), which has the same damping at that frequency");
+  equation.M = model::mass_matrix(model, p);
+  equation.C = model::damping_matrix(model, p);
+  equation.K = model::stiffness_matrix(model, p);
   for (const model::NonlinearPart& part : model.elements) {
     if (part.law->set_valued())
-      throw SetValued("the friction of \"" + part.name +
-                      "\" has no stiffness: while it holds, its force is any within its limit, which "
-                      "integration in time does not determine; give the contact a stiffness");
+      throw NotInTime(reasons::set_valued,
+                      "the friction of \"" + part.name +
+                          "\" has no stiffness: while it holds, its force is any within its limit, which "
+                          "integration in time does not determine; give the contact a stiffness");
     Matrix directions(model.dofs, static_cast<Eigen::Index>(part.directions.size()));
     for (std::size_t i = 0; i < part.directions.size(); ++i)
       directions.col(static_cast<Eigen::Index>(i)) = part.directions[i];

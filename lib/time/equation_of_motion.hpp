@@ -7,6 +7,7 @@
 // the slider of a friction element is where its z is (elements/law.hpp).
 
 #include <arcslip/model/model.hpp>
+#include <arcslip/time/reasons.hpp>
 
 #include <Eigen/Core>
 
@@ -71,12 +72,19 @@ struct MotionState {
   Vector x, v, z;  // m, m/s; z: the memory of all elements, m for sliders
 };
 
-/// A law whose force at rest is set-valued (Law::set_valued()).
-class SetValued : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+/// A model that has no equation of motion: a law whose force at rest is set-valued (Law::set_valued()), or a
+/// loss factor.
+class NotInTime : public std::runtime_error {
+ public:
+  NotInTime(results::Reason reason, const std::string& message)
+      : std::runtime_error(message), reason_(reason) {}
+  results::Reason reason() const { return reason_; }
+
+ private:
+  results::Reason reason_;
 };
 
-/// p: as model.parameters, "frequency" included (rad/s). Throws SetValued.
+/// p: as model.parameters, "frequency" included (rad/s). Throws NotInTime.
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p);
 
 /// Everything at rest, without memory of force.

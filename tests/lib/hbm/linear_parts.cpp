@@ -20,7 +20,7 @@ struct Chain {
   Eigen::MatrixXd P = Eigen::MatrixXd::Random(3, 3);
   Vector p;
 
-  Chain() {
+  explicit Chain(bool matrices = false) {
     const int tied = model.masses[0].parameter;
     model.dampers[1].parameter = model.springs[2].parameter = tied;
     model.excitation[0].cosine = model.excitation[0].sine = tied;
@@ -28,9 +28,36 @@ struct Chain {
     for (std::size_t k = 0; k < model.parameters.size(); ++k)
       p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
     p[model::frequency] = 0.8;
+    if (matrices) add_matrices();
   }
-  Eigen::MatrixXcd matrix(const std::vector<model::LinearPart>& parts, const Vector& at) const {
-    return model::assemble(parts, at, 3).cast<Complex>();
+  // One of each kind, that of the dampers over the tied parameter, and proportional damping of all kinds.
+  void add_matrices() {
+    const auto random = [] {
+      const Eigen::MatrixXd A = Eigen::MatrixXd::Random(3, 3);
+      return Eigen::MatrixXd(A + A.transpose());
+    };
+    const int tied = model.masses[0].parameter;
+    model.matrices = {{model::LinearKind::mass, -1, random()},
+                      {model::LinearKind::damper, tied, random()},
+                      {model::LinearKind::spring, -1, random()}};
+    const auto first = static_cast<int>(p.size());
+    model.damping = {first, first + 1, first + 2};
+    for (const double value : {0.3, 0.05, 0.2}) {
+      model.parameters.push_back({"damping", "-", value, 1, 0, 1});
+      p.conservativeResize(p.size() + 1);
+      p[p.size() - 1] = value;
+    }
+  }
+  // K (1 + i s beta + i loss_factor) + M (-s^2 + i s alpha) + i s C
+  Eigen::MatrixXcd dynamic_stiffness(double s, const Vector& at) const {
+    const auto matrix = [&](model::LinearKind kind) {
+      return model::sum_of(model, kind, at).cast<Complex>().eval();
+    };
+    const double alpha = model.damping ? at[model.damping->alpha] : 0;
+    const double loss = model.damping ? s * at[model.damping->beta] + at[model.damping->loss_factor] : 0;
+    return Complex(1, loss) * matrix(model::LinearKind::spring) +
+           Complex(-s * s, s * alpha) * matrix(model::LinearKind::mass) +
+           Complex(0, s) * matrix(model::LinearKind::damper);
   }
   Eigen::VectorXcd force(int n, const Vector& at) const {
     Eigen::VectorXcd f = Eigen::VectorXcd::Zero(3);
@@ -43,7 +70,8 @@ struct Chain {
 }  // namespace
 
 TEST_CASE("the full equation changes with every parameter as its differences do, that of several parts too") {
-  const Chain chain;
+  const bool matrices = GENERATE(false, true);
+  const Chain chain(matrices);
   hbm::LinearParts parts(chain.model, chain.P, chain.model.harmonics);
   parts.move_to(chain.p);
   const Eigen::VectorXcd y = Eigen::VectorXcd::Random(3);
@@ -57,9 +85,7 @@ TEST_CASE("the full equation changes with every parameter as its differences do,
         Vector p = chain.p;
         p[k] += step;
         const double s = n * p[model::frequency];
-        const Eigen::MatrixXcd Z = chain.matrix(chain.model.springs, p) -
-                                   s * s * chain.matrix(chain.model.masses, p) +
-                                   Complex(0, s) * chain.matrix(chain.model.dampers, p);
+        const Eigen::MatrixXcd Z = chain.dynamic_stiffness(s, p);
         return (chain.P.transpose() * (Z * x - 0.7 * chain.force(n, p))).eval();
       };
       parts.differentiate(k, n, y, 0.7, v);
@@ -67,7 +93,8 @@ TEST_CASE("the full equation changes with every parameter as its differences do,
       CHECK((v.norm() == 0 || parts.depend_on(k)));
       if (v.norm() > 0) ++seen;
     }
-  CHECK(seen == 3 * 8 + 2);  // frequency, masses, springs, a damper; both parts of the force in harmonic 2
+  CHECK(seen == 3 * (matrices ? 11 : 8) +
+                    2);  // frequency, masses, springs, a damper; both parts of the force in harmonic 2
 }
 
 TEST_CASE("quadratic forms of a motion are those of the assembled matrices and forces") {
@@ -78,9 +105,10 @@ TEST_CASE("quadratic forms of a motion are those of the assembled matrices and f
   const Eigen::VectorXcd x = chain.P * y;
   for (const int n : {1, 2, 3}) {
     const hbm::QuadraticForms forms = parts.quadratic_forms(n, y, 0.7);
-    CHECK(std::abs(forms.mass - x.dot(chain.matrix(chain.model.masses, chain.p) * x)) < 1e-14);
-    CHECK(std::abs(forms.damping - x.dot(chain.matrix(chain.model.dampers, chain.p) * x)) < 1e-14);
-    CHECK(std::abs(forms.stiffness - x.dot(chain.matrix(chain.model.springs, chain.p) * x)) < 1e-14);
+    CHECK(std::abs(forms.mass - x.dot(model::mass_matrix(chain.model, chain.p) * x)) < 1e-14);
+    const double s = n * chain.p[model::frequency];
+    CHECK(std::abs(forms.damping - x.dot(chain.dynamic_stiffness(s, chain.p) * x).imag()) < 1e-13);
+    CHECK(std::abs(forms.stiffness - x.dot(model::stiffness_matrix(chain.model, chain.p) * x)) < 1e-14);
     CHECK(std::abs(forms.force - 0.7 * x.dot(chain.force(n, chain.p))) < 1e-14);
   }
 }

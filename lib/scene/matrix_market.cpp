@@ -1,4 +1,4 @@
-#include <arcslip/structure/matrix_market.hpp>
+#include <arcslip/scene/matrix_market.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
-namespace arcslip::structure {
+namespace arcslip::scene {
 namespace {
 
 constexpr long long largest_size = 100'000'000;  // rows or columns
@@ -54,36 +56,28 @@ std::optional<double> real(std::string_view word) {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& file, const std::function<bool()>& stop)
+  Reader(std::string_view text, const std::string& file, const StopRequest& stop)
       : text_(text), file_(file), stop_(stop) {}
 
   SparseMatrix read() {
     read_banner();
     const std::vector<long long> sizes = read_sizes();
-    SparseMatrix A(sizes[0], sizes[1]);
     if (coordinate_)
       read_coordinates(sizes[2]);
     else
       read_array();
     if (next_words()) fail("found " + shown(words_[0]) + " after the last entry");
-    std::vector<Eigen::Triplet<double>> all;
-    all.reserve(entries_.size() * (symmetry_ == Symmetry::general ? 1 : 2));
-    for (const Entry& entry : entries_) {
-      all.emplace_back(entry.row, entry.column, entry.value);
-      if (symmetry_ != Symmetry::general && entry.row != entry.column)
-        all.emplace_back(entry.column, entry.row, symmetry_ == Symmetry::skew ? -entry.value : entry.value);
-    }
-    A.setFromTriplets(all.begin(), all.end());
+    const std::size_t given = entries_.size();
+    for (std::size_t k = 0; k < given && symmetry_ != Symmetry::general; ++k)
+      if (const MatrixEntry entry = entries_[k]; entry.row != entry.column)
+        entries_.push_back(
+            {entry.column, entry.row, symmetry_ == Symmetry::skew ? -entry.value : entry.value});
+    SparseMatrix A = sparse_matrix(rows_, columns_, entries_);
+    if (coordinate_ && A.entries() < entries_.size()) refuse_repeated();
     return A;
   }
 
  private:
-  struct Entry {
-    int row, column;
-    double value;
-    std::size_t line;
-  };
-
   [[noreturn]] void fail(const std::string& cause) const {
     throw MatrixError(file_ + ", line " + std::to_string(line_) + ": " + cause);
   }
@@ -92,8 +86,8 @@ class Reader {
   bool next_words() {
     words_.clear();
     while (words_.empty() && !text_.empty()) {
-      if (++line_ % lines_per_question == 0 && stop_ && stop_())
-        throw Stopped("reading " + file_ + " was stopped");
+      if (++line_ % lines_per_question == 0 && is_asked(stop_))
+        throw Interrupted("interrupted while " + file_ + " was read");
       const std::size_t end = std::min(text_.find('\n'), text_.size());
       std::string_view line = text_.substr(0, end);
       text_.remove_prefix(std::min(end + 1, text_.size()));
@@ -150,8 +144,8 @@ class Reader {
         sizes.push_back(*size);
     if (sizes.size() != words_.size() || sizes.size() != (coordinate_ ? 3u : 2u))
       fail("found " + shown(line_of_words()) + ", must be the numbers of " + wanted);
-    rows_ = sizes[0];
-    columns_ = sizes[1];
+    rows_ = static_cast<int>(sizes[0]);
+    columns_ = static_cast<int>(sizes[1]);
     if (symmetry_ != Symmetry::general && rows_ != columns_)
       fail("found " + std::to_string(rows_) + " rows and " + std::to_string(columns_) +
            " columns, must be square to be symmetric");
@@ -182,14 +176,14 @@ class Reader {
 
   void read_coordinates(long long count) {
     // What the sizes say may be wrong: an entry takes at least six characters.
-    entries_.reserve(std::min<std::size_t>(static_cast<std::size_t>(count), text_.size() / 6 + 1));
+    entries_.reserve((symmetry_ == Symmetry::general ? 1 : 2) *
+                     std::min<std::size_t>(static_cast<std::size_t>(count), text_.size() / 6 + 1));
     for (long long k = 0; k < count; ++k) {
       if (!next_words())
         fail("the file ends after " + std::to_string(k) + " of " + std::to_string(count) + " entries");
       if (words_.size() != 3) fail("found " + shown(line_of_words()) + ", must be row, column and value");
       add(index_of(words_[0], rows_, "row"), index_of(words_[1], columns_, "column"), value_of(words_[2]));
     }
-    refuse_repeated();
   }
 
   void add(int row, int column, double value) {
@@ -199,37 +193,32 @@ class Reader {
       std::swap(row, column);
       if (symmetry_ == Symmetry::skew) value = -value;
     }
-    entries_.push_back({row, column, value, line_});
+    entries_.push_back({row, column, value});
+    lines_.push_back(line_);
   }
 
-  void refuse_repeated() {
-    std::vector<const Entry*> order;
-    for (const Entry& entry : entries_) order.push_back(&entry);
-    const auto place = [](const Entry* e) {
-      return static_cast<std::uint64_t>(e->column) << 32 | static_cast<std::uint64_t>(e->row);
-    };
-    std::sort(order.begin(), order.end(), [&](const Entry* a, const Entry* b) {
-      return place(a) != place(b) ? place(a) < place(b) : a->line < b->line;
-    });
-    for (std::size_t k = 1; k < order.size(); ++k)
-      if (place(order[k]) == place(order[k - 1])) {
-        line_ = order[k]->line;
-        fail("found the entry in row " + std::to_string(order[k]->row + 1) + ", column " +
-             std::to_string(order[k]->column + 1) + " again, which is also in line " +
-             std::to_string(order[k - 1]->line) +
-             (symmetry_ == Symmetry::general ? "" : "; of a symmetric matrix one triangle must be given"));
-      }
+  [[noreturn]] void refuse_repeated() {
+    std::map<std::pair<int, int>, std::size_t> first;
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      const MatrixEntry& entry = entries_[k];
+      const auto [earlier, is_new] = first.emplace(std::pair(entry.row, entry.column), lines_[k]);
+      if (is_new) continue;
+      line_ = lines_[k];
+      fail("found the entry in row " + std::to_string(entry.row + 1) + ", column " +
+           std::to_string(entry.column + 1) + " again, which is also in line " +
+           std::to_string(earlier->second) +
+           (symmetry_ == Symmetry::general ? "" : "; of a symmetric matrix one triangle must be given"));
+    }
+    fail("found an entry twice");
   }
 
   // Column by column; of a symmetric matrix from the diagonal down, of a skew-symmetric one below it.
   void read_array() {
     std::size_t word = 0;
     words_.clear();
-    for (long long j = 0; j < columns_; ++j) {
-      const long long first = symmetry_ == Symmetry::general     ? 0
-                              : symmetry_ == Symmetry::symmetric ? j
-                                                                 : j + 1;
-      for (long long i = first; i < rows_; ++i) {
+    for (int j = 0; j < columns_; ++j) {
+      const int first = symmetry_ == Symmetry::general ? 0 : symmetry_ == Symmetry::symmetric ? j : j + 1;
+      for (int i = first; i < rows_; ++i) {
         if (word == words_.size()) {
           if (!next_words())
             fail("the file ends before the value in row " + std::to_string(i + 1) + ", column " +
@@ -237,7 +226,7 @@ class Reader {
           word = 0;
         }
         const double value = value_of(words_[word++]);
-        if (value != 0) entries_.push_back({static_cast<int>(i), static_cast<int>(j), value, line_});
+        if (value != 0) entries_.push_back({i, j, value});
       }
     }
     if (word < words_.size()) fail("found " + shown(words_[word]) + " after the last entry");
@@ -245,20 +234,20 @@ class Reader {
 
   std::string_view text_;
   const std::string& file_;
-  const std::function<bool()>& stop_;
+  const StopRequest& stop_;
   std::size_t line_ = 0;
   std::vector<std::string_view> words_;
   bool coordinate_ = true;
   Symmetry symmetry_ = Symmetry::general;
-  long long rows_ = 0, columns_ = 0;
-  std::vector<Entry> entries_;
+  int rows_ = 0, columns_ = 0;
+  std::vector<MatrixEntry> entries_;
+  std::vector<std::size_t> lines_;  // of the entries in the file
 };
 
 }  // namespace
 
-SparseMatrix read_matrix_market(std::string_view text, const std::string& file,
-                                const std::function<bool()>& stop) {
+SparseMatrix read_matrix_market(std::string_view text, const std::string& file, const StopRequest& stop) {
   return Reader(text, file, stop).read();
 }
 
-}  // namespace arcslip::structure
+}  // namespace arcslip::scene

@@ -1,0 +1,57 @@
+#pragma once
+// A structure from matrices in files: M x'' + C x' + K x of a finite-element model. Some rows have names, by
+// which parts of the scene act on them. It is reduced to those that the scene uses and to modes of the
+// others.
+
+#include <arcslip/scene/named_file.hpp>
+#include <arcslip/scene/sparse_matrix.hpp>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace arcslip::scene {
+
+/// A file and the matrix in it.
+struct MatrixFile {
+  NamedFile file{};
+  std::shared_ptr<const SparseMatrix> matrix{};
+  friend bool operator==(const MatrixFile& a, const MatrixFile& b) { return a.file == b.file; }
+};
+
+/// What has been computed from the matrices of a scene, kept for all copies of it: a reduction may take far
+/// longer than a study with one set of values.
+class Derived {
+ public:
+  template <class T, class Make>
+  std::shared_ptr<const T> get(const std::string& key, const Make& make) {
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const void>& kept = all_[key];
+    if (!kept) kept = std::make_shared<const T>(make());
+    return std::static_pointer_cast<const T>(kept);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const void>> all_;
+};
+
+struct Matrices {
+  MatrixFile mass{}, stiffness{}, damping{};  // kg, N/m, N s/m; damping without a path: none
+  NamedFile names{};
+  std::vector<int> rows{};  // from 0, of the first of Scene::dofs
+  double highest_frequency =
+      0;  // of a harmonic, in the scene's unit, to which they are reduced; 0: they are not
+  std::shared_ptr<Derived> derived = std::make_shared<Derived>();
+
+  int size() const { return stiffness.matrix ? stiffness.matrix->rows : 0; }
+  bool has_damping() const { return !damping.file.path.empty(); }
+  friend bool operator==(const Matrices& a, const Matrices& b) {
+    return a.mass == b.mass && a.stiffness == b.stiffness && a.damping == b.damping && a.names == b.names &&
+           a.rows == b.rows && a.highest_frequency == b.highest_frequency;
+  }
+};
+
+}  // namespace arcslip::scene

@@ -1,0 +1,222 @@
+// Structures from matrices in files, and the CSV file with the names of their rows.
+#include <arcslip/scene/csv_text.hpp>
+#include <arcslip/scene/matrix_market.hpp>
+#include <arcslip/scene/read_parts.hpp>
+#include <arcslip/scene/read_studies.hpp>
+#include <arcslip/scene/study_keys.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <unordered_map>
+
+namespace arcslip::scene::file {
+namespace {
+
+constexpr double symmetric = 1e-9;  // a(i,j) - a(j,i), relative to sqrt(a(i,i) a(j,j)) or to both
+
+constexpr std::size_t largest_file = std::size_t{4} << 30;  // bytes
+constexpr int largest_whole = 500;                          // rows
+
+std::string place(int row, int column) {
+  return "row " + std::to_string(row + 1) + ", column " + std::to_string(column + 1);
+}
+
+// Faults of the files, at their keys.
+class Files {
+ public:
+  Files(const Location& place, const Field& frequency, const FileSource& source, Faults& faults)
+      : keys_(place, {"mass", "stiffness", "damping", "highest_frequency"}, faults),
+        reading_{keys_, frequency, none_, no_dofs_, faults, source},
+        faults_(faults) {}
+
+  std::optional<Matrices> read() {
+    if (!keys_.is_object()) return {};
+    Matrices matrices;
+    if (reading_.source.derived) matrices.derived = reading_.source.derived;
+    matrices.stiffness = read_matrix("stiffness", true);
+    matrices.mass = read_matrix("mass", true);
+    matrices.damping = read_matrix("damping", false);
+    if (const Location highest = keys_.find("highest_frequency"); highest.node != nullptr)
+      matrices.highest_frequency = read_number(highest, reading_.frequency, faults_).value_or(0);
+    if (!matrices.stiffness.matrix || !matrices.mass.matrix) return {};
+    check_size("mass", matrices.mass, matrices.size());
+    check_size("damping", matrices.damping, matrices.size());
+    if (faults_.count() > 0) return {};
+    check_rows(matrices);
+    if (matrices.highest_frequency == 0 && matrices.size() > largest_whole)
+      faults_.add(keys_.pointer(),
+                  "found matrices of " + std::to_string(matrices.size()) +
+                      " rows without \"highest_frequency\", must have it above " +
+                      std::to_string(largest_whole) +
+                      " rows: the highest frequency of a harmonic to which the structure is reduced");
+    return matrices;
+  }
+
+ private:
+  MatrixFile read_matrix(const std::string& key, bool required) {
+    const std::string wanted = "a string, the path of a Matrix Market file";
+    const Location place = required ? keys_.require(key, wanted, faults_) : keys_.find(key);
+    MatrixFile found;
+    found.file = read_file_of(place, wanted, reading_, largest_file).value_or(NamedFile{});
+    if (!found.file.text) return found;
+    for (const auto& [text, matrix] : reading_.source.matrices)
+      if (text == found.file.text) found.matrix = matrix;
+    if (found.matrix) return found;
+    try {
+      const SparseMatrix A =
+          read_matrix_market(*found.file.text, shown(found.file.path), reading_.source.stop);
+      check(key, A, place);
+      found.matrix = std::make_shared<const SparseMatrix>(A);
+    } catch (const MatrixError& error) {
+      faults_.add(place.pointer, error.what());
+    }
+    return found;
+  }
+
+  // Symmetric, without a negative diagonal entry.
+  void check(const std::string& key, const SparseMatrix& A, const Location& at) {
+    const auto fault = [&](const std::string& what) {
+      faults_.add(at.pointer, "found the " + key + " matrix with " + what);
+    };
+    if (A.rows != A.columns || A.rows == 0)
+      return fault(std::to_string(A.rows) + " rows and " + std::to_string(A.columns) +
+                   " columns, must be square");
+    for (int j = 0; j < A.columns; ++j)
+      for (int k = A.starts[static_cast<std::size_t>(j)]; k < A.starts[static_cast<std::size_t>(j) + 1];
+           ++k) {
+        const int i = A.row_of[static_cast<std::size_t>(k)];
+        const double value = A.values[static_cast<std::size_t>(k)];
+        if (i == j && value < 0)
+          return fault(number_text(value) + " in " + place(i, j) +
+                       ", must be positive semidefinite: no negative entry on the diagonal");
+        if (i <= j) continue;
+        const double other = value_at(A, j, i);
+        const double scale = std::max(
+            {std::abs(value), std::abs(other), std::sqrt(std::abs(value_at(A, i, i) * value_at(A, j, j)))});
+        if (!(std::abs(value - other) <= symmetric * scale))
+          return fault(number_text(value) + " in " + place(i, j) + " and " + number_text(other) + " in " +
+                       place(j, i) + ", must be symmetric");
+      }
+    // The other triangle has as many entries.
+    for (int j = 0; j < A.columns; ++j)
+      for (int k = A.starts[static_cast<std::size_t>(j)]; k < A.starts[static_cast<std::size_t>(j) + 1];
+           ++k) {
+        const int i = A.row_of[static_cast<std::size_t>(k)];
+        const double value = A.values[static_cast<std::size_t>(k)];
+        if (i < j && value != 0 && value_at(A, j, i) == 0)
+          return fault(number_text(value) + " in " + place(i, j) + " and 0 in " + place(j, i) +
+                       ", must be symmetric");
+      }
+  }
+
+  void check_size(const std::string& key, const MatrixFile& file, int size) {
+    if (file.matrix && file.matrix->rows != size)
+      faults_.add(child(keys_.pointer(), key), "found a matrix of " + std::to_string(file.matrix->rows) +
+                                                   " rows, must have " + std::to_string(size) +
+                                                   " as the stiffness matrix");
+  }
+
+  void check_rows(const Matrices& matrices) {
+    bool mass = false;
+    for (int i = 0; i < matrices.size(); ++i) {
+      const double m = value_at(*matrices.mass.matrix, i, i), k = value_at(*matrices.stiffness.matrix, i, i);
+      mass = mass || m > 0;
+      if (m == 0 && k == 0)
+        return faults_.add(keys_.pointer(), "found neither mass nor stiffness in row " +
+                                                std::to_string(i + 1) +
+                                                ", must have one of them on the diagonal in each row");
+    }
+    if (!mass) faults_.add(child(keys_.pointer(), "mass"), "found no mass, must have some on its diagonal");
+  }
+
+  Keys keys_;
+  Names no_names_;
+  Parameters none_{{}, true, no_names_};
+  Dofs no_dofs_;
+  Reading reading_;
+  Faults& faults_;
+};
+
+// The rows "name,row" after a header.
+void read_names(const Location& at, const std::string& path, std::string_view text, Matrices& matrices,
+                Dofs& dofs, Faults& faults) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  const std::size_t before = faults.count();
+  std::unordered_map<int, std::size_t> lines;
+  std::size_t line = 0;
+  bool header = false;
+  const auto fault = [&](const std::string& what) {
+    if (faults.full()) return faults.add({}, {});
+    faults.add(at.pointer, "line " + std::to_string(line) + " of " + shown(path) + ": " + what);
+  };
+  for (const std::string_view whole : split(text, '\n')) {
+    ++line;
+    if (trimmed(whole).empty() || trimmed(whole).front() == '#') continue;
+    const auto cells = split(whole, ',');
+    if (!header) {
+      header = cells.size() == 2 && trimmed(cells[0]) == "name" && trimmed(cells[1]) == "row";
+      if (!header) return fault("found " + shown(trimmed(whole)) + ", must be the header name,row");
+      continue;
+    }
+    if (cells.size() != 2) {
+      fault("found " + std::to_string(cells.size()) + " values, must be 2: a name and a row");
+      continue;
+    }
+    const std::string name(trimmed(cells[0]));
+    const std::string_view digits = trimmed(cells[1]);
+    int row = 0;
+    const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), row);
+    if (error != std::errc() || rest != digits.data() + digits.size() || row < 1 || row > matrices.size()) {
+      fault("found the row " + shown(digits) + ", must be an integer from 1 to " +
+            std::to_string(matrices.size()));
+    } else if (const std::string reason = objection_of_dof(name, dofs); !reason.empty()) {
+      fault("found the name " + shown(name) + ", " + reason);
+    } else if (const auto [first, is_new] = lines.emplace(row, line); !is_new) {
+      fault("found the row " + std::to_string(row) + " again, which has a name in line " +
+            std::to_string(first->second) + "; a row must have one name");
+    } else {
+      dofs.index.emplace(name, static_cast<int>(dofs.names.size()));
+      dofs.names.push_back(name);
+      matrices.rows.push_back(row - 1);
+    }
+  }
+  if (dofs.names.empty() && faults.count() == before)
+    faults.add(at.pointer, "found no names in " + shown(path) + ", must have at least one row name,row");
+}
+
+}  // namespace
+
+std::string objection_of_dof(const std::string& name, const Dofs& dofs) {
+  if (name.empty()) return "must be a name of at least one character";
+  if (name == ground) return "which is reserved for the fixed frame; must be another name";
+  if (dofs.index.contains(name)) return "which stands for another degree of freedom; each must stand once";
+  return {};
+}
+
+std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit, const FileSource& source,
+                                      Dofs& dofs, Faults& faults) {
+  const Location place = structure.find("matrices");
+  if (place.node == nullptr) {
+    if (const Location names = structure.find("names"); names.node != nullptr)
+      faults.add(names.pointer, "found names of rows without \"matrices\", must be beside them");
+    return {};
+  }
+  const std::size_t before = faults.count();
+  const Field frequency = frequency_field(unit);
+  auto matrices = Files(place, frequency, source, faults).read();
+  const std::string wanted = "a string, the path of a CSV file of name,row";
+  const Location names = structure.require("names", wanted, faults);
+  const Keys& keys = structure;
+  const Names no_names;
+  const Parameters none({}, true, no_names);
+  const Reading reading{keys, frequency, none, dofs, faults, source};
+  const auto file = read_file_of(names, wanted, reading);
+  if (matrices && file && file->text) {
+    matrices->names = *file;
+    read_names(names, file->path, *file->text, *matrices, dofs, faults);
+  }
+  if (faults.count() > before) dofs.complete = false;
+  return matrices;
+}
+
+}  // namespace arcslip::scene::file

@@ -1,0 +1,51 @@
+#pragma once
+// Reduction of a large structure M x'' + C x' + K x to some of its rows, b, and to a few coordinates z of all
+// others, i. With a shift sigma > 0 below the square of the highest angular frequency of interest,
+//
+//   x_i = Psi x_b + V z,   A = K + sigma M,   Psi = -A_ii^-1 A_ib
+//
+// V spans the block Krylov space A_ii^-1 R, A_ii^-1 M_ii A_ii^-1 R, ... of R = M_ii Psi + M_ib. It holds just
+// what b can excite, and each of its blocks makes two more terms of the power series, about s^2 = -sigma, of
+// the dynamic stiffness condensed onto b exact:
+//
+//   Z(s) = A_c - p M_c - p^2 sum_j mu_j mu_j^T/(1 - p theta_j),   p = s^2 + sigma
+//
+// theta_j: the eigenvalues of V^T M_ii V for V^T A_ii V = 1; mu = V^T R. M, C and K are projected onto (x_b,
+// z), so that proportional damping stays proportional and rigid-body motions, massless rows and floating
+// parts need no case of their own. With a matrix C the space also has A_ii^-1 C_ii times each of its vectors,
+// which adds nothing where C is proportional. A row that no entry of the matrices links to b takes no part.
+//
+// R. R. Craig and M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA J. 6 (1968) 1313,
+// with fixed-interface modes in place of V; moments: E. J. Grimme, Krylov projection methods for model
+// reduction, PhD thesis, Univ. of Illinois (1997).
+
+#include <arcslip/scene/matrices.hpp>
+#include <arcslip/scene/stop_request.hpp>
+
+#include <Eigen/Core>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace arcslip::structure {
+
+/// In (x_b, z): dense, symmetric, M and K diagonal in z. Without damping C is empty.
+struct Reduced {
+  Eigen::MatrixXd M, C, K;
+  /// Estimate of the largest error of an entry of Z, for s from 0 to the highest frequency and a loss factor
+  /// of 1 %, relative to the terms of its row and column on the diagonal: what the last block changes.
+  double error = 0;
+};
+
+/// Matrices that cannot be reduced: what() says why, with the row at fault.
+class ReductionError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// kept: rows of the matrices, from 0. highest: rad/s, above 0. Throws ReductionError, where K + sigma M is
+/// not positive definite, and scene::Interrupted.
+Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,
+               const scene::StopRequest& stop = {});
+
+}  // namespace arcslip::structure

@@ -1,0 +1,251 @@
+// Structures from matrices in files: beside the same structures of masses and springs, and their faults.
+
+#include "catch.hpp"
+#include "contains.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/observables/prepare.hpp>
+#include <arcslip/scene/json_schema.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace arcslip;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A chain of five masses of 1 to 1.4 kg, held at its left end by the first of springs of 1000 to 1400 N/m.
+std::string mass_file() {
+  std::string text = "%%MatrixMarket matrix coordinate real symmetric\n5 5 5\n";
+  for (int i = 1; i <= 5; ++i)
+    text += std::to_string(i) + " " + std::to_string(i) + " " + std::to_string(0.9 + 0.1 * i) + "\n";
+  return text;
+}
+std::string stiffness_file() {
+  std::string text = "%%MatrixMarket matrix coordinate real symmetric\n5 5 9\n";
+  for (int i = 1; i <= 5; ++i) {
+    const int own = 900 + 100 * i, next = i < 5 ? own + 100 : 0;
+    text += std::to_string(i) + " " + std::to_string(i) + " " + std::to_string(own + next) + "\n";
+    if (i < 5) text += std::to_string(i + 1) + " " + std::to_string(i) + " " + std::to_string(-next) + "\n";
+  }
+  return text;
+}
+std::string damping_file() {
+  return "%%MatrixMarket matrix coordinate real general\n5 5 4\n2 2 0.3\n3 3 0.3\n2 3 -0.3\n3 2 -0.3\n";
+}
+
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / ("arcslip_matrices_" + std::to_string(::getpid()))) {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+    write("M.mtx", mass_file());
+    write("K.mtx", stiffness_file());
+    write("C.mtx", damping_file());
+    write("names.csv", "name,row\n# the free end, then the one that rubs\nend.x, 5\nb,2\n");
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+  std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+constexpr const char* files = R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "damping": "C.mtx"},
+  "names": "names.csv", "dofs": ["tuned"],
+  "masses": [{"name": "m_t", "at": "tuned", "value": 0.1}, {"name": "tip", "at": "end.x", "value": 0.2}],
+  "springs": [{"name": "k_t", "between": ["tuned", "end.x"], "value": 60}])";
+constexpr const char* parts = R"("dofs": ["a", "b", "c", "d", "end.x", "tuned"],
+  "masses": [{"name": "m1", "at": "a", "value": 1}, {"name": "m2", "at": "b", "value": 1.1},
+    {"name": "m3", "at": "c", "value": 1.2}, {"name": "m4", "at": "d", "value": 1.3},
+    {"name": "m5", "at": "end.x", "value": 1.4}, {"name": "m_t", "at": "tuned", "value": 0.1},
+    {"name": "tip", "at": "end.x", "value": 0.2}],
+  "springs": [{"name": "k1", "at": "a", "value": 1000}, {"name": "k2", "between": ["b", "a"], "value": 1100},
+    {"name": "k3", "between": ["c", "b"], "value": 1200}, {"name": "k4", "between": ["d", "c"], "value": 1300},
+    {"name": "k5", "between": ["end.x", "d"], "value": 1400},
+    {"name": "k_t", "between": ["tuned", "end.x"], "value": 60}],
+  "dampers": [{"name": "c3", "between": ["c", "b"], "value": 0.3}])";
+
+std::string scene_of(const std::string& structure) {
+  return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {)" + structure + R"(},
+    "elements": [{"name": "d", "type": "jenkins", "at": "b", "stiffness": 300, "friction_coefficient": 0.5,
+                  "normal_load": 0.4}],
+    "excitation": [{"name": "f", "at": "end.x", "cosine": 1}],
+    "response": {"at": "end.x"}, "harmonics": {"order": 5},
+    "studies": [{"kind": "frf", "from": 2, "to": 20}]})";
+}
+
+scene::Scene read(const std::string& whole, const std::string& folder) {
+  std::istringstream in(whole);
+  return scene::read(in, test_catalogue::whole(), folder);
+}
+
+std::string fault(const std::string& structure, const Folder& folder) {
+  try {
+    observables::prepare(read(scene_of(structure), folder.path()), {});
+  } catch (const scene::SceneError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+void check_same(const scene::Scene& one, const scene::Scene& other, double tolerance) {
+  for (const double omega : {3.0, 8.0, 14.0, 33.0}) {
+    CAPTURE(omega);
+    const auto a = scenes::response_at(one, omega), b = scenes::response_at(other, omega);
+    CHECK(b.amplitude == Approx(a.amplitude).epsilon(tolerance));
+    CHECK(b.energy_viscous == Approx(a.energy_viscous).epsilon(10 * tolerance));
+    CHECK(b.energy_input == Approx(a.energy_input).epsilon(10 * tolerance));
+    CHECK(b.forces.inertia == Approx(a.forces.inertia).epsilon(10 * tolerance));
+    CHECK(b.forces.viscous == Approx(a.forces.viscous).epsilon(10 * tolerance));
+    CHECK(b.truncation_estimate == Approx(a.truncation_estimate).epsilon(1e-6).margin(1e-12));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a structure from matrices is that of its masses and springs") {
+  const Folder folder;
+  const scene::Scene by_parts = read(scene_of(parts), folder.path());
+  SECTION("whole") {
+    check_same(by_parts, read(scene_of(files), folder.path()), 1e-11);
+  }
+  SECTION("reduced to the rows that the scene uses") {
+    std::string text = scene_of(files);
+    text.replace(text.find("\"damping\": \"C"), 0, "\"highest_frequency\": 200, ");
+    scene::Scene s = read(text, folder.path());
+    CHECK(contains(observables::prepare(s, {}), "of 5 rows was reduced to 2 of them and 3 coordinates"));
+    check_same(by_parts, s, 1e-10);
+  }
+}
+
+TEST_CASE("damping in proportion to the structure is that of its dampers") {
+  const Folder folder;
+  std::string structure = files;
+  structure.erase(structure.find(", \"damping\": \"C.mtx\""), 20);
+  const std::string rayleigh = R"(, "damping": [{"name": "steel", "type": "rayleigh", "beta": 2e-3}])";
+  std::string dampers = parts;
+  dampers.erase(dampers.find("\"dampers\""));
+  dampers +=
+      R"("dampers": [{"name": "c1", "at": "a", "value": 2}, {"name": "c2", "between": ["b", "a"], "value": 2.2},
+    {"name": "c3", "between": ["c", "b"], "value": 2.4}, {"name": "c4", "between": ["d", "c"], "value": 2.6},
+    {"name": "c5", "between": ["end.x", "d"], "value": 2.8},
+    {"name": "c_t", "between": ["tuned", "end.x"], "value": 0.12}])";
+  const scene::Scene by_parts = read(scene_of(dampers), folder.path());
+  check_same(by_parts, read(scene_of(structure + rayleigh), folder.path()), 1e-11);
+  // The parameter is one of the scene.
+  scene::Scene s =
+      read(scene_of(structure + R"(, "damping": [{"name": "steel", "type": "rayleigh", "alpha": 0.5}])"),
+           folder.path());
+  scene::set(s, "steel.alpha", 0);
+  scene::set(s, "steel.beta", 2e-3);
+  check_same(by_parts, s, 1e-11);
+}
+
+TEST_CASE("a scene with matrices is written, read, checked and hashed with its files") {
+  const Folder folder;
+  const scene::Scene s = read(scene_of(files), folder.path());
+  CHECK(s.dofs == std::vector<std::string>{"end.x", "b", "tuned"});
+  CHECK(s.matrices->rows == std::vector<int>{4, 1});
+  CHECK(read(scene::write(s), folder.path()) == s);
+  scene::check(s);
+  const std::string hash = scene::hash(s);
+  fs::create_directories(folder.path() + "/out");
+  const scene::Scene moved = scene::from_folder(s, folder.path() + "/out");
+  CHECK(contains(scene::write(moved), "\"../K.mtx\""));
+  CHECK(scene::hash(moved) == hash);
+  CHECK(contains(scene::json_schema(test_catalogue::whole()), "\"highest_frequency\""));
+  std::string changed = stiffness_file();
+  changed.replace(changed.find("2100"), 4, "2101");
+  folder.write("K.mtx", changed);
+  CHECK(scene::hash(read(scene_of(files), folder.path())) != hash);
+}
+
+TEST_CASE("what is wrong with matrices is told with file, line and cause") {
+  const Folder folder;
+  const auto with = [&](const std::string& name, const std::string& text) {
+    const Folder own;
+    own.write(name, text);
+    return fault(files, own);
+  };
+  const std::string head = "%%MatrixMarket matrix coordinate real general\n";
+  CHECK(fault(files, folder) == "none");
+  CHECK(contains(with("K.mtx", "nothing"), "/structure/matrices/stiffness: \"K.mtx\", line 1"));
+  CHECK(contains(with("K.mtx", head + "2 2 1\n1 1 nan\n"), "\"K.mtx\", line 3: found \"nan\""));
+  CHECK(contains(with("M.mtx", head + "2 2 2\n1 1 1\n2 2 1\n"),
+                 "/structure/matrices/mass: found a matrix of 2 rows, must have 5 as the stiffness matrix"));
+  CHECK(contains(
+      with("C.mtx", head + "5 5 2\n1 2 0.5\n2 1 0.4\n"),
+      "/structure/matrices/damping: found the damping matrix with 0.4 in row 2, column 1 and 0.5 in row "
+      "1, column 2, must be symmetric"));
+  CHECK(contains(with("C.mtx", head + "5 5 1\n1 2 0.5\n"), "must be symmetric"));
+  CHECK(contains(with("M.mtx", head + "5 5 1\n3 3 -1\n"),
+                 "found the mass matrix with -1 in row 3, column 3, must be positive semidefinite"));
+  CHECK(contains(with("M.mtx", head + "5 4 1\n3 3 1\n"), "with 5 rows and 4 columns, must be square"));
+  CHECK(contains(with("M.mtx", head + "5 5 0\n"), "/structure/matrices/mass: found no mass"));
+  CHECK(contains(with("K.mtx", head + "6 6 1\n1 1 1\n"), "must have 6 as the stiffness matrix"));
+  CHECK(contains(with("names.csv", "b,2\n"), "line 1 of \"names.csv\": found \"b,2\", must be the header"));
+  CHECK(
+      contains(with("names.csv", "name,row\nb,6\n"), "found the row \"6\", must be an integer from 1 to 5"));
+  CHECK(contains(with("names.csv", "name,row\nb,2\nc,2\n"),
+                 "found the row 2 again, which has a name in line 2"));
+  CHECK(contains(with("names.csv", "name,row\nb,2\nb,3\n"), "which stands for another degree of freedom"));
+  CHECK(contains(with("names.csv", "name,row\nground,2\n"), "which is reserved for the fixed frame"));
+  CHECK(contains(with("names.csv", "name,row\nb,2,3\n"), "found 3 values, must be 2"));
+  CHECK(contains(with("names.csv", "name,row\n"), "found no names in \"names.csv\""));
+  CHECK(contains(with("names.csv", "name,row\ntuned,2\nend.x,5\nb,1\n"),
+                 "which is also a row of the matrices"));
+  CHECK(contains(fault(R"("names": "names.csv", "dofs": ["a"])", folder), "without \"matrices\""));
+  CHECK(contains(fault(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx"})", folder), "\"names\""));
+  CHECK(contains(
+      fault(R"("matrices": {"mass": "none.mtx", "stiffness": "K.mtx"}, "names": "names.csv")", folder),
+      "found \"none.mtx\", which cannot be read"));
+}
+
+TEST_CASE("motions of the ground are refused with matrices") {
+  const Folder folder;
+  std::string text = scene_of(files);
+  text.replace(text.find("\"at\": \"end.x\", \"cosine\": 1"), 26,
+               "\"type\": \"base_acceleration\", \"cosine\": 1");
+  try {
+    read(text, folder.path());
+    FAIL("accepted");
+  } catch (const scene::SceneError& error) {
+    CHECK(contains(error.what(), "/excitation/0/type: found \"base_acceleration\", must be \"force\""));
+  }
+}
+
+TEST_CASE("a structure that cannot be reduced is told with the row at fault") {
+  const Folder folder;
+  std::string text = stiffness_file();
+  text.replace(text.find("4 3 -1300"), 9, "4 3 -9300");  // indefinite, in rows that are not kept
+  folder.write("K.mtx", text);
+  CHECK(contains(fault(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 10},
+                       "names": "names.csv")",
+                       folder),
+                 "/structure/matrices: the matrices cannot be reduced"));
+}
+
+TEST_CASE("large matrices need the highest frequency to which they are reduced") {
+  const Folder folder;
+  std::string K = "%%MatrixMarket matrix coordinate real symmetric\n600 600 1199\n1 1 2\n", M = K;
+  for (int i = 2; i <= 600; ++i) {
+    K += std::to_string(i) + " " + std::to_string(i) + " 2\n" + std::to_string(i) + " " +
+         std::to_string(i - 1) + " -1\n";
+    M += std::to_string(i) + " " + std::to_string(i) + " 2\n" + std::to_string(i) + " " +
+         std::to_string(i - 1) + " 0\n";
+  }
+  folder.write("K.mtx", K);
+  folder.write("M.mtx", M);
+  CHECK(
+      contains(fault(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx"}, "names": "names.csv")", folder),
+               "found matrices of 600 rows without \"highest_frequency\""));
+}
