@@ -37,8 +37,8 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   add(Kind::mass, model.masses);
   add(Kind::damper, model.dampers);
   add(Kind::spring, model.springs);
-  for (const model::MatrixPart& part : model.matrices)
-    matrix_parts_.push_back({part.kind, part.parameter, P.transpose() * part.A * P});
+  for (const model::MatrixPart& part : model.matrices) matrix_parts_.push_back({part, {}});
+  if (!matrix_parts_.empty()) P_ = P;
   matrix_values_.assign(matrix_parts_.size(), std::nan(""));
   damping_ = model.damping;
   for (const model::Excitation& excitation : model.excitation) {
@@ -51,7 +51,7 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
     for (const model::MatrixPart& part : model.matrices)
       if (excitation.moves_base() && part.kind == Kind::mass)
         force.terms.push_back(
-            {part.parameter, {P, model::Direction((part.A * excitation.direction).eval().sparseView())}});
+            {part.parameter, {P, model::Direction((*part.A * excitation.direction).eval().sparseView())}});
     forces_.push_back(std::move(force));
   }
   if (modes_) return;
@@ -74,7 +74,7 @@ void LinearParts::move_to(In p) {
     part.value = p[part.parameter];
   }
   for (std::size_t k = 0; k < matrix_parts_.size(); ++k) {
-    const double value = matrix_parts_[k].value(p);
+    const double value = matrix_parts_[k].of.value(p);
     same = same && matrix_values_[k] == value;
     matrix_values_[k] = value;
   }
@@ -90,8 +90,8 @@ void LinearParts::set_values() {
     if (by != 0) changes_.push_back({&part, by});
     modal_ = changes_.size() <= most_changes;
   }
-  for (const model::MatrixPart& part : matrix_parts_)
-    modal_ = modal_ && (part.parameter < 0 || part.value(p_) == part.value(modes_->p));
+  for (const MatrixInY& part : matrix_parts_)
+    modal_ = modal_ && (part.of.parameter < 0 || part.of.value(p_) == part.of.value(modes_->p));
   if (modal_) return;
   const auto matrix_of = [&](Kind kind) -> Eigen::MatrixXd& {
     if (kind == Kind::mass) return matrices_.M;
@@ -103,7 +103,12 @@ void LinearParts::set_values() {
     for (const auto& [j, at_j] : part.direction.entries())
       for (const auto& [i, at_i] : part.direction.entries()) sum(i, j) += part.value * at_i * at_j;
   }
-  for (const model::MatrixPart& part : matrix_parts_) matrix_of(part.kind) += part.value(p_) * part.A;
+  for (const MatrixInY& part : matrix_parts_) matrix_of(part.of.kind) += part.of.value(p_) * in_y(part);
+}
+
+const Eigen::MatrixXd& LinearParts::in_y(const MatrixInY& part) const {
+  if (part.A.size() == 0) part.A.noalias() = P_.transpose() * (*part.of.A * P_);
+  return part.A;
 }
 
 Factors LinearParts::factors(double s) const {
@@ -157,7 +162,7 @@ bool LinearParts::depend_on(int k) const {
   return k == model::frequency ||
          (damping_ && (k == damping_->alpha || k == damping_->beta || k == damping_->loss_factor)) ||
          std::any_of(matrix_parts_.begin(), matrix_parts_.end(),
-                     [k](const model::MatrixPart& part) { return part.parameter == k; }) ||
+                     [k](const MatrixInY& part) { return part.of.parameter == k; }) ||
          std::any_of(parts_.begin(), parts_.end(),
                      [k](const PartInY& part) { return part.parameter == k; }) ||
          std::any_of(forces_.begin(), forces_.end(),
@@ -174,8 +179,8 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
     const Factors g = factors(s);
     for (const PartInY& part : parts_)
       if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y), v);
-    for (const model::MatrixPart& part : matrix_parts_)
-      if (part.parameter == k) v.noalias() += g.of(part.kind) * (part.A * y);
+    for (const MatrixInY& part : matrix_parts_)
+      if (part.of.parameter == k) v.noalias() += g.of(part.of.kind) * (in_y(part) * y);
   }
   if (damping_ && s > 0) {
     const double by_alpha = k == damping_->alpha ? s : 0;

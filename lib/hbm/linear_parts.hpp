@@ -143,6 +143,12 @@ class LinearParts {
   };
   double value(const ForceInY::Term& term) const { return term.mass < 0 ? 1 : p_[term.mass]; }
   Factors factor_rates(int n, double s) const;  // by the excitation frequency
+  // P^T A P, made when it is first needed: with modes it seldom is.
+  struct MatrixInY {
+    model::MatrixPart of;
+    mutable Eigen::MatrixXd A;
+  };
+  const Eigen::MatrixXd& in_y(const MatrixInY& part) const;
   void add_product(const Factors& g, const ComplexVector& y, ComplexVector& v) const;
   void set_values();
   double modal_value(const PartInY& part) const;
@@ -154,8 +160,9 @@ class LinearParts {
   bool modal_ = false;
   std::vector<ChangedPart> changes_;
   std::vector<PartInY> parts_;
-  std::vector<model::MatrixPart> matrix_parts_;  // in y
-  std::vector<double> matrix_values_;            // at the last place
+  std::vector<MatrixInY> matrix_parts_;
+  Eigen::MatrixXd P_;                  // where there are any
+  std::vector<double> matrix_values_;  // at the last place
   std::optional<model::ProportionalDamping> damping_;
   std::vector<ForceInY> forces_;
   StructuralMatrices matrices_;

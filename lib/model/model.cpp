@@ -73,11 +73,15 @@ class Builder {
     }
     model_.dofs = static_cast<int>(model_.dof_names.size());
     for (MatrixPart& part : model_.matrices) {
-      const Eigen::Index size = part.A.rows();
-      part.A.conservativeResize(model_.dofs, model_.dofs);
-      part.A.rightCols(model_.dofs - size).setZero();
-      part.A.bottomRows(model_.dofs - size).setZero();
+      if (part.A->rows() == model_.dofs) continue;
+      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(model_.dofs, model_.dofs);
+      A.topLeftCorner(part.A->rows(), part.A->cols()) = *part.A;
+      part.A = std::make_shared<const Eigen::MatrixXd>(std::move(A));
     }
+  }
+
+  void add_matrix(LinearKind kind, int parameter, Eigen::MatrixXd A) {
+    model_.matrices.push_back({kind, parameter, std::make_shared<const Eigen::MatrixXd>(std::move(A))});
   }
 
   void add_whole(const scene::Matrices& files) {
@@ -103,7 +107,7 @@ class Builder {
         for (auto k = static_cast<std::size_t>(of.starts[j]); k < static_cast<std::size_t>(of.starts[j + 1]);
              ++k)
           A(place[static_cast<std::size_t>(of.row_of[k])], place[j]) = of.values[k];
-      model_.matrices.push_back({kind, -1, 0.5 * (A + A.transpose())});
+      add_matrix(kind, -1, 0.5 * (A + A.transpose()));
     };
     add(LinearKind::mass, files.mass);
     add(LinearKind::spring, files.stiffness);
@@ -133,9 +137,9 @@ class Builder {
       dof_of_[i] = static_cast<int>(model_.dof_names.size());
       model_.dof_names.push_back(scene_.dofs[i]);
     }
-    model_.matrices.push_back({LinearKind::mass, -1, reduced->M});
-    model_.matrices.push_back({LinearKind::spring, -1, reduced->K});
-    if (reduced->C.size() > 0) model_.matrices.push_back({LinearKind::damper, -1, reduced->C});
+    add_matrix(LinearKind::mass, -1, reduced->M);
+    add_matrix(LinearKind::spring, -1, reduced->K);
+    if (reduced->C.size() > 0) add_matrix(LinearKind::damper, -1, reduced->C);
     model_.reduction = {files.size(), static_cast<int>(kept.size()), coordinates, highest, reduced->error};
   }
 
@@ -162,7 +166,7 @@ class Builder {
 
   void add_damping(const scene::Part& part) {
     if (part.type == &scene::modal_damping_type()) {
-      model_.matrices.push_back({LinearKind::damper, parameter(part, 0), modal_damping()});
+      add_matrix(LinearKind::damper, parameter(part, 0), modal_damping());
       return;
     }
     if (!model_.damping) model_.damping.emplace();
@@ -307,7 +311,7 @@ Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const co
     for (const LinearPart& mass : model.masses)
       g += p[mass.parameter] * mass.direction.dot(excitation.direction) * mass.direction;
     for (const MatrixPart& part : model.matrices)
-      if (part.kind == LinearKind::mass) g += part.value(p) * (part.A * excitation.direction);
+      if (part.kind == LinearKind::mass) g += part.value(p) * (*part.A * excitation.direction);
   }
   return excitation.factor(p[frequency]) * g;
 }
@@ -324,7 +328,7 @@ Eigen::MatrixXd sum_of(const Model& model, LinearKind kind, const continuation::
                                                    : model.springs;
   for (const LinearPart& part : parts) add_outer(p[part.parameter], part.direction, sum);
   for (const MatrixPart& part : model.matrices)
-    if (part.kind == kind) sum += part.value(p) * part.A;
+    if (part.kind == kind) sum += part.value(p) * *part.A;
   return sum;
 }
 
@@ -357,7 +361,7 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
     if (const double k = p[spring.parameter]; k != 0)
       add_outer(by_value ? k : 1 / spring.direction.squaredNorm(), spring.direction, K);
   for (const MatrixPart& part : model.matrices)
-    if (part.kind == LinearKind::spring) K += part.value(p) * part.A;
+    if (part.kind == LinearKind::spring) K += part.value(p) * *part.A;
   const double largest = K.cwiseAbs().maxCoeff(), typical = largest > 0 ? largest : 1;
   for (const NonlinearPart& element : model.elements)
     for (std::size_t i = 0; i < element.directions.size(); ++i)

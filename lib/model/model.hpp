@@ -33,7 +33,7 @@ enum class LinearKind { mass, damper, spring };
 struct MatrixPart {
   LinearKind kind;
   int parameter = -1;
-  Eigen::MatrixXd A;  // dofs x dofs
+  std::shared_ptr<const Eigen::MatrixXd> A;  // dofs x dofs
 
   double value(continuation::In p) const { return parameter < 0 ? 1 : p[parameter]; }
 };

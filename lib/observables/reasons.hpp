@@ -88,9 +88,9 @@ inline constexpr std::array of_responses = {solved, unbounded, user, start_faile
 
 /// The reasons of a motion in time.
 inline constexpr std::array of_motions = {
-    periodic,       steady,   periods,    period_limit,         user,     unbounded,  no_periodic_motion,
-    no_convergence, singular, not_finite, not_piecewise_linear, massless, set_valued, loss_factor, event_limit,
-    energy_defect};
+    periodic,       steady,       periods,    period_limit,         user,     unbounded,  no_periodic_motion,
+    no_convergence, singular,     not_finite, not_piecewise_linear, massless, set_valued, loss_factor,
+    event_limit,    energy_defect};
 
 }  // namespace reasons
 

@@ -249,6 +249,16 @@ Node schema_of(const Catalogue& catalogue) {
                                                  {"highest_frequency", of_type("number")}},
                                                 {"mass", "stiffness"}))});
   structure.push_back({"names", of_type("string")});
+  for (const bool bends : {true, false}) {
+    Object bar{{"elements", of_type("integer")}, {"highest_frequency", of_type("number")}};
+    for (const char* key : {"length", "young", "density", "area", "width", "height"})
+      bar.push_back({key, of_type("number")});
+    if (bends) bar.push_back({"inertia", of_type("number")});
+    bar.push_back({"ends", list_of(one_of_words(bar_ends, BarEnd::clamped))});
+    bar.push_back({"points", map_of(of_type("number"))});
+    structure.push_back({bends ? "beam" : "rod", of(object_of(std::move(bar), {"elements", "length", "young",
+                                                                               "density", "points"}))});
+  }
   Node::List dampings;
   for (const PartType* type : damping_types()) dampings.push_back(part_of(*type, true));
   structure.push_back({"damping", list_of(of({{"oneOf", {std::move(dampings)}}}))});

@@ -3,18 +3,20 @@
 // which parts of the scene act on them. It is reduced to those that the scene uses and to modes of the
 // others.
 
+#include <arcslip/scene/bar.hpp>
 #include <arcslip/scene/named_file.hpp>
 #include <arcslip/scene/sparse_matrix.hpp>
 
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace arcslip::scene {
 
-/// A file and the matrix in it.
+/// A file, or none, and the matrix in it.
 struct MatrixFile {
   NamedFile file{};
   std::shared_ptr<const SparseMatrix> matrix{};
@@ -41,16 +43,16 @@ class Derived {
 struct Matrices {
   MatrixFile mass{}, stiffness{}, damping{};  // kg, N/m, N s/m; damping without a path: none
   NamedFile names{};
-  std::vector<int> rows{};  // from 0, of the first of Scene::dofs
-  double highest_frequency =
-      0;  // of a harmonic, in the scene's unit, to which they are reduced; 0: they are not
+  std::vector<int> rows{};       // from 0, of the first of Scene::dofs
+  double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not
+  std::optional<Bar> bar{};      // of which they are, in place of files
   std::shared_ptr<Derived> derived = std::make_shared<Derived>();
 
   int size() const { return stiffness.matrix ? stiffness.matrix->rows : 0; }
   bool has_damping() const { return !damping.file.path.empty(); }
   friend bool operator==(const Matrices& a, const Matrices& b) {
     return a.mass == b.mass && a.stiffness == b.stiffness && a.damping == b.damping && a.names == b.names &&
-           a.rows == b.rows && a.highest_frequency == b.highest_frequency;
+           a.rows == b.rows && a.highest_frequency == b.highest_frequency && a.bar == b.bar;
   }
 };
 

@@ -15,7 +15,7 @@ std::vector<NamedFile*> files(Scene& scene) {
     const auto found = type->files(settings);
     all.insert(all.end(), found.begin(), found.end());
   };
-  if (scene.matrices) {
+  if (scene.matrices && !scene.matrices->bar) {
     Matrices& own = *scene.matrices;
     all = {&own.stiffness.file, &own.mass.file, &own.names};
     if (own.has_damping()) all.push_back(&own.damping.file);

@@ -21,6 +21,13 @@ std::string place(int row, int column) {
   return "row " + std::to_string(row + 1) + ", column " + std::to_string(column + 1);
 }
 
+void add_without_highest(const std::string& pointer, int rows, Faults& faults) {
+  faults.add(pointer, "found matrices of " + std::to_string(rows) +
+                          " rows without \"highest_frequency\", must have it above " +
+                          std::to_string(largest_whole) +
+                          " rows: the highest frequency of a harmonic to which the structure is reduced");
+}
+
 // Faults of the files, at their keys.
 class Files {
  public:
@@ -44,11 +51,7 @@ class Files {
     if (faults_.count() > 0) return {};
     check_rows(matrices);
     if (matrices.highest_frequency == 0 && matrices.size() > largest_whole)
-      faults_.add(keys_.pointer(),
-                  "found matrices of " + std::to_string(matrices.size()) +
-                      " rows without \"highest_frequency\", must have it above " +
-                      std::to_string(largest_whole) +
-                      " rows: the highest frequency of a harmonic to which the structure is reduced");
+      add_without_highest(keys_.pointer(), matrices.size(), faults_);
     return matrices;
   }
 
@@ -196,6 +199,24 @@ std::string objection_of_dof(const std::string& name, const Dofs& dofs) {
 std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit, const FileSource& source,
                                       Dofs& dofs, Faults& faults) {
   const Location place = structure.find("matrices");
+  std::string first;
+  for (const std::string key : {"matrices", "beam", "rod"}) {
+    if (!structure.has(key)) continue;
+    if (!first.empty())
+      faults.add(structure.find(key).pointer,
+                 "found the key " + shown(key) + " beside " + shown(first) +
+                     ", must be one of them: a structure has one set of matrices");
+    else
+      first = key;
+  }
+  if (first == "beam" || first == "rod") {
+    const std::size_t before = faults.count();
+    auto made = read_bar(structure.find(first), first == "beam", unit, source, dofs, faults);
+    if (made && made->highest_frequency == 0 && made->size() > largest_whole)
+      add_without_highest(structure.find(first).pointer, made->size(), faults);
+    if (faults.count() > before) dofs.complete = false;
+    return made;
+  }
   if (place.node == nullptr) {
     if (const Location names = structure.find("names"); names.node != nullptr)
       faults.add(names.pointer, "found names of rows without \"matrices\", must be beside them");

@@ -60,9 +60,12 @@ inline constexpr Field wear_coefficient{.name = "wear_coefficient",
 
 /// Why a name is not allowed for a further degree of freedom; empty if it is.
 std::string objection_of_dof(const std::string& name, const Dofs& dofs);
-/// The matrices of "structure", if it has any; the rows with names are the first degrees of freedom.
+/// The matrices of "structure", if it has any, from files or of a bar; the rows with names are the first
+/// degrees of freedom.
 std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit, const FileSource& source,
                                       Dofs& dofs, Faults& faults);
+std::optional<Matrices> read_bar(const Location& place, bool bends, FrequencyUnit unit,
+                                 const FileSource& source, Dofs& dofs, Faults& faults);
 /// Those of the list after those already there.
 void read_dofs(const Location& place, Dofs& dofs, Faults& faults);
 /// The direction of an object with one of "at", "between" and "direction".

@@ -125,12 +125,13 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   const std::size_t before_parts = faults.count();
   Names names;
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
-  const Keys structure(structure_place,
-                       {"matrices", "names", "dofs", "masses", "springs", "dampers", "damping"}, faults);
+  const Keys structure(
+      structure_place,
+      {"matrices", "names", "beam", "rod", "dofs", "masses", "springs", "dampers", "damping"}, faults);
   if (!structure.is_object()) names.set_incomplete();
   Dofs dofs;
   scene.matrices = read_matrices(structure, scene.frequency_unit, source, dofs, faults);
-  if (!structure.has("matrices"))
+  if (!structure.has("matrices") && !structure.has("beam") && !structure.has("rod"))
     read_dofs(structure.require("dofs", "a list of at least one name", faults), dofs, faults);
   else if (structure.has("dofs"))
     read_dofs(structure.find("dofs"), dofs, faults);
@@ -183,7 +184,7 @@ FileSource source_of(Scene scene) {
   if (!scene.matrices) return source;
   source.derived = scene.matrices->derived;
   for (const MatrixFile* of : {&scene.matrices->stiffness, &scene.matrices->mass, &scene.matrices->damping})
-    if (of->matrix) source.matrices.emplace_back(of->file.text, of->matrix);
+    if (of->file.text) source.matrices.emplace_back(of->file.text, of->matrix);
   return source;
 }
 

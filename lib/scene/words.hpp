@@ -28,6 +28,8 @@ inline constexpr std::array<Word<Spacing>, 2> spacings = {
     {{"linear", Spacing::linear}, {"logarithmic", Spacing::logarithmic}}};
 inline constexpr std::array<Word<Frame>, 2> frames = {
     {{"relative", Frame::relative}, {"absolute", Frame::absolute}}};
+inline constexpr std::array<Word<BarEnd>, 3> bar_ends = {
+    {{"clamped", BarEnd::clamped}, {"pinned", BarEnd::pinned}, {"free", BarEnd::free}}};
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 

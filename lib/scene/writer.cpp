@@ -104,7 +104,25 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
   return {std::move(list)};
 }
 
+void add_bar(const Bar& bar, double highest_frequency, Node::Object& structure) {
+  Node::Object keys{{"elements", node(bar.elements)},
+                    {"length", node(bar.length)},
+                    {"young", node(bar.young)},
+                    {"density", node(bar.density)},
+                    {"area", node(bar.area)}};
+  if (bar.bends) keys.push_back({"inertia", node(bar.inertia)});
+  Node::List ends;
+  for (const BarEnd end : bar.ends) ends.push_back(node(word_of(bar_ends, end)));
+  keys.push_back({"ends", {std::move(ends)}});
+  Node::Object points;
+  for (const auto& [name, place] : bar.points) points.push_back({name, node(place)});
+  keys.push_back({"points", {std::move(points)}});
+  if (highest_frequency > 0) keys.push_back({"highest_frequency", node(highest_frequency)});
+  structure.push_back({bar.bends ? "beam" : "rod", {std::move(keys)}});
+}
+
 void add_matrices(const Matrices& matrices, Node::Object& structure) {
+  if (matrices.bar) return add_bar(*matrices.bar, matrices.highest_frequency, structure);
   Node::Object files{{"mass", node(matrices.mass.file.path)},
                      {"stiffness", node(matrices.stiffness.file.path)}};
   if (matrices.has_damping()) files.push_back({"damping", node(matrices.damping.file.path)});

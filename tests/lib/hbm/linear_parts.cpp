@@ -34,7 +34,7 @@ struct Chain {
   void add_matrices() {
     const auto random = [] {
       const Eigen::MatrixXd A = Eigen::MatrixXd::Random(3, 3);
-      return Eigen::MatrixXd(A + A.transpose());
+      return std::make_shared<const Eigen::MatrixXd>(A + A.transpose());
     };
     const int tied = model.masses[0].parameter;
     model.matrices = {{model::LinearKind::mass, -1, random()},
