@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 namespace arcslip::scene {
@@ -33,6 +34,14 @@ namespace {
 constexpr std::size_t most_faults = 1000;
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
+// A fault of several copies of an entry.
+struct Repeated {
+  Repeated(std::size_t place, std::string index) : at(place), first(std::move(index)) {}
+  std::size_t at;     // among the faults
+  std::string first;  // value of the index
+  int others = 0;
+};
+
 }  // namespace
 
 void Faults::add(std::string pointer, std::string message) {
@@ -49,12 +58,48 @@ bool Faults::full() const {
 
 void Faults::raise() const {
   if (count_ == 0) return;
-  std::vector<Fault> faults = kept_;
+  std::vector<Fault> faults;
+  std::map<std::pair<std::string, std::string>, Repeated> repeated;
+  for (Fault fault : kept_) {
+    const std::string index = to_file(fault.pointer);
+    if (index.empty()) {
+      faults.push_back(std::move(fault));
+      continue;
+    }
+    const auto [found, is_new] = repeated.try_emplace({fault.pointer, fault.message}, faults.size(), index);
+    if (is_new)
+      faults.push_back(std::move(fault));
+    else
+      ++found->second.others;
+  }
+  for (const auto& [fault, copies] : repeated)
+    faults[copies.at].message = "for " + copies.first +
+                                (copies.others > 0 ? " and " + std::to_string(copies.others) + " more" : "") +
+                                ": " + faults[copies.at].message;
   if (count_ > kept_.size()) {
     faults.push_back(
         {"", "and " + std::to_string(count_ - kept_.size()) + " more faults, which are not listed"});
   }
   throw SceneError(std::move(faults));
+}
+
+std::string Faults::to_file(std::string& pointer) const {
+  for (std::size_t slash = pointer.find('/', 1); !origins_.empty() && slash != std::string::npos;
+       slash = pointer.find('/', slash + 1)) {
+    const auto list = origins_.find(pointer.substr(0, slash));
+    if (list == origins_.end()) continue;
+    const std::size_t end = std::min(pointer.find('/', slash + 1), pointer.size());
+    const Origin& origin = list->second[std::stoul(pointer.substr(slash + 1, end - slash - 1))];
+    pointer.replace(slash + 1, end - slash - 1, std::to_string(origin.entry));
+    return origin.index;
+  }
+  return {};
+}
+
+std::string Faults::told(const std::string& pointer) const {
+  std::string in_file = pointer;
+  const std::string index = to_file(in_file);
+  return index.empty() ? in_file : in_file + " for " + index;
 }
 
 std::string child(std::string_view pointer, std::string_view key) {

@@ -5,6 +5,7 @@
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/read_text.hpp>
+#include <arcslip/scene/repeat.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/scene_file.hpp>
 #include <arcslip/scene/study_type.hpp>
@@ -160,8 +161,11 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   return scene;
 }
 
-Scene read_scene(const Node& root, const Catalogue& catalogue, const FileSource& source) {
+Scene read_scene(Node root, const Catalogue& catalogue, const FileSource& source) {
   Faults faults;
+  Origins origins = repeat(root, faults);
+  faults.raise();  // names of what was not repeated would be missing everywhere
+  faults.set_origins(std::move(origins));
   Scene scene = read_scene(root, catalogue, source, faults);
   scene.folder = source.folder;
   faults.raise();

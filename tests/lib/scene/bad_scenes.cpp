@@ -445,6 +445,7 @@ const std::vector<BadScene>& bad_scenes() {
     add_parts(all);
     add_rest(all);
     add_ties(all);
+    add_bad_repeats(all);
     add_bad_studies(all);
     add_bad_designs(all);
     return all;
