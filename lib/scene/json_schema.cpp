@@ -263,7 +263,10 @@ Node study_of(const StudyType& type) {
     }
   }
   properties.push_back(
-      {"for_each", map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}}))});
+      {"for_each",
+       of({{"oneOf",
+            {Node::List{map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}})),
+                        list_of(map_of(of_type("number")), 1)}}}})});
   Object study = object_of(std::move(properties), required);
   if (!needs.empty()) study.push_back({"dependentRequired", of(std::move(needs))});
   study.push_back({"title", node(type.help())});
@@ -318,3 +321,4 @@ std::string json_schema(const Catalogue& catalogue) {
 }
 
 }  // namespace arcslip::scene
+       {"labels", map_of(of_type("string"))},

@@ -9,6 +9,7 @@
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/scene_file.hpp>
 #include <arcslip/scene/study_type.hpp>
+#include <arcslip/scene/study_parameters.hpp>
 #include <arcslip/scene/words.hpp>
 #include <arcslip/scene/write_values.hpp>
 
@@ -112,7 +113,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   Scene scene;
   const Keys root({&node, ""},
                   {"format", "title", "frequency_unit", "structure", "elements", "patches", "excitation",
-                   "ties", "harmonics", "response", "studies", "$schema"},
+                   "ties", "labels", "harmonics", "response", "studies", "$schema"},
                   faults);
   if (!root.is_object()) return scene;
   // Faults up to a section: a check that needs sound sections waits until they are.
@@ -156,8 +157,10 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
 
   scene.responses = read_responses(root.find("response"), dofs, faults);
   if (excitation_sound) check_frames(scene, faults);
-  scene.studies = read_studies(root.find("studies"), scene.frequency_unit,
-                               Parameters(scene.ties, ties_sound, names), dofs, source, catalogue, faults);
+  const Parameters parameters(scene.ties, ties_sound, names);
+  scene.labels = read_labels(root.find("labels"), parameters, faults);
+  scene.studies =
+      read_studies(root.find("studies"), scene.frequency_unit, parameters, dofs, source, catalogue, faults);
   return scene;
 }
 
