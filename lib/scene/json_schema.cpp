@@ -226,6 +226,37 @@ Node part_of(const PartType& type, bool with_type) {
   return of(std::move(object));
 }
 
+// A part whose value may be given by another key.
+Node or_given_by(Node part, const char* key, Node value) {
+  auto& object = std::get<Object>(part.value);
+  for (Member& member : object) {
+    if (member.key == "properties")
+      std::get<Object>(member.value.value).push_back({key, or_each(std::move(value))});
+    if (member.key == "required") member.value = node(std::vector<std::string>{"name"});
+  }
+  Node::List choices;
+  for (const char* either : {"value", key})
+    choices.push_back(of({{"required", node(std::vector<std::string>{either})}}));
+  object.push_back({"anyOf", {std::move(choices)}});
+  return part;
+}
+
+Node spring() {
+  return or_given_by(
+      part_of(spring_type(), false), "frequency",
+      of({{"type", node("number")},
+          {"exclusiveMinimum", node(0)},
+          {"description", node("natural frequency of the mass there on this spring alone (the scene's "
+                               "unit)")}}));
+}
+
+Node damper() {
+  return or_given_by(part_of(damper_type(), false), "damping_ratio",
+                     of({{"type", node("number")},
+                         {"minimum", node(0)},
+                         {"description", node("of the mass there on the spring there")}}));
+}
+
 // A patch of contacts, whose fields depend on its law.
 Node patch() {
   Object object = object_of(
@@ -276,8 +307,8 @@ Node study_of(const StudyType& type) {
 Node schema_of(const Catalogue& catalogue) {
   Object structure{{"dofs", list_of(word(), 1)},
                    {"masses", list_of(part_of(mass_type(), false))},
-                   {"springs", list_of(part_of(spring_type(), false))},
-                   {"dampers", list_of(part_of(damper_type(), false))}};
+                   {"springs", list_of(spring())},
+                   {"dampers", list_of(damper())}};
   Node::List elements, excitations, studies;
   for (const PartType* type : excitation_types()) excitations.push_back(part_of(*type, true));
   for (const PartType* type : catalogue.elements) elements.push_back(part_of(*type, true));
@@ -298,6 +329,7 @@ Node schema_of(const Catalogue& catalogue) {
        {"patches", list_of(patch())},
        {"excitation", list_of(of({{"oneOf", {std::move(excitations)}}}), 1)},
        {"ties", map_of(list_of(word(), 1))},
+       {"labels", map_of(of_type("string"))},
        {"harmonics", of(object_of({{"order", of(std::move(order))},
                                    {"period", of(std::move(period))},
                                    {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
@@ -321,4 +353,3 @@ std::string json_schema(const Catalogue& catalogue) {
 }
 
 }  // namespace arcslip::scene
-       {"labels", map_of(of_type("string"))},

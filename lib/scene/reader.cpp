@@ -1,6 +1,7 @@
 // A scene file, section by section, in the order of the format.
 #include <arcslip/scene/checks.hpp>
 #include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/natural.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
@@ -8,8 +9,8 @@
 #include <arcslip/scene/repeat.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/scene_file.hpp>
-#include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/study_parameters.hpp>
+#include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/words.hpp>
 #include <arcslip/scene/write_values.hpp>
 
@@ -109,6 +110,12 @@ std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, const File
   return excitation;
 }
 
+// The same place with another value, if it has one.
+Location in_place(Location place, const Node& value) {
+  if (place.node != nullptr) place.node = &value;
+  return place;
+}
+
 Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource& source, Faults& faults) {
   Scene scene;
   const Keys root({&node, ""},
@@ -132,8 +139,14 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   const Dofs dofs = read_dofs(structure.require("dofs", "a list of at least one name", faults), faults);
   scene.dofs = dofs.names;
   scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
-  scene.springs = read_parts(structure.find("springs"), &spring_type(), {}, dofs, source, names, faults);
-  scene.dampers = read_parts(structure.find("dampers"), &damper_type(), {}, dofs, source, names, faults);
+  const Location springs = structure.find("springs"), dampers = structure.find("dampers");
+  const Node with_values = with_stiffnesses(
+      springs, {dofs, scene.masses, scene.springs, is_sound(before_parts)}, scene.frequency_unit, faults);
+  scene.springs = read_parts(in_place(springs, with_values), &spring_type(), {}, dofs, source, names, faults);
+  const Node with_damping =
+      with_dampings(dampers, {dofs, scene.masses, scene.springs, is_sound(before_parts)}, faults);
+  scene.dampers =
+      read_parts(in_place(dampers, with_damping), &damper_type(), {}, dofs, source, names, faults);
   scene.elements =
       read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, source, names, faults);
   scene.patches = read_patches(root.find("patches"), catalogue.elements, dofs, source, names, faults);
