@@ -13,11 +13,12 @@
 
 namespace arcslip::scene::file {
 
-/// Where the item of a list stands in the file: an entry of the list there and, if this is repeated, the
-/// value of its index, "i = 4".
+/// Where the item of a list stands in the file: an entry of the list there and, if this is repeated, the name
+/// and the value of its index.
 struct Origin {
   std::size_t entry;
-  std::string index;
+  std::string index{};
+  int number = 0;
 };
 /// The items of lists with repeated entries, by the pointer of the list.
 using Origins = std::unordered_map<std::string, std::vector<Origin>>;
@@ -37,7 +38,8 @@ class Faults {
   void raise() const;
 
  private:
-  std::string to_file(std::string& pointer) const;
+  /// Makes it a pointer of the file; null: it is in no list with repeated entries.
+  const Origin* to_file(std::string& pointer) const;
 
   Origins origins_;
   std::vector<Fault> kept_;

@@ -47,7 +47,7 @@ std::string objection_to_spring(int dof, const Structure& structure) {
          " alone, must be a \"value\", or there must be one above 0 N/m, from " + name + " to \"ground\"";
 }
 
-// The section with the values of its parts in place of this key. value(number, dof, objection) sets an
+// The section with values of the parts that have this key. value(number, dof, objection) sets an
 // objection, or is what acts on the degree of freedom.
 template <class Value>
 Node replaced(const Location& section, const Field& key, const Structure& structure, Faults& faults,
@@ -57,12 +57,10 @@ Node replaced(const Location& section, const Field& key, const Structure& struct
   for (std::size_t i = 0; parts != nullptr && i < parts->size(); ++i) {
     auto* part = std::get_if<Node::Object>(&(*parts)[i].value);
     if (part == nullptr) continue;
-    const auto given = std::find_if(part->begin(), part->end(),
-                                    [&](const Member& member) { return member.key == key.name; });
-    if (given == part->end()) continue;
     Faults told_later;
     const Keys keys({&(*parts)[i], child(section.pointer, i)}, {}, told_later);
     const Location place = keys.find(key.name);
+    if (place.node == nullptr) continue;
     const auto number = read_number(place, key, faults);
     const auto on = read_direction(keys, structure.dofs, told_later);
     std::string objection;
@@ -77,10 +75,7 @@ Node replaced(const Location& section, const Field& key, const Structure& struct
     if (objection.empty() && !std::isfinite(result))
       objection = "found " + number_text(*number) + ", with which the value is too large for a number";
     if (!objection.empty()) faults.add(place.pointer, objection);
-    if (keys.has("value"))
-      part->erase(given);
-    else
-      *given = {"value", {std::isfinite(result) ? result : 0.0}};
+    if (!keys.has("value")) part->push_back({"value", {std::isfinite(result) ? result : 0.0}});
   }
   return copy;
 }
@@ -90,7 +85,7 @@ Node replaced(const Location& section, const Field& key, const Structure& struct
 Node with_stiffnesses(const Location& springs, const Structure& structure, FrequencyUnit unit,
                       Faults& faults) {
   const Field frequency{
-      .name = "frequency", .unit = unit_name(unit), .lower = 0, .upper = infinity, .lower_open = true};
+      .name = frequency_key, .unit = unit_name(unit), .lower = 0, .upper = infinity, .lower_open = true};
   return replaced(springs, frequency, structure, faults, [&](double f, int dof, std::string& objection) {
     objection = objection_to_mass(dof, structure);
     const double w = to_rad_per_s(unit) * f;
@@ -99,7 +94,7 @@ Node with_stiffnesses(const Location& springs, const Structure& structure, Frequ
 }
 
 Node with_dampings(const Location& dampers, const Structure& structure, Faults& faults) {
-  const Field ratio{.name = "damping_ratio", .unit = "-", .lower = 0, .upper = infinity};
+  const Field ratio{.name = damping_ratio_key, .unit = "-", .lower = 0, .upper = infinity};
   return replaced(dampers, ratio, structure, faults, [&](double zeta, int dof, std::string& objection) {
     objection = objection_to_mass(dof, structure);
     if (objection.empty()) objection = objection_to_spring(dof, structure);

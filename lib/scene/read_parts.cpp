@@ -1,5 +1,6 @@
 #include <arcslip/scene/read_parts.hpp>
 
+#include <arcslip/scene/natural.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/study_keys.hpp>
@@ -43,6 +44,8 @@ std::vector<std::string> keys_of(const Part& part, bool has_type, bool wears) {
   if (is_excitation(part.type)) keys.emplace_back("harmonic");
   for (const Field& field : part.fields())
     if (field.place.empty()) keys.emplace_back(field.name);
+  if (part.type == &spring_type()) keys.emplace_back(frequency_key);  // with the value that it gives
+  if (part.type == &damper_type()) keys.emplace_back(damping_ratio_key);
   if (wears) keys.emplace_back(wear_coefficient.name);
   return keys;
 }

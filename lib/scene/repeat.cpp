@@ -218,7 +218,7 @@ class Repeater {
     for (std::size_t k = 0; k < list->size(); ++k) {
       if (!is_repeated((*list)[k])) {
         all.push_back(std::move((*list)[k]));
-        origins.push_back({k, {}});
+        origins.push_back({k});
         continue;
       }
       auto& entry = std::get<Node::Object>((*list)[k].value);
@@ -235,7 +235,7 @@ class Repeater {
         if (order) delay(members, *order, i, index->count);
         if (texts) copy = Node{std::move(*find(members, "name"))};
         all.push_back(std::move(copy));
-        origins.push_back({k, index->name + " = " + std::to_string(i)});
+        origins.push_back({k, index->name, i});
       }
     }
     *list = std::move(all);

@@ -105,6 +105,8 @@ TEST_CASE("what is missing for a natural frequency or a damping ratio is told") 
         "\"frequency\" is that of the mass on one");
   CHECK(fault(mass, R"({"name": "k", "at": "x", "frequency": 50, "value": 1},)", "") ==
         "/structure/springs/0/frequency: found \"frequency\" and \"value\" together, must be one of them");
+  CHECK(fault(mass, R"({"name": "k", "at": "x", "frequency": 50, "frequency": 51},)", "") ==
+        "/structure/springs/0/frequency: found the key \"frequency\" again, must stand only once");
   CHECK(fault(mass, R"({"name": "k", "at": "x", "frequency": 0},)", "") ==
         "/structure/springs/0/frequency: found 0, must be above 0 Hz");
   CHECK(fault(mass, R"({"name": "k", "at": "x", "frequency": "50"},)", "") ==

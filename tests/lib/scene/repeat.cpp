@@ -197,7 +197,19 @@ TEST_CASE(
   SECTION("the same in every copy") {
     const auto fault = one(with(ring, "\"value\": 0.05", "\"value\": -0.05"));
     CHECK(fault.pointer == "/structure/dampers/0/value");
-    CHECK(fault.message == "for i = 1 and 11 more: found -0.05, must be at least 0 N s/m");
+    CHECK(fault.message == "for i = 1, 2, 3 and 9 more: found -0.05, must be at least 0 N s/m");
+  }
+  SECTION("a wrong name in every copy, which differs") {
+    const auto fault = one(with(ring, "[\"blade{i}\", \"blade{i+1}\"]", "[\"blade{i}\", \"blad{i+1}\"]"));
+    CHECK(fault.pointer == "/elements/0/between/1");
+    CHECK(fault.message.starts_with("for i = 1, 2, 3 and 9 more: found \"blad2\", must be one of"));
+  }
+  SECTION("two faults at one place of each copy") {
+    const auto faults = faults_of(with(ring, "\"disk{n}\"", "\"disk{n}\", \"at\": 3, \"cc\": 1"));
+    REQUIRE(faults.size() == 2);
+    CHECK(faults[0].pointer == "/structure/springs/2/cc");
+    CHECK(faults[1].pointer == "/structure/springs/2");
+    CHECK(faults[1].message.starts_with("for n = 1, 2, 3 and 9 more: found \"at\", \"direction\" together"));
   }
   SECTION("one value of a list") {
     const auto fault = one(with(ring, "{\"each\": [1, 2]}", "{\"each\": [1, \"2\"]}"));
@@ -208,7 +220,8 @@ TEST_CASE(
     const auto fault = one(with(ring, "\"name\": \"m{i}\"", "\"name\": \"m\""));
     CHECK(fault.pointer == "/structure/masses/0/name");
     CHECK(fault.message ==
-          "for i = 2 and 10 more: found the name \"m\" again, which is also at /structure/masses/0/name for "
+          "for i = 2, 3, 4 and 8 more: found the name \"m\" again, which is also at /structure/masses/0/name "
+          "for "
           "i = 1; "
           "parts and ties must have different names");
   }
