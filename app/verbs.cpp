@@ -73,17 +73,18 @@ std::string whole(double count) {
   return text.str();
 }
 
-/// Throws if the lists of for_each, whose lengths multiply, have more combinations than allowed.
+/// Throws if for_each has more combinations than allowed: rows, or lists, whose lengths multiply.
 void check_combinations(const CommandOptions& options, const std::vector<scene::Study>& studies) {
   const int most = options.combinations.value_or(scene::usual_combinations);
   for (const scene::Study& study : studies) {
-    const double count = scene::Combinations(study.for_each).count();
+    const double count = scene::Combinations(study).count();
     if (count > most) {
       std::string product;
       for (const auto& [parameter, values] : study.for_each)
         product += std::to_string(values.size()) + (&values == &study.for_each.back().second ? "" : " x ");
-      throw UsageError("the lists of for_each in the study \"" + study.name + "\" have " +
-                       (study.for_each.size() > 1 ? product + " = " : "") + whole(count) +
+      throw UsageError("the " + std::string(study.in_rows ? "rows" : "lists") +
+                       " of for_each in the study \"" + study.name + "\" have " +
+                       (study.for_each.size() > 1 && !study.in_rows ? product + " = " : "") + whole(count) +
                        " combinations, must be at most " + std::to_string(most) +
                        ": give fewer values, or allow more with --combinations N");
     }

@@ -9,14 +9,16 @@
 
 namespace arcslip::scene {
 
-/// The parameter values of one combination of the for_each lists.
+/// The parameter values of one combination.
 using Setting = std::vector<std::pair<std::string, double>>;
 
-/// All combinations of the for_each lists, the last list varying fastest, generated on demand; one empty
-/// combination if there are no lists. Refers to the lists.
+/// All combinations of lists, the last list varying fastest, or those of their rows, generated on demand; one
+/// empty combination if there are no lists. Refers to the lists.
 class Combinations {
  public:
-  explicit Combinations(const ValueLists& lists) : lists_(lists) {}
+  Combinations(const ValueLists& lists, bool in_rows = false) : lists_(lists), in_rows_(in_rows) {}
+  /// Those of for_each.
+  explicit Combinations(const Study& study) : Combinations(study.for_each, study.in_rows) {}
   /// Their number, which may exceed any integer.
   double count() const;
   /// Their number, at most the largest int.
@@ -25,6 +27,7 @@ class Combinations {
 
  private:
   const ValueLists& lists_;
+  bool in_rows_;
 };
 
 /// The default limit of the command.

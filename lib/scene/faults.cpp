@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace arcslip::scene {
@@ -33,6 +35,25 @@ namespace {
 constexpr std::size_t most_faults = 1000;
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
+// The copies of an entry with a fault at the same place: that of the first is told.
+struct Copies {
+  explicit Copies(const Origin* origin) : first(origin) {}
+
+  // "for i = 1, 2, 3 and 9 more"
+  std::string text() const {
+    constexpr std::size_t most = 3;
+    std::string text = "for " + first->index + " = ";
+    std::size_t count = 0;
+    for (const int number : numbers)
+      if (++count <= most) text += (count > 1 ? ", " : "") + std::to_string(number);
+    return text + (numbers.size() > most ? " and " + std::to_string(numbers.size() - most) + " more" : "");
+  }
+
+  const Origin* first;
+  std::set<int> numbers;
+  std::vector<std::size_t> told;  // among the faults
+};
+
 }  // namespace
 
 void Faults::add(std::string pointer, std::string message) {
@@ -49,12 +70,48 @@ bool Faults::full() const {
 
 void Faults::raise() const {
   if (count_ == 0) return;
-  std::vector<Fault> faults = kept_;
+  std::vector<Fault> faults;
+  std::map<std::string, Copies> copies;  // by pointer
+  for (Fault fault : kept_) {
+    const Origin* origin = to_file(fault.pointer);
+    if (origin == nullptr || origin->index.empty()) {
+      faults.push_back(std::move(fault));
+      continue;
+    }
+    Copies& all = copies.try_emplace(fault.pointer, origin).first->second;
+    all.numbers.insert(origin->number);
+    if (origin->number == all.first->number) {
+      all.told.push_back(faults.size());
+      faults.push_back(std::move(fault));
+    }
+  }
+  for (const auto& [pointer, all] : copies)
+    for (const std::size_t i : all.told) faults[i].message.insert(0, all.text() + ": ");
   if (count_ > kept_.size()) {
     faults.push_back(
         {"", "and " + std::to_string(count_ - kept_.size()) + " more faults, which are not listed"});
   }
   throw SceneError(std::move(faults));
+}
+
+const Origin* Faults::to_file(std::string& pointer) const {
+  for (std::size_t slash = pointer.find('/', 1); !origins_.empty() && slash != std::string::npos;
+       slash = pointer.find('/', slash + 1)) {
+    const auto list = origins_.find(pointer.substr(0, slash));
+    if (list == origins_.end()) continue;
+    const std::size_t end = std::min(pointer.find('/', slash + 1), pointer.size());
+    const Origin& origin = list->second[std::stoul(pointer.substr(slash + 1, end - slash - 1))];
+    pointer.replace(slash + 1, end - slash - 1, std::to_string(origin.entry));
+    return &origin;
+  }
+  return nullptr;
+}
+
+std::string Faults::told(const std::string& pointer) const {
+  std::string in_file = pointer;
+  const Origin* origin = to_file(in_file);
+  if (origin == nullptr || origin->index.empty()) return in_file;
+  return in_file + " for " + origin->index + " = " + std::to_string(origin->number);
 }
 
 std::string child(std::string_view pointer, std::string_view key) {

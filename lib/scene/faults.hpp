@@ -7,21 +7,41 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace arcslip::scene::file {
+
+/// Where the item of a list stands in the file: an entry of the list there and, if this is repeated, the name
+/// and the value of its index.
+struct Origin {
+  std::size_t entry;
+  std::string index{};
+  int number = 0;
+};
+/// The items of lists with repeated entries, by the pointer of the list.
+using Origins = std::unordered_map<std::string, std::vector<Origin>>;
 
 /// The faults found so far. Only the first thousand or so are kept, so that no file can exhaust the memory.
 class Faults {
  public:
   void add(std::string pointer, std::string message);
   std::size_t count() const { return count_; }
+  /// From here on pointers are of a tree with repeated entries, and told as those of the file.
+  void set_origins(Origins origins) { origins_ = std::move(origins); }
+  /// A pointer as it is told within a message.
+  std::string told(const std::string& pointer) const;
   /// True if further faults are only counted, and need no message.
   bool full() const;
   /// Throws SceneError if there is any fault.
   void raise() const;
 
  private:
+  /// Makes it a pointer of the file; null: it is in no list with repeated entries.
+  const Origin* to_file(std::string& pointer) const;
+
+  Origins origins_;
   std::vector<Fault> kept_;
   std::size_t count_ = 0, size_ = 0;
 };

@@ -1,6 +1,7 @@
 #include <arcslip/scene/json_schema.hpp>
 
 #include <arcslip/scene/read_parts.hpp>
+#include <arcslip/scene/repeat.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/words.hpp>
 #include <arcslip/scene/write_values.hpp>
@@ -62,6 +63,20 @@ Node number_of(const Field& field) {
   return of(std::move(number));
 }
 
+Node reference(std::string_view definition) {
+  return of({{"$ref", node("#/$defs/" + std::string(definition))}});
+}
+
+/// What a repeated entry may have in its place for each value of the index, too.
+Node or_each(Node value) {
+  return of({{"anyOf", {Node::List{std::move(value), reference("each")}}}});
+}
+
+/// A text, or a repeated one.
+Node word() {
+  return of({{"anyOf", {Node::List{of_type("string"), reference("names")}}}});
+}
+
 /// The keys that say where something acts, and that one of them must be there.
 void add_place(Object& properties) {
   properties.push_back({"at", of_type("string")});
@@ -116,6 +131,21 @@ Object schema_of_key(const Key& key) {
   return std::get<Object>(read_tree(key.schema.empty() ? std::string("{}") : key.schema).value);
 }
 
+/// What repeated entries (repeat.hpp) are made of.
+Node definitions() {
+  const Node count = of({{"type", node("integer")}, {"minimum", node(1)}, {"maximum", node(largest_repeat)}});
+  const Node index = of(object_of({{"count", count},
+                                   {"index", of({{"type", node("string")}, {"default", node("i")}})},
+                                   {"cyclic", of({{"type", node("boolean")}, {"default", {false}}})}},
+                                  {"count"}));
+  return of({{"repeat", of({{"anyOf", {Node::List{count, index}}},
+                            {"description", node("one for each index from 1 to a count; {i}, {i+1}, {i-1} in "
+                                                 "texts are the index and its neighbours")}})},
+             {"each", of(object_of({{"each", of_type("array")}}, {"each"}))},
+             {"names", of(object_of({{"repeat", reference("repeat")}, {"name", of_type("string")}},
+                                    {"repeat", "name"}))}});
+}
+
 Node place_object() {
   Object place;
   add_place(place);
@@ -128,7 +158,7 @@ Node place_object() {
 Node responses() {
   const auto response = [](bool named) {
     Object place;
-    if (named) place.push_back({"name", of_type("string")});
+    if (named) place.insert(place.end(), {{"repeat", reference("repeat")}, {"name", of_type("string")}});
     add_place(place);
     place.push_back({"frame", one_of_words(frames, Response{}.frame)});
     Object object = object_of(std::move(place), {});
@@ -151,7 +181,7 @@ Node described_key(const Key& key) {
 }
 
 Node part_of(const PartType& type, bool with_type) {
-  Object properties{{"name", of_type("string")}};
+  Object properties{{"repeat", reference("repeat")}, {"name", of_type("string")}};
   std::vector<std::string> required{"name"};
   if (with_type) {
     properties.push_back({"type", of({{"const", node(type.name())}})});
@@ -164,7 +194,7 @@ Node part_of(const PartType& type, bool with_type) {
     required.emplace_back(slot);
   }
   for (const Key& option : type.options()) {
-    properties.push_back({option.name, described_key(option)});
+    properties.push_back({option.name, or_each(described_key(option))});
     if (option.required) required.push_back(option.name);
   }
   const auto excitations = excitation_types();
@@ -175,9 +205,14 @@ Node part_of(const PartType& type, bool with_type) {
                          {"maximum", node(largest_order)},
                          {"default", node(Part{}.harmonic)},
                          {"description", node("harmonic of the excitation; 0: constant")}})});
+    properties.push_back(
+        {"engine_order",
+         of({{"type", node("integer")},
+             {"description", node("of a repeated excitation: periods around the ring, by which "
+                                  "each is delayed")}})});
   }
   for (const Field& field : type.fields({})) {
-    properties.push_back({std::string(field.name), number_of(field)});
+    properties.push_back({std::string(field.name), or_each(number_of(field))});
     if (!field.default_value && !type.options_bring_fields())  // in its place
       required.emplace_back(field.name);
   }
@@ -192,6 +227,37 @@ Node part_of(const PartType& type, bool with_type) {
     object.back().value = of_type("number");  // fields that the options bring
   if (one_direction && !is_base_motion(type)) object.push_back({"oneOf", one_place()});
   return of(std::move(object));
+}
+
+// A part whose value may be given by another key.
+Node or_given_by(Node part, const char* key, Node value) {
+  auto& object = std::get<Object>(part.value);
+  for (Member& member : object) {
+    if (member.key == "properties")
+      std::get<Object>(member.value.value).push_back({key, or_each(std::move(value))});
+    if (member.key == "required") member.value = node(std::vector<std::string>{"name"});
+  }
+  Node::List choices;
+  for (const char* either : {"value", key})
+    choices.push_back(of({{"required", node(std::vector<std::string>{either})}}));
+  object.push_back({"anyOf", {std::move(choices)}});
+  return part;
+}
+
+Node spring() {
+  return or_given_by(
+      part_of(spring_type(), false), "frequency",
+      of({{"type", node("number")},
+          {"exclusiveMinimum", node(0)},
+          {"description", node("natural frequency of the mass there on this spring alone (the scene's "
+                               "unit)")}}));
+}
+
+Node damper() {
+  return or_given_by(part_of(damper_type(), false), "damping_ratio",
+                     of({{"type", node("number")},
+                         {"minimum", node(0)},
+                         {"description", node("of the mass there on the spring there")}}));
 }
 
 // A patch of contacts, whose fields depend on its law.
@@ -231,7 +297,10 @@ Node study_of(const StudyType& type) {
     }
   }
   properties.push_back(
-      {"for_each", map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}}))});
+      {"for_each",
+       of({{"oneOf",
+            {Node::List{map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}})),
+                        list_of(map_of(of_type("number")), 1)}}}})});
   Object study = object_of(std::move(properties), required);
   if (!needs.empty()) study.push_back({"dependentRequired", of(std::move(needs))});
   study.push_back({"title", node(type.help())});
@@ -239,10 +308,10 @@ Node study_of(const StudyType& type) {
 }
 
 Node schema_of(const Catalogue& catalogue) {
-  Object structure{{"dofs", list_of(of_type("string"), 1)},
+  Object structure{{"dofs", list_of(word(), 1)},
                    {"masses", list_of(part_of(mass_type(), false))},
-                   {"springs", list_of(part_of(spring_type(), false))},
-                   {"dampers", list_of(part_of(damper_type(), false))}};
+                   {"springs", list_of(spring())},
+                   {"dampers", list_of(damper())}};
   structure.push_back({"matrices", of(object_of({{"mass", of_type("string")},
                                                  {"stiffness", of_type("string")},
                                                  {"damping", of_type("string")},
@@ -281,7 +350,8 @@ Node schema_of(const Catalogue& catalogue) {
        {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
        {"patches", list_of(patch())},
        {"excitation", list_of(of({{"oneOf", {std::move(excitations)}}}), 1)},
-       {"ties", map_of(list_of(of_type("string"), 1))},
+       {"ties", map_of(list_of(word(), 1))},
+       {"labels", map_of(of_type("string"))},
        {"harmonics", of(object_of({{"order", of(std::move(order))},
                                    {"period", of(std::move(period))},
                                    {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
@@ -293,6 +363,7 @@ Node schema_of(const Catalogue& catalogue) {
   Object schema{{"$schema", node("https://json-schema.org/draft/2020-12/schema")},
                 {"title", node("Arcslip scene")}};
   schema.insert(schema.end(), root.begin(), root.end());
+  schema.push_back({"$defs", definitions()});
   return of(std::move(schema));
 }
 

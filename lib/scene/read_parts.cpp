@@ -1,5 +1,6 @@
 #include <arcslip/scene/read_parts.hpp>
 
+#include <arcslip/scene/natural.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/study_keys.hpp>
@@ -43,6 +44,8 @@ std::vector<std::string> keys_of(const Part& part, bool has_type, bool wears) {
   if (is_excitation(part.type)) keys.emplace_back("harmonic");
   for (const Field& field : part.fields())
     if (field.place.empty()) keys.emplace_back(field.name);
+  if (part.type == &spring_type()) keys.emplace_back(frequency_key);  // with the value that it gives
+  if (part.type == &damper_type()) keys.emplace_back(damping_ratio_key);
   if (wears) keys.emplace_back(wear_coefficient.name);
   return keys;
 }
@@ -95,7 +98,10 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
                             : Location{};
   const bool wears = section_type == nullptr && wear.node != nullptr &&
                      (faults.count() > before || part.type->wears(part.options));
-  const Keys keys(place, keys_of(part, !types.empty(), wears), faults);
+  const Elsewhere elsewhere = [&part](std::string_view key) {
+    return key == "engine_order" && is_excitation(part.type) ? "which belongs to repeated excitations" : "";
+  };
+  const Keys keys(place, keys_of(part, !types.empty(), wears), faults, elsewhere);
   if (!keys.is_object()) {
     names.set_incomplete();
     return part;
@@ -159,8 +165,8 @@ bool Names::add(const std::string& name, const std::string& pointer, Faults& fau
   }
   const auto [first, is_new] = pointers_.emplace(name, pointer);
   if (!is_new) {
-    faults.add(pointer, "found the name " + shown(name) + " again, which is also at " + first->second +
-                            "; parts and ties must have different names");
+    faults.add(pointer, "found the name " + shown(name) + " again, which is also at " +
+                            faults.told(first->second) + "; parts and ties must have different names");
   }
   return is_new;
 }
@@ -227,8 +233,8 @@ std::vector<std::string> read_members(const Location& place, const Names& names,
     if (field == nullptr) continue;
     const auto [first, is_new] = used.emplace(*member, item.pointer);
     if (!is_new) {
-      faults.add(item.pointer, "found " + shown(*member) + " again, which is also at " + first->second +
-                                   "; a field must be tied only once");
+      faults.add(item.pointer, "found " + shown(*member) + " again, which is also at " +
+                                   faults.told(first->second) + "; a field must be tied only once");
     } else if (!members.empty() && field->unit != unit) {
       faults.add(item.pointer, "found " + shown(*member) + " (" + std::string(field->unit) + ") tied to " +
                                    shown(members.front()) + " (" + std::string(unit) +
@@ -346,10 +352,11 @@ void read_dofs(const Location& place, Dofs& dofs, Faults& faults) {
                  "found \"ground\", which is reserved for the fixed frame; must be another name");
     } else if (first != dofs.index.end()) {
       const auto earlier = static_cast<std::size_t>(first->second);
-      faults.add(item.pointer, "found " + shown(*name) + " again, which is also " +
-                                   (earlier < named ? "a row of the matrices"
-                                                    : "at " + child(place.pointer, earlier - named)) +
-                                   "; each degree of freedom must stand only once");
+      faults.add(item.pointer,
+                 "found " + shown(*name) + " again, which is also " +
+                     (earlier < named ? "a row of the matrices"
+                                      : "at " + faults.told(child(place.pointer, earlier - named))) +
+                     "; each degree of freedom must stand only once");
     } else {
       dofs.index.emplace(*name, static_cast<int>(dofs.names.size()));
       dofs.names.push_back(*name);

@@ -113,7 +113,7 @@ std::vector<Study> read_studies(const Location& place, FrequencyUnit unit, const
       study.name = *text;
     }
     study.settings = study.type->read({keys, frequency, all, dofs, faults, source});
-    study.for_each = read_value_lists(keys.find("for_each"), all, study.type->taken(study.settings), faults);
+    read_for_each(keys.find("for_each"), all, study.type->taken(study.settings), study, faults);
     studies.push_back(std::move(study));
   }
   std::unordered_map<std::string, int> next;

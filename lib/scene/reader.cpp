@@ -1,12 +1,15 @@
 // A scene file, section by section, in the order of the format.
 #include <arcslip/scene/checks.hpp>
 #include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/natural.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/read_text.hpp>
+#include <arcslip/scene/repeat.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/scene_file.hpp>
+#include <arcslip/scene/study_parameters.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/words.hpp>
 #include <arcslip/scene/write_values.hpp>
@@ -107,11 +110,17 @@ std::vector<Part> read_excitation(const Keys& root, const Dofs& dofs, const File
   return excitation;
 }
 
+// The same place with another value, if it has one.
+Location in_place(Location place, const Node& value) {
+  if (place.node != nullptr) place.node = &value;
+  return place;
+}
+
 Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource& source, Faults& faults) {
   Scene scene;
   const Keys root({&node, ""},
                   {"format", "title", "frequency_unit", "structure", "elements", "patches", "excitation",
-                   "ties", "harmonics", "response", "studies", "$schema"},
+                   "ties", "labels", "harmonics", "response", "studies", "$schema"},
                   faults);
   if (!root.is_object()) return scene;
   // Faults up to a section: a check that needs sound sections waits until they are.
@@ -137,8 +146,14 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
     read_dofs(structure.find("dofs"), dofs, faults);
   scene.dofs = dofs.names;
   scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
-  scene.springs = read_parts(structure.find("springs"), &spring_type(), {}, dofs, source, names, faults);
-  scene.dampers = read_parts(structure.find("dampers"), &damper_type(), {}, dofs, source, names, faults);
+  const Location springs = structure.find("springs"), dampers = structure.find("dampers");
+  const Node with_values = with_stiffnesses(
+      springs, {dofs, scene.masses, scene.springs, is_sound(before_parts)}, scene.frequency_unit, faults);
+  scene.springs = read_parts(in_place(springs, with_values), &spring_type(), {}, dofs, source, names, faults);
+  const Node with_damping =
+      with_dampings(dampers, {dofs, scene.masses, scene.springs, is_sound(before_parts)}, faults);
+  scene.dampers =
+      read_parts(in_place(dampers, with_damping), &damper_type(), {}, dofs, source, names, faults);
   scene.damping =
       read_parts(structure.find("damping"), nullptr, damping_types(), dofs, source, names, faults);
   scene.elements =
@@ -164,13 +179,18 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
 
   scene.responses = read_responses(root.find("response"), dofs, faults);
   if (excitation_sound) check_frames(scene, faults);
-  scene.studies = read_studies(root.find("studies"), scene.frequency_unit,
-                               Parameters(scene.ties, ties_sound, names), dofs, source, catalogue, faults);
+  const Parameters parameters(scene.ties, ties_sound, names);
+  scene.labels = read_labels(root.find("labels"), parameters, faults);
+  scene.studies =
+      read_studies(root.find("studies"), scene.frequency_unit, parameters, dofs, source, catalogue, faults);
   return scene;
 }
 
-Scene read_scene(const Node& root, const Catalogue& catalogue, const FileSource& source) {
+Scene read_scene(Node root, const Catalogue& catalogue, const FileSource& source) {
   Faults faults;
+  Origins origins = repeat(root, faults);
+  faults.raise();  // names of what was not repeated would be missing everywhere
+  faults.set_origins(std::move(origins));
   Scene scene = read_scene(root, catalogue, source, faults);
   scene.folder = source.folder;
   faults.raise();

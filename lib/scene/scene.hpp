@@ -74,6 +74,7 @@ struct Study {
   const StudyType* type = nullptr;
   Settings settings{};
   ValueLists for_each{};
+  bool in_rows = false;  // for_each: the k-th values of all lists together, instead of every combination
   friend bool operator==(const Study&, const Study&) = default;
 };
 
@@ -87,6 +88,7 @@ struct Response {
 
 struct Scene {
   std::string title;
+  std::vector<std::pair<std::string, std::string>> labels{};  // of axes in figures, by parameter or quantity
   FrequencyUnit frequency_unit = FrequencyUnit::hertz;
   std::vector<std::string> dofs;  // first those of the rows of the matrices that have names
   std::optional<Matrices> matrices{};

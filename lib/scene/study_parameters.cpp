@@ -178,6 +178,108 @@ ValueLists read_value_lists(const Location& place, const Parameters& all, const 
   return lists;
 }
 
+namespace {
+
+// The values of one row, in the order of the first.
+class Rows {
+ public:
+  Rows(const Parameters& all, const std::vector<Taken>& taken, Faults& faults)
+      : all_(all), taken_(taken), faults_(faults) {}
+
+  void read_first(const Location& place) {
+    Faults told_below;
+    for (const Member* member : members(place, told_below)) {
+      const std::string pointer = child(place.pointer, member->key);
+      const Field bounds = bounds_of(member->key, pointer, all_, faults_);
+      is_taken(member->key, pointer, taken_, faults_);
+      index_.emplace(member->key, lists_.size());
+      bounds_.push_back(bounds);
+      lists_.emplace_back(member->key, std::vector<double>());
+    }
+    if (lists_.empty() && place.node->get<Node::Object>() != nullptr)
+      faults_.add(place.pointer,
+                  "found no parameter, must be an object with a value of each of some parameters");
+    read(place);
+  }
+
+  void read(const Location& place) {
+    if (!Keys(place, {}, faults_).is_object()) return;
+    std::vector<double> values(lists_.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<bool> given(lists_.size());
+    Faults told_above;
+    for (const Member* member : members(place, told_above)) {
+      const Location item{&member->value, child(place.pointer, member->key)};
+      const auto k = index_.find(member->key);
+      if (k == index_.end()) {
+        faults_.add(item.pointer,
+                    "found " + shown(member->key) + ", must be one of the parameters of the first row");
+        continue;
+      }
+      given[k->second] = true;
+      values[k->second] = read_number(item, bounds_[k->second], faults_).value_or(0);
+    }
+    for (std::size_t k = 0; k < lists_.size(); ++k) {
+      if (!given[k])
+        faults_.add(place.pointer,
+                    "found no value of " + shown(lists_[k].first) + ", which the first row has");
+      lists_[k].second.push_back(values[k]);
+    }
+  }
+
+  ValueLists take() { return std::move(lists_); }
+
+ private:
+  const Parameters& all_;
+  const std::vector<Taken>& taken_;
+  Faults& faults_;
+  ValueLists lists_;
+  std::vector<Field> bounds_;
+  std::unordered_map<std::string, std::size_t> index_;
+};
+
+}  // namespace
+
+void read_for_each(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
+                   Study& study, Faults& faults) {
+  const Node::List* list = place.node != nullptr ? place.node->get<Node::List>() : nullptr;
+  if (list == nullptr) {
+    study.for_each = read_value_lists(place, all, taken, faults);
+    return;
+  }
+  if (list->empty())
+    faults.add(place.pointer,
+               "found an empty list, must be a list of at least one row {\"part.field\": value}");
+  Rows rows(all, taken, faults);
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Location row{&(*list)[i], child(place.pointer, i)};
+    i == 0 ? rows.read_first(row) : rows.read(row);
+  }
+  study.for_each = rows.take();
+  study.in_rows = !study.for_each.empty();
+}
+
+std::vector<std::pair<std::string, std::string>> read_labels(const Location& place, const Parameters& all,
+                                                             Faults& faults) {
+  std::vector<std::pair<std::string, std::string>> labels;
+  for (const Member* member : members(place, faults)) {
+    const Location item{&member->value, child(place.pointer, member->key)};
+    const std::vector<std::string> quantities(label_names.begin(), label_names.end());
+    if (std::find(quantities.begin(), quantities.end(), member->key) == quantities.end()) {
+      if (all.ties_complete && member->key.find('.') == std::string::npos &&
+          !all.tie_by_name.contains(member->key))
+        faults.add(item.pointer, "found " + shown(member->key) + ", must be a parameter, or one of " +
+                                     listed(quantities) + hint(member->key, quantities));
+      else
+        fields_of(member->key, item.pointer, all, faults);
+    }
+    const auto text = read_string(item, "a string, the label of an axis", faults);
+    if (text && text->empty())
+      faults.add(item.pointer, "found \"\", must be a label of at least one character");
+    labels.emplace_back(member->key, text.value_or(""));
+  }
+  return labels;
+}
+
 std::pair<double, double> read_pair(const Location& place, const std::string& wanted, const Field& field,
                                     std::string_view what, Faults& faults) {
   const Node::List* list = read_list(place, wanted, faults);

@@ -41,6 +41,14 @@ std::pair<double, double> read_pair(const Location& place, const std::string& wa
 ValueLists read_value_lists(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
                             Faults& faults);
 
+/// "for_each": such lists, or a list of rows, {"k.value": 1, "m.value": 2}, all with the same parameters.
+void read_for_each(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
+                   Study& study, Faults& faults);
+
+/// "labels" of the axes over parameters, and over the quantities of label_names.
+std::vector<std::pair<std::string, std::string>> read_labels(const Location& place, const Parameters& all,
+                                                             Faults& faults);
+
 /// Reports a fault and returns true if the study sets this parameter elsewhere.
 bool is_taken(const std::string& parameter, const std::string& pointer, const std::vector<Taken>& taken,
               Faults& faults);

@@ -65,6 +65,9 @@ inline constexpr std::array<std::string_view, 30> result_names = {"kind",
                                                                   "at_bound",
                                                                   "minimum"};
 
+/// Quantities that are not parameters and may have a label in figures.
+inline constexpr std::array<std::string_view, 3> label_names = {"frequency", "amplitude", "displacement"};
+
 template <class Words>
 std::vector<std::string> texts(const Words& words) {
   std::vector<std::string> result;

@@ -1,4 +1,5 @@
 // A scene as the tree of its file, with every default.
+#include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/json_tree.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -138,6 +139,12 @@ Node ties_node(const std::vector<Tie>& ties) {
   return {std::move(object)};
 }
 
+Node labels_node(const Scene& scene) {
+  Node::Object object;
+  for (const auto& [axis, text] : scene.labels) object.push_back({axis, node(text)});
+  return {std::move(object)};
+}
+
 Node harmonics_node(const Harmonics& harmonics) {
   return {Node::Object{{"order", node(harmonics.order)},
                        {"period", node(harmonics.period)},
@@ -145,12 +152,23 @@ Node harmonics_node(const Harmonics& harmonics) {
                        {"samples", node(harmonics.samples)}}};
 }
 
+Node for_each_node(const Study& study) {
+  Node::Object lists;
+  Node::List rows;
+  for (const auto& [parameter, values] : study.for_each) lists.push_back({parameter, node(values)});
+  const Combinations all(study);
+  for (std::size_t k = 0; study.in_rows && k < all.size(); ++k) {
+    Node::Object row;
+    for (const auto& [parameter, value] : all[k]) row.push_back({parameter, node(value)});
+    rows.push_back({std::move(row)});
+  }
+  return study.in_rows ? Node{std::move(rows)} : Node{std::move(lists)};
+}
+
 Node study_node(const Study& study, const Scene& scene) {
   Node::Object object = {{"name", node(study.name)}, {"kind", node(study.type->name())}};
   study.type->write(study.settings, scene, object);
-  Node::Object lists;
-  for (const auto& [parameter, values] : study.for_each) lists.push_back({parameter, node(values)});
-  object.push_back({"for_each", {std::move(lists)}});
+  object.push_back({"for_each", for_each_node(study)});
   return {std::move(object)};
 }
 
@@ -191,11 +209,12 @@ Node tree(const Scene& scene) {
                    {"structure", {std::move(structure)}},
                    {"elements", parts_node(scene.elements, scene, true)}};
   if (!scene.patches.empty()) all.push_back({"patches", parts_node(scene.patches, scene)});
-  all.insert(all.end(), {{"excitation", parts_node(scene.excitation, scene, true)},
-                         {"ties", ties_node(scene.ties)},
-                         {"harmonics", harmonics_node(scene.harmonics)},
-                         {"response", responses_node(scene)},
-                         {"studies", studies_node(scene)}});
+  all.push_back({"excitation", parts_node(scene.excitation, scene, true)});
+  all.push_back({"ties", ties_node(scene.ties)});
+  if (!scene.labels.empty()) all.push_back({"labels", labels_node(scene)});
+  all.push_back({"harmonics", harmonics_node(scene.harmonics)});
+  all.push_back({"response", responses_node(scene)});
+  all.push_back({"studies", studies_node(scene)});
   return {std::move(all)};
 }
 

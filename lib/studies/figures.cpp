@@ -89,9 +89,11 @@ void set_ranges(BranchKind kind, FigureData& data) {
 void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
                  const std::string& over, FigureData& data) {
   if (kind != BranchKind::responses)
-    data.columns.push_back({results::with_unit(over, over.empty() ? "" : parameter_unit(scene, over))});
-  data.columns.push_back({results::with_unit("frequency", scene::unit_name(scene.frequency_unit))});
-  data.columns.push_back({"amplitude (m)"});
+    data.columns.push_back(
+        {results::with_unit(label_of(scene, over), over.empty() ? "" : parameter_unit(scene, over))});
+  data.columns.push_back(
+      {results::with_unit(label_of(scene, "frequency"), scene::unit_name(scene.frequency_unit))});
+  data.columns.push_back({results::with_unit(label_of(scene, "amplitude"), "m")});
   for (const Share& share : shares)
     data.columns.push_back({share.element + " " + share.state + " (%)", Scale::percent});
 }
@@ -116,16 +118,17 @@ void add_share_figures(BranchKind kind, const std::vector<Share>& shares, const 
   }
 }
 
-void set_figures(BranchKind kind, const std::vector<Share>& shares, FigureData& data) {
+void set_figures(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
+                 FigureData& data) {
   const std::size_t frequency = frequency_column(kind), amplitude = amplitude_column(kind);
   const std::string& over = data.columns.front().label;
   const std::string& frequency_label = data.columns[frequency].label;
   const std::string& amplitude_label = data.columns[amplitude].label;
   if (kind == BranchKind::peaks) {
-    data.figures = {{"amplitude", 0, amplitude, over, "peak " + amplitude_label},
-                    {"frequency", 0, frequency, over, "resonance " + frequency_label}};
-    add_share_figures(kind, shares, {"amplitude_over_", 0, amplitude, "", "peak " + amplitude_label}, true,
-                      data);
+    const std::string peak = (has_label(scene, "amplitude") ? "" : "peak ") + amplitude_label;
+    const std::string resonance = (has_label(scene, "frequency") ? "" : "resonance ") + frequency_label;
+    data.figures = {{"amplitude", 0, amplitude, over, peak}, {"frequency", 0, frequency, over, resonance}};
+    add_share_figures(kind, shares, {"amplitude_over_", 0, amplitude, "", peak}, true, data);
   } else if (kind == BranchKind::folds) {
     data.figures = {{"folds", frequency, 0, frequency_label, over}};
   } else {  // responses, also those of optima
@@ -175,7 +178,7 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
     if (!line.parts.empty()) data.lines.push_back(std::move(line));
   }
   set_ranges(kind, data);
-  set_figures(kind, shares, data);
+  set_figures(scene, kind, shares, data);
   if (data.lines.size() == 1 && kind != BranchKind::folds) {
     const auto column_0 = [&](const ResponsePoint& point) { return record(scene, kind, {}, point)[0]; };
     for (Figure& figure : contact_figures(branches, data.columns[0].label, column_0))
@@ -183,6 +186,20 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
   }
   return data;
 }
+
+namespace {
+
+/// Numbers lines whose labels would take the room of the figure: their headings tell what is set.
+void number_long(FigureData& data) {
+  constexpr std::size_t longest = 32;
+  if (std::none_of(data.lines.begin(), data.lines.end(),
+                   [](const FigureLine& line) { return line.label.size() > longest; }))
+    return;
+  for (std::size_t i = 0; i < data.lines.size(); ++i) data.lines[i].label = std::to_string(i + 1);
+  data.parameters = {"setting"};
+}
+
+}  // namespace
 
 FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::span<const ResponseBranch> branches) {
   std::vector<LineOfBranches> lines;
@@ -195,7 +212,8 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::span<cons
   }
   FigureData data = figures_of(scene, kind, std::move(lines));
   for (std::size_t i = 0; !data.lines.empty() && i < data.lines.front().set.size(); ++i)
-    data.parameters.push_back(data.lines.front().set[i].first);
+    data.parameters.push_back(label_of(scene, data.lines.front().set[i].first));
+  number_long(data);
   return data;
 }
 
@@ -264,7 +282,7 @@ FigureData figures_of(const scene::Scene& scene, std::span<const Motion> motions
   FigureData data;
   data.title = scene.title;
   const std::vector<Loop> loops = loops_of(scene, motions);
-  data.columns = {{"time (s)"}, {"displacement (m)"}};
+  data.columns = {{"time (s)"}, {results::with_unit(label_of(scene, "displacement"), "m")}};
   for (const Loop& loop : loops) {
     data.columns.push_back({loop.name + " displacement (m)"});
     data.columns.push_back({loop.name + " force (N)"});
@@ -272,12 +290,13 @@ FigureData figures_of(const scene::Scene& scene, std::span<const Motion> motions
   for (const Motion& motion : motions) {
     if (motion.history.time.empty()) continue;
     if (data.parameters.empty())
-      for (const auto& [name, value] : motion.set) data.parameters.push_back(name);
+      for (const auto& [name, value] : motion.set) data.parameters.push_back(label_of(scene, name));
     data.lines.push_back(line_of(scene, motion.set));
     data.lines.back().parts = {records(motion.history, loops)};
   }
   for (std::size_t i = 0; i < data.columns.size(); ++i) data.columns[i].range = results::full_range(data, i);
   set_figures(loops, data);
+  number_long(data);
   return data;
 }
 

@@ -26,12 +26,11 @@ struct Case {
   bool alone = true;          // it is the only one
 };
 
-/// Calls each(item) with the items of compute(Case, progress) for each combination of the lists, each item
+/// Calls each(item) with the items of compute(Case, progress) for each of the combinations, each item
 /// with its set parameters. After a stop by the callback no further combination is started.
 template <class Compute, class Each>
-void for_each(const scene::Scene& scene, const scene::ValueLists& lists, const Compute& compute,
+void for_each(const scene::Scene& scene, const scene::Combinations& all, const Compute& compute,
               const results::ProgressCallback& progress, const Each& each) {
-  const scene::Combinations all(lists);
   bool go_on = true;
   for (std::size_t k = 0; k < all.size() && go_on; ++k) {
     const scene::Setting set = all[k];
@@ -58,10 +57,10 @@ void for_each(const scene::Scene& scene, const scene::ValueLists& lists, const C
 
 /// All items together.
 template <class Item, class Compute>
-std::vector<Item> for_each(const scene::Scene& scene, const scene::ValueLists& lists, const Compute& compute,
+std::vector<Item> for_each(const scene::Scene& scene, const scene::Combinations& all, const Compute& compute,
                            const results::ProgressCallback& progress = {}) {
   std::vector<Item> items;
-  for_each(scene, lists, compute, progress, [&](Item&& item) { items.push_back(std::move(item)); });
+  for_each(scene, all, compute, progress, [&](Item&& item) { items.push_back(std::move(item)); });
   return items;
 }
 
@@ -82,7 +81,7 @@ std::vector<results::FigureData> run_items(const scene::Scene& scene, const scen
                                            std::size_t schema, results::Sink& sink, const Compute& compute,
                                            const FiguresOf& figures_of) {
   std::vector<Item> kept;
-  for_each(scene, study.for_each, compute, options.progress, [&](Item&& item) {
+  for_each(scene, scene::Combinations(study), compute, options.progress, [&](Item&& item) {
     item.study = study.name;
     item.kind = study.type->name();
     results::hand(described.result(item), schema, sink);

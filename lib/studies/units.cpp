@@ -3,6 +3,8 @@
 #include <arcslip/results/result.hpp>
 #include <arcslip/results/text.hpp>
 
+#include <algorithm>
+
 namespace arcslip::studies {
 
 std::string parameter_unit(const scene::Scene& scene, std::string_view parameter) {
@@ -24,6 +26,17 @@ std::string set_label(const scene::Scene& scene, const NamedValues& set) {
   for (const auto& [name, value] : set)
     text.append(text.empty() ? "" : ", ").append(results::quantity(value, parameter_unit(scene, name)));
   return text;
+}
+
+std::string label_of(const scene::Scene& scene, const std::string& name) {
+  for (const auto& [axis, text] : scene.labels)
+    if (axis == name) return text;
+  return name;
+}
+
+bool has_label(const scene::Scene& scene, std::string_view name) {
+  return std::any_of(scene.labels.begin(), scene.labels.end(),
+                     [&](const auto& label) { return label.first == name; });
 }
 
 double in_scene_unit(const scene::Scene& scene, double omega) {

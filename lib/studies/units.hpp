@@ -25,6 +25,10 @@ std::string assignment(const scene::Scene& scene, const NamedValues& set);
 /// The same without names: "3 N, 0.1 N s/m".
 std::string set_label(const scene::Scene& scene, const NamedValues& set);
 
+/// The label of a parameter or quantity in figures, as the scene has it, or its name.
+std::string label_of(const scene::Scene& scene, const std::string& name);
+bool has_label(const scene::Scene& scene, std::string_view name);
+
 /// omega (rad/s) in the scene's frequency unit.
 double in_scene_unit(const scene::Scene& scene, double omega);
 

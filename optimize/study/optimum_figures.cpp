@@ -100,7 +100,8 @@ CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, co
   data = studies::figures_of(scene, kind, std::move(lines));
   if (!result.set.empty()) data.title = studies::assignment(scene, result.set) + ": " + data.title;
   const bool alike = std::all_of(names.begin(), names.end(), [&](auto& own) { return own == names[0]; });
-  if (alike && !names.empty()) data.parameters = names.front();
+  if (alike && !names.empty())
+    for (const std::string& own : names.front()) data.parameters.push_back(studies::label_of(scene, own));
   for (std::size_t i = 0; !alike && i < data.lines.size(); ++i)  // no common title: each line with names
     data.lines[i].label = case_text(scene, problem, *found.cases[i]);
   return found;
@@ -173,7 +174,7 @@ void add_cases(const scene::Scene& scene, const OptimumResult& result, const std
     add_criterion(scene, result, of_peaks);
     if (weighted) {
       const std::size_t amplitude = studies::amplitude_column(studies::BranchKind::peaks);
-      peaks.columns[amplitude].label = "amplitude times weight (m)";
+      peaks.columns[amplitude].label = studies::label_of(scene, "amplitude") + " times weight (m)";
       for (results::Figure& figure : peaks.figures)
         if (figure.y == amplitude) figure.y_label = "peak " + peaks.columns[amplitude].label;
     }
@@ -252,7 +253,8 @@ results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResul
   }
   for (std::size_t i = 0; i < line.parts[0].size(); ++i) add(line.parts[0][i], result.curve.points[i]);
   for (const DesignVariable& v : result.problem.over) {
-    const std::string label = results::with_unit(v.name, studies::parameter_unit(scene, v.name));
+    const std::string label =
+        results::with_unit(studies::label_of(scene, v.name), studies::parameter_unit(scene, v.name));
     data.figures.push_back({v.name, 0, data.columns.size(), data.columns[0].label, label});
     data.columns.push_back({label});
   }

@@ -306,6 +306,20 @@ void add_rest(std::vector<BadScene>& rows) {
                   "/excitation/1/sine", "found 2, must be 0 where the harmonic is 0: the force is constant"});
   rows.push_back({"harmonic above the order", good_scene_with("\"cosine\": 1", "\"harmonic\": 9"),
                   "/excitation/0/harmonic", "found 9, must be at most harmonics.order, which is 7"});
+  const auto with_labels = [](const std::string& text) {
+    return good_scene_with("\"response\"", "\"labels\": " + text + ", \"response\"");
+  };
+  rows.push_back(
+      {"labels that are no object", with_labels("[]"), "/labels", "found a list, must be an object"});
+  rows.push_back({"label that is no string", with_labels("{\"amplitude\": 1}"), "/labels/amplitude",
+                  "found 1 (a number), must be a string, the label of an axis"});
+  rows.push_back({"empty label", with_labels("{\"amplitude\": \"\"}"), "/labels/amplitude",
+                  "found \"\", must be a label of at least one character"});
+  rows.push_back({"label of an unknown quantity", with_labels("{\"amplitud\": \"tip\"}"), "/labels/amplitud",
+                  "found \"amplitud\", must be a parameter, or one of \"frequency\", \"amplitude\", "
+                  "\"displacement\"; did you mean \"amplitude\"?"});
+  rows.push_back({"label of an unknown parameter", with_labels("{\"d.load\": \"load\"}"), "/labels/d.load",
+                  "found the unknown parameter \"d.load\", must be one of"});
   rows.push_back({"harmonics that are no object", with_harmonics("7"), "/harmonics",
                   "found 7 (a number), must be an object with the keys \"order\", \"period\", \"friction\", "
                   "\"samples\""});
@@ -445,6 +459,7 @@ const std::vector<BadScene>& bad_scenes() {
     add_parts(all);
     add_rest(all);
     add_ties(all);
+    add_bad_repeats(all);
     add_bad_studies(all);
     add_bad_designs(all);
     return all;

@@ -52,8 +52,30 @@ void add_studies(std::vector<BadScene>& rows) {
   const auto with_sweep = [&](const std::string& text) {
     return good_scene_with("{\"d.normal_load\": [1, 2]}", text);
   };
-  rows.push_back({"for_each that is no object", with_sweep("[1]"), "/studies/0/for_each",
+  rows.push_back({"for_each that is no object", with_sweep("1"), "/studies/0/for_each",
+                  "found 1 (a number), must be an object"});
+  rows.push_back({"no rows", with_sweep("[]"), "/studies/0/for_each",
+                  "found an empty list, must be a list of at least one row {\"part.field\": value}"});
+  rows.push_back({"row that is no object", with_sweep("[{\"m.value\": 1}, [1]]"), "/studies/0/for_each/1",
                   "found a list, must be an object"});
+  rows.push_back({"first row that is no object", with_sweep("[1]"), "/studies/0/for_each/0",
+                  "found 1 (a number), must be an object"});
+  rows.push_back({"row without parameters", with_sweep("[{}]"), "/studies/0/for_each/0",
+                  "found no parameter, must be an object with a value of each of some parameters"});
+  rows.push_back({"unknown parameter in a row", with_sweep("[{\"m.valu\": 1}, {\"m.valu\": 2}]"),
+                  "/studies/0/for_each/0/m.valu", "did you mean \"m.value\"?"});
+  rows.push_back({"parameter twice in a row", with_sweep("[{\"m.value\": 1, \"m.value\": 2}]"),
+                  "/studies/0/for_each/0/m.value", "found the key \"m.value\" again, must stand only once"});
+  rows.push_back({"value out of bounds in a row", with_sweep("[{\"m.value\": 1}, {\"m.value\": -2}]"),
+                  "/studies/0/for_each/1/m.value", "found -2, must be at least 0 kg"});
+  rows.push_back({"list in a row", with_sweep("[{\"m.value\": [1]}]"), "/studies/0/for_each/0/m.value",
+                  "found a list, must be a number, at least 0 kg"});
+  rows.push_back({"row with fewer parameters",
+                  with_sweep("[{\"m.value\": 1, \"k.value\": 1}, {\"m.value\": 2}]"), "/studies/0/for_each/1",
+                  "found no value of \"k.value\", which the first row has"});
+  rows.push_back(
+      {"row with more parameters", with_sweep("[{\"m.value\": 1}, {\"m.value\": 2, \"k.value\": 1}]"),
+       "/studies/0/for_each/1/k.value", "found \"k.value\", must be one of the parameters of the first row"});
   rows.push_back({"sweep of an unknown parameter", with_sweep("{\"d.normal_laod\": [1]}"),
                   "/studies/0/for_each/d.normal_laod", "did you mean \"d.normal_load\"?"});
   rows.push_back(

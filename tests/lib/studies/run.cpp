@@ -2,6 +2,7 @@
 #include "catch.hpp"
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/time_study.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
@@ -146,6 +147,70 @@ TEST_CASE("after a stop by the callback no further combination and no further st
   REQUIRE(all.results.size() == 2);
   CHECK(all.results[0].end.status == results::Status::complete);
   CHECK(all.results[1].end.status == results::Status::stopped);
+}
+
+TEST_CASE(
+    "a study over rows has the results of its rows, each as if it were alone, with their values as columns") {
+  scene::Scene s = scenes::paper(1);
+  scene::Study rows = frf("a", {{"damper.normal_load", {1, 3, 2}}, {"c.value", {0.1, 0.1, 0.3}}});
+  rows.in_rows = true;
+  s.studies = {rows};
+  const results::Results all = studies::run(s);
+  REQUIRE(all.results.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    scene::Scene alone = s;
+    scene::set(alone, "damper.normal_load", rows.for_each[0].second[k]);
+    scene::set(alone, "c.value", rows.for_each[1].second[k]);
+    const results::Results one = studies::run(alone);
+    REQUIRE(one.results.size() == 1);
+    Json of_rows = without_seconds(Json::parse(json(all)))["branches"][k];
+    Json of_one = without_seconds(Json::parse(json(one)))["branches"][0];
+    CHECK(of_rows["set"]["damper.normal_load"] == rows.for_each[0].second[k]);
+    CHECK(of_rows["set"]["c.value"] == rows.for_each[1].second[k]);
+    CHECK(of_rows["points"] == of_one["points"]);
+    CHECK(of_rows["events"] == of_one["events"]);
+  }
+}
+
+TEST_CASE("axes of figures have the labels of the scene, and the names of quantities where it has none") {
+  scene::Scene s = scenes::paper(1);
+  const auto figures = [&](scene::Study study) {
+    results::Collector collector;
+    scene::RunOptions options;
+    options.figures = true;
+    collector.begin({}, std::vector{study.type->schema(s, study, options)});
+    return study.type->run(s, study, options, 0, collector).at(0);
+  };
+  const scene::Study over_load = {
+      "p",
+      &studies::peaks(),
+      scene::Settings::of(observables::CurveRange{"damper.normal_load", 3, 4, 19, 21}),
+      {}};
+  CHECK(figures(frf("a", {})).figures[0].x_label == "frequency (Hz)");
+  CHECK(figures(over_load).figures[0].y_label == "peak amplitude (m)");
+  s.labels = {{"frequency", "excitation frequency"},
+              {"amplitude", "tip"},
+              {"damper.normal_load", "normal load F_n"},
+              {"displacement", "tip of the blade"}};
+  const results::FigureData responses =
+      figures(frf("a", {{"damper.normal_load", {1, 3}}, {"c.value", {0.1}}}));
+  CHECK(responses.figures[0].x_label == "excitation frequency (Hz)");
+  CHECK(responses.figures[0].y_label == "tip (m)");
+  CHECK(responses.parameters == std::vector<std::string>{"normal load F_n", "c.value"});
+  CHECK(responses.lines[0].heading == "damper.normal_load = 1 N, c.value = 0.1 N s/m");
+  const results::FigureData peaks = figures(over_load);
+  CHECK(peaks.figures[0].x_label == "normal load F_n (N)");
+  CHECK(peaks.figures[0].y_label == "tip (m)");
+  CHECK(peaks.figures[1].y_label == "excitation frequency (Hz)");
+  CHECK(figures(motion("t")).figures[0].y_label == "tip of the blade (m)");
+  // What would take the room of the figure is numbered.
+  const results::FigureData numbered = figures(
+      frf("a", {{"damper.normal_load", {1, 3}}, {"c.value", {0.123456789}}, {"k.value", {17890.12345}}}));
+  CHECK(numbered.parameters == std::vector<std::string>{"setting"});
+  CHECK(numbered.lines[0].label == "1");
+  CHECK(numbered.lines[1].label == "2");
+  CHECK(numbered.lines[1].heading ==
+        "damper.normal_load = 3 N, c.value = 0.123456789 N s/m, k.value = 17890.12345 N/m");
 }
 
 TEST_CASE("figures are made where they are asked for") {
