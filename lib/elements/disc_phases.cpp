@@ -14,14 +14,14 @@ namespace {
 
 constexpr double turn_angle = 2 * std::numbers::pi;
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double resolved = 1e-10;     // of h psi within a panel, of the largest radius
-constexpr double same_value = 1e-13;   // of the motion
-constexpr double shortest = 1e-12;     // rad: a panel that is not divided any further
-constexpr double negligible = 1e-9;    // rad: slip so short before separation would come and go by rounding
-constexpr double same_end = 1e-6;      // rad: slip that ends so near to the end of the period began it
-constexpr double edge = 1e-12;         // of the radius: a slider that is so close is at the edge
-constexpr double least_step = 1e-10;   // rad
-constexpr double phase_per_panel = 12; // rad, of the highest harmonic
+constexpr double resolved = 1e-10;      // of h psi within a panel, of the largest radius
+constexpr double same_value = 1e-13;    // of the motion
+constexpr double shortest = 1e-12;      // rad: a panel that is not divided any further
+constexpr double negligible = 1e-9;     // rad: slip so short before separation would come and go by rounding
+constexpr double same_end = 1e-6;       // rad: slip that ends so near to the end of the period began it
+constexpr double edge = 1e-12;          // of the radius: a slider that is so close is at the edge
+constexpr double least_step = 1e-10;    // rad
+constexpr double phase_per_panel = 12;  // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
 constexpr int most_steps = 10000;  // towards an onset
 constexpr int newton_steps = 40, passes = 200;
