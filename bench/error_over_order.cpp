@@ -1,6 +1,6 @@
 // How the amplitude of harmonic balance converges for each law, as CSV: example, samples (0: exact
 // integrals), order N, error relative to the reference, and amplitude. The reference is the periodic motion
-// of the exact march from event to event; of a continuous law, which has none, harmonic balance with N = 401.
+// of the exact march from event to event; of a law that has none, harmonic balance with N = 401.
 //
 //   build/release/bench/arcslip_error_over_order > error_over_order.csv
 //   gnuplot -c bench/error_over_order.gp error_over_order.csv docs/figures/error_over_order.png
@@ -137,9 +137,13 @@ double reference(const scene::Scene& scene, double frequency) {
   return found.period.amplitude;
 }
 
-void table(const char* name, const scene::Scene& scene, double frequency, bool continuous) {
+enum class Beside { march, order_401 };
+enum class Steps { sampled, none };  // none: in time it is many sliders
+
+void table(const char* name, const scene::Scene& scene, double frequency, Beside beside = Beside::march,
+           Steps steps = Steps::sampled) {
   const double amplitude =
-      continuous ? exact(scene, frequency, 401).amplitude() : reference(scene, frequency);
+      beside == Beside::march ? reference(scene, frequency) : exact(scene, frequency, 401).amplitude();
   for (const int order : {1, 3, 5, 7, 11, 15, 21, 27, 39, 55, 77, 101, 143, 201}) {
     const Balanced balanced = exact(scene, frequency, order);
     const auto row = [&](int samples, double found) {
@@ -148,7 +152,7 @@ void table(const char* name, const scene::Scene& scene, double frequency, bool c
     };
     row(0, balanced.amplitude());
     for (const int samples : {512, 4096}) {
-      if (continuous) break;  // in time it is many sliders
+      if (steps == Steps::none) break;
       row(samples, sampled(scene, balanced, order, samples).amplitude());
     }
   }
@@ -171,16 +175,21 @@ int main() {
   std::puts("example,samples,order,error,amplitude");
   scene::Scene blade = bench::example("al_sayed_2011");
   scene::set(blade, "damper.normal_load", 3);
-  table("jenkins", blade, 20, false);
+  table("jenkins", blade, 20);
   scene::Scene stop = bench::example("unilateral_oscillator");
   scene::set(stop, "stop.stiffness", 5);
-  table("gap_spring", stop, 0.65, false);
+  table("gap_spring", stop, 0.65);
   scene::Scene pad = bench::example("rubbing_pad");
-  table("contact_2d closed", pad, 95, false);
+  table("contact_2d closed", pad, 95);
   scene::set(pad, "force.cosine", 20);
-  table("contact_2d", pad, 95, false);
+  table("contact_2d", pad, 95);
+  scene::Scene orbit = bench::example("orbiting_pad");
+  scene::set(orbit, "lift.cosine", 15);
+  table("contact_3d closed", orbit, 34, Beside::order_401);
+  scene::set(orbit, "lift.cosine", 60);
+  table("contact_3d", orbit, 34, Beside::order_401);
   table("iwan table",
         joint(R"("distribution": "table", "table": [[0.5, 0.05], [0.4, 0.1], [0.5, 0.2], [0.6, 0.4]])", 0.3),
-        1.2, false);
-  table("iwan", joint(R"("stiffness": 2, "slip_force": 1.5)", 0.3), 1.2, true);
+        1.2);
+  table("iwan", joint(R"("stiffness": 2, "slip_force": 1.5)", 0.3), 1.2, Beside::order_401, Steps::none);
 }

@@ -1,5 +1,7 @@
 #include <arcslip/elements/contact_3d.hpp>
 
+#include <arcslip/elements/offset_option.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -149,14 +151,27 @@ class Stretch {
   }
 };
 
-class Contact3d final : public PlainLaw {
+scene::file::KeysOf<OffsetOption> option_keys() {
+  scene::file::KeysOf<OffsetOption> keys;
+  keys.add(centred_offset<OffsetOption>(
+      "of a slider that sticks throughout the period: in the middle of where it can, without a mean force",
+      "which a contact in a plane does not have: its slider, where it sticks throughout the period, holds no "
+      "mean force; where one is to be held, put elements of type \"jenkins\" or \"contact_2d\" with "
+      "\"offset\": "
+      "\"static\" along both directions"));
+  return keys;
+}
+
+class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
  public:
+  Contact3d() : KeyedPart(option_keys()) {}
   std::string_view name() const override { return "contact_3d"; }
   std::string_view help() const override {
     return "friction in a plane under a normal load that varies, with separation";
   }
   std::span<const std::string_view> slots() const override { return all_slots; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  bool options_bring_fields() const override { return false; }
 
   bool antisymmetric() const override { return false; }
   bool has_contact() const override { return true; }

@@ -1,9 +1,10 @@
 #include <arcslip/elements/disc_phases.hpp>
 
+#include <arcslip/elements/disc_onset.hpp>
+
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,16 +15,14 @@ namespace {
 
 constexpr double turn_angle = 2 * std::numbers::pi;
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double resolved = 1e-10;     // of h psi within a panel, of the largest radius
-constexpr double same_value = 1e-13;   // of the motion
-constexpr double shortest = 1e-12;     // rad: a panel that is not divided any further
-constexpr double negligible = 1e-9;    // rad: slip so short before separation would come and go by rounding
-constexpr double same_end = 1e-6;      // rad: slip that ends so near to the end of the period began it
-constexpr double edge = 1e-12;         // of the radius: a slider that is so close is at the edge
-constexpr double least_step = 1e-10;   // rad
-constexpr double phase_per_panel = 12; // rad, of the highest harmonic
+constexpr double resolved = 1e-10;      // of h psi within a panel, of the largest radius
+constexpr double same_value = 1e-13;    // of the motion
+constexpr double shortest = 1e-12;      // rad: a panel that is not divided any further
+constexpr double negligible = 1e-9;     // rad: slip so short before separation would come and go by rounding
+constexpr double same_end = 1e-6;       // rad: slip that ends so near to the end of the period began it
+constexpr double edge = 1e-12;          // of the radius: a slider that is so close is at the edge
+constexpr double phase_per_panel = 12;  // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
-constexpr int most_steps = 10000;  // towards an onset
 constexpr int newton_steps = 40, passes = 200;
 constexpr double shortest_share = 0.01;  // of Newton's step
 
@@ -43,36 +42,6 @@ std::uint64_t mixed(std::uint64_t x) {
 std::uint64_t code(const DiscPhase& phase) {
   const auto from = phase.from == DiscPhase::Begin::start ? DiscPhase::Begin::slip_end : phase.from;
   return static_cast<std::uint64_t>(1 + static_cast<int>(phase.state) + 3 * static_cast<int>(from));
-}
-
-// A lower bound of the first positive root of a polynomial that begins with positive coefficients: the root
-// of the one without the positive coefficients behind a negative one, which has one root. At most `most`.
-double first_root(const std::array<double, 7>& c, double most) {
-  std::size_t changes = 0;
-  while (changes < c.size() && c[changes] >= 0) ++changes;
-  const auto at = [&](double s) {
-    double value = 0, slope = 0;
-    for (std::size_t k = c.size(); k-- > 0;) {
-      slope = slope * s + value;
-      value = value * s + (k < changes ? c[k] : std::min(c[k], 0.0));
-    }
-    return std::pair(value, slope);
-  };
-  double below = 0, above = most, s = most;
-  for (int i = 0; i < newton_steps; ++i) {
-    const auto [value, slope] = at(s);
-    if (value >= 0) {
-      below = s;
-      if (s == most) return most;
-    } else {
-      above = s;
-    }
-    const double newton = s - value / slope;
-    const double next = slope < 0 && newton > below && newton < above ? newton : 0.5 * (below + above);
-    if (std::abs(next - s) <= 1e-15 * s) break;
-    s = next;
-  }
-  return s;
 }
 
 }  // namespace
@@ -102,42 +71,6 @@ DiscPhases::State DiscPhases::at_rest(const Disc& disc, double theta, const Eige
   const double psi = std::atan2(y[1], y[0]);
   const Eigen::Vector2d n = direction(psi), edge = at.x - at.h * n;
   return {n.dot(at.v) > at.dh, edge, psi};
-}
-
-// The first angle at which |x - w| exceeds h, by steps over which it cannot: h^2 - |x - w|^2 exceeds a
-// polynomial from the derivatives up to the second and bounds of the third.
-double DiscPhases::onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, double begin,
-                         double end) const {
-  if (!(disc.motion_bound(1) > 0) && !(disc.radius_bound(1) > 0)) return never;
-  const double r3 = -(disc.motion_bound(3) + disc.radius_bound(3)) / 6;
-  double theta = begin;
-  for (int i = 0; i < most_steps && theta < end; ++i) {
-    const DiscPoint p = disc.at(theta);
-    const Eigen::Vector2d y = p.x - w, a = 0.5 * p.a;
-    const double d = y.norm(), r2 = 0.5 * p.ddh;
-    const bool edge_now = at_edge && i == 0;
-    std::array<double, 7> c = {(p.h - d) * (p.h + d),
-                               2 * (p.h * p.dh - y.dot(p.v)),
-                               p.dh * p.dh + 2 * p.h * r2 - p.v.squaredNorm() - 2 * y.dot(a),
-                               2 * (p.h * r3 + p.dh * r2 - p.v.dot(a)),
-                               r2 * r2 + 2 * p.dh * r3 - a.squaredNorm(),
-                               2 * r2 * r3,
-                               r3 * r3};
-    if (edge_now) {
-      c[0] = 0;
-      c[1] = std::max(c[1], 0.0);
-    } else if (c[0] <= 0) {
-      return theta;
-    }
-    const double step = first_root(c, end - theta);
-    if (edge_now)
-      theta += std::max(0.5 * step, least_step);
-    else if (c[1] < 0 && !(step > 1e-15 * turn_angle))
-      return theta;
-    else
-      theta += c[1] < 0 ? step : std::max(step, least_step);
-  }
-  return never;
 }
 
 // x'.n - h' within a panel, and its slope.
@@ -254,7 +187,7 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
     phase.begin = theta;
     if (!state.slips) {
       const bool at_edge = from == DiscPhase::Begin::closing || from == DiscPhase::Begin::slip_end;
-      double until = phases_.size() - first > most ? never : onset(disc, state.w, at_edge, theta, end);
+      double until = phases_.size() - first > most ? never : slip_onset(disc, state.w, at_edge, theta, end);
       if (opens_ && until >= end - negligible) until = never;
       phase.state = DiscPhase::State::stick;
       phase.w = state.w;

@@ -5,8 +5,7 @@
 //   slip   w = x - h n is carried along by the edge of the disc (slip_panel.hpp)
 //   open   the disc is the point x where N = 0, and w = x
 //
-// The onset of slip is where |x - w|^2 - h^2, a trigonometric polynomial, becomes positive: it is approached
-// in steps that a bound of its third derivative allows, so that none is missed. Slip ends where x'.n = h'.
+// The onset of slip is where |x - w|^2 - h^2 becomes positive (disc_onset.hpp). Slip ends where x'.n = h'.
 //
 // Where the contact opens, the phases follow from its closing in one pass. Else the map of w over one period
 // is non-expansive. If a rest is possible (stick_centre.hpp) there is full stick, with the centred rest. If
@@ -81,7 +80,6 @@ class DiscPhases {
   Eigen::Vector2d slider(const DiscPoint& at, const State& state) const;
   void march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
              Eigen::Matrix2d* by);
-  double onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, double begin, double end) const;
   std::pair<double, double> spare(const Disc& disc, const SlipPanel& panel, double theta) const;
   std::optional<Bracket> end_of_slip(const Disc& disc, const SlipPanel& panel) const;
   double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);

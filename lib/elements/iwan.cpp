@@ -2,6 +2,7 @@
 
 #include <arcslip/elements/iwan_power_law.hpp>
 #include <arcslip/elements/masing_element.hpp>
+#include <arcslip/elements/offset_option.hpp>
 #include <arcslip/scene/study_keys.hpp>
 
 #include <algorithm>
@@ -129,31 +130,6 @@ file::KeyGroup<Options> table_key() {
   return {{key}, read, write};
 }
 
-// The key of other contacts, with the one choice that this law has.
-file::KeyGroup<Options> offset_key() {
-  scene::Key key{
-      "offset",
-      scene::KeyType::word,
-      "",
-      "\"centred\"",
-      "\"centred\"",
-      false,
-      "of sliders that stick throughout the period, as some do in microslip: without a mean force"};
-  key.words = {"centred"};
-  const auto read = [](const file::Reading& reading, Options&) {
-    const file::Location place = reading.keys.find("offset");
-    const auto* word = place.node != nullptr ? place.node->get<std::string>() : nullptr;
-    if (place.node != nullptr && (word == nullptr || *word != "centred"))
-      reading.faults.add(
-          place.pointer,
-          "found another offset than \"centred\", which this joint does not have: its sliders that "
-          "stick throughout the period, as some do in microslip, hold no mean force; where one is "
-          "to be held, put elements of type \"jenkins\" with \"offset\": \"static\" in parallel");
-  };
-  const auto write = [](const Options&, const scene::Scene&, file::Node::Object&) {};
-  return {{key}, read, write};
-}
-
 file::KeysOf<Options> option_keys() {
   file::KeysOf<Options> keys;
   keys.add(file::word("distribution", &Options::distribution, distributions, "of slip limits"));
@@ -161,7 +137,12 @@ file::KeysOf<Options> option_keys() {
   keys.add(
       file::whole("sliders", &Options::sliders, 2, static_cast<int>(most_sliders),
                   "number of sliders by which studies of kind \"time\" replace a continuous distribution"));
-  keys.add(offset_key());
+  keys.add(centred_offset<Options>(
+      "of sliders that stick throughout the period, as some do in microslip: without a mean force",
+      "which this joint does not have: its sliders that stick throughout the period, as some do in "
+      "microslip, "
+      "hold no mean force; where one is to be held, put elements of type \"jenkins\" with \"offset\": "
+      "\"static\" in parallel"));
   return keys;
 }
 

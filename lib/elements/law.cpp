@@ -32,21 +32,11 @@ std::shared_ptr<const Law> law_of(const scene::Part& part) {
 }
 
 std::vector<const scene::PartType*> laws() {
-  return {&jenkins(),
-          &contact_2d(),
-          &contact_3d(),
-          &iwan(),
-          &bouc_wen(),
-          &tanh_friction(),
-          &coulomb(),
-          &quadratic_damper(),
-          &van_der_pol(),
-          &cubic_spring(),
-          &polynomial_spring(),
-          &polynomial_coupling(),
-          &gap_spring(),
-          &bilinear_spring(),
-          &piecewise_linear_spring()};
+  return {&jenkins(),      &contact_2d(),        &contact_3d(),
+          &iwan(),         &bouc_wen(),          &tanh_friction(),
+          &coulomb(),      &quadratic_damper(),  &van_der_pol(),
+          &cubic_spring(), &polynomial_spring(), &polynomial_coupling(),
+          &gap_spring(),   &bilinear_spring(),   &piecewise_linear_spring()};
 }
 
 }  // namespace arcslip::elements

@@ -5,6 +5,8 @@
 #include <arcslip/scene/study_keys.hpp>
 
 #include <array>
+#include <string>
+#include <utility>
 
 namespace arcslip::elements {
 
@@ -22,6 +24,22 @@ inline scene::file::KeysOf<OffsetOption> offset_option() {
                         "of a slider that sticks throughout the period: between its bounds, without a mean "
                         "force, or as near to its place without force as they allow, so that it holds one"));
   return keys;
+}
+
+/// The same key of a law that has the centred offset alone. without: why there is no other, and what to do
+/// instead.
+template <class Options>
+scene::file::KeyGroup<Options> centred_offset(std::string help, std::string without) {
+  scene::Key key{"offset", scene::KeyType::word, "", "\"centred\"", "\"centred\"", false, std::move(help)};
+  key.words = {"centred"};
+  const auto read = [without = std::move(without)](const scene::file::Reading& reading, Options&) {
+    const scene::file::Location place = reading.keys.find("offset");
+    const auto* word = place.node != nullptr ? place.node->template get<std::string>() : nullptr;
+    if (place.node != nullptr && (word == nullptr || *word != "centred"))
+      reading.faults.add(place.pointer, "found another offset than \"centred\", " + without);
+  };
+  const auto write = [](const Options&, const scene::Scene&, scene::file::Node::Object&) {};
+  return {{key}, read, write};
 }
 
 inline Offset offset_of(const scene::Settings& options) {

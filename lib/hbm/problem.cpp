@@ -2,6 +2,8 @@
 
 #include <arcslip/continuation/tracing/tracer.hpp>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -176,14 +178,16 @@ Vector parameters_at(const HbmProblem& problem, double omega) {
 
 namespace {
 
+constexpr double least_part = 1e-3;  // of the excitation
 constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch that closes on itself never ends
 
-// The branch from rest over the excitation factors from -1 to 1. If all laws are antisymmetric, u at -1 is -u
-// at 1: so it may leave rest on either side, or return through 0, where u need not be zero.
-std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p,
-                           const std::function<bool()>& go_on) {
+// The branch over the excitation factors from -1 to 1, from one of them on, such as from rest at 0. If all
+// laws are antisymmetric, u at -1 is -u at 1: so it may leave rest on either side, or return through 0, where
+// u need not be zero.
+std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p, double from,
+                           const Vector& u, const std::function<bool()>& go_on) {
   const int factor = problem->excitation_factor();
-  p[factor] = 0;
+  p[factor] = from;
   continuation::Options options;
   options.lower = -1;
   options.upper = 1;
@@ -191,12 +195,34 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   options.step.largest_parameter = 0.01;
   options.points = longest_ramp;
   options.go_on = go_on;
-  const auto branch = continuation::trace(problem, {Vector::Zero(problem->size()), p, factor, 1}, options);
+  const auto branch = continuation::trace(problem, {u, p, factor, 1}, options);
   if (branch.stop.reason != continuation::StopReason::boundary) return {};
   const double end = branch.points.back().parameter;
   if (end != 1 && !(end == -1 && problem->model().antisymmetric))
     return {};  // from a kink it may lead nowhere
   return end * branch.points.back().u;
+}
+
+// The response of the structure with its elements linearized at rest: all sliders stuck. Newton's method from
+// there, not from rest, where J may be all but singular: a motion of no size leaves the mean of a memory
+// open.
+Vector stuck_response(const HbmProblem& problem, const Vector& p) {
+  const auto at = problem.hbm_evaluator();
+  const Vector rest = Vector::Zero(problem.size());
+  if (at->move_to(rest, p, Needs::jacobian) != Evaluated::ok)
+    return Vector::Constant(rest.size(), std::nan(""));
+  return -std::get<Eigen::MatrixXd>(at->jacobian()).partialPivLu().solve(at->residual());
+}
+
+// The ramp from the largest part of the excitation at which Newton's method converges.
+std::optional<Vector> ramp_from_part(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+                                     const std::function<bool()>& go_on) {
+  Vector part = p;
+  double& factor = part[problem->excitation_factor()];
+  for (factor = 0.5; factor >= least_part && (!go_on || go_on()); factor *= 0.5)
+    if (const auto u = response_near(*problem, part, stuck_response(*problem, part)))
+      return ramp(problem, p, factor, *u, go_on);
+  return {};
 }
 
 // A spring in place of each element, as stiff as that may be. p: the parameters of the model, extended.
@@ -329,9 +355,11 @@ std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, 
 
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
                                    const std::function<bool()>& go_on) {
-  for (const Vector& guess : {Vector(Vector::Zero(problem->size())), linear_response(*problem, p)})
+  const Vector rest = Vector::Zero(problem->size());
+  for (const Vector& guess : {rest, linear_response(*problem, p), stuck_response(*problem, p)})
     if (const auto found = response_near(*problem, p, guess)) return found;
-  if (const auto found = ramp(problem, p, go_on)) return found;
+  if (const auto found = ramp(problem, p, 0, rest, go_on)) return found;
+  if (const auto found = ramp_from_part(problem, p, go_on)) return found;
   for (const bool springs : {false, true}) {
     if (go_on && !go_on()) return {};
     if (const auto found = gradual(problem, p, springs, go_on)) return found;

@@ -191,6 +191,31 @@ TEST_CASE("with an even harmonic of the force smooth hysteresis has a mean, as i
   CHECK(std::abs(motion.amplitude / responses[0].point.amplitude - 1) < 1e-4);
 }
 
+TEST_CASE("two hystereses with a mean have a response at every order, where rest leaves their means open") {
+  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 0.7}],
+      "springs": [{"name": "k", "at": "x", "value": 1.6}], "dampers": [{"name": "c", "at": "x", "value": 0.04}]},
+    "elements": [
+      {"name": "a", "type": "bouc_wen", "at": "x", "stiffness": 1, "yield_displacement": 0.18, "exponent": 2.2,
+       "shape": 0.62},
+      {"name": "b", "type": "bouc_wen", "at": "x", "stiffness": 1.4, "yield_displacement": 0.47, "exponent": 3.9,
+       "shape": 0.73}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 1},
+                   {"name": "g", "at": "x", "harmonic": 2, "cosine": 0.22, "sine": 0.22}]})");
+  const auto motion = observables::motion_in_time(
+      s, {.frequency = 1.06, .method = observables::TimeMethod::newmark_shooting, .steps = 4000});
+  REQUIRE(motion.status == observables::Status::complete);
+  const std::pair<int, double> errors[] = {{5, 2e-2}, {9, 2e-3}, {15, 5e-4}, {25, 5e-5}, {51, 1e-5}};
+  for (const auto& [order, error] : errors) {
+    s.harmonics.order = order;
+    const auto found = observables::point_responses(s, {.frequency = 1.06});
+    CAPTURE(order);
+    REQUIRE(found.size() == 1);
+    REQUIRE(found[0].status == observables::Status::complete);
+    CHECK(found[0].point.amplitude == Approx(motion.amplitude).epsilon(error));
+  }
+}
+
 TEST_CASE("smooth hysteresis keeps numbers and bounds at all amplitudes, in steps of any size") {
   for (const double n : {1.0, 3.7, 100.0})
     for (const double shape : {0.5, 0.9, 3.0}) {

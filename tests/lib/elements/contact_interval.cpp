@@ -1,6 +1,7 @@
 // What contacts do over the period, beside their shares, closed forms and the exact march in time.
 #include "catch.hpp"
 
+#include "lib/elements/contacts.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/every_law.hpp"
 #include "lib/time/beside_exact.hpp"
@@ -234,19 +235,9 @@ TEST_CASE("without friction a contact in a plane slips while it is closed") {
 
 TEST_CASE("each contact does at each instant what it does in the exact motion in time") {
   const auto pad = [](double f_t, double f_n) {
-    std::ostringstream text;
-    text << R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-      "structure": {"dofs": ["t", "n"],
-        "masses": [{"name": "m_t", "at": "t", "value": 1}, {"name": "m_n", "at": "n", "value": 1}],
-        "springs": [{"name": "s_t", "at": "t", "value": 8500}, {"name": "s_n", "at": "n", "value": 18500},
-                    {"name": "s", "direction": {"t": 1, "n": 1}, "value": 1500}],
-        "dampers": [{"name": "d_t", "at": "t", "value": 2}, {"name": "d_n", "at": "n", "value": 2}]},
-      "elements": [{"name": "pad", "type": "contact_2d", "tangential": {"at": "t"}, "normal": {"at": "n"},
-        "tangential_stiffness": 6e3, "normal_stiffness": 9e3, "friction_coefficient": 0.4, "normal_load": 8}],
-      "response": {"at": "t"}, "excitation": [{"name": "f_t", "at": "t", "cosine": )"
-         << f_t << R"(}, {"name": "f_n", "at": "n", "cosine": )" << f_n << R"(}],
-      "harmonics": {"order": 101}, "studies": [{"kind": "frf", "from": 60, "to": 180}]})";
-    return scenes::parse(text.str());
+    scene::Scene scene = contacts::line_pad(101, f_t, f_n);
+    scene::set(scene, "load.cosine", 0);
+    return scene;
   };
   const auto stop = [](double gap, bool two_sided) {
     std::ostringstream text;

@@ -2,6 +2,7 @@
 #include "lib/laws/every_law.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "random.hpp"
 
 #include <arcslip/elements/coulomb.hpp>
 #include <arcslip/elements/tanh_friction.hpp>
@@ -152,6 +153,22 @@ TEST_CASE("rigid friction comes to Den Hartog's response without stops as 1/N") 
         CHECK(point.truncation_estimate / point.amplitude == Approx(0.54 * error).epsilon(0.08));
       }
     }
+}
+
+TEST_CASE("at random frequencies and loads without stops rigid friction comes to Den Hartog's response") {
+  test_random::Random random(1);
+  for (int k = 0; k < 100; ++k) {
+    const DenHartog exact{random.one_in(2) ? random.between(0.55, 0.95) : random.between(1.05, 3)};
+    const double friction = random.between(0.02, 0.9) * exact.stops_from(),
+                 amplitude = exact.amplitude(friction);
+    const auto coarse = response(rigid(friction), 50, exact.r),
+               fine = response(rigid(friction), 100, exact.r);
+    CAPTURE(exact.r, friction, coarse.amplitude, fine.amplitude, amplitude);
+    CHECK(coarse.stops == "");
+    CHECK(fine.stops == "");
+    CHECK((coarse.amplitude - amplitude) / (fine.amplitude - amplitude) == Approx(2).epsilon(0.03));
+    CHECK(2 * fine.amplitude - coarse.amplitude == Approx(amplitude).epsilon(1e-4));  // 1/N^2
+  }
 }
 
 TEST_CASE(

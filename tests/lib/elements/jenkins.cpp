@@ -1,5 +1,7 @@
 #include "catch.hpp"
 
+#include "lib/laws/every_law.hpp"
+
 #include <arcslip/elements/jenkins.hpp>
 #include <arcslip/elements/reversals.hpp>
 
@@ -12,18 +14,6 @@ using namespace arcslip::elements;
 using std::numbers::pi;
 
 namespace {
-
-// A motion whose harmonics fall as n^-2, of largest coefficient about `amplitude`.
-Eigen::VectorXd motion(const Harmonics& h, double amplitude, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> number(-1, 1);
-  Eigen::VectorXd u(h.size());
-  for (int i = 0; i < h.cosines(); ++i)
-    u[i] = number(random) / std::max(1, h.cosine_order(i) * h.cosine_order(i));
-  for (int j = 0; j < h.sines(); ++j)
-    u[h.cosines() + j] = number(random) / (h.sine_order(j) * h.sine_order(j));
-  return amplitude * u / u.cwiseAbs().maxCoeff();
-}
 
 using FieldValues = std::array<double, 3>;  // stiffness, friction coefficient, normal load
 
@@ -63,7 +53,7 @@ TEST_CASE(
           for (unsigned seed : {1u, 2u, 3u}) {
             const Harmonics h{order, odd};
             const auto element = make_jenkins(h);
-            const Eigen::VectorXd u = motion(h, amplitude, seed);
+            const Eigen::VectorXd u = every_law::falling_motion(h, amplitude, seed);
             const FieldValues fields{2.0, 0.5, amplitude * load};
             element->move_to(u, fields, true);
             const Eigen::MatrixXd J = element->jacobian();
@@ -95,7 +85,7 @@ TEST_CASE("the derivative in every field is that of central differences") {
       for (double load : {0.3, 1.0, 2.0, 1e3}) {
         const Harmonics h{7, odd};
         const auto element = sampled ? make_sampled_jenkins(h, 256) : make_jenkins(h);
-        const Eigen::VectorXd u = motion(h, 1, 5);
+        const Eigen::VectorXd u = every_law::falling_motion(h, 1, 5);
         const FieldValues fields{2.0, 0.5, load};
         for (int k = 0; k < 3; ++k) {
           const auto at = static_cast<std::size_t>(k);
@@ -118,7 +108,7 @@ TEST_CASE("the derivative in every field is that of central differences") {
 TEST_CASE("sampling converges to the exact force as samples^-2") {
   for (bool odd : {true, false}) {
     const Harmonics h{9, odd};
-    const Eigen::VectorXd u = motion(h, 1, 11);
+    const Eigen::VectorXd u = every_law::falling_motion(h, 1, 11);
     const FieldValues fields{2.0, 0.5, 0.8};
     const auto exact = make_jenkins(h);
     exact->move_to(u, fields, true);
@@ -180,7 +170,7 @@ TEST_CASE("the sampled Jacobian is exact for the sampled force") {
     for (double load : {0.5, 1.0, 2.5, 100.0}) {
       const Harmonics h{5, odd};
       const auto element = make_sampled_jenkins(h, 100);
-      const Eigen::VectorXd u = motion(h, 1, 3);
+      const Eigen::VectorXd u = every_law::falling_motion(h, 1, 3);
       const FieldValues fields{2.0, 0.5, load};
       element->move_to(u, fields, true);
       const Eigen::MatrixXd J = element->jacobian();
@@ -203,7 +193,8 @@ TEST_CASE("the sampled force is one straight line within its piece") {
       for (unsigned seed = 1; seed <= 40; ++seed) {
         const Harmonics h{5, odd};
         const auto element = make_sampled_jenkins(h, 64);
-        const Eigen::VectorXd u = motion(h, 1, seed), v = u + motion(h, 0.03, seed + 100);
+        const Eigen::VectorXd u = every_law::falling_motion(h, 1, seed),
+                              v = u + every_law::falling_motion(h, 0.03, seed + 100);
         const FieldValues fields{2.0, 0.5, load};
         element->move_to(u, fields, true);
         const std::uint64_t piece = element->piece();
@@ -221,7 +212,7 @@ TEST_CASE("force and energy are continuous where slip is born, between stick and
   for (bool odd : {true, false}) {
     const Harmonics h{5, odd};
     const auto element = make_jenkins(h);
-    const Eigen::VectorXd u = motion(h, 1, 7);
+    const Eigen::VectorXd u = every_law::falling_motion(h, 1, 7);
     // Bisect the load for the limit of full stick, and compare both sides.
     double slips = 1e-3, sticks = 1e3;
     FrictionState state;
@@ -260,7 +251,7 @@ TEST_CASE("without load or without motion the force is what it must be") {
     const Harmonics h{5, odd};
     for (const bool sampled : {false, true}) {
       const auto element = sampled ? make_sampled_jenkins(h, 128) : make_jenkins(h);
-      const Eigen::VectorXd u = motion(h, 1, 2);
+      const Eigen::VectorXd u = every_law::falling_motion(h, 1, 2);
       element->move_to(u, FieldValues{2.0, 0.5, 0.0}, true);
       CHECK(element->force().norm() < 1e-14);
       CHECK(element->jacobian().norm() < 1e-12);
@@ -279,7 +270,7 @@ TEST_CASE("without load or without motion the force is what it must be") {
 TEST_CASE("full stick is a centred linear spring, mean included") {
   const Harmonics h{4, false};
   const auto element = make_jenkins(h);
-  Eigen::VectorXd u = motion(h, 1, 9);
+  Eigen::VectorXd u = every_law::falling_motion(h, 1, 9);
   element->move_to(u, FieldValues{2.0, 0.5, 1e3}, true);
   Eigen::VectorXd shifted = u;
   shifted[0] += 0.7;
@@ -297,7 +288,7 @@ TEST_CASE(
   std::uniform_real_distribution<double> number(-1, 1);
   for (int trial = 0; trial < 40; ++trial) {
     const auto element = trial % 2 == 0 ? make_jenkins(h) : make_sampled_jenkins(h, 128);
-    Eigen::VectorXd u = motion(h, 1, static_cast<unsigned>(trial));
+    Eigen::VectorXd u = every_law::falling_motion(h, 1, static_cast<unsigned>(trial));
     for (int n = 1; n <= h.order; n += 2) u[h.cosine_index(n)] = u[h.sine_index(n)] = 0;
     const FieldValues fields{1, 0.5, 100};
     element->move_to(u, fields, false);
@@ -316,10 +307,10 @@ TEST_CASE("an element without load has one piece, whatever its motion") {
   const FieldValues fields{2, 0.5, 0};
   for (const bool sampled : {false, true}) {
     const auto element = sampled ? make_sampled_jenkins(h, 64) : make_jenkins(h);
-    element->move_to(motion(h, 1, 1), fields, false);
+    element->move_to(every_law::falling_motion(h, 1, 1), fields, false);
     const auto piece = element->piece();
     for (unsigned seed = 2; seed < 30; ++seed) {
-      element->move_to(motion(h, 1, seed), fields, false);
+      element->move_to(every_law::falling_motion(h, 1, seed), fields, false);
       CHECK(element->piece() == piece);
       CHECK(element->force().norm() < 1e-14);
     }

@@ -317,18 +317,37 @@ TEST_CASE("the offset is an option of the elements that have it, and written wit
   } catch (const scene::SceneError& error) {
     CHECK(contains(error.what(), "\"static\""));
   }
-  std::string joint = R"({"format": "arcslip-scene-1", "structure": {"dofs": ["x"],
-    "masses": [{"name": "m", "at": "x", "value": 1}], "springs": [{"name": "k", "at": "x", "value": 1}]},
-    "elements": [{"name": "j", "type": "iwan", "at": "x", "stiffness": 1, "slip_force": 1, "offset": "static"}],
-    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "studies": [{"kind": "frf", "from": 1, "to": 2}]})";
-  try {
-    scenes::parse(joint);
-    FAIL("a joint has no offset");
-  } catch (const scene::SceneError& error) {
-    REQUIRE(error.faults().size() == 1);
-    CHECK(error.faults()[0].pointer == "/elements/0/offset");
-    CHECK(contains(error.faults()[0].message,
-                   "as some do in microslip, hold no mean force; where one is to be held"));
+}
+
+TEST_CASE("a law without a static offset refuses one, and says what holds a mean force instead") {
+  const auto fault = [](const std::string& element) {
+    try {
+      scenes::parse(R"({"format": "arcslip-scene-1", "structure": {"dofs": ["x", "y", "n"],
+        "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 1},
+                   {"name": "mn", "at": "n", "value": 1}],
+        "springs": [{"name": "kx", "at": "x", "value": 1}]}, "response": {"at": "x"},
+        "elements": [{"name": "j", )" +
+                    element + R"(}], "excitation": [{"name": "f", "at": "x", "cosine": 1}]})");
+    } catch (const scene::SceneError& error) {
+      REQUIRE(error.faults().size() == 1);
+      CHECK(error.faults()[0].pointer == "/elements/0/offset");
+      return error.faults()[0].message;
+    }
+    return std::string("none");
+  };
+  const std::string joint = R"("type": "iwan", "at": "x", "stiffness": 1, "slip_force": 1, "offset": )",
+                    plane = R"("type": "contact_3d", "tangential_1": {"at": "x"}, "tangential_2": {"at": "y"},
+    "normal": {"at": "n"}, "tangential_stiffness": 1, "normal_stiffness": 1, "friction_coefficient": 0.3,
+    "normal_load": 1, "offset": )";
+  for (const std::string& element : {joint, plane}) {
+    CHECK(fault(element + R"("centred")") == "none");
+    for (const char* other : {R"("static")", "0"}) {
+      const std::string message = fault(element + other);
+      CAPTURE(message);
+      CHECK(contains(message, "found another offset than \"centred\", which"));
+      CHECK(contains(message, "hold no mean force") != contains(message, "holds no mean force"));
+      CHECK(contains(message, "where one is to be held, put elements of type \"jenkins\""));
+    }
   }
 }
 

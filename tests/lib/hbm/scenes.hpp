@@ -10,6 +10,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace scenes {
 
@@ -20,6 +21,32 @@ inline constexpr double hertz = 2 * std::numbers::pi;
 inline scene::Scene parse(const std::string& text) {
   std::istringstream in(text);
   return scene::read(in, test_catalogue::whole());
+}
+
+struct Oscillator {
+  const char* dof;
+  double mass, stiffness, damping;
+};
+
+/// A section "structure" of oscillators that nothing couples: masses m_DOF, springs k_DOF, dampers c_DOF.
+inline std::string uncoupled(const std::vector<Oscillator>& oscillators) {
+  std::ostringstream dofs, masses, springs, dampers;
+  const char* comma = "";
+  for (const Oscillator& each : oscillators) {
+    const auto part = [&](const char* letter, double value) {
+      std::ostringstream text;
+      text << comma << R"({"name": ")" << letter << "_" << each.dof << R"(", "at": ")" << each.dof
+           << R"(", "value": )" << value << "}";
+      return text.str();
+    };
+    dofs << comma << '"' << each.dof << '"';
+    masses << part("m", each.mass);
+    springs << part("k", each.stiffness);
+    dampers << part("c", each.damping);
+    comma = ", ";
+  }
+  return R"("structure": {"dofs": [)" + dofs.str() + R"(], "masses": [)" + masses.str() +
+         R"(], "springs": [)" + springs.str() + R"(], "dampers": [)" + dampers.str() + "]}";
 }
 
 /// The window of the scene's first study, one of frequency responses.

@@ -22,6 +22,18 @@ inline VectorXd random(Eigen::Index size, double scale, std::mt19937& bits) {
   return VectorXd::NullaryExpr(size, [&] { return number(bits); });
 }
 
+/// A motion whose harmonics fall as n^-2, of largest coefficient `amplitude`.
+inline VectorXd falling_motion(const elements::Harmonics& h, double amplitude, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  VectorXd u(h.size());
+  for (int i = 0; i < h.cosines(); ++i)
+    u[i] = number(random) / std::max(1, h.cosine_order(i) * h.cosine_order(i));
+  for (int j = 0; j < h.sines(); ++j)
+    u[h.cosines() + j] = number(random) / (h.sine_order(j) * h.sine_order(j));
+  return amplitude * u / u.cwiseAbs().maxCoeff();
+}
+
 /// df/dx of any function, by central differences.
 inline MatrixXd differences(const std::function<VectorXd(const VectorXd&)>& f, const VectorXd& x, double h) {
   MatrixXd D(f(x).size(), x.size());

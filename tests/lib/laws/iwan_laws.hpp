@@ -1,6 +1,8 @@
 #pragma once
 // Laws "iwan" with their options, as a scene has them.
 
+#include "catch.hpp"
+
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/elements/law.hpp>
@@ -44,6 +46,27 @@ inline std::string table(const std::vector<std::pair<double, double>>& sliders) 
 
 inline std::shared_ptr<const elements::Law> law(const std::string& element) {
   return elements::law_of(oscillator(element).elements.front());
+}
+
+struct At {
+  Eigen::VectorXd force;
+  Eigen::MatrixXd jacobian;
+  std::vector<Eigen::VectorXd> by_field;
+  double stick_share;
+};
+
+inline At at(elements::Element& element, const Eigen::VectorXd& u, const std::vector<double>& fields) {
+  element.move_to(u, fields, true);
+  At result{element.force(), element.jacobian(), {}, 0};
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    Eigen::VectorXd dF(u.size());
+    element.field_derivative(static_cast<int>(k), dF);
+    result.by_field.push_back(dF);
+  }
+  elements::FrictionState state;
+  REQUIRE(element.friction(state));
+  result.stick_share = state.stick_share;
+  return result;
 }
 
 }  // namespace iwan_laws

@@ -40,13 +40,9 @@ scene::Scene plate(int order, bool details = true) {
                                        "t + 0.01*r,n + 0.05*r,1e-4,0,2e-5\n";
   std::istringstream text(
       R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": ["t", "n", "r"],
-      "masses": [{"name": "m_t", "at": "t", "value": 1}, {"name": "m_n", "at": "n", "value": 1},
-                 {"name": "m_r", "at": "r", "value": 0.01}],
-      "springs": [{"name": "s_t", "at": "t", "value": 1e4}, {"name": "s_n", "at": "n", "value": 2e4},
-                  {"name": "s_r", "at": "r", "value": 200}],
-      "dampers": [{"name": "d_t", "at": "t", "value": 4}, {"name": "d_n", "at": "n", "value": 4},
-                  {"name": "d_r", "at": "r", "value": 0.04}]},
+    )" +
+      scenes::uncoupled({{"t", 1, 1e4, 4}, {"n", 1, 2e4, 4}, {"r", 0.01, 200, 0.04}}) +
+      R"(,
     "patches": [{"name": "pad", "law": "contact_2d", "file": "pad.csv", "tangential_stiffness": 3e7,
       "normal_stiffness": 4.5e7, "friction_coefficient": 0.4, "wear_coefficient": 1e-13, "details": )" +
       std::string(details ? "true" : "false") + R"(}],

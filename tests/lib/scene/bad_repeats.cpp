@@ -1,4 +1,4 @@
-#include "bad_studies.hpp"
+#include "bad_topics.hpp"
 
 namespace arcslip::scene::test {
 

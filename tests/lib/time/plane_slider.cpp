@@ -28,14 +28,8 @@ const char* const in_the_plane =
 scene::Scene pad(const std::string& contact, const std::string& forces) {
   return scenes::parse(R"({
     "format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {
-      "dofs": ["x", "y", "n"],
-      "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 1},
-                 {"name": "mn", "at": "n", "value": 1}],
-      "springs": [{"name": "kx", "at": "x", "value": 100}, {"name": "ky", "at": "y", "value": 100},
-                  {"name": "kn", "at": "n", "value": 100}],
-      "dampers": [{"name": "cx", "at": "x", "value": 2}, {"name": "cy", "at": "y", "value": 2},
-                  {"name": "cn", "at": "n", "value": 2}]},
+    )" + scenes::uncoupled({{"x", 1, 100, 2}, {"y", 1, 100, 2}, {"n", 1, 100, 2}}) +
+                       R"(,
     "elements": [{"name": "pad", )" +
                        contact + R"(, "normal": {"at": "n"},
       "tangential_stiffness": 80, "normal_stiffness": 60, "friction_coefficient": 0.5, "normal_load": 4}],
