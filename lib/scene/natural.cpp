@@ -32,6 +32,8 @@ const Part* shared_on(int dof, const std::vector<Part>& parts) {
 // What is missing on the degree of freedom for a "frequency", or "" if nothing is.
 std::string objection_to_mass(int dof, const Structure& structure) {
   const std::string name = shown(structure.dofs.names[static_cast<std::size_t>(dof)]);
+  if (dof < structure.rows)
+    return "found the degree of freedom " + name + " of a structure from matrices, must be a \"value\"";
   if (const Part* shared = shared_on(dof, structure.masses))
     return "found the mass " + shown(shared->name) + ", which acts on " + name +
            " and on others; must be a \"value\", or the masses on " + name + " must act there alone";

@@ -12,6 +12,7 @@ inline constexpr std::string_view frequency_key = "frequency", damping_ratio_key
 /// What is on the degrees of freedom.
 struct Structure {
   const Dofs& dofs;
+  int rows;  // the first degrees of freedom: they are rows of matrices, which hold mass and stiffness as well
   const std::vector<Part>&masses, &springs;
   bool sound;  // false: faults have been told, and what is missing is not told again
 };

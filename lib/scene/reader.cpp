@@ -146,12 +146,14 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
     read_dofs(structure.find("dofs"), dofs, faults);
   scene.dofs = dofs.names;
   scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
+  const auto rows = static_cast<int>(scene.matrices ? scene.matrices->rows.size() : 0);
   const Location springs = structure.find("springs"), dampers = structure.find("dampers");
-  const Node with_values = with_stiffnesses(
-      springs, {dofs, scene.masses, scene.springs, is_sound(before_parts)}, scene.frequency_unit, faults);
+  const Node with_values =
+      with_stiffnesses(springs, {dofs, rows, scene.masses, scene.springs, is_sound(before_parts)},
+                       scene.frequency_unit, faults);
   scene.springs = read_parts(in_place(springs, with_values), &spring_type(), {}, dofs, source, names, faults);
   const Node with_damping =
-      with_dampings(dampers, {dofs, scene.masses, scene.springs, is_sound(before_parts)}, faults);
+      with_dampings(dampers, {dofs, rows, scene.masses, scene.springs, is_sound(before_parts)}, faults);
   scene.dampers =
       read_parts(in_place(dampers, with_damping), &damper_type(), {}, dofs, source, names, faults);
   scene.damping =

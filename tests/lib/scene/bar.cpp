@@ -117,6 +117,12 @@ TEST_CASE("points of a beam are degrees of freedom, written and read again") {
   CHECK(read(scene_of(section, "p")).matrices->bar->inertia == Approx(0.0002).epsilon(1e-14));
 }
 
+TEST_CASE("a spring by a natural frequency needs a mass that is not in matrices") {
+  CHECK(contains(fault(bar("beam", 4, R"("clamped", "free")", R"(, "points": {"p": 1})") +
+                       R"(, "springs": [{"name": "k", "at": "p", "frequency": 3}])"),
+                 "found the degree of freedom \"p\" of a structure from matrices, must be a \"value\""));
+}
+
 TEST_CASE("what is wrong with a beam is told") {
   const std::string ends = R"("clamped", "free")", points = R"(, "points": {"p": 1})";
   CHECK(fault(bar("beam", 4, ends, points)) == "none");
