@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <utility>
 
 using namespace arcslip;
 using optimize::OptimumProblem;
@@ -396,6 +398,29 @@ TEST_CASE("what a callback throws while other starts are looked at ends the sear
     };
     CHECK(optimize::optimum(s, problem, stops).stop.reason == optimize::reasons::user);
   }
+}
+
+TEST_CASE("the best load of a cantilever is that of a beam of any mesh, and of a solid from matrices") {
+  const auto best = [](const scene::Scene& s) {
+    const auto result = optimize::optimum_study(s, settings(s, s.studies.size() - 1));
+    CAPTURE(result.optimum.stop.message);
+    REQUIRE(result.optimum.status == observables::Status::complete);
+    REQUIRE(result.direct.found);
+    CHECK(result.difference_of_design() < 1e-6);
+    return std::pair(result.optimum.design.front(), result.optimum.amplitude);
+  };
+  const scene::Scene beam = example("cantilever/beam.json");
+  const auto [load, amplitude] = best(beam);
+  std::string coarse = scene::write(beam);
+  coarse.replace(coarse.find("\"elements\": 40"), 14, "\"elements\": 10");
+  std::istringstream in(coarse);
+  const auto [coarse_load, coarse_amplitude] = best(scene::read(in, test_catalogue::whole()));
+  CHECK(coarse_load == Approx(load).epsilon(1e-5));  // its first natural frequency is 1e-6 too high
+  CHECK(coarse_amplitude == Approx(amplitude).epsilon(2e-6));
+  // Shear and the indentation under the force, which a beam does not have, and bricks as long as high.
+  const auto [solid_load, solid_amplitude] = best(example("cantilever/solid.json"));
+  CHECK(solid_load == Approx(load).epsilon(5e-3));
+  CHECK(solid_amplitude == Approx(amplitude).epsilon(1e-2));
 }
 
 TEST_CASE(
