@@ -11,6 +11,7 @@ namespace {
 
 enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load, field_count };
 
+constexpr double least_slip = 1e-8;    // of the radius: less beyond full stick leaves derivatives few digits
 constexpr double frictionless = 1e-7;  // radius of the disc, of the motion, that stands for the limit 0
 
 class Contact3dElement final : public Element {
@@ -21,6 +22,10 @@ class Contact3dElement final : public Element {
         normal_(h),
         disc_(h),
         stretch_(h),
+        disc_beside_(h),
+        beside_(h),
+        shorter_(c_),
+        derivative_(2 * c_, 3 * c_),
         u_n_(c_),
         radius_(c_),
         F_(3 * c_),
@@ -61,7 +66,7 @@ class Contact3dElement final : public Element {
     if (field == normal_load) dF.tail(c_) = normal_.by_load();
     if (rigid_ || (!(mu > 0) && field != friction_coefficient)) return;
     differentiate();
-    const auto by_radius = stretch_.derivative().rightCols(c_);
+    const auto by_radius = derivative_.rightCols(c_);
     auto T = dF.head(2 * c_);
     if (field == tangential_stiffness)  // h is mu N/k_t
       T = stretch_.coefficients() - by_radius * radius_;
@@ -112,9 +117,30 @@ class Contact3dElement final : public Element {
   }
 
  private:
+  // Next to full stick the rest is hardly held across the slip: its derivative is the ratio of two small
+  // numbers, of which rounding leaves little. There the derivatives are continued from shorter radii, with
+  // the root of what these fall short of full stick.
   void differentiate() const {
-    if (!differentiated_) stretch_.differentiate();
+    if (differentiated_) return;
     differentiated_ = true;
+    const double missing = stretch_.phases().short_of_stick(), least = least_slip * disc_.largest();
+    if (!(missing > 0) || missing >= least) {
+      stretch_.differentiate();
+      derivative_ = stretch_.derivative();
+      return;
+    }
+    const double root = std::sqrt(missing / least);
+    shorten(4 * least - missing);
+    derivative_ = (root - 1) * beside_.derivative();
+    shorten(least - missing);
+    derivative_ += (2 - root) * beside_.derivative();
+  }
+  void shorten(double by) const {
+    shorter_ = radius_;
+    shorter_[0] -= by;
+    disc_beside_.set(disc_.coefficients(0), disc_.coefficients(1), shorter_);
+    beside_.move_to(disc_beside_, normal_.closed(), false);
+    beside_.differentiate();
   }
 
   void set_jacobian() {
@@ -123,8 +149,8 @@ class Contact3dElement final : public Element {
     normal_.jacobian(J_.bottomRightCorner(c_, c_));
     if (rigid_ || !(mu > 0)) return;
     differentiate();
-    J_.topLeftCorner(2 * c_, 2 * c_) = k_t * stretch_.derivative().leftCols(2 * c_);
-    J_.topRightCorner(2 * c_, c_) = mu * fields_[normal_stiffness] * stretch_.derivative().rightCols(c_);
+    J_.topLeftCorner(2 * c_, 2 * c_) = k_t * derivative_.leftCols(2 * c_);
+    J_.topRightCorner(2 * c_, c_) = mu * fields_[normal_stiffness] * derivative_.rightCols(c_);
   }
 
   Harmonics h_;
@@ -134,6 +160,10 @@ class Contact3dElement final : public Element {
   Disc disc_;
   mutable DiscStretch stretch_;  // its derivatives are computed where they are asked for
   mutable bool differentiated_ = false;
+  mutable Disc disc_beside_;
+  mutable DiscStretch beside_;
+  mutable Eigen::VectorXd shorter_;
+  mutable Eigen::MatrixXd derivative_;  // of the stretch
   bool rigid_ = false;
   Eigen::VectorXd u_n_, radius_, F_;
   Eigen::MatrixXd J_;

@@ -312,6 +312,7 @@ const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
   phases_.clear();
   panels_.clear();
   full_stick_ = false;
+  short_of_stick_ = 0;
   periodic_ = true;
   opens_ = opens;
   tolerance_ = resolved * disc.largest();
@@ -336,6 +337,7 @@ const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
     phase.w = centre_.w();
     phases_.push_back(phase);
   } else {
+    short_of_stick_ = centre_.r();
     find_periodic(disc);
   }
   return phases_;

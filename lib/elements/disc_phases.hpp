@@ -48,6 +48,8 @@ class DiscPhases {
   const std::vector<DiscPhase>& list() const { return phases_; }
   bool full_stick() const { return full_stick_; }
   const StickCentre& centre() const { return centre_; }
+  /// By how much the radius falls short of full stick, if the contact never opens; else 0.
+  double short_of_stick() const { return short_of_stick_; }
   const SlipPanel& panel(std::size_t k) const { return panels_[k]; }
   const SlipCollocation& collocation() const { return collocation_; }
   /// Whether the state after the period is that before it, to rounding.
@@ -93,7 +95,7 @@ class DiscPhases {
   StickCentre centre_;
   std::vector<DiscPhase> phases_;
   std::vector<SlipPanel> panels_;
-  double tolerance_ = 0, longest_ = 0;
+  double tolerance_ = 0, longest_ = 0, short_of_stick_ = 0;
   bool full_stick_ = false, periodic_ = true, opens_ = false;
 };
 

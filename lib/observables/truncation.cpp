@@ -19,6 +19,7 @@ constexpr int least_tail = 9;  // orders of the excitation above N looked at: N 
 constexpr double linear_motion = 1e-13;  // forces left out, relative: below, nothing is neglected
 constexpr double near_a_fold = 1e-4;     // a step along the branch, relative to |u|: beyond, its bend matters
 constexpr double at_corner = 1e-6;       // |h| over its size
+constexpr double resolved = 0.02;        // change of the harmonics kept with samples, over those left out
 constexpr double converging = 0.3;       // second sweep over the first
 constexpr double small_change = 0.1;     // of the response, over its amplitude
 constexpr double cancelled = 0.02;       // |dA| over the change of the response
@@ -91,7 +92,7 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
     force = std::max(force, wide_.at().element(e).force().cwiseAbs().maxCoeff());
   if (residual_.cwiseAbs().maxCoeff() <= linear_motion * force) return {};
 
-  bool flagged = resonance_left_out(now);
+  bool flagged = resonance_left_out(now) || samples_too_few();
   wide_.factorize(free_);
   if (held != HeldBy::corner || !to_corner(now)) {
     const double enough = tolerance * now.u.norm();
@@ -114,6 +115,25 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   if (!std::isfinite(change)) return {0, true};
   const bool signs = change < cancelled * size && size > tolerance * extreme.amplitude;
   return {change, flagged || signs || size > small_change * extreme.amplitude};
+}
+
+// Laws of the velocity that are sampled have an error below any power of the samples, once these resolve
+// their forces: in the harmonics kept, twice as many then change next to nothing.
+bool Truncation::samples_too_few() const {
+  const auto& model = problem_.model();
+  if (!problem_.sampling().exact || std::none_of(model.elements.begin(), model.elements.end(),
+                                                 [](const auto& e) { return e.law->rate_dependent(); }))
+    return false;
+  const elements::Harmonics &kept = problem_.harmonics(), &all = wide_.problem().harmonics();
+  double change = 0, largest = 0;
+  for (Eigen::Index block = 0; block < residual_.size(); block += all.size())
+    for (int j = 0; j < all.cosines(); ++j) {
+      const int n = all.cosine_order(j);
+      double size = std::abs(residual_[block + all.cosine_index(n)]);
+      if (n > 0) size = std::hypot(size, residual_[block + all.sine_index(n)]);
+      (n <= kept.order ? change : largest) = std::max(n <= kept.order ? change : largest, size);
+    }
+  return change > resolved * largest;
 }
 
 bool Truncation::resonance_left_out(const continuation::Accepted& now) {

@@ -15,8 +15,8 @@
 // Derivatives with respect to s are differences along t. The estimate is |dA|, not a bound. It is flagged if
 // it may be far too low: N omega is below the highest natural frequency with all elements at maximum
 // stiffness, so that a resonance is neglected; the sweeps do not converge; the change of the response is not
-// small; dA changes sign, so that higher orders dominate; the branch of more harmonics has no point at this
-// q; or the condition of the point cannot be differentiated.
+// small; samples do not resolve a force of the velocity; dA changes sign, so that higher orders dominate; the
+// branch of more harmonics has no point at this q; or the condition of the point cannot be differentiated.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -56,6 +56,7 @@ class Truncation {
   Step step_along(const continuation::Accepted& now, HeldBy held);
   bool to_corner(const continuation::Accepted& now);
   bool resonance_left_out(const continuation::Accepted& now);
+  bool samples_too_few() const;
 
   const hbm::HbmProblem& problem_;
   int free_;

@@ -4,6 +4,7 @@
 #include "lib/laws/every_corner.hpp"
 
 #include <arcslip/elements/contact_3d.hpp>
+#include <arcslip/elements/stick_centre.hpp>
 
 #include <Eigen/SVD>
 
@@ -85,4 +86,33 @@ TEST_CASE("at a birth of slip in a plane the Jacobian jumps along the corner's g
     CHECK(std::abs(svd.matrixV().col(0).dot(dh)) > (1 - 1e-6) * dh.norm());
   }
   for (int guard = 2; guard < 5; ++guard) CHECK(jumps[guard] > 1);
+}
+
+TEST_CASE("up to full stick the mean of friction in a plane does not feel motions that keep the symmetry") {
+  // Odd harmonics alone: T has none of the even ones, for any change of the odd ones. What is left is the
+  // error of the Jacobian.
+  const elements::Harmonics h{5, false};
+  const Eigen::Index c = h.size();
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    Vector u = contacts::random_plane(h, 1, 0, seed);
+    for (int i = 0; i < 2; ++i)
+      for (const int n : {2, 4}) u[i * c + h.cosine_index(n)] = u[i * c + h.sine_index(n)] = 0;
+    u.tail(c).setZero();
+    elements::StickCentre centre(h);
+    elements::Disc disc(h);
+    disc.set(u.head(c), u.segment(c, c), u.tail(c));
+    centre.find(disc);
+    const double radius = centre.r();
+    for (double slip = 1e-3; slip > 1e-12; slip *= 0.1) {
+      const double k_t = 2, mu = 0.5;
+      const auto at = evaluate(elements::contact_3d(), h, u, {k_t, 0, mu, radius * (1 - slip) * k_t / mu});
+      CAPTURE(seed, slip);
+      CHECK(at.friction.stick_share < 1);
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j)
+          for (const int n : {1, 3, 5})
+            CHECK(std::hypot(at.J(i * c, j * c + h.cosine_index(n)), at.J(i * c, j * c + h.sine_index(n))) <
+                  2e-4 * k_t);
+    }
+  }
 }

@@ -4,6 +4,7 @@
 #include "lib/time/beside_exact.hpp"
 
 #include <arcslip/elements/largest_value.hpp>
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/time_study.hpp>
 
@@ -94,6 +95,37 @@ TEST_CASE("a frequency response passes from slip in a plane to full stick where 
     }
     CAPTURE(load, low);
     CHECK(nearest < 1e-10);
+  }
+}
+
+TEST_CASE(
+    "over a load the resonance of an orbiting pad is one curve, up to full stick where its orbit fits") {
+  // In full stick the peak of |x| is that of 10 N on the stuck oscillator, at any load.
+  const double omega = std::sqrt(40e3 / 0.5 - 0.5 * 4 / 0.25);
+  const double amplitude = 10 / std::hypot(40e3 - 0.5 * omega * omega, 2 * omega);
+  const double fits = stuck_orbit(omega) * 20e3 / 0.3;
+  CHECK(fits == Approx(1183.6621).epsilon(1e-7));
+  for (const double upper : {45.0, 70.0}) {
+    const auto curves = observables::resonance_peaks(
+        level_pad(600), {"pad.normal_load", 473.465, 1420.4, upper < 70 ? 25.0 : 30.0, upper});
+    CAPTURE(upper);
+    REQUIRE(curves.size() == 1);
+    CAPTURE(curves[0].stop.message);
+    CHECK(curves[0].status == observables::Status::complete);
+    CHECK(curves[0].points.front().over == Approx(473.465));
+    double last = 0;
+    for (const auto& point : curves[0].points) {
+      const double load = point.over;
+      CHECK(load > last);
+      last = load;
+      const bool sticks = point.elements[0].stick_percent == 100;
+      // Below, the peak sits for some loads where slip begins.
+      if (sticks && load < fits) CHECK(stuck_orbit(point.omega) * 20e3 / 0.3 == Approx(load).epsilon(1e-8));
+      if (load < fits) continue;
+      CHECK(sticks);
+      CHECK(point.omega == Approx(omega).epsilon(1e-8));
+      CHECK(point.amplitude == Approx(amplitude).epsilon(1e-10));
+    }
   }
 }
 

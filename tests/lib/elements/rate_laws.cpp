@@ -306,6 +306,33 @@ TEST_CASE("regularized friction comes to Coulomb's friction without stops, linea
   CHECK(few.truncation_estimate == Approx(std::abs(few.amplitude - fine)).epsilon(0.2));
 }
 
+TEST_CASE("where samples do not resolve regularized friction the truncation estimate is flagged") {
+  const auto at = [](double v0, int order) {
+    const scene::Scene s = oscillator(
+        R"("type": "tanh_friction", "friction_coefficient": 0.3, "normal_load": 1, "reference_velocity": )" +
+            scene::file::json_text(scene::file::node(v0)),
+        0, order, 1, 1);
+    const auto found = observables::point_responses(s, {.frequency = 0.8});
+    REQUIRE(found.size() == 1);
+    REQUIRE(found[0].status == observables::Status::complete);
+    return found[0].point;
+  };
+  for (const int order : {9, 25, 51}) {
+    for (const double v0 : {1e-3, 1e-6}) {  // as rigid: Den Hartog 1931
+      const auto point = at(v0, order);
+      CAPTURE(order, v0, point.amplitude - 2.62610487572, point.truncation_estimate);
+      CHECK(point.truncation_flagged);
+    }
+    for (const double v0 : {0.3, 0.1, 0.03}) {
+      const auto point = at(v0, order);
+      const double error = std::abs(point.amplitude - at(v0, 401).amplitude);
+      CAPTURE(order, v0, error, point.truncation_estimate);
+      CHECK_FALSE(point.truncation_flagged);
+      CHECK(point.truncation_estimate > 0.7 * error);
+    }
+  }
+}
+
 TEST_CASE("laws of velocity keep numbers at all amplitudes") {
   const Harmonics h{5, false};
   const struct {
