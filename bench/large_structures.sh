@@ -1,7 +1,7 @@
 #!/bin/sh
 # Cost over the size of a structure from matrix files: a cantilever of bricks with a friction damper at
-# mid-span, order 5. Columns: rows, nonzero entries of one triangle, seconds to read and reduce, seconds of the
-# frequency response after that, largest memory (MB).
+# mid-span, order 5. Columns: rows, nonzero entries of one triangle, seconds of processor time to read and reduce,
+# those of the frequency response after that, largest memory (MB).
 #
 #   bench/large_structures.sh build/release
 set -eu
@@ -19,7 +19,7 @@ cat > "$folder/scene.json" <<'SCENE'
  "studies": [{"kind": "frf", "from": 15, "to": 60}]}
 SCENE
 seconds() { # of a command, with its largest memory in kB
-  /usr/bin/time -f '%e %M' "$@" 2>&1 > /dev/null | tail -n 1
+  /usr/bin/time -f '%U %S %M' "$@" 2>&1 > /dev/null | tail -n 1 | awk '{print $1 + $2, $3}'
 }
 printf '%10s %12s %16s %10s %10s\n' rows entries read_and_reduce frf memory
 for mesh in '10 1 1' '40 2 2' '80 5 5' '120 10 9' '160 14 14'; do

@@ -14,6 +14,17 @@ enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load
 constexpr double least_slip = 1e-8;    // of the radius: less beyond full stick leaves derivatives few digits
 constexpr double frictionless = 1e-7;  // radius of the disc, of the motion, that stands for the limit 0
 
+constexpr double smallest = 1e-13;  // radius, of the motion: with a smaller one the contact slips alike
+
+// The tangential stiffness, or that with which the disc has the smallest radius, if it is less: the limit of
+// the force, mu N, is the same. size: a bound of the motion. 0: there is no friction.
+double stiffness_in_use(double k_t, double mu, const Eigen::VectorXd& load, double size) {
+  if (!(mu > 0)) return 0;
+  const double most = mu * load.cwiseAbs().sum();
+  const double k = most > 0 && size > 0 ? std::min(k_t, most / (smallest * size)) : k_t;
+  return k >= std::numeric_limits<double>::min() / smallest ? k : 0;
+}
+
 class Contact3dElement final : public Element {
  public:
   explicit Contact3dElement(const Harmonics& h)
@@ -38,20 +49,23 @@ class Contact3dElement final : public Element {
     normal_.move_to(u_n_, fields[normal_stiffness], fields[normal_load]);
     F_.tail(c_) = normal_.force();
     radius_ = mu / k_t * normal_.load();
-    if (!(mu > 0)) {  // the limit: derivatives by mu need the direction of slip
-      disc_.set(u.head(c_), u.segment(c_, c_), radius_);
-      const double size = disc_.motion_bound(0), most = normal_.load().cwiseAbs().sum();
-      radius_ = most > 0 ? Eigen::VectorXd(frictionless * size / most * normal_.load()) : radius_;
-    }
     disc_.set(u.head(c_), u.segment(c_, c_), radius_);
+    k_ = stiffness_in_use(k_t, mu, normal_.load(), disc_.motion_bound(0));
+    if (k_ != k_t) {
+      // Without friction the limit: derivatives by mu need the direction of slip.
+      const double size = disc_.motion_bound(0), most = normal_.load().cwiseAbs().sum();
+      const double ratio = k_ > 0 ? mu / k_ : most > 0 ? frictionless * size / most : 0;
+      radius_ = ratio * normal_.load();
+      disc_.set(u.head(c_), u.segment(c_, c_), radius_);
+    }
     const bool finite = std::isfinite(disc_.motion_bound(3)) && std::isfinite(disc_.radius_bound(3)) &&
                         std::isfinite(disc_.largest());
-    rigid_ = !finite || (!(mu > 0) && !(disc_.motion_bound(0) > 0));
+    rigid_ = !finite || (!(k_ > 0) && !(disc_.motion_bound(0) > 0));
     differentiated_ = false;
     F_.head(2 * c_).setConstant(finite ? 0 : std::numeric_limits<double>::quiet_NaN());
     if (!rigid_) {
       stretch_.move_to(disc_, normal_.closed(), normal_.opens());
-      if (mu > 0) F_.head(2 * c_) = k_t * stretch_.coefficients();
+      if (k_ > 0) F_.head(2 * c_) = k_ * stretch_.coefficients();
     }
     if (jacobian) set_jacobian();
   }
@@ -64,7 +78,7 @@ class Contact3dElement final : public Element {
     const double mu = fields_[friction_coefficient];
     if (field == normal_stiffness) dF.tail(c_) = normal_.by_stiffness();
     if (field == normal_load) dF.tail(c_) = normal_.by_load();
-    if (rigid_ || (!(mu > 0) && field != friction_coefficient)) return;
+    if (rigid_ || (!(k_ > 0) && field != friction_coefficient)) return;
     differentiate();
     const auto by_radius = derivative_.rightCols(c_);
     auto T = dF.head(2 * c_);
@@ -80,13 +94,12 @@ class Contact3dElement final : public Element {
 
   std::uint64_t piece() const override {
     const std::uint64_t side = fields_[normal_load] <= 0 ? ~std::uint64_t{0} : 0;
-    if (!(fields_[friction_coefficient] > 0) || rigid_)
-      return ((normal_.opens() ? 1 : 0) + 2 * normal_.closed().size()) ^ side;
+    if (!(k_ > 0) || rigid_) return ((normal_.opens() ? 1 : 0) + 2 * normal_.closed().size()) ^ side;
     return stretch_.phases().sequence() ^ side;
   }
 
   bool friction(FrictionState& state) const override {
-    if (rigid_ || !(fields_[friction_coefficient] > 0)) {
+    if (rigid_ || !(k_ > 0)) {
       state.slip_onsets.clear();
       state.slip_ends.clear();
       state.stick_share = 0;
@@ -101,7 +114,7 @@ class Contact3dElement final : public Element {
   }
 
   void contact(std::vector<ContactInterval>& intervals) const override {
-    if (!rigid_ && fields_[friction_coefficient] > 0) return stretch_.phases().tell(intervals);
+    if (!rigid_ && k_ > 0) return stretch_.phases().tell(intervals);
     intervals.clear();
     double before = 0;
     for (const auto& [begin, end] : normal_.closed()) {
@@ -144,18 +157,19 @@ class Contact3dElement final : public Element {
   }
 
   void set_jacobian() {
-    const double k_t = fields_[tangential_stiffness], mu = fields_[friction_coefficient];
+    const double mu = fields_[friction_coefficient];
     J_.setZero();
     normal_.jacobian(J_.bottomRightCorner(c_, c_));
-    if (rigid_ || !(mu > 0)) return;
+    if (rigid_ || !(k_ > 0)) return;
     differentiate();
-    J_.topLeftCorner(2 * c_, 2 * c_) = k_t * derivative_.leftCols(2 * c_);
+    J_.topLeftCorner(2 * c_, 2 * c_) = k_ * derivative_.leftCols(2 * c_);
     J_.topRightCorner(2 * c_, c_) = mu * fields_[normal_stiffness] * derivative_.rightCols(c_);
   }
 
   Harmonics h_;
   Eigen::Index c_;
   double fields_[field_count] = {};
+  double k_ = 0;  // stiffness_in_use()
   NormalContact normal_;
   Disc disc_;
   mutable DiscStretch stretch_;  // its derivatives are computed where they are asked for
@@ -182,16 +196,18 @@ Eigen::MatrixXd contact_3d_force(const Harmonics& h, In u, Fields fields, Angles
   NormalContact normal(h);
   normal.move_to(u.tail(c), k_n, N_0);
   Disc disc(h);
-  const Eigen::VectorXd radius = mu / k_t * normal.load();
-  disc.set(u.head(c), u.segment(c, c), radius);
+  const Eigen::VectorXd load = normal.load();
+  disc.set(u.head(c), u.segment(c, c), mu / k_t * load);
+  const double k = stiffness_in_use(k_t, mu, load, disc.motion_bound(0));
+  if (k != k_t && k > 0) disc.set(u.head(c), u.segment(c, c), Eigen::VectorXd(mu / k * load));
   DiscPhases phases(h);
-  if (mu > 0) phases.find(disc, normal.closed(), normal.opens());
+  if (k > 0) phases.find(disc, normal.closed(), normal.opens());
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(angles.size()), 3);
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const double N = std::max(N_0 + k_n * series_values(h, u.tail(c), angles[i]).x, 0.0);
     force(row, 2) = N - std::max(N_0, 0.0);
-    if (mu > 0) force.row(row).head<2>() = k_t * phases.stretch(disc, angles[i]).transpose();
+    if (k > 0) force.row(row).head<2>() = k * phases.stretch(disc, angles[i]).transpose();
   }
   return force;
 }

@@ -136,7 +136,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
   const Keys structure(
       structure_place,
-      {"matrices", "names", "beam", "rod", "dofs", "masses", "springs", "dampers", "damping"}, faults);
+      {"dofs", "masses", "springs", "dampers", "damping", "matrices", "names", "beam", "rod"}, faults);
   if (!structure.is_object()) names.set_incomplete();
   Dofs dofs;
   scene.matrices = read_matrices(structure, scene.frequency_unit, source, dofs, faults);

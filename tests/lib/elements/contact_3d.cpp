@@ -61,7 +61,7 @@ TEST_CASE("on a circle under a constant load the force of slip has a closed form
   // the angle whose cosine is h/a.
   const elements::Harmonics h{5, false};
   const Eigen::Index c = h.size();
-  for (const double a : {1.01, 1.5, 4.0, 100.0})
+  for (const double a : {1.01, 1.5, 4.0, 100.0, 1e11, 1e13, 1e100})
     for (const double way : {1.0, -1.0}) {
       CAPTURE(a, way);
       const double radius = 0.5 * 3 / 2.0;
@@ -232,7 +232,7 @@ TEST_CASE("a contact in a plane stays finite and dissipates at every extreme") {
 TEST_CASE("motions that are almost straight or far beyond the disc end, and overflow is told") {
   const elements::Harmonics h{4, false};
   const Eigen::Index c = h.size();
-  for (const double size : {1.0, 1e3, 1e6, 1e9, 1e12})
+  for (const double size : {1.0, 1e3, 1e6, 1e9, 1e12, 1e15, 1e80})
     for (const double across : {1e-15, 1e-9, 1e-6, 1e-3}) {
       CAPTURE(size, across);
       Vector u = contacts::random_plane(h, size, 1, 7);
@@ -243,6 +243,14 @@ TEST_CASE("motions that are almost straight or far beyond the disc end, and over
       // A slider that slips almost always, with the friction mu N = 0.6 against the motion.
       if (size >= 1e6) CHECK(at.F.head(c).norm() < 2 * 0.6);
     }
+  // Friction that is next to nothing, down to the smallest number.
+  for (const double mu : {1e-20, 1e-290, 1e-310, 5e-324}) {
+    CAPTURE(mu);
+    const Force at = evaluate(elements::contact_3d(), h, contacts::random_plane(h, 1, 1, 7), {1, 1, mu, 2});
+    CHECK(at.F.allFinite());
+    CHECK(at.J.allFinite());
+    CHECK(at.F.head(2 * c).norm() < 20 * mu);
+  }
   const Force overflow =
       evaluate(elements::contact_3d(), h, contacts::random_plane(h, 1e300, 1e300, 7), {1, 1, 0.3, 2});
   CHECK_FALSE(overflow.F.allFinite());

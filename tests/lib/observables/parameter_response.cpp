@@ -131,13 +131,14 @@ TEST_CASE("a branch over a parameter ends with the callback, and no other is beg
     return observables::parameter_response(at.scene, over("damper.normal_load", 20, 1, 3), tell);
   };
   double share = 0;
-  const auto branches = studies::for_each<ResponseBranch>(
-      scenes::paper(1), {{"c.value", {0.1, 0.2}}}, compute, [&](const observables::Progress& progress) {
-        CHECK(progress.share_done >= share);
-        CHECK(progress.branches == 2);
-        share = progress.share_done;
-        return progress.points < 5;
-      });
+  const auto branches =
+      studies::for_each<ResponseBranch>(scenes::paper(1), scene::Combinations({{"c.value", {0.1, 0.2}}}),
+                                        compute, [&](const observables::Progress& progress) {
+                                          CHECK(progress.share_done >= share);
+                                          CHECK(progress.branches == 2);
+                                          share = progress.share_done;
+                                          return progress.points < 5;
+                                        });
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::stopped);
   CHECK(branches[0].stop.reason == observables::reasons::user);

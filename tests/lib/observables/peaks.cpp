@@ -328,7 +328,7 @@ TEST_CASE("a study of peaks ends with the callback, and no other curve is begun"
     return observables::resonance_peaks(at.scene, over_load(0.1, 10), tell);
   };
   const auto branches = studies::for_each<ResponseBranch>(
-      scenes::paper(1), {{"c.value", {0.1, 0.2}}}, compute,
+      scenes::paper(1), scene::Combinations({{"c.value", {0.1, 0.2}}}), compute,
       [](const observables::Progress& progress) { return progress.points < 5; });
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::stopped);
