@@ -143,6 +143,9 @@ class Reduction {
   void factorize() {
     listen(stop_);
     A_.cholmod().print = 0;
+    // Minimum degree alone: METIS, which CHOLMOD also tries, takes SIGTERM for itself meanwhile.
+    A_.cholmod().nmethods = 1;
+    A_.cholmod().method[0].ordering = CHOLMOD_AMD;
     A_.compute(K_.ii + sigma_ * M_.ii);
     listen(stop_);
     if (A_.info() == Eigen::Success) return;
