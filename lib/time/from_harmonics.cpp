@@ -31,4 +31,16 @@ MotionState state_of(const hbm::HbmProblem& problem, elements::In u, const conti
   return state;
 }
 
+void courses_of(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at,
+                std::vector<ElementCourse>& courses) {
+  const Eigen::Index size = problem.harmonics().size();
+  courses.resize(at.element_count());
+  for (std::size_t e = 0; e < courses.size(); ++e) {
+    const int directions = problem.model().elements[e].law->directions();
+    courses[e].q = at.element_motion(e).head(directions * size).reshaped(size, directions);
+    at.element(e).contact(courses[e].contact);
+    elements::put_in_order(courses[e].contact);
+  }
+}
+
 }  // namespace arcslip::time

@@ -3,6 +3,7 @@
 
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
+#include <arcslip/time/floquet.hpp>
 
 namespace arcslip::time {
 
@@ -11,5 +12,10 @@ MotionState state_of(const hbm::HbmProblem& problem, elements::In u, const conti
 
 /// Coefficients of every degree of freedom, one column each, in the layout of elements/harmonics.hpp.
 Matrix dof_coefficients(const hbm::HbmProblem& problem, elements::In u, const continuation::Vector& p);
+
+/// The motions along the elements and what they tell of their contacts, at the last place of an evaluator of
+/// `problem`, for Floquet::compute().
+void courses_of(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at,
+                std::vector<ElementCourse>& courses);
 
 }  // namespace arcslip::time

@@ -62,29 +62,36 @@ double largest_skew(const continuation::Cholesky& mass, const LinearMotion::Part
 
 }  // namespace
 
+double fastest(const EquationOfMotion& equation, const std::vector<LinearMotion::Part>& parts) {
+  require_mass(equation);
+  continuation::Cholesky mass;
+  mass.factorize(equation.M);
+  Matrix stiffest = equation.K, softest = equation.K;
+  double skew = 0;
+  for (const LinearMotion::Part& part : parts) {
+    stiffest += part.directions * bound(part, 1) * part.directions.transpose();
+    softest += part.directions * bound(part, -1) * part.directions.transpose();
+    skew += largest_skew(mass, part);
+  }
+  // Whatever the modes, the symmetric part of K' lies between these two.
+  return std::sqrt(std::max(largest_over(mass, softest), largest_over(mass, stiffest)) + skew) +
+         largest_over(mass, equation.C);
+}
+
 LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts)
     : equation_(equation), parts_(std::move(parts)) {
-  require_mass(equation);
+  double most = fastest(equation, parts_);
   const int n = equation.dofs();
   mass_.factorize(equation.M);
   stiffness_ = mass_.solve(equation.K);
   damping_ = mass_.solve(equation.C);
-  Matrix stiffest = equation.K, softest = equation.K;
-  double skew = 0;
   for (const Part& part : parts_) {
     over_mass_.push_back(mass_.solve(part.directions));
     const Eigen::Index d = part.directions.cols();
     in_modes_.push_back(Matrix::Zero(d, d));
-    stiffest += part.directions * bound(part, 1) * part.directions.transpose();
-    softest += part.directions * bound(part, -1) * part.directions.transpose();
-    skew += largest_skew(mass_, part);
   }
-  // Whatever the modes, the symmetric part of K' lies between these two.
-  double fastest = std::sqrt(std::max(largest_over(mass_, softest), largest_over(mass_, stiffest)) + skew) +
-                   largest_over(mass_, equation.C);
-  for (const HarmonicForce& force : equation.forces)
-    fastest = std::max(fastest, force.harmonic * equation.omega);
-  longest_ = fastest > 0 ? 1 / fastest : std::numeric_limits<double>::infinity();
+  for (const HarmonicForce& force : equation.forces) most = std::max(most, force.harmonic * equation.omega);
+  longest_ = most > 0 ? 1 / most : std::numeric_limits<double>::infinity();
   X_.resize(order + 1);
   V_.resize(order + 1);
   force_.setZero(n, order + 1);

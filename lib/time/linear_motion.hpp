@@ -78,4 +78,8 @@ class LinearMotion {
   Matrix hilbert_;               // 1/(i + j + 1)
 };
 
+/// An upper bound of the angular frequencies of the free structure, rad/s, damping included, whatever the
+/// modes of the automata. Throws SingularMass, with the degree of freedom.
+double fastest(const EquationOfMotion& equation, const std::vector<LinearMotion::Part>& parts);
+
 }  // namespace arcslip::time

@@ -184,12 +184,13 @@ void March::settle(const Contact& contact) {
   auto z = Z_.row(contact.memory);
   z.setZero();
   double rate = 0, guard_rate = 0;
+  const bool at_rest = leaving_->v.size() > 0 && !leaving_->v.isZero(0);  // a guard of the memory's velocity
   if (V_.cols() > 1) change_.setZero(V_.cols());
   for (std::size_t k = 0; k < contact.along.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     const Vector& d = contact.along[k];
     z.noalias() += mode.z_q[at] * d.transpose() * X_;
-    if (V_.cols() == 1 || leaving_->v.size() > 0) continue;
+    if (V_.cols() == 1 || at_rest) continue;
     const double by_q = (leaving_->q.size() > 0 ? leaving_->q[at] : 0) + leaving_->z * mode.z_q[at];
     rate += mode.z_q[at] * d.dot(V_.col(0));
     guard_rate += by_q * d.dot(V_.col(0));

@@ -5,6 +5,7 @@
 #include "lib/observables/reference.hpp"
 #include "lib/time/systems.hpp"
 
+#include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/time/shooting.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -129,6 +130,25 @@ TEST_CASE("the monodromy matrix is that of differences through slip and its ends
   const Matrix M2 = second.map(start, two.period()).monodromy;
   CHECK((scaled(two, M2) - scaled(two, differences(two, start, two.period(), 1e-4))).cwiseAbs().maxCoeff() <
         1e-9);
+}
+
+TEST_CASE("the monodromy matrix is that of differences where a sliding contact lifts off and closes") {
+  EquationOfMotion equation = masses(Vector{{1.0, 0.7}});
+  equation.K << 1.2, -0.2, -0.2, 0.9;
+  equation.C << 0.04, -0.01, -0.01, 0.03;
+  equation.omega = 0.8;
+  equation.forces.push_back({Vector{{0.6, 0.0}}, 1, 1.0, 0.2});
+  equation.forces.push_back({Vector{{0.0, 1.0}}, 1, 0.3, 0.9});
+  equation.add("contact", elements::contact_2d().law({}), {1.1, 1.7, 0.3, 0.4}, Matrix::Identity(2, 2));
+  EventDriven integrator(equation);
+  MotionState start = at_rest(equation);
+  start = integrator.integrate(start, 0, 3.3 * equation.period()).end;
+  const double end = 1.1 * equation.period();
+  const auto events = integrator.integrate(start, 0, end).events;
+  const auto closes = [](const ContactEvent& event) { return event.from == "open"; };
+  REQUIRE(std::any_of(events.begin(), events.end(), closes));
+  const Matrix exact = integrator.map(start, end).monodromy;
+  CHECK((scaled(equation, exact - differences(equation, start, end, 1e-4))).norm() < 1e-8 * exact.norm());
 }
 
 TEST_CASE("the multipliers are those of differences, and the same from any instant of the period") {

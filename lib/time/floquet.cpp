@@ -1,0 +1,355 @@
+#include <arcslip/time/floquet.hpp>
+
+#include <arcslip/time/linear_motion.hpp>
+#include <arcslip/time/variation.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace arcslip::time {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr int nodes = 4;                // of Gauss, in a piece with coefficients that change
+constexpr int pieces_at_least = 64;     // of such ones in a period
+constexpr double pieces_per_order = 2;  // of the motion's harmonics
+
+// Gauss-Legendre nodes on [0, 1].
+std::array<double, nodes> gauss_nodes() {
+  const double a = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(6.0 / 5)),
+               b = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(6.0 / 5));
+  return {0.5 * (1 - b), 0.5 * (1 - a), 0.5 * (1 + a), 0.5 * (1 + b)};
+}
+
+// Row j: the coefficients of s^j by the values at the nodes.
+Eigen::Matrix4d interpolation() {
+  const auto at = gauss_nodes();
+  Eigen::Matrix4d powers;
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j) powers(i, j) = std::pow(at[static_cast<std::size_t>(i)], j);
+  return powers.inverse();
+}
+
+// An automaton, where it acts, and what it does along the motion.
+struct Part {
+  int element;
+  elements::Automaton automaton;
+  int memory;  // in MotionState::z; -1: none
+  Matrix over_mass, directions;
+  Course course{};
+  int now = 0;
+
+  const elements::Mode& mode() const { return automaton.modes[static_cast<std::size_t>(now)]; }
+  bool rests() const { return memory >= 0 && mode().rests; }
+};
+
+// A law without memory that is not piecewise linear.
+struct Smooth {
+  int element;
+  bool moving;  // its force depends on velocities
+  elements::StepEnd at;
+  std::array<Matrix, nodes> T, B;  // at the nodes
+};
+
+struct Change {
+  double theta;  // from the start
+  std::size_t part, index;
+};
+
+bool falling(const std::complex<double>& a, const std::complex<double>& b) {
+  return std::abs(a) > std::abs(b);
+}
+
+}  // namespace
+
+struct Floquet::Impl {
+  explicit Impl(const EquationOfMotion& of) : equation(of), along(interpolation()) {
+    std::vector<LinearMotion::Part> stiffnesses;
+    mass.factorize(equation.M);
+    for (std::size_t e = 0; e < equation.elements.size(); ++e) add(static_cast<int>(e), stiffnesses);
+    fastest_mode = fastest(equation, stiffnesses);
+    over_mass_K = mass.solve(equation.K);
+    over_mass_C = mass.solve(equation.C);
+  }
+
+  void add(int e, std::vector<LinearMotion::Part>& stiffnesses) {
+    const TimeElement& element = equation.elements[static_cast<std::size_t>(e)];
+    const Matrix over_mass = mass.solve(element.directions);
+    if (auto automata = element.law->automata(element.fields)) {
+      for (auto& automaton : *automata) {
+        const int memory = automaton.memory < 0 ? -1 : element.memory + automaton.memory;
+        stiffnesses.push_back({element.directions, {}});
+        for (const auto& mode : automaton.modes) stiffnesses.back().stiffnesses.push_back(mode.f_q);
+        parts.push_back({e, std::move(automaton), memory, over_mass, element.directions});
+      }
+      return;
+    }
+    if (element.law->memory() > 0)
+      throw NoVariation("the memory of \"" + element.name + "\" is not piecewise linear");
+    smooth.push_back({e, element.law->rate_dependent(), {element.law->directions(), 0}, {}, {}});
+    variables.push_back({over_mass, element.directions, std::vector<Matrix>(nodes), {}});
+    if (smooth.back().moving) variables.back().B.resize(nodes);
+  }
+
+  bool compute(double base_frequency, const elements::Harmonics& harmonics,
+               const std::vector<ElementCourse>& elements) {
+    omega = base_frequency;
+    span = harmonics.span();
+    if (!follow(harmonics, elements)) return false;
+    begin(harmonics);
+    std::size_t next = 0;
+    double theta = 0;
+    while (true) {
+      const double end = next < changes.size() ? changes[next].theta : span;
+      set_modes();
+      if (smooth.empty()) {
+        variation.move(end - theta, rate, K, C, G, {}, W, V);
+      } else {
+        move_with_smooth(theta, end, harmonics, elements);
+      }
+      theta = end;
+      if (next == changes.size()) break;
+      pass(changes[next++], harmonics, elements);
+    }
+    return finish(harmonics.odd);
+  }
+
+  // The courses, and the changes of all of them from the middle of the longest interval without one.
+  bool follow(const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements) {
+    changes.clear();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Part& part = parts[i];
+      const ElementCourse& element = elements[static_cast<std::size_t>(part.element)];
+      if (!element.q.allFinite()) return false;
+      if (!course_of(part.automaton, element.contact, part.course) &&
+          !course_along(part.automaton, harmonics, element.q, part.course))
+        return false;
+      for (std::size_t k = 0; k < part.course.changes.size(); ++k)
+        changes.push_back({part.course.changes[k].theta, i, k});
+    }
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const Change& a, const Change& b) { return a.theta < b.theta; });
+    start = 0;
+    double longest = 0;
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+      const bool last = k + 1 == changes.size();
+      const double from = changes[k].theta, to = last ? changes.front().theta + turn : changes[k + 1].theta;
+      if (to - from <= longest) continue;
+      longest = to - from;
+      start = 0.5 * (from + to);
+    }
+    for (Change& change : changes) {
+      change.theta -= start;
+      if (change.theta < 0) change.theta += turn;
+    }
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const Change& a, const Change& b) { return a.theta < b.theta; });
+    while (!changes.empty() && changes.back().theta >= span) changes.pop_back();
+    return true;
+  }
+
+  void begin(const elements::Harmonics& harmonics) {
+    const Eigen::Index n = equation.dofs();
+    kept.clear();
+    zeros = 0;
+    for (Part& part : parts) {
+      part.now = part.course.first;
+      for (const ModeChange& change : part.course.changes)
+        if (change.theta <= start) part.now = change.to;
+      if (part.memory < 0) continue;
+      const bool always = part.course.changes.empty();
+      if (!part.rests()) ++zeros;
+      if (part.rests() && !always) kept.push_back(part.memory);
+    }
+    const auto columns = 2 * n + static_cast<Eigen::Index>(kept.size());
+    W.setZero(n, columns);
+    V.setZero(n, columns);
+    Z.setZero(equation.memory, columns);
+    W.leftCols(n).setIdentity();
+    V.middleCols(n, n).setIdentity();
+    for (std::size_t k = 0; k < kept.size(); ++k) Z(kept[k], 2 * n + static_cast<Eigen::Index>(k)) = 1;
+    C = over_mass_C / omega;
+    rate = fastest_mode / omega;
+    piece = turn / std::max<double>(pieces_at_least, pieces_per_order * harmonics.order);
+  }
+
+  void set_modes() {
+    const double scale = 1 / (omega * omega);
+    K = over_mass_K;
+    bool driven = false;
+    for (const Part& part : parts) {
+      if (!part.mode().f_q.isZero(0))
+        K.noalias() += part.over_mass * part.mode().f_q * part.directions.transpose();
+      driven = driven || (part.rests() && Z.row(part.memory).any());
+    }
+    K *= scale;
+    G.resize(0, 0);
+    if (!driven) return;
+    G.setZero(W.rows(), W.cols());
+    for (const Part& part : parts)
+      if (part.rests()) G.noalias() -= scale * (part.over_mass * part.mode().f_z) * Z.row(part.memory);
+  }
+
+  void move_with_smooth(double theta, double end, const elements::Harmonics& harmonics,
+                        const std::vector<ElementCourse>& elements) {
+    const double length = end - theta;
+    const int coarse = static_cast<int>(std::ceil(length / piece));
+    for (int i = 0; i < coarse; ++i) {
+      const double from = theta + length * i / coarse, h = length / coarse;
+      double stiffest = interpolate(from, h, harmonics, elements);
+      // With the largest coefficients at the nodes.
+      const int fine = std::max(1, static_cast<int>(std::ceil(h * stiffest / 2)));
+      if (fine == 1) {
+        variation.move(h, 0, K, C, G, variables, W, V);
+        continue;
+      }
+      for (int j = 0; j < fine; ++j) {
+        interpolate(from + h * j / fine, h / fine, harmonics, elements);
+        variation.move(h / fine, 0, K, C, G, variables, W, V);
+      }
+    }
+  }
+
+  // Returns the rate of the fastest motion, from above, in rad/rad.
+  double interpolate(double from, double h, const elements::Harmonics& harmonics,
+                     const std::vector<ElementCourse>& elements) {
+    static const auto at = gauss_nodes();
+    double stiffness = 0, damping = 0;
+    for (std::size_t s = 0; s < smooth.size(); ++s) {
+      Smooth& law = smooth[s];
+      const TimeElement& element = equation.elements[static_cast<std::size_t>(law.element)];
+      const Matrix& motion = elements[static_cast<std::size_t>(law.element)].q;
+      q.resize(motion.cols());
+      double most_T = 0, most_B = 0;
+      for (std::size_t i = 0; i < nodes; ++i) {
+        const double theta = start + from + h * at[i];
+        const double c = std::cos(theta), sine = std::sin(theta);
+        for (Eigen::Index k = 0; k < motion.cols(); ++k) {
+          const auto values = elements::series_values(harmonics, motion.col(k), c, sine);
+          q[k] = values.x;
+          law.at.v[k] = omega * values.d1;
+        }
+        none.resize(0);
+        element.law->begin(element.fields, q, none, law.at);
+        law.T[i] = law.at.f_q;
+        most_T = std::max(most_T, law.T[i].cwiseAbs().sum());
+        if (!law.moving) continue;
+        law.B[i] = law.at.f_v;
+        most_B = std::max(most_B, law.B[i].cwiseAbs().sum());
+      }
+      Variable& variable = variables[s];
+      for (std::size_t j = 0; j < nodes; ++j) {
+        variable.T[j].setZero(q.size(), q.size());
+        if (law.moving) variable.B[j].setZero(q.size(), q.size());
+        for (std::size_t i = 0; i < nodes; ++i) {
+          const double weight = along(static_cast<int>(j), static_cast<int>(i));
+          variable.T[j] += weight / (omega * omega) * law.T[i];
+          if (law.moving) variable.B[j] += weight / omega * law.B[i];
+        }
+      }
+      const double size = variable.over_mass.norm() * variable.directions.norm();
+      stiffness += size * most_T / (omega * omega);
+      damping += size * most_B / omega;
+    }
+    return std::sqrt(rate * rate + stiffness) + damping;
+  }
+
+  void pass(const Change& at, const elements::Harmonics& harmonics,
+            const std::vector<ElementCourse>& elements) {
+    Part& part = parts[at.part];
+    const ModeChange& change = part.course.changes[at.index];
+    const elements::Mode& left = part.mode();
+    const elements::Mode& next = part.automaton.modes[static_cast<std::size_t>(change.to)];
+    if (part.memory >= 0 && !left.rests && next.rests)
+      settle(part, *change.by, change.theta, harmonics, elements);
+    part.now = change.to;
+  }
+
+  // The memory that followed comes to rest: where the instant moves, by -dg/g', dz moves along.
+  void settle(const Part& part, const elements::Guard& guard, double theta,
+              const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements) {
+    const elements::Mode& left = part.mode();
+    const Matrix& motion = elements[static_cast<std::size_t>(part.element)].q;
+    auto dz = Z.row(part.memory);
+    dz.noalias() = (left.z_q * part.directions.transpose()) * W;
+    if (guard.v.size() > 0 && !guard.v.isZero(0)) return;  // of the memory's velocity: it is at rest
+    by_q = guard.z * left.z_q;
+    if (guard.q.size() > 0) by_q += guard.q;
+    double velocity = 0, falls = 0;
+    for (Eigen::Index k = 0; k < by_q.size(); ++k) {
+      const double d1 = elements::series_values(harmonics, motion.col(k), theta).d1;
+      velocity += left.z_q[k] * d1;
+      falls += by_q[k] * d1;
+    }
+    if (velocity != 0 && falls != 0) dz -= velocity / falls * ((by_q * part.directions.transpose()) * W);
+  }
+
+  bool finish(bool half) {
+    const Eigen::Index n = equation.dofs();
+    const auto size = 2 * n + static_cast<Eigen::Index>(kept.size());
+    map.resize(size, size);
+    map.topRows(n) = W;
+    map.middleRows(n, n) = V;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      map.row(2 * n + static_cast<Eigen::Index>(k)) = Z.row(kept[k]);
+    if (half) map = -map;
+    if (!map.allFinite() || !eigenvalues.compute(map)) return false;
+    multipliers.assign(eigenvalues.values().begin(), eigenvalues.values().end());
+    half_multipliers.clear();
+    if (half) {
+      half_multipliers = multipliers;
+      for (auto& each : multipliers) each *= each;
+    }
+    multipliers.resize(multipliers.size() + static_cast<std::size_t>(zeros), 0);
+    std::stable_sort(multipliers.begin(), multipliers.end(), falling);
+    return true;
+  }
+
+  const EquationOfMotion equation;
+  const Eigen::Matrix4d along;
+  continuation::Cholesky mass;
+  std::vector<Part> parts;
+  std::vector<Smooth> smooth;
+  std::vector<Variable> variables;  // of smooth
+  Matrix over_mass_K, over_mass_C;
+  double fastest_mode = 0;  // rad/s, of the automata's stiffest modes
+
+  // Of one motion.
+  double omega = 0, span = 0, start = 0, rate = 0, piece = 0;
+  std::vector<Change> changes;  // in [0, span)
+  std::vector<int> kept;        // memories with a column
+  int zeros = 0;
+  Matrix K, C, G, W, V, Z, map;
+  Vector q, none;
+  Eigen::RowVectorXd by_q;
+  Variation variation;
+  continuation::Eigenvalues eigenvalues;
+  std::vector<std::complex<double>> multipliers, half_multipliers;
+};
+
+Floquet::Floquet(const EquationOfMotion& equation) : impl_(std::make_unique<Impl>(equation)) {}
+Floquet::~Floquet() = default;
+Floquet::Floquet(Floquet&&) noexcept = default;
+
+bool Floquet::compute(double omega, const elements::Harmonics& harmonics,
+                      const std::vector<ElementCourse>& elements) {
+  return impl_->compute(omega, harmonics, elements);
+}
+
+const std::vector<std::complex<double>>& Floquet::multipliers() const {
+  return impl_->multipliers;
+}
+
+const std::vector<std::complex<double>>& Floquet::half_multipliers() const {
+  return impl_->half_multipliers;
+}
+
+const Matrix& Floquet::map() const {
+  return impl_->map;
+}
+
+}  // namespace arcslip::time

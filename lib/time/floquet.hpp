@@ -1,0 +1,71 @@
+#pragma once
+// Floquet multipliers of a periodic motion that is given by its Fourier series, as a solution of harmonic
+// balance: eigenvalues of the monodromy matrix of the variational equation along it, over theta = omega t,
+//
+//   M w'' + C w'/omega + (K + sum D T D^T) w/omega^2 + sum D f_z dz/omega^2 = 0,     w' = dw/dtheta
+//
+// A law that is piecewise linear (elements/automaton.hpp) has a constant T between the changes of its modes,
+// whose angles the element tells (automaton_course.hpp). A slider that rests keeps its variation dz; one that
+// follows has dz = z_q D^T w, and at the instant theta_e where it comes to rest by a guard g of displacements
+// the variation of this instant, -dg/g', moves it too. Other laws without memory have T = df/dq and
+// B = df/dv along the motion.
+//
+// Propagation: power series of w over pieces of the period. T and B of other laws are replaced by polynomials
+// through their values at four Gauss nodes of each piece, which leaves an error of order 8. Long pieces of
+// constant coefficients are halved and squared. An antisymmetric motion is followed over half a period: its
+// multipliers are the squares of those of the map w(theta) -> -w(theta + pi).
+//
+// A slider that sticks throughout has a neutral multiplier 1, which is left out. As many multipliers are 0 as
+// sliders follow at once at some instant. Errors: those of the motion, and of the roundings of the period;
+// exact for piecewise linear structures else. Source: docs/theory/09-event-driven.md.
+
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/time/automaton_course.hpp>
+#include <arcslip/time/equation_of_motion.hpp>
+
+#include <complex>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace arcslip::time {
+
+/// A law with a memory that is not piecewise linear.
+class NoVariation : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The motion along the directions of one element, and what its contact does (empty: found by its guards).
+struct ElementCourse {
+  Matrix q;  // a column of coefficients for each direction
+  std::vector<elements::ContactInterval> contact;
+};
+
+/// For one equation of motion, at any frequency; keeps its buffers. One for each thread.
+class Floquet {
+ public:
+  /// Throws NoVariation, SingularMass (event_driven.hpp). The frequency, the forces and the harmonics of the
+  /// equation do not matter.
+  explicit Floquet(const EquationOfMotion& equation);
+  ~Floquet();
+  Floquet(Floquet&&) noexcept;
+
+  /// omega: base frequency, rad/s; elements: as in the equation. False: there are none, as where the motion
+  /// is not finite or a contact chatters.
+  bool compute(double omega, const elements::Harmonics& harmonics,
+               const std::vector<ElementCourse>& elements);
+
+  /// Of the motion's period, by falling modulus.
+  const std::vector<std::complex<double>>& multipliers() const;
+  /// Of the map over half a period, where the motion is antisymmetric: -1 where the symmetry breaks.
+  const std::vector<std::complex<double>>& half_multipliers() const;
+  /// The map of (w, dw/dtheta, dz of the sliders that rest at the first instant and slip later), over
+  /// harmonics.span(), from an instant between two changes.
+  const Matrix& map() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace arcslip::time
