@@ -191,6 +191,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       tell(sentence);
     }
     for (const std::string& sentence : remarks.doubts) tell(sentence);
+    for (const std::string& sentence : remarks.others) tell(sentence);
     if (!options.out.empty()) {
       for (const auto& paths : {write_scene(files[i], scene, writing), own.commit(writing),
                                 write_figures(files[i], figures, writing)})

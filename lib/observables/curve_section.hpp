@@ -16,6 +16,10 @@ class CurveSection {
  public:
   CurveSection(std::shared_ptr<const hbm::HbmProblem> problem, int over);
 
+  /// As Observer.
+  void watch_stability() { observer_.watch_stability(); }
+  std::string unknown_stability() const { return observer_.unknown_stability(); }
+
   /// All observables at a point of the curve, including `over`. truncation_estimate is 0 and flagged if the
   /// branch has no tangent.
   ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::extremum);

@@ -48,7 +48,8 @@ class Curves {
         window_{range.frequency_from * to_rad_per_s_, range.frequency_to * to_rad_per_s_},
         way_(over_parameter(scene, range.over, range.from, range.to)),
         parts_(peaks, unit_, way_),
-        report_(report) {}
+        report_(report),
+        stability_(range.stability) {}
 
   std::vector<ResponseBranch> run() {
     look_at(0);
@@ -88,7 +89,7 @@ class Curves {
     SpecialCurve curve;
     int unknowns;
     double seconds;
-    std::string doubt;
+    std::string doubt, unknown_stability;
   };
 
   std::string what() const { return peaks_ ? "resonance peak" : "fold"; }
@@ -142,7 +143,8 @@ class Curves {
     Vector p = hbm::parameters_at(*start.problem, start.x[start.problem->size()]);
     p[way_.index] = start.over;
     std::string doubt = doubt_of_rounding(*way_.model, p, curve.counts);
-    found_.push_back({std::move(curve), start.problem->size() + 1, seconds.count(), std::move(doubt)});
+    found_.push_back({std::move(curve), start.problem->size() + 1, seconds.count(), std::move(doubt),
+                      section_->unknown_stability()});
   }
 
   static bool is_stopped(const SpecialCurveEnd& end) {
@@ -225,6 +227,7 @@ class Curves {
     solver.seconds = found.seconds;
     add(found.curve.counts, solver);
     for (ResponseBranch& part : parts) {
+      part.unknown_stability = found.unknown_stability;
       if (part.status != Status::complete || found.doubt.empty()) continue;
       part.doubt = found.doubt;
       part.stop.message += "; " + found.doubt;
@@ -234,6 +237,8 @@ class Curves {
 
   SpecialCurveTracer make_tracer(const std::shared_ptr<const hbm::HbmProblem>& problem) {
     const auto section = std::make_shared<CurveSection>(problem, way_.index);
+    if (stability_) section->watch_stability();
+    section_ = section;
     const Eigen::Index n = problem->size();
     const auto progress = [this, points = 0L, last = 0.0](double over, double omega) mutable {
       progress_.points = ++points;
@@ -281,6 +286,7 @@ class Curves {
   }
 
   bool peaks_;
+  std::shared_ptr<CurveSection> section_;  // of the last tracer
   scene::FrequencyUnit unit_;
   double to_rad_per_s_;
   FrequencyWindow window_;
@@ -290,6 +296,7 @@ class Curves {
   Progress progress_;
   std::vector<double> looked_at_, to_look_at_;  // shares of the range
   std::vector<Found> found_;
+  bool stability_;
   bool stopped_ = false;  // by the user
   double failed_at_ = 0;
   std::string failure_, unbounded_;

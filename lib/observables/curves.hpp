@@ -15,6 +15,7 @@ namespace arcslip::observables {
 struct ParameterRange {
   std::string over;
   double from = 0, to = 0, frequency = 0;
+  bool stability = false;  // of the points, and their bifurcations
   friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
 };
 
@@ -22,6 +23,7 @@ struct ParameterRange {
 struct CurveRange {
   std::string over;
   double from = 0, to = 0, frequency_from = 0, frequency_to = 0;
+  bool stability = false;  // of the points
   friend bool operator==(const CurveRange&, const CurveRange&) = default;
 };
 

@@ -4,6 +4,8 @@
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
 
+#include <array>
+
 namespace arcslip::observables::event_kinds {
 
 inline constexpr const char* peak = "peak";  // of the amplitude over the frequency
@@ -13,5 +15,13 @@ inline constexpr const char* maximum = "maximum";
 inline constexpr const char* cusp = continuation::cusp_event;
 inline constexpr const char* turn = "turn";      // of a curve of folds in the frequency
 inline constexpr const char* corner = "corner";  // a curve reaches or leaves a corner of the response
+
+// Where the motion loses its stability, or regains it (stability.hpp).
+inline constexpr const char* period_doubling = "period_doubling";
+inline constexpr const char* neimark_sacker = "neimark_sacker";
+inline constexpr const char* symmetry_breaking = "symmetry_breaking";
+inline constexpr const char* stability_lost = "stability_lost";
+inline constexpr std::array of_stability = {period_doubling, neimark_sacker, symmetry_breaking,
+                                            stability_lost};
 
 }  // namespace arcslip::observables::event_kinds

@@ -96,7 +96,7 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
 
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record,
-                                 int direction, Steps steps, const GoOn& go_on) {
+                                 int direction, Steps steps, const GoOn& go_on, bool stability) {
   const double width = window.upper - window.lower;
   const FirstResponse first = first_response(model, from, width, go_on);
   if (!first.u) {
@@ -138,8 +138,13 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
     monitors.insert(monitors.begin(), peak_monitor(observer));
     monitors[1].divides_at_kinks = monitors[0].divides_at_kinks;
   }
+  if (stability) {
+    observer->watch_stability();
+    for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
+  }
   FrequencyBranch traced{problem, continuation::trace(problem, {*first.u, p, model::frequency, direction},
                                                       options, std::move(monitors), each)};
+  traced.unknown_stability = observer->unknown_stability();
   speak_of_scene(*model, p, traced.branch);
   return traced;
 }

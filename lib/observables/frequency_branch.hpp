@@ -19,7 +19,8 @@ struct FrequencyWindow {
 
 struct FrequencyBranch {
   std::shared_ptr<const hbm::HbmProblem> problem;
-  continuation::Branch branch;  // start_failed where no response was found to start from
+  continuation::Branch branch;      // start_failed where no response was found to start from
+  std::string unknown_stability{};  // why no point has any
 };
 
 /// A response to start from, and the problem in its scale; without a response, the reason.
@@ -56,9 +57,10 @@ using Record = std::function<bool(Observer&, const continuation::Accepted&, cons
 enum class Steps { curve, events, passage };
 
 /// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). If go_on returns false
-/// the branch ends with reason user.
+/// the branch ends with reason user. stability: points have it, and bifurcations are events.
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record = {},
-                                 int direction = 1, Steps steps = Steps::curve, const GoOn& go_on = {});
+                                 int direction = 1, Steps steps = Steps::curve, const GoOn& go_on = {},
+                                 bool stability = false);
 
 }  // namespace arcslip::observables

@@ -26,6 +26,7 @@ class Sweep {
         frequency_unit_(scene.frequency_unit),
         lower_(range.from * unit_),
         upper_(range.to * unit_),
+        stability_(range.stability),
         progress_(progress),
         model_(std::make_shared<const model::Model>(model::build(scene))) {}
 
@@ -53,7 +54,8 @@ class Sweep {
                             const continuation::Event* event) {
       if (event) {
         result.events.push_back({event->monitor, event->nonsmooth, event->located,
-                                 observer.observe(now, held_by(*event)), event->after});
+                                 observer.observe(now, held_by(*event), true), event->after});
+        set_rotation(result.events.back());
         return true;
       }
       const double omega = now.p[model::frequency];
@@ -76,8 +78,9 @@ class Sweep {
       end_unbounded(result, on_it, {{from, HUGE_VAL}});
       return result;
     }
-    const auto traced =
-        frequency_branch(model_, {lower_, upper_}, from, record, 1, Steps::curve, [this] { return go_on(); });
+    const auto traced = frequency_branch(
+        model_, {lower_, upper_}, from, record, 1, Steps::curve, [this] { return go_on(); }, stability_);
+    result.unknown_stability = traced.unknown_stability;
     result.solver.unknowns = traced.problem->size();
     finish(result, traced, from, growth, course);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -147,6 +150,7 @@ class Sweep {
   double unit_;
   scene::FrequencyUnit frequency_unit_;
   double lower_, upper_;
+  bool stability_;
   const ProgressCallback& progress_;
   std::shared_ptr<const model::Model> model_;
   double far_side_ = 0;

@@ -16,6 +16,7 @@ using results::ProgressCallback;
 /// Of the excitation, in the scene's unit; from < to.
 struct FrequencyRange {
   double from = 0, to = 0;
+  bool stability = false;  // of the points, and their bifurcations
   friend bool operator==(const FrequencyRange&, const FrequencyRange&) = default;
 };
 

@@ -93,6 +93,33 @@ void Observer::add_named_responses(const continuation::Accepted& now, ResponsePo
     point.responses.push_back({amplitude_.of(x).amplitude, phase(now, x)});
 }
 
+const StabilityAnalysis* Observer::stability(const continuation::Accepted& now) {
+  if (!stability_) return nullptr;
+  if (stable_u_.size() != now.u.size() || stable_u_ != now.u || stable_p_ != now.p) {
+    stable_u_ = now.u;
+    stable_p_ = now.p;
+    stability_known_ = stability_->move_to(*problem_, evaluator_of(now), stable_p_);
+  }
+  return stability_known_ ? &*stability_ : nullptr;
+}
+
+void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& point) {
+  const StabilityAnalysis* found = stability(now);
+  if (!found) return;
+  Stability& stability = point.stability.emplace();
+  stability.multipliers = found->multipliers();
+  stability.unstable = count_unstable(stability.multipliers);
+  if (truncation_->is_exact()) {
+    stability.error = 0;
+    return;
+  }
+  const auto refined = truncation_->refined(now);
+  if (!refined) return;
+  stable_u_.resize(0);
+  if (stability_->move_to(refined->problem, refined->at, refined->p))
+    stability.error = distance(stability.multipliers, stability_->multipliers());
+}
+
 ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {
   const auto& at = evaluator_of(now);
   const auto& h = problem_->harmonics();
@@ -106,6 +133,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   const TruncationEstimate truncation = truncation_->estimate(now, at_most, held);
   point.truncation_estimate = truncation.amplitude;
   point.truncation_flagged = truncation.flagged;
+  if (stability_) add_stability(now, point);
   point.energy_viscous = at.stiffness().viscous_energy(now.u, at.force_factor());
   point.energy_input = input_energy(*problem_, at, now.u);
   point.forces = force_components(*problem_, at, x_);

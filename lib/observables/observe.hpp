@@ -6,11 +6,14 @@
 #include <arcslip/observables/amplitude.hpp>
 #include <arcslip/observables/force_components.hpp>
 #include <arcslip/observables/response.hpp>
+#include <arcslip/observables/stability.hpp>
 #include <arcslip/observables/stops.hpp>
 #include <arcslip/observables/truncation.hpp>
 
 #include <initializer_list>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace arcslip::observables {
@@ -29,6 +32,13 @@ class Observer {
     return observe(now, held, held != HeldBy::parameter);
   }
   ResponsePoint observe(const continuation::Accepted& now, HeldBy held, bool maxima);
+
+  /// From now on, points have their stability, where it is known.
+  void watch_stability() { stability_.emplace(); }
+  /// The multipliers at a point; null: not watched, or not known there.
+  const StabilityAnalysis* stability(const continuation::Accepted& now);
+  /// Why none of the points has any (StabilityAnalysis::unknown()).
+  std::string unknown_stability() const { return stability_ ? stability_->unknown() : ""; }
 
   /// Largest |x| of the observed coordinate, for unknowns u at the parameters of an evaluator.
   Extreme extreme(const hbm::HbmEvaluator& at, continuation::In u);
@@ -49,6 +59,7 @@ class Observer {
  private:
   double phase(const continuation::Accepted& now, continuation::In x) const;
   void add_named_responses(const continuation::Accepted& now, ResponsePoint& point);
+  void add_stability(const continuation::Accepted& now, ResponsePoint& point);
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
   int free_;
@@ -57,6 +68,9 @@ class Observer {
   Stops stops_;
   std::unique_ptr<Truncation> truncation_;  // created at the first observe()
   std::unique_ptr<Maxima> maxima_;          // created at the first request
+  std::optional<StabilityAnalysis> stability_;
+  continuation::Vector stable_u_, stable_p_;  // the place of its last call
+  bool stability_known_ = false;
   continuation::Vector x_, dx_, by_parameter_;
   double last_amplitude_ = 0;
   std::size_t last_reversal_ = 0;

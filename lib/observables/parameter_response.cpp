@@ -43,6 +43,7 @@ class Traces {
       : way_(over_parameter(scene, range.over, range.from, range.to)),
         unit_(scene.frequency_unit),
         omega_(range.frequency * scene::to_rad_per_s(unit_)),
+        stability_(range.stability),
         report_(report) {
     progress_.frequency = range.frequency;
   }
@@ -102,15 +103,24 @@ class Traces {
     const auto began = std::chrono::steady_clock::now();
     result = described(*way_.model, way_.name);
     const auto observer = std::make_shared<Observer>(problem, way_.index);
+    std::vector<continuation::Monitor> monitors{
+        extreme_monitor(event_kinds::maximum, Crossing::falling, observer),
+        extreme_monitor(event_kinds::minimum, Crossing::rising, observer), continuation::fold_monitor()};
+    if (stability_) {
+      observer->watch_stability();
+      for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
+    }
     std::vector<std::pair<double, double>> course;  // arclength, amplitude
     std::vector<double> at;                         // arclength of the events
     const auto record = [&](const Accepted& now, const continuation::Event* event) {
-      ResponsePoint point = observer->observe(now, event ? held_by(*event) : HeldBy::parameter);
+      ResponsePoint point =
+          observer->observe(now, event ? held_by(*event) : HeldBy::parameter, event != nullptr);
       point.over = now.parameter;
       if (event) {
         at.push_back(now.arclength);
         result.events.push_back(
             {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
+        set_rotation(result.events.back());
         return true;
       }
       course.emplace_back(now.arclength, point.amplitude);
@@ -122,13 +132,11 @@ class Traces {
     const Vector p = hbm::parameters_at(*problem, omega_);
     auto options = way_.options();
     options.go_on = [this] { return go_on(); };
-    auto branch = continuation::trace(
-        problem, {u, p, way_.index, way_.direction()}, options,
-        {extreme_monitor(event_kinds::maximum, Crossing::falling, observer),
-         extreme_monitor(event_kinds::minimum, Crossing::rising, observer), continuation::fold_monitor()},
-        record);
+    auto branch = continuation::trace(problem, {u, p, way_.index, way_.direction()}, options,
+                                      std::move(monitors), record);
+    result.unknown_stability = observer->unknown_stability();
     for (std::size_t i = at.size(); i-- > 0;)
-      if (result.events[i].kind != event_kinds::fold &&
+      if ((result.events[i].kind == event_kinds::maximum || result.events[i].kind == event_kinds::minimum) &&
           !departs(course, at[i], result.events[i].point.amplitude))
         result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
     speak_of_scene(*way_.model, p, branch);
@@ -162,6 +170,7 @@ class Traces {
   OverParameter way_;
   scene::FrequencyUnit unit_;
   double omega_;
+  bool stability_;
   const ProgressCallback& report_;
   Progress progress_;
   bool stopped_ = false;

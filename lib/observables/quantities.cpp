@@ -246,6 +246,30 @@ constexpr ResponseQuantity of_response[] = {
      one_mass_and_friction_part},
 };
 
+results::Value multipliers(const Stability& stability) {
+  results::Value::List all;
+  for (const auto& each : stability.multipliers)
+    all.emplace_back(results::Value::Numbers{each.real(), each.imag()});
+  return all;
+}
+
+constexpr Quantity<Stability> of_stability[] = {
+    {"stable", "", "no Floquet multiplier lies outside the unit circle",
+     [](const Stability& stability) { return stability.unstable == 0; }},
+    {"unstable_multipliers", "", "how many lie outside it",
+     [](const Stability& stability) { return static_cast<double>(stability.unstable); }},
+    {"multipliers", "",
+     "Floquet multipliers over the period of the motion, `[re, im]` of each by falling modulus; none of "
+     "sliders that stick throughout",
+     multipliers},
+    {"multiplier_error", "",
+     "estimated effect of the neglected harmonics on a multiplier; null where it is not known",
+     [](const Stability& stability) { return stability.error; }},
+    {"rotation_number", "", "at Neimark-Sacker points: argument of the multipliers on the circle over 2 pi",
+     [](const Stability& stability) { return stability.rotation; },
+     [](const Stability& stability) { return !std::isnan(stability.rotation); }},
+};
+
 constexpr ElementQuantity of_element[] = {
     {"stick_percent", "%", "friction elements: share of the period in stick",
      element<&Element::stick_percent>, is_friction, is_friction_part},
@@ -333,6 +357,10 @@ const auto& at(const List& list, std::string_view path) {
 
 std::span<const ResponseQuantity> response_quantities() {
   return of_response;
+}
+
+std::span<const Quantity<Stability>> stability_quantities() {
+  return of_stability;
 }
 
 std::span<const ElementQuantity> element_quantities() {

@@ -26,6 +26,10 @@ struct OriginOf<ResponsePoint> {
   using Type = scene::Scene;
 };
 template <>
+struct OriginOf<Stability> {
+  using Type = scene::Scene;
+};
+template <>
 struct OriginOf<ElementResponse> {
   using Type = scene::Part;
 };
@@ -34,8 +38,8 @@ struct OriginOf<NamedResponse> {
   using Type = scene::Response;
 };
 
-/// A quantity of a response (Of = ResponsePoint), of one of its elements (Of = ElementResponse) or of a named
-/// response (Of = NamedResponse).
+/// A quantity of a response (Of = ResponsePoint), of its stability (Of = Stability), of one of its elements
+/// (Of = ElementResponse) or of a named response (Of = NamedResponse).
 template <class Of>
 struct Quantity {
   using Number = double (*)(const Of&);  // no_value if undefined
@@ -59,6 +63,8 @@ using ElementQuantity = Quantity<ElementResponse>;
 bool is_friction_part(const scene::Part& part);
 
 std::span<const ResponseQuantity> response_quantities();
+/// Where the stability is requested, and known.
+std::span<const Quantity<Stability>> stability_quantities();
 std::span<const ElementQuantity> element_quantities();
 std::span<const ElementQuantity> patch_quantities();
 std::span<const Quantity<NamedResponse>> named_response_quantities();

@@ -4,8 +4,10 @@
 #include <arcslip/elements/contact_interval.hpp>
 #include <arcslip/results/reason.hpp>
 
+#include <complex>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,6 +94,14 @@ struct NamedResponse {
   double phase = 0;      // rad, lag of its fundamental behind the force's
 };
 
+/// The Floquet multipliers of a response over its period (stability.hpp).
+struct Stability {
+  std::vector<std::complex<double>> multipliers;  // by falling modulus; none of sliders that stick throughout
+  int unstable = 0;                               // outside the unit circle
+  double error = no_value;     // estimated effect of the neglected harmonics; no_value: not known
+  double rotation = no_value;  // at a Neimark-Sacker point: argument of the pair over 2 pi
+};
+
 /// One periodic response.
 struct ResponsePoint {
   double omega = 0;                 // excitation frequency, rad/s
@@ -113,6 +123,7 @@ struct ResponsePoint {
   double energy_input = 0;       // work of the excitation, J per period; equals energy_total()
   ForceComponents forces{};
   MotionMaxima maxima{};
+  std::optional<Stability> stability{};  // if requested and known
 
   double energy_total() const { return energy_friction + energy_viscous; }
   /// Share of friction in the dissipated energy, 0 to 100; no_value without dissipation, or where the
@@ -164,7 +175,8 @@ struct ResponseBranch {
   std::vector<int> harmonics;                              // n of the coefficients
   std::vector<ResponsePoint> points;
   std::vector<ResponseEvent> events;
-  std::string doubt;  // why the accuracy of a complete branch is doubtful; empty: it is not
+  std::string doubt;                // why the accuracy of a complete branch is doubtful; empty: it is not
+  std::string unknown_stability{};  // why its points have no stability, where it is requested
   SolverSummary solver;
 };
 

@@ -106,6 +106,7 @@ class Points {
   PointResponse at(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u) {
     const auto began = std::chrono::steady_clock::now();
     Observer observer(problem);
+    observer.watch_stability();
     std::optional<ResponsePoint> point;
     continuation::Options options;
     options.lower = omega_;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace arcslip::observables {
 namespace {
@@ -43,7 +44,10 @@ bool stiffen(const model::Model& model, const Vector& p) {
 
 HeldBy held_by(const continuation::Event& event) {
   if (event.nonsmooth) return HeldBy::corner;
-  return event.monitor == event_kinds::fold ? HeldBy::fold : HeldBy::extremum;
+  if (event.monitor == event_kinds::fold) return HeldBy::fold;
+  const bool bifurcation = std::any_of(event_kinds::of_stability.begin(), event_kinds::of_stability.end(),
+                                       [&](const char* kind) { return event.monitor == kind; });
+  return bifurcation ? HeldBy::parameter : HeldBy::extremum;
 }
 
 double highest_natural_frequency(const model::Model& model, const Vector& p,
@@ -85,12 +89,15 @@ Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p
 TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const Extreme& extreme,
                                         HeldBy held) {
   const Eigen::Index n = problem_.size();
+  exact_ = false;
+  change_.u.resize(0);
   if (!wide_.move_to(now.u, now.p)) return {0, true};
   residual_ = wide_.at().residual();
   double force = 0;
   for (std::size_t e = 0; e < wide_.at().element_count(); ++e)
     force = std::max(force, wide_.at().element(e).force().cwiseAbs().maxCoeff());
-  if (residual_.cwiseAbs().maxCoeff() <= linear_motion * force) return {};
+  exact_ = residual_.cwiseAbs().maxCoeff() <= linear_motion * force;
+  if (exact_) return {};
 
   bool flagged = resonance_left_out(now) || samples_too_few();
   wide_.factorize(free_);
@@ -115,6 +122,17 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   if (!std::isfinite(change)) return {0, true};
   const bool signs = change < cancelled * size && size > tolerance * extreme.amplitude;
   return {change, flagged || signs || size > small_change * extreme.amplitude};
+}
+
+std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now) {
+  if (change_.u.size() == 0 || !change_.u.allFinite() || !std::isfinite(change_.parameter)) return {};
+  wide_.embed(now.u, base_);
+  base_ += change_.u;
+  Vector p = now.p;
+  p[free_] += change_.parameter;
+  const hbm::HbmEvaluator* at = wide_.look_at(base_, p);
+  if (!at) return {};
+  return Refined{wide_.problem(), *at, std::move(p)};
 }
 
 // Laws of the velocity that are sampled have an error below any power of the samples, once these resolve

@@ -44,6 +44,17 @@ class Truncation {
   /// At an accepted point of a branch (of a problem with the same harmonics); extreme: of its response.
   TruncationEstimate estimate(const continuation::Accepted& now, const Extreme& extreme, HeldBy held);
 
+  /// Whether no harmonics are neglected, at the point of the last estimate().
+  bool is_exact() const { return exact_; }
+
+  /// The solution of more harmonics next to the point of the last estimate(), to first order.
+  struct Refined {
+    const hbm::HbmProblem& problem;
+    const hbm::HbmEvaluator& at;  // until the next call of estimate()
+    continuation::Vector p;
+  };
+  std::optional<Refined> refined(const continuation::Accepted& now);
+
  private:
   struct Step {
     double length;
@@ -62,7 +73,7 @@ class Truncation {
   int free_;
   WideEquations wide_, narrow_;  // narrow_: those of order N, with exact friction
   double highest_;
-  bool stiffens_;
+  bool stiffens_, exact_ = false;
   std::unique_ptr<continuation::LinearSolver> solver_;
   WideEquations::Change change_, tangent_;
   continuation::Vector base_, along_, residual_, response_, by_parameter_;

@@ -112,6 +112,12 @@ bool WideEquations::look_beside(In wide, In p) {
          beside_->piece() == evaluator_->piece();
 }
 
+const hbm::HbmEvaluator* WideEquations::look_at(In wide, In p) {
+  if (!beside_) beside_ = problem_.hbm_evaluator();
+  const bool done = beside_->move_to(wide, p, continuation::Needs::residual) == continuation::Evaluated::ok;
+  return done ? beside_.get() : nullptr;
+}
+
 void WideEquations::apply(const hbm::HbmEvaluator& at, const Change& change, int q, Vector& y) {
   y.resize(change.u.size());
   at.apply_jacobian(change.u, y);

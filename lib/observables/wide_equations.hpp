@@ -56,6 +56,8 @@ class WideEquations {
   /// A point next to the last one, which stays that of all other calls. False: it cannot be evaluated, or is
   /// in another piece.
   bool look_beside(continuation::In wide, continuation::In p);
+  /// The motion at a point next to the last one, in any piece; null: it cannot be evaluated.
+  const hbm::HbmEvaluator* look_at(continuation::In wide, continuation::In p);
   const continuation::Vector& residual_beside() const { return beside_->residual(); }
   void apply_beside(const Change& change, int q, continuation::Vector& y) const {
     apply(*beside_, change, q, y);

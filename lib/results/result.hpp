@@ -92,8 +92,9 @@ struct End {
   Status status = Status::complete;
   Object stop;  // "reason", "value", "limit", "message"
   Object facts{};
-  std::string doubt{};  // why a complete result is less accurate than it seems; empty: it is not
-  std::string text{};   // for people, lines
+  std::string doubt{};   // why a complete result is less accurate than it seems; empty: it is not
+  std::string text{};    // for people, lines
+  std::string remark{};  // for people, about a result that stands in a table
 };
 
 /// Receives results: begin, then curve, rows and end for each result, and finish. Belongs to one thread. An

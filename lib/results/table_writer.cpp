@@ -29,6 +29,8 @@ std::string text_of(const Value& value, const std::string& format) {
           return std::to_string(is);
         } else if constexpr (std::is_same_v<Is, std::string>) {
           return is;
+        } else if constexpr (std::is_same_v<Is, bool>) {
+          return is ? "yes" : "no";
         } else {
           return no_value;
         }
@@ -166,6 +168,7 @@ void Remarks::end(const End& end) {
     early_ends.push_back(how + ": " + (message ? text_of(*message, "") : ""));
   else if (!end.doubt.empty())
     doubts.push_back(how + ", but " + end.doubt);
+  if (!end.remark.empty()) others.push_back(which_ + ": " + end.remark);
 }
 
 }  // namespace arcslip::results

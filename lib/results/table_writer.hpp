@@ -40,7 +40,8 @@ class TableWriter : public Sink {
 
 void write_table(std::ostream& out, const Results& results);
 
-/// Remarks on results: for each incomplete result, which and why; for each complete one, reasons for doubt.
+/// Remarks on results: for each incomplete result, which and why; for each complete one, reasons for doubt;
+/// and what else is said of them.
 class Remarks : public Sink {
  public:
   void begin(const Header& header, std::span<const Schema> schemas) override;
@@ -49,7 +50,7 @@ class Remarks : public Sink {
   void end(const End& end) override;
   void finish() override {}
 
-  std::vector<std::string> early_ends, doubts;
+  std::vector<std::string> early_ends, doubts, others;
 
  private:
   std::vector<std::string> nouns_;  // of the schemas

@@ -14,6 +14,10 @@
 
 namespace arcslip::studies {
 
+inline constexpr const char* stability_help =
+    "also the Floquet multipliers of each response, and where it loses its stability";
+inline constexpr const char* stability_of_points_help = "also the Floquet multipliers of each response";
+
 /// follow(scene, range, progress) returns the branches of one combination, over the parameter range.over, or
 /// over the frequency if the Range has none.
 template <auto follow, BranchKind drawn, class Range>
@@ -31,7 +35,7 @@ KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, st
             std::string over;
             if constexpr (requires { range.over; }) over = range.over;
             const bool maxima = drawn == BranchKind::peaks || drawn == BranchKind::folds;
-            return branches(scene, over, maxima, options);
+            return branches(scene, {.over = over, .maxima = maxima, .stability = range.stability}, options);
           },
       .figures = [](const scene::Scene& scene,
                     Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; }};

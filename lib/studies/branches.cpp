@@ -2,9 +2,11 @@
 
 #include <arcslip/results/text.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace arcslip::studies {
@@ -18,10 +20,14 @@ bool has_maxima(const ResponseBranch& branch) {
   return !branch.points.empty() && !std::isnan(branch.points.front().maxima.velocity);
 }
 
+bool has_stability(const ResponseBranch& branch) {
+  return std::any_of(branch.points.begin(), branch.points.end(),
+                     [](const ResponsePoint& point) { return point.stability.has_value(); });
+}
+
 /// The tables of branches with the same columns.
 struct Tables {
-  Tables(const scene::Scene& scene, const std::string& over, bool maxima, bool coefficients)
-      : points(responses(scene, {over, maxima, coefficients})) {
+  Tables(const scene::Scene& scene, Asked asked) : points(responses(scene, asked)) {
     events.add({"kind"}, "", "`peak`, `fold` and so on",
                [](const ResponseEvent& event) { return event.kind; });
     events.add({"nonsmooth"}, "", "at a kink of the branch",
@@ -30,15 +36,16 @@ struct Tables {
                [](const ResponseEvent& event) { return event.located; });
     events.add({"after"}, "", "index of the preceding point",
                [](const ResponseEvent& event) { return event.after; });
-    events.add(responses(scene, {over, true, coefficients}),
-               [](const ResponseEvent& event) { return &event.point; });
+    asked.maxima = true;
+    events.add(responses(scene, asked), [](const ResponseEvent& event) { return &event.point; });
   }
 
   results::TableOf<ResponsePoint> points;
   results::TableOf<ResponseEvent> events;
 };
 
-std::vector<results::Shown> shown(const scene::Scene& scene, const std::string& over) {
+std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked) {
+  const std::string& over = asked.over;
   std::vector<results::Shown> all;
   if (!over.empty()) all.push_back({results::with_unit(over, parameter_unit(scene, over)), {over}});
   all.push_back({"event", {"kind"}});
@@ -46,16 +53,17 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const std::string& 
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"});
   all.push_back({"A_max (m)", {"amplitude"}, "%.8e", "unbounded"});
   add_stick(scene, all);
+  if (asked.stability) all.push_back({"stable", {"stable"}});
   return all;
 }
 
-results::Schema schema(const scene::Scene& scene, const std::string& over, const Tables& tables) {
+results::Schema schema(const scene::Scene& scene, const Asked& asked, const Tables& tables) {
   return {.format = "arcslip-branches-1",
           .list = "branches",
           .noun = "branch",
           .tables = {{"points", tables.points.columns(), {"elements"}},
                      {"events", tables.events.columns(), {"elements"}}},
-          .shown = shown(scene, over),
+          .shown = shown(scene, asked),
           .shown_table = "events"};
 }
 
@@ -72,16 +80,21 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
   if (options.points) result.tables.push_back(tables.points.rows(branch.points));
   result.tables.resize(1);
   result.tables.push_back(tables.events.rows(branch.events));
-  result.end = {branch.status, stop(branch.stop), {{"solver", solver(branch.solver)}}, doubt_of(branch)};
+  result.end = {branch.status,
+                stop(branch.stop),
+                {{"solver", solver(branch.solver)}},
+                doubt_of(branch),
+                {},
+                unstable_ranges(scene, branch)};
   return result;
 }
 
 }  // namespace
 
-Described<ResponseBranch> branches(const scene::Scene& scene, const std::string& over, bool maxima,
-                                   const RunOptions& options) {
-  const auto tables = std::make_shared<const Tables>(scene, over, maxima, options.coefficients);
-  return {schema(scene, over, *tables), [&scene, tables, options](const ResponseBranch& branch) {
+Described<ResponseBranch> branches(const scene::Scene& scene, Asked asked, const RunOptions& options) {
+  asked.coefficients = options.coefficients;
+  const auto tables = std::make_shared<const Tables>(scene, asked);
+  return {schema(scene, asked, *tables), [&scene, tables, options](const ResponseBranch& branch) {
             return result(scene, branch, *tables, options);
           }};
 }
@@ -89,20 +102,22 @@ Described<ResponseBranch> branches(const scene::Scene& scene, const std::string&
 results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> all,
                             const RunOptions& options) {
   results::Results found{header(scene), {}, {}};
-  std::map<std::pair<std::string, bool>, std::size_t> index;  // of schemas, by their distinguishing columns
+  std::map<std::tuple<std::string, bool, bool>, std::size_t>
+      index;  // of schemas, by their distinguishing columns
   std::vector<Described<ResponseBranch>> described;
   for (const ResponseBranch& branch : all) {
-    const bool maxima = has_maxima(branch);
-    const auto [at, is_new] = index.try_emplace({branch.over, maxima}, described.size());
+    const bool maxima = has_maxima(branch), stability = has_stability(branch);
+    const auto [at, is_new] = index.try_emplace({branch.over, maxima, stability}, described.size());
     if (is_new) {
-      described.push_back(branches(scene, branch.over, maxima, options));
+      described.push_back(
+          branches(scene, {.over = branch.over, .maxima = maxima, .stability = stability}, options));
       found.schemas.push_back(described.back().schema);
     }
     add_columns(scene, branch.set, found.schemas[at->second].set);
     found.results.push_back(described[at->second].result(branch));
     found.results.back().schema = at->second;
   }
-  if (all.empty()) found.schemas.push_back(branches(scene, "", false, options).schema);
+  if (all.empty()) found.schemas.push_back(branches(scene, {}, options).schema);
   return found;
 }
 

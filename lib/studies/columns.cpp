@@ -4,6 +4,8 @@
 #include <arcslip/results/version.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -69,6 +71,11 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
   add(
       observables::response_quantities(), scene, scene, asked, {},
       [](const ResponsePoint& response) { return &response; }, table);
+  if (asked.stability)
+    add(
+        observables::stability_quantities(), scene, scene, asked, {},
+        [](const ResponsePoint& response) { return response.stability ? &*response.stability : nullptr; },
+        table);
   const std::vector<scene::Part> elements = scene::all_elements(scene);
   for (std::size_t e = 0; e < elements.size(); ++e)
     if (elements[e].detailed)
@@ -152,12 +159,54 @@ std::string doubt_of_stops(const std::string& element) {
                                "error falls slowly with the harmonics; give the contact a stiffness";
 }
 
+namespace {
+
+std::string eight_digits(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.8g", value);
+  return text.data();
+}
+
+}  // namespace
+
+std::string unstable_ranges(const scene::Scene& scene, const observables::ResponseBranch& branch) {
+  // Between the events that the range ends with, where there are any.
+  const auto value = [&](const ResponsePoint& point) {
+    return branch.over.empty() ? in_scene_unit(scene, point.omega) : point.over;
+  };
+  const auto& points = branch.points;
+  const auto is_unstable = [&](std::size_t i) {
+    return points[i].stability && points[i].stability->unstable > 0;
+  };
+  std::string text;
+  for (std::size_t i = 0; i < points.size();) {
+    if (!is_unstable(i)) {
+      ++i;
+      continue;
+    }
+    std::size_t last = i;
+    while (last + 1 < points.size() && is_unstable(last + 1)) ++last;
+    double from = value(points[i]), to = value(points[last]);
+    for (const auto& event : branch.events) {
+      if (i > 0 && event.after + 1 == i) from = value(event.point);
+      if (last + 1 < points.size() && event.after == last) to = value(event.point);
+    }
+    text += (text.empty() ? "unstable from " : ", from ") + eight_digits(from) + " to " + eight_digits(to);
+    i = last + 1;
+  }
+  if (text.empty()) return text;
+  const std::string unit = branch.over.empty() ? std::string(scene::unit_name(scene.frequency_unit))
+                                               : parameter_unit(scene, branch.over);
+  return text + (unit.empty() ? "" : " " + unit);
+}
+
 std::string doubt_of(const observables::ResponseBranch& branch) {
   if (!branch.doubt.empty())
     return "dominated by rounding errors, so that its results lose digits: " + branch.doubt;
   const auto stops = [](const auto& point) { return !point.stops.empty(); };
   const auto first = std::find_if(branch.points.begin(), branch.points.end(), stops);
-  if (first == branch.points.end()) return "";
+  if (first == branch.points.end())
+    return branch.unknown_stability.empty() ? "" : "without its stability: " + branch.unknown_stability;
   return "at " + std::to_string(std::count_if(first, branch.points.end(), stops)) + " of " +
          std::to_string(branch.points.size()) + " points " + doubt_of_stops(first->stops);
 }

@@ -21,6 +21,7 @@ struct Asked {
   bool maxima = false;        // over the period
   bool coefficients = false;  // Fourier coefficients of the response
   bool amplitude = true;      // false: given elsewhere
+  bool stability = false;     // Floquet multipliers
 };
 
 /// The quantities of responses of a scene, by element in an object "elements", by patch in "patches".
@@ -41,8 +42,11 @@ results::Object solver(const observables::SolverSummary& summary);
 /// The doubt about a motion that stops (ResponsePoint::stops); empty: none.
 std::string doubt_of_stops(const std::string& element);
 
-/// The doubts about a branch (ResponseBranch::doubt, motions that stop), as the end of a sentence; empty:
-/// none.
+/// Where the responses of a branch are unstable, a sentence; empty: nowhere, or not known.
+std::string unstable_ranges(const scene::Scene& scene, const observables::ResponseBranch& branch);
+
+/// The doubts about a branch (ResponseBranch::doubt, motions that stop, an unknown stability), as the end of
+/// a sentence; empty: none.
 std::string doubt_of(const observables::ResponseBranch& branch);
 
 }  // namespace arcslip::studies

@@ -12,6 +12,7 @@ scene::file::KeysOf<CurveRange> keys() {
   scene::file::KeysOf<CurveRange> keys;
   keys.add(scene::file::range_over(&CurveRange::over, &CurveRange::from, &CurveRange::to));
   keys.add(scene::file::window(&CurveRange::frequency_from, &CurveRange::frequency_to));
+  keys.add(scene::file::flag("stability", &CurveRange::stability, stability_of_points_help));
   return keys;
 }
 

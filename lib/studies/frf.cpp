@@ -10,6 +10,7 @@ using observables::FrequencyRange;
 scene::file::KeysOf<FrequencyRange> keys() {
   scene::file::KeysOf<FrequencyRange> keys;
   keys.add(scene::file::frequency_range(&FrequencyRange::from, &FrequencyRange::to));
+  keys.add(scene::file::flag("stability", &FrequencyRange::stability, stability_help));
   return keys;
 }
 

@@ -108,7 +108,7 @@ results::Object offset_range(const observables::OffsetRange& range) {
 results::Object facts(const scene::Scene& scene, const PointResponse& response) {
   results::Object all;
   if (response.status == observables::Status::complete) {
-    const auto table = responses(scene, {.maxima = true, .coefficients = true});
+    const auto table = responses(scene, {.maxima = true, .coefficients = true, .stability = true});
     all = results::object(table.columns(), table.rows(std::vector{response.point}), 0);
   }
   all.push_back({"period", scene.harmonics.period});
@@ -126,6 +126,7 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
       {"A_max (m)", {"amplitude"}, "%.8e"},
       {"phase (rad)", {"phase"}, "%.6f"}};
   add_stick(scene, shown);
+  shown.push_back({"stable", {"stable"}});
   shown.insert(shown.end(), {{"E_friction (J)", {"energy_friction"}, "%.6e"},
                              {"E_viscous (J)", {"energy_viscous"}, "%.6e"},
                              {"truncation (m)", {"truncation_estimate"}, "%.1e"}});

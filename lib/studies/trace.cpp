@@ -11,6 +11,7 @@ scene::file::KeysOf<ParameterRange> keys() {
   scene::file::KeysOf<ParameterRange> keys;
   keys.add(scene::file::range_over(&ParameterRange::over, &ParameterRange::from, &ParameterRange::to));
   keys.add(scene::file::one_frequency(&ParameterRange::frequency, "the excitation frequency"));
+  keys.add(scene::file::flag("stability", &ParameterRange::stability, stability_help));
   return keys;
 }
 
