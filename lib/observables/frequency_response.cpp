@@ -81,6 +81,7 @@ class Sweep {
     const auto traced = frequency_branch(
         model_, {lower_, upper_}, from, record, 1, Steps::curve, [this] { return go_on(); }, stability_);
     result.unknown_stability = traced.unknown_stability;
+    drop_told_losses(result.events);
     result.solver.unknowns = traced.problem->size();
     finish(result, traced, from, growth, course);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

@@ -134,6 +134,7 @@ class Traces {
     options.go_on = [this] { return go_on(); };
     auto branch = continuation::trace(problem, {u, p, way_.index, way_.direction()}, options,
                                       std::move(monitors), record);
+    drop_told_losses(result.events);
     result.unknown_stability = observer->unknown_stability();
     for (std::size_t i = at.size(); i-- > 0;)
       if ((result.events[i].kind == event_kinds::maximum || result.events[i].kind == event_kinds::minimum) &&

@@ -20,7 +20,8 @@ constexpr double neutral = 1e-10;   // |mu| above 1 by less is rounding
 constexpr double rounding = 1e-11;  // of the products, where the structure is undamped
 constexpr double on_circle = 1e-4;  // at a zero; otherwise the product jumps
 constexpr double real = 1e-9;       // |imaginary part| of a real multiplier
-constexpr double jump = 1e-6;       // of the largest modulus across 1
+constexpr double jump = 1e-5;       // of the largest modulus across 1
+constexpr double same = 1e-7;       // place of two events, relative
 
 bool same_but_frequency(const continuation::Vector& a, const continuation::Vector& b) {
   if (a.size() != b.size()) return false;
@@ -146,6 +147,18 @@ double rotation_number(const Multipliers& multipliers) {
 void set_rotation(ResponseEvent& event) {
   if (event.kind == event_kinds::neimark_sacker && event.point.stability)
     event.point.stability->rotation = rotation_number(event.point.stability->multipliers);
+}
+
+void drop_told_losses(std::vector<ResponseEvent>& events) {
+  const auto near = [](double a, double b) { return std::abs(a - b) <= same * std::abs(a); };
+  std::erase_if(events, [&](const ResponseEvent& lost) {
+    return lost.kind == event_kinds::stability_lost &&
+           std::any_of(events.begin(), events.end(), [&](const ResponseEvent& other) {
+             return other.kind != event_kinds::stability_lost && other.kind != event_kinds::peak &&
+                    near(lost.point.omega, other.point.omega) && near(lost.point.over, other.point.over) &&
+                    near(lost.point.amplitude, other.point.amplitude);
+           });
+  });
 }
 
 }  // namespace arcslip::observables

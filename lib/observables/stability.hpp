@@ -63,6 +63,9 @@ double rotation_number(const std::vector<std::complex<double>>& multipliers);
 /// Of an event at which a pair crosses the unit circle: its rotation number.
 void set_rotation(ResponseEvent& event);
 
+/// Without losses of stability at nonsmooth folds, and where another event tells them.
+void drop_told_losses(std::vector<ResponseEvent>& events);
+
 /// Those of the branches that an observer watches (Observer::watch_stability()).
 std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer);
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <ostream>
+#include <utility>
 
 namespace arcslip::output {
 namespace {
@@ -40,9 +41,16 @@ void write_record(std::ostream& out, const Record& values) {
 
 /// Styles of the marks, in the order of mark_kinds.
 constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
-    "pointtype 7 pointsize 0.8",  "pointtype 4 pointsize 1 linewidth 1.5",
-    "pointtype 9 pointsize 1",    "pointtype 11 pointsize 1",
-    "pointtype 13 pointsize 1.1", "pointtype 5 pointsize 0.7"};
+    "pointtype 7 pointsize 0.8",
+    "pointtype 4 pointsize 1 linewidth 1.5",
+    "pointtype 9 pointsize 1",
+    "pointtype 11 pointsize 1",
+    "pointtype 13 pointsize 1.1",
+    "pointtype 5 pointsize 0.7",
+    "pointtype 8 pointsize 1 linewidth 1.5",
+    "pointtype 6 pointsize 1 linewidth 1.5",
+    "pointtype 12 pointsize 1.1 linewidth 1.5",
+    "pointtype 2 pointsize 0.9 linewidth 1.5"};
 
 /// Colours of the areas, in the order of area_kinds: alike where two kinds never meet.
 constexpr std::array<const char*, results::area_kinds.size()> area_colours = {
@@ -138,6 +146,26 @@ void write_key_title(std::ostream& out, const FigureData& data) {
   out << " noenhanced left\nset key width " << (longest_name > entry ? longest_name - entry : 0) << '\n';
 }
 
+/// The name of a kind in a key: "period doubling".
+std::string in_words(std::string_view kind) {
+  if (kind == "neimark_sacker") return "Neimark-Sacker";
+  std::string words(kind);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+/// Whether a line has parts that are unstable, or others.
+bool has_parts(const FigureLine& line, bool unstable) {
+  for (std::size_t i = 0; i < line.parts.size(); ++i)
+    if ((i < line.unstable.size() && line.unstable[i]) == unstable) return true;
+  return false;
+}
+
+bool any_unstable(const FigureData& data) {
+  return std::any_of(data.lines.begin(), data.lines.end(),
+                     [](const FigureLine& line) { return has_parts(line, true); });
+}
+
 bool has_mark(const FigureLine& line, std::string_view kind) {
   return std::any_of(line.marks.begin(), line.marks.end(),
                      [&](const FigureMark& mark) { return mark.kind == kind; });
@@ -163,7 +191,7 @@ bool is_in(const Figure& figure, const FigureLine& line, std::string_view kind) 
 int blocks_of_lines(const FigureData& data) {
   int blocks = 0;
   for (const FigureLine& line : data.lines) {
-    ++blocks;
+    blocks += (has_parts(line, false) ? 1 : 0) + (has_parts(line, true) ? 1 : 0);
     for (const std::string_view kind : mark_kinds) blocks += has_mark(line, kind) ? 1 : 0;
   }
   return blocks;
@@ -203,14 +231,21 @@ void write_plot(std::ostream& out, const FigureData& data, const Figure& figure)
   std::vector<std::string> marks;
   std::array<bool, results::mark_kinds.size()> in_figure{};
   int index = 0;
+  const bool with_stability = any_unstable(data);
   for (std::size_t i = 0; i < count; ++i) {
     const FigureLine& line = data.lines[i];
     const std::string paint = " linecolor rgb '" + line_colour(i, count) + "'";
     const bool in_key = !line.label.empty() && i % key_step == 0 && is_in(figure, line);
     const std::string title = line.label + (line.unbounded ? " (unbounded)" : "");
-    curves.push_back("data index " + std::to_string(index++) + columns + " with lines linewidth 2 dashtype " +
-                     line_dash(i) + paint +
-                     (in_key ? " title " + quoted(title) + " noenhanced" : " notitle"));
+    bool titled = !in_key;
+    for (const bool unstable : {false, true}) {
+      if (!has_parts(line, unstable)) continue;
+      // Dashes tell stability where any line has it.
+      const std::string dash = unstable ? "(8,5)" : with_stability ? "1" : line_dash(i);
+      curves.push_back(
+          "data index " + std::to_string(index++) + columns + " with lines linewidth 2 dashtype " + dash +
+          paint + (std::exchange(titled, true) ? " notitle" : " title " + quoted(title) + " noenhanced"));
+    }
     for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
       if (has_mark(line, mark_kinds[k])) {
         in_figure[k] = in_figure[k] || is_in(figure, line, mark_kinds[k]);
@@ -220,10 +255,13 @@ void write_plot(std::ostream& out, const FigureData& data, const Figure& figure)
     }
   }
   curves.insert(curves.end(), marks.begin(), marks.end());
+  if (with_stability)
+    curves.push_back(std::string("NaN with lines linewidth 2 dashtype (8,5) linecolor rgb '") + other_colour +
+                     "' title 'unstable'");
   for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
     if (in_figure[k]) {
       curves.push_back(std::string("NaN with points ") + mark_styles[k] + " linecolor rgb '" + other_colour +
-                       "' title '" + std::string(mark_kinds[k]) + "'");
+                       "' title '" + in_words(mark_kinds[k]) + "'");
     }
   }
   if (figure.x == 0) add_bands_to_key(data, curves);
@@ -258,11 +296,16 @@ void write_figure_data(std::ostream& out, const FigureData& data) {
   out << '\n';
   for (const FigureLine& line : data.lines) {
     out << "# " << line.heading << '\n';
-    for (const auto& part : line.parts) {
-      for (const Record& values : part) write_record(out, values);
+    for (const bool unstable : {false, true}) {
+      if (!has_parts(line, unstable)) continue;
+      if (unstable) out << "# unstable\n";
+      for (std::size_t i = 0; i < line.parts.size(); ++i) {
+        if ((i < line.unstable.size() && line.unstable[i]) != unstable) continue;
+        for (const Record& values : line.parts[i]) write_record(out, values);
+        out << '\n';
+      }
       out << '\n';
     }
-    out << '\n';
     for (const std::string_view kind : mark_kinds) {
       bool any = false;
       for (const FigureMark& mark : line.marks) {

@@ -26,8 +26,16 @@ struct FigureColumn {
 using Record = std::vector<double>;  // a value for each column, NaN if missing
 
 /// The kinds of events that are drawn, in the order of the data.
-inline constexpr std::array<std::string_view, 6> mark_kinds = {"peak",    "fold", "maximum",
-                                                               "minimum", "cusp", "turn"};
+inline constexpr std::array<std::string_view, 10> mark_kinds = {"peak",
+                                                                "fold",
+                                                                "maximum",
+                                                                "minimum",
+                                                                "cusp",
+                                                                "turn",
+                                                                "period_doubling",
+                                                                "neimark_sacker",
+                                                                "symmetry_breaking",
+                                                                "stability_lost"};
 
 struct FigureMark {
   std::string kind;
@@ -47,6 +55,7 @@ struct FigureLine {
   std::string heading{};                              // in the data: "damper.normal_load = 3 N, ..."
   std::vector<std::pair<std::string, double>> set{};  // the parameters
   std::vector<std::vector<Record>> parts{};           // drawn separately
+  std::vector<bool> unstable{};                       // of each part: it is drawn dashed; empty: not known
   std::vector<FigureMark> marks{};
   bool unbounded = false;           // somewhere, outside what is drawn
   std::vector<FigureBand> bands{};  // the widest first

@@ -151,6 +151,39 @@ FigureLine line_of(const scene::Scene& scene, const std::vector<std::pair<std::s
   return {.label = set_label(scene, set), .heading = assignment(scene, set), .set = set};
 }
 
+namespace {
+
+/// The points of a branch in parts of one stability, which meet at the events between them, or half way.
+template <class RecordOf>
+void add_parts(const ResponseBranch& branch, RecordOf record_of, FigureLine& line) {
+  const auto is_unstable = [](const ResponsePoint& point) {
+    return point.stability && point.stability->unstable > 0;
+  };
+  const bool known = std::any_of(branch.points.begin(), branch.points.end(),
+                                 [](const ResponsePoint& point) { return point.stability.has_value(); });
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const ResponsePoint& point = branch.points[i];
+    if (i == 0 || is_unstable(point) != is_unstable(branch.points[i - 1])) {
+      Record middle;
+      if (i > 0) {
+        middle = record_of(branch.points[i - 1]);
+        const Record next = record_of(point);
+        for (std::size_t k = 0; k < middle.size(); ++k) middle[k] = 0.5 * (middle[k] + next[k]);
+        for (const auto& event : branch.events)
+          if (event.after + 1 == i) middle = record_of(event.point);
+        line.parts.back().push_back(middle);
+      }
+      line.parts.emplace_back();
+      if (i > 0) line.parts.back().push_back(middle);
+      if (known) line.unstable.resize(line.parts.size() - 1, false);
+      if (known) line.unstable.push_back(is_unstable(point));
+    }
+    line.parts.back().push_back(record_of(point));
+  }
+}
+
+}  // namespace
+
 FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<LineOfBranches> lines) {
   FigureData data;
   data.title = scene.title;
@@ -169,11 +202,9 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
             results::mark_kinds.end())
           line.marks.push_back({event.kind, record(scene, kind, shares, event.point)});
       }
-      std::vector<Record>& part = line.parts.emplace_back();
-      for (const ResponsePoint& point : branch->points) {
-        line.unbounded = line.unbounded || point.unbounded;
-        part.push_back(record(scene, kind, shares, point));
-      }
+      for (const ResponsePoint& point : branch->points) line.unbounded = line.unbounded || point.unbounded;
+      add_parts(
+          *branch, [&](const ResponsePoint& point) { return record(scene, kind, shares, point); }, line);
     }
     if (!line.parts.empty()) data.lines.push_back(std::move(line));
   }

@@ -1,0 +1,313 @@
+// Stability along branches: published bifurcations, and multipliers and their error beside the exact motion.
+// ARCSLIP_SCENES is the number of random structures; by default 30.
+#include "catch.hpp"
+
+#include "lib/hbm/random_scenes.hpp"
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+#include "lib/time/beside_exact.hpp"
+#include "lib/time/random_contacts.hpp"
+
+#include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/stability.hpp>
+#include <arcslip/studies/columns.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+using namespace arcslip;
+using observables::ResponseBranch;
+using observables::ResponseEvent;
+
+namespace {
+
+std::uint64_t scene_count() {
+  if (const char* count = std::getenv("ARCSLIP_SCENES")) return std::strtoull(count, nullptr, 10);
+  return 30;
+}
+
+std::vector<ResponseEvent> events(const ResponseBranch& branch, const std::string& kind) {
+  std::vector<ResponseEvent> found;
+  for (const auto& event : branch.events)
+    if (event.kind == kind) found.push_back(event);
+  return found;
+}
+
+ResponseBranch response(const scene::Scene& s, double from, double to) {
+  const auto branches = observables::frequency_response(s, {from, to, true});
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].status == observables::Status::complete);
+  return branches[0];
+}
+
+// NLvib, example 03.
+scene::Scene masses_and_stop(int order) {
+  auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x1", "x2"],
+      "masses": [{"name": "m1", "at": "x1", "value": 1}, {"name": "m2", "at": "x2", "value": 1}],
+      "springs": [{"name": "k12", "between": ["x1", "x2"], "value": 1}, {"name": "k2", "at": "x2", "value": 1}],
+      "dampers": [{"name": "c12", "between": ["x1", "x2"], "value": 0.03},
+                  {"name": "c2", "at": "x2", "value": 0.03}]},
+    "elements": [{"name": "stop", "type": "gap_spring", "at": "x1", "stiffness": 100, "gap": 1}],
+    "excitation": [{"name": "force", "at": "x2", "cosine": 0.1}], "response": {"at": "x1"}})");
+  s.harmonics.order = order;
+  return s;
+}
+
+scene::Scene duffing(const std::string& element, const std::string& more, double k, double c, double force,
+                     int order) {
+  auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 1}]},
+    "elements": [{"name": "s", "type": ")" +
+                         element + R"(", "at": "x", )" + more + R"(}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"}})");
+  scene::set(s, "k.value", k);
+  scene::set(s, "c.value", c);
+  scene::set(s, "f.cosine", force);
+  s.harmonics.order = order;
+  return s;
+}
+
+double nearest_to(double value, const std::vector<std::complex<double>>& all) {
+  double nearest = INFINITY;
+  for (const auto& each : all) nearest = std::min(nearest, std::abs(each - value));
+  return nearest;
+}
+
+}  // namespace
+
+TEST_CASE("two masses and a stop lose their stability where NLvib's example 03 does") {
+  struct Found {
+    double neimark_sacker, first_doubling, second_doubling;
+  };
+  const auto found = [](int order) {
+    const auto branch = response(masses_and_stop(order), 0.57, 0.77);
+    const auto tori = events(branch, "neimark_sacker"), doublings = events(branch, "period_doubling");
+    REQUIRE(tori.size() == 2);
+    REQUIRE(doublings.size() == 2);
+    for (const auto& event : tori) {
+      CHECK_FALSE(event.nonsmooth);
+      REQUIRE(event.point.stability);
+      const double rotation = event.point.stability->rotation;
+      const auto pair = std::polar(1.0, 2 * std::acos(-1.0) * rotation);
+      double distance = INFINITY;
+      for (const auto& each : event.point.stability->multipliers)
+        distance = std::min(distance, std::abs(each - pair));
+      CHECK(distance < 1e-8);
+    }
+    for (const auto& event : doublings) {
+      CHECK(nearest_to(-1, event.point.stability->multipliers) < 1e-8);
+      CHECK(std::isnan(event.point.stability->rotation));
+    }
+    // By shooting 1.4e-6 above grazing; the series of N harmonics smooths the touch.
+    CHECK(std::abs(tori[0].point.omega - 0.58189963904) < 1.4e-6);
+    CHECK(events(branch, "fold").size() == 2);  // the lower one where the stop is touched
+    CHECK(events(branch, "stability_lost").empty());
+    return Found{tori[1].point.omega, doublings[0].point.omega, doublings[1].point.omega};
+  };
+  const Found coarse = found(40), fine = found(120);
+  const auto check = [](double coarse_value, double fine_value, double exact, double tolerance) {
+    CHECK(std::abs(fine_value - exact) < tolerance);
+    CHECK(std::abs(fine_value - exact) < 0.3 * std::abs(coarse_value - exact));
+  };
+  check(coarse.neimark_sacker, fine.neimark_sacker, 0.6186069, 4e-6);
+  check(coarse.first_doubling, fine.first_doubling, 0.7387830, 4e-4);
+  check(coarse.second_doubling, fine.second_doubling, 0.7555862, 2e-5);
+}
+
+TEST_CASE("the small orbit of the double well doubles its period at the force known from elsewhere") {
+  // x = 1 + y: -x + x^3 = 2 y + 3 y^2 + y^3.
+  const auto s = duffing("polynomial_spring", R"("coefficients": {"2": 3, "3": 1})", 2, 0.3, 0.1, 24);
+  const auto branches = observables::parameter_response(s, {"f.cosine", 0.05, 0.3, 1.2, true});
+  REQUIRE(branches.size() == 1);
+  const auto found = events(branches[0], "period_doubling");
+  REQUIRE(found.size() == 1);
+  CHECK(std::abs(found[0].point.over - 0.265581786056) < 1e-12);
+  CHECK(nearest_to(-1, found[0].point.stability->multipliers) < 1e-9);
+  for (const auto& point : branches[0].points) {
+    REQUIRE(point.stability);
+    CHECK((point.stability->unstable == 1) == (point.over > found[0].point.over));
+    // Liouville: the product of the multipliers is exp(-c T).
+    const auto& both = point.stability->multipliers;
+    CHECK(std::abs(both.at(0) * both.at(1) - std::exp(-0.3 * 2 * std::acos(-1.0) / 1.2)) < 1e-10);
+  }
+}
+
+TEST_CASE("a Duffing oscillator is unstable between its folds alone, where a multiplier is 1") {
+  const auto s = duffing("cubic_spring", R"("stiffness": 0.1)", 1, 0.05, 0.18, 15);
+  const auto branch = response(s, 0.5, 1.6);
+  const auto folds = events(branch, "fold");
+  REQUIRE(folds.size() == 2);
+  CHECK(branch.events.size() == 3);  // and the peak
+  for (const auto& fold : folds) CHECK(nearest_to(1, fold.point.stability->multipliers) < 1e-7);
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const bool between = i > folds[0].after && i <= folds[1].after;
+    CHECK(branch.points[i].stability->unstable == (between ? 1 : 0));
+  }
+  CHECK(studies::unstable_ranges(s, branch) == "unstable from 1.269602 to 1.1157003 rad/s");
+}
+
+TEST_CASE("the symmetry of a motion breaks where its Jacobian in all harmonics is singular") {
+  const auto s = duffing("cubic_spring", R"("stiffness": 1)", 1, 0.1, 3, 21);
+  const auto branch = response(s, 0.5, 1.5);
+  const auto found = events(branch, "symmetry_breaking");
+  REQUIRE(found.size() == 2);
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const hbm::HbmProblem odd(model, model->harmonics, 1, 1);
+  REQUIRE(odd.harmonics().odd);
+  const hbm::HbmProblem all(odd, elements::Harmonics{21}, {});
+  for (const auto& event : found) {
+    CHECK(nearest_to(1, event.point.stability->multipliers) < 1e-8);
+    // The determinant of the even harmonics changes its sign within 1e-6 of the event.
+    double determinant[2];
+    for (int i = 0; i < 2; ++i) {
+      const auto p = hbm::parameters_at(odd, event.point.omega + (i == 0 ? -1e-6 : 1e-6));
+      const continuation::Vector guess =
+          Eigen::Map<const continuation::Vector>(event.point.unknowns.data(), odd.size());
+      const auto u = hbm::response_near(odd, p, guess);
+      REQUIRE(u);
+      continuation::Vector wide(all.size());
+      elements::transfer(odd.harmonics(), *u, all.harmonics(), wide);
+      const auto at = all.hbm_evaluator();
+      REQUIRE(at->move_to(wide, p, continuation::Needs::jacobian) == continuation::Evaluated::ok);
+      determinant[i] = std::get<Eigen::MatrixXd>(at->jacobian()).partialPivLu().determinant();
+    }
+    CHECK(determinant[0] * determinant[1] < 0);
+  }
+}
+
+TEST_CASE("multipliers of random structures are within five times their error of the exact ones") {
+  double worst = 0;
+  int points = 0, opens = 0;
+  for (std::uint64_t seed = 0; seed < scene_count(); ++seed) {
+    auto s = random_scenes::make(
+        seed, seed % 2 == 0 ? random_scenes::Excitation::first : random_scenes::Excitation::first_and_second);
+    s.harmonics.order = 15;
+    const auto window = scenes::window(s);
+    const double middle = 0.5 * (window.from + window.to);
+    if (seed % 3 == 1) s = random_contacts::with_stops(s, seed, middle);
+    if (seed % 3 == 2) s = random_contacts::with_contacts(s, seed, middle);
+    for (const double part : {0.35, 0.65}) {
+      const double at = window.from + part * (window.to - window.from);
+      CAPTURE(seed, part);
+      const auto branches = observables::frequency_response(
+          s, {at, 1.001 * at, true},
+          [](const observables::Progress& progress) { return progress.points < 1; });
+      CAPTURE(branches.front().stop.message);
+      REQUIRE_FALSE(branches.front().points.empty());
+      const auto& point = branches.front().points.front();
+      REQUIRE(point.stability);
+      const auto pair = beside_exact::balanced(s, at);
+      time::EventDriven integrator(pair.equation);
+      const auto exact = time::periodic_motion(integrator, time::state_of(*pair.problem, pair.u, pair.p));
+      REQUIRE(exact.converged());
+      const auto& multipliers = point.stability->multipliers;
+      const double error = std::max(observables::distance(multipliers, exact.shooting.multipliers),
+                                    observables::distance(exact.shooting.multipliers, multipliers));
+      ++points;
+      opens += std::any_of(exact.period.events.begin(), exact.period.events.end(),
+                           [](const auto& event) { return event.to == "open"; });
+      CHECK(error < 5 * point.stability->error + 1e-10);
+      worst = std::max(worst, error / (point.stability->error + 1e-10));
+      const double largest = std::abs(exact.shooting.multipliers.front());
+      if (std::abs(largest - 1) > point.stability->error)
+        CHECK((point.stability->unstable > 0) == (largest > 1));
+    }
+  }
+  INFO(worst);
+  CHECK(points == 2 * static_cast<int>(scene_count()));
+  CHECK(opens > points / 10);
+}
+
+TEST_CASE("an undamped structure has no bifurcations by rounding") {
+  // All multipliers are on the unit circle, and pass -1 where a natural frequency is a multiple of half of
+  // that of the excitation.
+  for (const double load : {0.0, 1e3}) {
+    auto s = scenes::paper(5, load);
+    scene::set(s, "c.value", 0);
+    const auto branch = response(s, 5, 17);
+    for (const auto& event : branch.events) {
+      CAPTURE(load, event.kind, event.point.omega);
+      CHECK(event.kind == "peak");
+    }
+    for (const auto& point : branch.points) {
+      REQUIRE(point.stability);
+      CHECK(point.stability->unstable == 0);
+    }
+  }
+}
+
+TEST_CASE("light damping and many sliders: multipliers next to 1 and at 0") {
+  auto s = scenes::paper(7);
+  scene::set(s, "c.value", 1.24e-6);
+  const auto branch = response(s, 10, 30);
+  for (const auto& point : branch.points) {
+    REQUIRE(point.stability);
+    CHECK(point.stability->unstable == 0);
+    // A volume shrinks in stick as well: by exp(-c T/m) and with each slip.
+    const auto& all = point.stability->multipliers;
+    if (point.elements[0].stick_percent == 100)
+      CHECK(std::abs(std::abs(all[0]) - std::exp(-0.5e-6 * 2 * std::acos(-1.0) / point.omega)) < 1e-12);
+    else
+      CHECK(std::abs(all.back()) < 1e-14);
+  }
+  CHECK(branch.doubt.empty());
+}
+
+TEST_CASE("curves of peaks and folds have the stability of their points") {
+  const auto s = duffing("cubic_spring", R"("stiffness": 0.1)", 1, 0.05, 0.18, 9);
+  const observables::CurveRange range{"f.cosine", 0.15, 0.25, 0.5, 1.8, true};
+  for (const auto& branch : observables::fold_curves(s, range)) {
+    CHECK(branch.points.size() > 10);
+    for (const auto& point : branch.points) CHECK(nearest_to(1, point.stability->multipliers) < 1e-6);
+  }
+  for (const auto& branch : observables::resonance_peaks(s, range))
+    for (const auto& point : branch.points) CHECK(point.stability->unstable == 0);
+  auto without = range;
+  without.stability = false;
+  for (const auto& branch : observables::resonance_peaks(s, without))
+    for (const auto& point : branch.points) CHECK_FALSE(point.stability);
+}
+
+TEST_CASE("a branch whose stability is not known says why") {
+  const auto s = duffing("bouc_wen", R"("stiffness": 1, "elastic_share": 0.2, "yield_displacement": 1,
+    "exponent": 1, "shape": 0.6)",
+                         1, 0.05, 0.1, 5);
+  const auto branch = response(s, 0.5, 1.6);
+  CHECK(branch.unknown_stability == "the memory of \"s\" is not piecewise linear");
+  CHECK(studies::doubt_of(branch) == "without its stability: the memory of \"s\" is not piecewise linear");
+  for (const auto& point : branch.points) CHECK_FALSE(point.stability);
+  CHECK(studies::unstable_ranges(s, branch).empty());
+}
+
+TEST_CASE("where slip is born, a self-excited structure that is unstable in stick becomes stable at once") {
+  // A force c x' along the motion; in stick the multipliers are exp(c T/2m) in size. The birth of slip is at
+  // the amplitude limit/k_t of the stuck structure.
+  const double c = 0.05, m = 1.24, k = 17890 + 3500, hertz = 25;
+  const auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "Hz",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1.24}],
+      "springs": [{"name": "k", "at": "x", "value": 17890}]},
+    "elements": [{"name": "feed", "type": "van_der_pol", "at": "x", "coefficient": 0.05, "amplitude": 1e3},
+      {"name": "damper", "type": "jenkins", "at": "x", "stiffness": 3500, "friction_coefficient": 0.5,
+       "normal_load": 3}],
+    "excitation": [{"name": "force", "at": "x", "cosine": 1}], "response": {"at": "x"},
+    "harmonics": {"order": 9}})");
+  const auto branches = observables::parameter_response(s, {"force.cosine", 0.05, 10, hertz, true});
+  REQUIRE(branches.size() == 1);
+  const auto lost = events(branches[0], "stability_lost");
+  REQUIRE(lost.size() == 1);
+  CHECK(lost[0].nonsmooth);
+  const double omega = hertz * scenes::hertz;
+  const double amplitude = 3 * 0.5 / 3500;
+  const double force = amplitude * std::hypot(k - m * omega * omega, c * omega);
+  CHECK(reference::error(lost[0].point.over, force) < 1e-8);
+  for (const auto& point : branches[0].points) {
+    if (point.over > 2 * force) continue;
+    CHECK(point.stability->unstable == (point.over < force ? 2 : 0));
+  }
+}
