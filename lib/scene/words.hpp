@@ -34,7 +34,12 @@ inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 
 /// Names of quantities in results, which the continuation parameter of a study must not have.
-inline constexpr std::array<std::string_view, 30> result_names = {"kind",
+inline constexpr std::array<std::string_view, 35> result_names = {"kind",
+                                                                  "stable",
+                                                                  "unstable_multipliers",
+                                                                  "multipliers",
+                                                                  "multiplier_error",
+                                                                  "rotation_number",
                                                                   "nonsmooth",
                                                                   "located",
                                                                   "omega",

@@ -60,8 +60,9 @@ TEST_CASE("the documentation of results has the rows of the table of quantities"
   std::stringstream text;
   text << file.rdbuf();
   for (const auto& wanted :
-       {rows(observables::response_quantities()), rows(observables::element_quantities()),
-        rows(observables::patch_quantities()), rows(observables::named_response_quantities())}) {
+       {rows(observables::response_quantities()), rows(observables::stability_quantities()),
+        rows(observables::element_quantities()), rows(observables::patch_quantities()),
+        rows(observables::named_response_quantities())}) {
     INFO("the table is to be:\n" << wanted);
     CHECK(text.str().find(wanted) != std::string::npos);
   }
