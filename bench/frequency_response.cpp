@@ -2,6 +2,7 @@
 //
 //   paper_frf/H:N     paper's oscillator, Fn = 3 N, 18 to 22 Hz, N harmonics
 //   duffing_frf/H:7   Duffing oscillator, 0.5 to 1.6 rad/s
+//   chain_frf         six masses and six friction dampers, 7 harmonics, with and without stability
 //
 // Counters: points and events of the branch; factorizations and solves of it; linear_share, the share of the
 // time that so many bare factorizations and solves of that size take; over_lu, the time over that of the
@@ -12,12 +13,14 @@
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
 #include <benchmark/benchmark.h>
 
 #include <Eigen/LU>
 
 #include <chrono>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -105,13 +108,55 @@ void duffing_frf(benchmark::State& state) {
 }
 BENCHMARK(duffing_frf)->ArgName("H")->Arg(7)->Unit(benchmark::kMillisecond);
 
-// The study as the command runs it, with all observables and the estimate of truncation at each point.
-void paper_frf_observed(benchmark::State& state) {
-  scene::Scene scene = example("al_sayed_2011", static_cast<int>(state.range(0)));
-  scene::set(scene, "damper.normal_load", 3);
-  const auto& window = scene.studies.front().settings.as<observables::FrequencyRange>();
+// The study as the command runs it, with all observables and the estimate of truncation at each point; and
+// with its stability.
+void observed(benchmark::State& state, const scene::Scene& scene, observables::FrequencyRange window,
+              bool stability) {
+  window.stability = stability;
   for (auto _ : state) benchmark::DoNotOptimize(observables::frequency_response(scene, window));
 }
-BENCHMARK(paper_frf_observed)->ArgName("H")->Arg(1)->Arg(7)->Arg(27)->Arg(55)->Unit(benchmark::kMillisecond);
+
+void paper_frf_observed(benchmark::State& state, bool stability) {
+  scene::Scene scene = example("al_sayed_2011", static_cast<int>(state.range(0)));
+  scene::set(scene, "damper.normal_load", 3);
+  observed(state, scene, scene.studies.front().settings.as<observables::FrequencyRange>(), stability);
+}
+BENCHMARK_CAPTURE(paper_frf_observed, without_stability, false)
+    ->ArgName("H")
+    ->Arg(1)
+    ->Arg(7)
+    ->Arg(27)
+    ->Arg(55)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(paper_frf_observed, stability, true)
+    ->ArgName("H")
+    ->Arg(1)
+    ->Arg(7)
+    ->Arg(27)
+    ->Arg(55)
+    ->Unit(benchmark::kMillisecond);
+
+// A chain of six masses with a friction damper between all neighbours, through its first two resonances.
+scene::Scene chain() {
+  std::istringstream text(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": [{"repeat": 6, "name": "x{i}"}],
+      "masses": [{"repeat": 6, "name": "m{i}", "at": "x{i}", "value": 1}],
+      "springs": [{"name": "k0", "at": "x1", "value": 1},
+                  {"repeat": 5, "name": "k{i}", "between": ["x{i}", "x{i+1}"], "value": 1}],
+      "dampers": [{"repeat": 6, "name": "c{i}", "at": "x{i}", "value": 0.01}]},
+    "elements": [
+      {"name": "d0", "type": "jenkins", "at": "x1", "stiffness": 0.5, "friction_coefficient": 0.5, "normal_load": 0.2},
+      {"repeat": 5, "name": "d{i}", "type": "jenkins", "between": ["x{i}", "x{i+1}"],
+       "stiffness": 0.5, "friction_coefficient": 0.5, "normal_load": 0.2}],
+    "excitation": [{"name": "force", "at": "x6", "cosine": 0.1}], "response": {"at": "x6"},
+    "harmonics": {"order": 7}})");
+  return scene::read(text, studies::catalogue());
+}
+
+void chain_frf(benchmark::State& state, bool stability) {
+  observed(state, chain(), {0.15, 0.9}, stability);
+}
+BENCHMARK_CAPTURE(chain_frf, without_stability, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(chain_frf, stability, true)->Unit(benchmark::kMillisecond);
 
 }  // namespace

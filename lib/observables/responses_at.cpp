@@ -78,7 +78,7 @@ class Points {
     std::vector<PointResponse> all;
     for (const Vector& u : found.u) {
       all.push_back(at(found.problem, u));
-      all.back().doubt = found.doubt;
+      if (!found.doubt.empty()) all.back().doubt = found.doubt;
     }
     return all;
   }
@@ -106,7 +106,7 @@ class Points {
   PointResponse at(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u) {
     const auto began = std::chrono::steady_clock::now();
     Observer observer(problem);
-    observer.watch_stability();
+    if (settings_.stability) observer.watch_stability();
     std::optional<ResponsePoint> point;
     continuation::Options options;
     options.lower = omega_;
@@ -128,6 +128,8 @@ class Points {
       return result;
     }
     result.point = std::move(*point);
+    if (const std::string unknown = observer.unknown_stability(); !unknown.empty())
+      result.doubt = "without its stability: " + unknown;
     if (settings_.offsets == Offsets::range)
       result.offset_range =
           offset_range(*problem, Eigen::Map<const Vector>(result.point.unknowns.data(), problem->size()),

@@ -37,6 +37,7 @@ struct PointSettings {
   double frequency = 0;  // of the excitation, in the scene's unit
   int steps = 1000;      // of the history, in addition to the onsets and ends of slip
   Offsets offsets = Offsets::chosen;
+  bool stability = false;
   friend bool operator==(const PointSettings&, const PointSettings&) = default;
 };
 

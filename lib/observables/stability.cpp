@@ -16,6 +16,7 @@ using Complex = std::complex<double>;
 using Multipliers = StabilityAnalysis::Multipliers;
 using continuation::Accepted;
 
+constexpr int most_dofs = 100;
 constexpr double neutral = 1e-10;   // |mu| above 1 by less is rounding
 constexpr double rounding = 1e-11;  // of the products, where the structure is undamped
 constexpr double on_circle = 1e-4;  // at a zero; otherwise the product jumps
@@ -38,6 +39,12 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEv
     p_ = p;
     unknown_.clear();
     floquet_.reset();
+    const int dofs = problem.model().dofs;
+    if (dofs > most_dofs) {
+      unknown_ = "the structure has " + std::to_string(dofs) + " degrees of freedom, and at most " +
+                 std::to_string(most_dofs) + " are supported";
+      return false;
+    }
     try {
       floquet_.emplace(time::equation_of_motion(problem.model(), p));
     } catch (const time::NoVariation& without) {

@@ -4,6 +4,7 @@
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/columns.hpp>
 #include <arcslip/studies/figures.hpp>
@@ -33,6 +34,7 @@ scene::file::KeysOf<PointSettings> keys() {
       scene::file::word("offsets", &PointSettings::offsets, offset_words,
                         "of sliders that stick throughout the period: as their elements choose, or also the "
                         "range of the amplitude over all places where they may rest"));
+  keys.add(scene::file::flag("stability", &PointSettings::stability, stability_of_points_help));
   return keys;
 }
 
@@ -105,10 +107,10 @@ results::Object offset_range(const observables::OffsetRange& range) {
   return object;
 }
 
-results::Object facts(const scene::Scene& scene, const PointResponse& response) {
+results::Object facts(const scene::Scene& scene, const PointResponse& response, bool stability) {
   results::Object all;
   if (response.status == observables::Status::complete) {
-    const auto table = responses(scene, {.maxima = true, .coefficients = true, .stability = true});
+    const auto table = responses(scene, {.maxima = true, .coefficients = true, .stability = stability});
     all = results::object(table.columns(), table.rows(std::vector{response.point}), 0);
   }
   all.push_back({"period", scene.harmonics.period});
@@ -118,7 +120,7 @@ results::Object facts(const scene::Scene& scene, const PointResponse& response) 
   return all;
 }
 
-Described<PointResponse> described(const scene::Scene& scene, const PointSettings& /*settings*/,
+Described<PointResponse> described(const scene::Scene& scene, const PointSettings& settings,
                                    const scene::RunOptions& options) {
   const auto table = std::make_shared<const results::TableOf<Instant>>(history(scene));
   std::vector<results::Shown> shown{
@@ -126,7 +128,7 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
       {"A_max (m)", {"amplitude"}, "%.8e"},
       {"phase (rad)", {"phase"}, "%.6f"}};
   add_stick(scene, shown);
-  shown.push_back({"stable", {"stable"}});
+  if (settings.stability) shown.push_back({"stable", {"stable"}});
   shown.insert(shown.end(), {{"E_friction (J)", {"energy_friction"}, "%.6e"},
                              {"E_viscous (J)", {"energy_viscous"}, "%.6e"},
                              {"truncation (m)", {"truncation_estimate"}, "%.1e"}});
@@ -135,15 +137,16 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
                          .noun = "response",
                          .tables = {{"history", table->columns(), {"elements"}, true}},
                          .shown = std::move(shown)};
-  return {std::move(schema), [&scene, table, options](const PointResponse& response) {
-            return results::Result{
-                .schema = 0,
-                .head = {response.study,
-                         response.kind,
-                         named(scene, response.set),
-                         {{"parameters", named(scene, response.parameters)}}},
-                .tables = {table->rows(instants(response, options))},
-                .end = {response.status, stop(response.stop), facts(scene, response), doubt_of(response)}};
+  return {std::move(schema),
+          [&scene, table, options, stability = settings.stability](const PointResponse& response) {
+            return results::Result{.schema = 0,
+                                   .head = {response.study,
+                                            response.kind,
+                                            named(scene, response.set),
+                                            {{"parameters", named(scene, response.parameters)}}},
+                                   .tables = {table->rows(instants(response, options))},
+                                   .end = {response.status, stop(response.stop),
+                                           facts(scene, response, stability), doubt_of(response)}};
           }};
 }
 

@@ -10,6 +10,7 @@
 
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/stability.hpp>
 #include <arcslip/studies/columns.hpp>
 
@@ -310,4 +311,31 @@ TEST_CASE("where slip is born, a self-excited structure that is unstable in stic
     if (point.over > 2 * force) continue;
     CHECK(point.stability->unstable == (point.over < force ? 2 : 0));
   }
+}
+
+TEST_CASE("structures that are too large for multipliers say so, and points have them on request") {
+  auto s = scenes::paper(3);
+  observables::PointSettings settings;
+  settings.frequency = 20;
+  CHECK_FALSE(observables::point_responses(s, settings).front().point.stability);
+  settings.stability = true;
+  const auto known = observables::point_responses(s, settings);
+  REQUIRE(known.front().point.stability);
+  CHECK(known.front().point.stability->unstable == 0);
+  for (int i = 0; i < 100; ++i) {
+    const std::string name = "b" + std::to_string(i);
+    const int dof = static_cast<int>(s.dofs.size());
+    s.dofs.push_back(name);
+    for (auto* parts : {&s.masses, &s.springs}) {
+      scene::Part part = parts->front();
+      part.name = (parts == &s.masses ? "m" : "k") + name;
+      part.directions = {{{dof, 1.0}}};
+      parts->push_back(part);
+    }
+  }
+  const auto unknown = observables::point_responses(s, settings);
+  REQUIRE(unknown.front().status == observables::Status::complete);
+  CHECK_FALSE(unknown.front().point.stability);
+  CHECK(unknown.front().doubt ==
+        "without its stability: the structure has 101 degrees of freedom, and at most 100 are supported");
 }
