@@ -2,7 +2,7 @@
 //
 //   paper_frf/H:N     paper's oscillator, Fn = 3 N, 18 to 22 Hz, N harmonics
 //   duffing_frf/H:7   Duffing oscillator, 0.5 to 1.6 rad/s
-//   chain_frf         six masses and six friction dampers, 7 harmonics, with and without stability
+//   damped_chain_frf  six masses and six friction dampers, 7 harmonics, with and without stability
 //
 // Counters: points and events of the branch; factorizations and solves of it; linear_share, the share of the
 // time that so many bare factorizations and solves of that size take; over_lu, the time over that of the
@@ -153,10 +153,10 @@ scene::Scene chain() {
   return scene::read(text, studies::catalogue());
 }
 
-void chain_frf(benchmark::State& state, bool stability) {
+void damped_chain_frf(benchmark::State& state, bool stability) {
   observed(state, chain(), {0.15, 0.9}, stability);
 }
-BENCHMARK_CAPTURE(chain_frf, without_stability, false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(chain_frf, stability, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(damped_chain_frf, without_stability, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(damped_chain_frf, stability, true)->Unit(benchmark::kMillisecond);
 
 }  // namespace

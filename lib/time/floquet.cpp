@@ -165,13 +165,13 @@ struct Floquet::Impl {
       if (!part.rests()) ++zeros;
       if (part.rests() && !always) kept.push_back(part.memory);
     }
-    const auto columns = 2 * n + static_cast<Eigen::Index>(kept.size());
-    W.setZero(n, columns);
-    V.setZero(n, columns);
-    Z.setZero(equation.memory, columns);
-    W.leftCols(n).setIdentity();
-    V.middleCols(n, n).setIdentity();
-    for (std::size_t k = 0; k < kept.size(); ++k) Z(kept[k], 2 * n + static_cast<Eigen::Index>(k)) = 1;
+    const auto starts = 2 * n + static_cast<Eigen::Index>(kept.size());
+    W.setZero(starts, n);
+    V.setZero(starts, n);
+    Z.setZero(starts, equation.memory);
+    W.topRows(n).setIdentity();
+    V.middleRows(n, n).setIdentity();
+    for (std::size_t k = 0; k < kept.size(); ++k) Z(2 * n + static_cast<Eigen::Index>(k), kept[k]) = 1;
     C = over_mass_C / omega;
     rate = fastest_mode / omega;
     piece = turn / std::max<double>(pieces_at_least, pieces_per_order * harmonics.order);
@@ -184,14 +184,15 @@ struct Floquet::Impl {
     for (const Part& part : parts) {
       if (!part.mode().f_q.isZero(0))
         K.noalias() += part.over_mass * part.mode().f_q * part.directions.transpose();
-      driven = driven || (part.rests() && Z.row(part.memory).any());
+      driven = driven || (part.rests() && Z.col(part.memory).any());
     }
     K *= scale;
     G.resize(0, 0);
     if (!driven) return;
     G.setZero(W.rows(), W.cols());
     for (const Part& part : parts)
-      if (part.rests()) G.noalias() -= scale * (part.over_mass * part.mode().f_z) * Z.row(part.memory);
+      if (part.rests())
+        G.noalias() -= Z.col(part.memory) * (scale * (part.over_mass * part.mode().f_z)).transpose();
   }
 
   void move_with_smooth(double theta, double end, const elements::Harmonics& harmonics,
@@ -200,16 +201,16 @@ struct Floquet::Impl {
     const int coarse = static_cast<int>(std::ceil(length / piece));
     for (int i = 0; i < coarse; ++i) {
       const double from = theta + length * i / coarse, h = length / coarse;
-      double stiffest = interpolate(from, h, harmonics, elements);
+      const double stiffest = interpolate(from, h, harmonics, elements);
       // With the largest coefficients at the nodes.
       const int fine = std::max(1, static_cast<int>(std::ceil(h * stiffest / 2)));
       if (fine == 1) {
-        variation.move(h, 0, K, C, G, variables, W, V);
+        variation.move(h, stiffest, K, C, G, variables, W, V);
         continue;
       }
       for (int j = 0; j < fine; ++j) {
-        interpolate(from + h * j / fine, h / fine, harmonics, elements);
-        variation.move(h / fine, 0, K, C, G, variables, W, V);
+        const double finest = interpolate(from + h * j / fine, h / fine, harmonics, elements);
+        variation.move(h / fine, finest, K, C, G, variables, W, V);
       }
     }
   }
@@ -274,8 +275,8 @@ struct Floquet::Impl {
               const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements) {
     const elements::Mode& left = part.mode();
     const Matrix& motion = elements[static_cast<std::size_t>(part.element)].q;
-    auto dz = Z.row(part.memory);
-    dz.noalias() = (left.z_q * part.directions.transpose()) * W;
+    auto dz = Z.col(part.memory);
+    dz.noalias() = W * (part.directions * left.z_q.transpose());
     if (guard.v.size() > 0 && !guard.v.isZero(0)) return;  // of the memory's velocity: it is at rest
     by_q = guard.z * left.z_q;
     if (guard.q.size() > 0) by_q += guard.q;
@@ -285,17 +286,17 @@ struct Floquet::Impl {
       velocity += left.z_q[k] * d1;
       falls += by_q[k] * d1;
     }
-    if (velocity != 0 && falls != 0) dz -= velocity / falls * ((by_q * part.directions.transpose()) * W);
+    if (velocity != 0 && falls != 0) dz -= velocity / falls * (W * (part.directions * by_q.transpose()));
   }
 
   bool finish(bool half) {
     const Eigen::Index n = equation.dofs();
     const auto size = 2 * n + static_cast<Eigen::Index>(kept.size());
     map.resize(size, size);
-    map.topRows(n) = W;
-    map.middleRows(n, n) = V;
+    map.topRows(n) = W.transpose();
+    map.middleRows(n, n) = V.transpose();
     for (std::size_t k = 0; k < kept.size(); ++k)
-      map.row(2 * n + static_cast<Eigen::Index>(k)) = Z.row(kept[k]);
+      map.row(2 * n + static_cast<Eigen::Index>(k)) = Z.col(kept[k]);
     if (half) map = -map;
     if (!map.allFinite() || !eigenvalues.compute(map)) return false;
     multipliers.assign(eigenvalues.values().begin(), eigenvalues.values().end());
@@ -323,7 +324,8 @@ struct Floquet::Impl {
   std::vector<Change> changes;  // in [0, span)
   std::vector<int> kept;        // memories with a column
   int zeros = 0;
-  Matrix K, C, G, W, V, Z, map;
+  Matrix K, C, G, map;
+  Matrix W, V, Z;  // a row for each start: dw, dw', dz
   Vector q, none;
   Eigen::RowVectorXd by_q;
   Variation variation;

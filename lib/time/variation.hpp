@@ -3,7 +3,8 @@
 //
 //   w'' = -C w' - K w + G - sum_j s^j D (T_j D^T w + B_j D^T w'),     0 <= s <= 1
 //
-// over an angle h; C, K, D: with M^-1 and the powers of omega in them.
+// over an angle h; C, K, D: with M^-1 and the powers of omega in them. Several w run together: a row for
+// each, a column for each degree of freedom, so that a sparse K costs its nonzeros.
 
 #include <arcslip/time/equation_of_motion.hpp>
 
@@ -13,27 +14,33 @@ namespace arcslip::time {
 
 /// Coefficients that change over the piece.
 struct Variable {
-  Matrix over_mass, directions;  // dofs x directions: M^-1 D/omega^2, D
+  Matrix over_mass, directions;  // dofs x directions: M^-1 D, D
   std::vector<Matrix> T, B;      // of s^j
 };
 
 class Variation {
  public:
-  /// Moves w and its derivative by h. G: as w, constant. fastest: of the piece, in radians per radian.
+  /// Moves W and its derivative V by h. G: as W, constant; empty: 0. fastest: an upper bound of the
+  /// frequencies of the piece, rad/rad; h fastest <= 2 where coefficients change.
   void move(double h, double fastest, const Matrix& K, const Matrix& C, const Matrix& G,
             const std::vector<Variable>& variables, Matrix& W, Matrix& V);
 
  private:
-  void series(double h, const Matrix& K, const Matrix& C, const Matrix& G,
-              const std::vector<Variable>& variables, Matrix& W, Matrix& V);
-  void squared(double h, int halvings, const Matrix& K, const Matrix& C, const Matrix& G, Matrix& W,
-               Matrix& V);
+  struct Entry {
+    Eigen::Index column;
+    double k, c;
+  };
 
-  Matrix w_, v_, next_w_, next_v_;              // terms
-  std::vector<Matrix> along_w_, along_v_;       // D^T of the terms so far, of all variables
-  Matrix sum_;                                  // of one variable
-  Matrix map_, twice_, map_w_, map_v_, input_;  // of a short piece
-  Matrix state_, moved_;
+  void take(const Matrix& K, const Matrix& C);
+  void series(double h, double fastest, const Matrix& G, const std::vector<Variable>& variables, Matrix& W,
+              Matrix& V);
+  void squared(double h, double fastest, int halvings, const Matrix& G, Matrix& W, Matrix& V);
+
+  std::vector<std::vector<Entry>> rows_;   // of K and C, without zeros
+  Matrix w_, v_, next_w_, next_v_;         // terms
+  std::vector<Matrix> along_w_, along_v_;  // the terms so far along D, of all variables
+  Matrix sum_;                             // of one variable
+  Matrix map_, twice_, map_w_, map_v_, input_, state_, moved_;
 };
 
 }  // namespace arcslip::time
