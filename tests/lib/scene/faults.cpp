@@ -220,7 +220,7 @@ TEST_CASE("a stream that has failed is a file error and not an empty scene") {
 }
 
 TEST_CASE("a regular file above 64 MB is refused by its size") {
-  const Folder folder = {{"scene.json", "["}};
+  const ::Folder folder = {{"scene.json", "["}};
   std::filesystem::resize_file(folder / "scene.json", largest_size + 1);  // sparse: nothing is written
   CHECK_THROWS_WITH(read_path(folder / "scene.json"),
                     "found a file of 67108865 bytes, a scene must be at most 64 MB");
@@ -228,7 +228,7 @@ TEST_CASE("a regular file above 64 MB is refused by its size") {
 }
 
 TEST_CASE("a scene is read from a file as from a stream") {
-  const Folder folder = {{"scene.json", good_scene()}};
+  const ::Folder folder = {{"scene.json", good_scene()}};
   std::istringstream in(good_scene());
   CHECK(read_path(folder / "scene.json") == read_stream(in));
 }
