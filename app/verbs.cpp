@@ -14,6 +14,7 @@
 #include <arcslip/results/table_writer.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/combinations.hpp>
+#include <arcslip/scene/highest_harmonic.hpp>
 #include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
@@ -138,10 +139,17 @@ bool are_of_one_list(std::span<const results::Schema> schemas) {
                      [&](const results::Schema& schema) { return schema.list == schemas.front().list; });
 }
 
+void tell_beyond_reduction(const scene::Scene& scene, const std::vector<scene::Study>& studies) {
+  for (const scene::Study& study : studies)
+    if (const std::string doubt = scene::beyond_reduction(scene, study); !doubt.empty())
+      tell("the study \"" + study.name + "\" has " + doubt);
+}
+
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const CommandOptions& options) {
   check_one_table(options, scene, studies);
   check_combinations(options, studies);
+  tell_beyond_reduction(scene, studies);
   const std::vector<StudyFiles> files = study_files(options.out, studies);
   const std::optional<ResultsFolder> held = prepare_places(options, studies, files);
 
@@ -228,6 +236,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
 }
 
 ExitCode check(const scene::Scene& scene, const CommandOptions& options) {
+  tell_beyond_reduction(scene, scene.studies);
   if (!options.quiet) {
     StandardOutput screen;
     screen.write_lines([&](std::ostream& out) { out << scene::write(scene); });

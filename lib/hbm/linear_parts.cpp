@@ -48,10 +48,6 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
       const double along = excitation.moves_base() ? mass.direction.dot(excitation.direction) : 0;
       if (along != 0) force.terms.push_back({mass.parameter, {P, model::Direction(along * mass.direction)}});
     }
-    for (const model::MatrixPart& part : model.matrices)
-      if (excitation.moves_base() && part.kind == Kind::mass)
-        force.terms.push_back(
-            {part.parameter, {P, model::Direction((*part.A * excitation.direction).eval().sparseView())}});
     forces_.push_back(std::move(force));
   }
   if (modes_) return;

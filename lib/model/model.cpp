@@ -13,6 +13,7 @@ namespace arcslip::model {
 namespace {
 
 constexpr double massless = 1e-14;  // a mode: its mu relative to the largest
+constexpr double unnamed = 1e-6;    // of what a row or coordinate without a name counts as drifting
 constexpr double held = 1e-12;      // a mean position: its stiffness relative to that of its springs
 
 Excitation::Kind kind_of(const scene::Part& part) {
@@ -90,6 +91,8 @@ class Builder {
     for (std::size_t i = 0; i < named; ++i)
       place[static_cast<std::size_t>(files.rows[i])] = static_cast<int>(i);
     model_.dof_names.assign(scene_.dofs.begin(), scene_.dofs.begin() + static_cast<std::ptrdiff_t>(named));
+    model_.unnamed_from = static_cast<int>(named);
+    model_.unnamed_to = files.size();
     for (std::size_t row = 0; row < place.size(); ++row) {
       if (place[row] >= 0) continue;
       place[row] = static_cast<int>(model_.dof_names.size());
@@ -132,6 +135,8 @@ class Builder {
         files.derived->get<structure::Reduced>("reduced for " + std::to_string(highest) + " rad/s to " + key,
                                                [&] { return structure::reduce(files, kept, highest, stop); });
     const auto coordinates = static_cast<int>(reduced->M.rows()) - static_cast<int>(kept.size());
+    model_.unnamed_from = static_cast<int>(kept.size());
+    model_.unnamed_to = model_.unnamed_from + coordinates;
     for (int k = 1; k <= coordinates; ++k) model_.dof_names.push_back("coordinate " + std::to_string(k));
     for (std::size_t i = named; i < scene_.dofs.size(); ++i) {
       dof_of_[i] = static_cast<int>(model_.dof_names.size());
@@ -140,7 +145,9 @@ class Builder {
     add_matrix(LinearKind::mass, -1, reduced->M);
     add_matrix(LinearKind::spring, -1, reduced->K);
     if (reduced->C.size() > 0) add_matrix(LinearKind::damper, -1, reduced->C);
-    model_.reduction = {files.size(), static_cast<int>(kept.size()), coordinates, highest, reduced->error};
+    model_.reduction = {files.size(),   static_cast<int>(kept.size()),
+                        coordinates,    highest,
+                        reduced->error, reduced->free_below};
   }
 
   std::vector<bool> used_dofs() const {
@@ -310,8 +317,6 @@ Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const co
   } else {
     for (const LinearPart& mass : model.masses)
       g += p[mass.parameter] * mass.direction.dot(excitation.direction) * mass.direction;
-    for (const MatrixPart& part : model.matrices)
-      if (part.kind == LinearKind::mass) g += part.value(p) * (*part.A * excitation.direction);
   }
   return excitation.factor(p[frequency]) * g;
 }
@@ -376,8 +381,15 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
   const auto modes = continuation::symmetric_modes(scale.asDiagonal() * K * scale.asDiagonal());
   Eigen::Index softest = 0, dof = 0;
   if (modes.values.cwiseAbs().minCoeff(&softest) > held) return {};
-  (scale.asDiagonal() * modes.V.col(softest)).cwiseAbs().maxCoeff(&dof);
+  Eigen::VectorXd share = (scale.asDiagonal() * modes.V.col(softest)).cwiseAbs();
+  share.segment(model.unnamed_from, model.unnamed_to - model.unnamed_from) *= unnamed;
+  share.maxCoeff(&dof);
   return static_cast<int>(dof);
+}
+
+std::string told(const Model& model, int dof) {
+  if (dof >= model.unnamed_from && dof < model.unnamed_to) return "the structure";
+  return '"' + model.dof_names[static_cast<std::size_t>(dof)] + '"';
 }
 
 }  // namespace arcslip::model

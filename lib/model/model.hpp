@@ -109,6 +109,7 @@ struct Reduction {
   int coordinates = 0;           // beside the degrees of freedom with names
   double highest_frequency = 0;  // rad/s
   double error = 0;              // structure::Reduced::error
+  double free_below = 0;         // rad/s: natural frequencies below are not told from 0
 };
 
 /// Index of the excitation frequency in the parameters.
@@ -117,6 +118,7 @@ inline constexpr int frequency = 0;
 struct Model {
   int dofs = 0;
   std::vector<std::string> dof_names;
+  int unnamed_from = 0, unnamed_to = 0;  // rows and coordinates of matrices, without a name in the scene
   std::vector<continuation::Parameter> parameters;  // [0] is "frequency", rad/s; ties stand for their members
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<MatrixPart> matrices;
@@ -164,5 +166,8 @@ Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector&
 /// directly or through others. Friction forces do not depend on it, so that it would be arbitrary or drift.
 /// Empty if there is none. in_stick: contacts that hold a mean force while they stick count as supports.
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick = true);
+
+/// For messages: a degree of freedom by its name, in quotes; "the structure" where the scene has none for it.
+std::string told(const Model& model, int dof);
 
 }  // namespace arcslip::model

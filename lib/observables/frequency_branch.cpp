@@ -52,8 +52,8 @@ namespace {
 std::string held_by_friction(const model::Model& model, const Vector& p) {
   const auto dof = model::drifting_dof(model, p, false);
   if (!dof || model::drifting_dof(model, p)) return {};
-  return "; only friction holds the mean position of \"" + model.dof_names[static_cast<std::size_t>(*dof)] +
-         "\", and no longer where it slips in each period";
+  return "; only friction holds the mean position of " + model::told(model, *dof) +
+         ", and no longer where it slips in each period";
 }
 
 }  // namespace
@@ -78,8 +78,8 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
     return {
         problem,
         {},
-        "no spring holds the mean position of \"" + model->dof_names[static_cast<std::size_t>(*dof)] +
-            "\", and friction leaves it free to drift; add a spring between it and the ground or a supported "
+        "no spring holds the mean position of " + model::told(*model, *dof) +
+            ", and friction leaves it free to drift; add a spring between it and the ground or a supported "
             "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics, or "
             "let a "
             "contact that sticks hold it, with \"offset\": \"static\""};

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <arcslip/model/model.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <optional>
 #include <string>
 
 namespace arcslip::observables {
 
-/// Reduces the structure of a scene for all of its studies, where that takes long, before the first of them.
-/// A sentence on what was done, or "". Throws SceneError for matrices that cannot be reduced, and
+/// How the matrices of a scene are reduced, its error to two digits; empty: they are not. The first call
+/// reduces them, for all studies of the scene. Throws SceneError for matrices that cannot be reduced, and
 /// Interrupted.
+std::optional<model::Reduction> reduction(const scene::Scene& scene, const scene::StopRequest& stop = {});
+
+/// reduction() as a sentence, or "".
 std::string prepare(const scene::Scene& scene, const scene::StopRequest& stop);
 
 }  // namespace arcslip::observables

@@ -19,7 +19,7 @@ double Stops::inertia(const model::Direction& d, const continuation::Vector& p) 
   continuation::Vector values(static_cast<Eigen::Index>(model_.masses.size()));
   for (std::size_t k = 0; k < model_.masses.size(); ++k)
     values[static_cast<Eigen::Index>(k)] = p[model_.masses[k].parameter];
-  if (values.size() != masses_.size() || values != masses_) {
+  if (M_.rows() == 0 || values != masses_) {
     masses_ = values;
     M_ = model::mass_matrix(model_, p);
     factors_.compute(M_);

@@ -190,6 +190,7 @@ void CsvSummary::curve(const Head& head, std::size_t schema) {
 void CsvSummary::end(const End& end) {
   put("status", name(end.status));
   put("stop.", end.stop);
+  if (!end.doubt.empty()) put("doubt", text_field(end.doubt));
   put("", end.facts);
 }
 

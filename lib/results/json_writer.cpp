@@ -220,6 +220,7 @@ void JsonWriter::begin(const Header& header, std::span<const Schema> schemas) {
        << ",\n\"scene_hash\": " << json_quoted(header.scene_hash)
        << ",\n\"title\": " << json_quoted(header.title)
        << ",\n\"frequency_unit\": " << json_quoted(header.frequency_unit);
+  if (!header.reduction.empty()) out_ << ",\n\"reduction\": " << json(header.reduction);
 }
 
 void JsonWriter::open(const std::string& list) {
@@ -268,6 +269,7 @@ void JsonWriter::end(const End& end) {
     out_ << tables_[t]->rest();
   }
   Object all{{"status", name(end.status)}, {"stop", end.stop}};
+  if (!end.doubt.empty()) all.push_back({"doubt", end.doubt});
   all.insert(all.end(), end.facts.begin(), end.facts.end());
   if (in_list_ == 1) beside_.clear();
   for (const Member& fact : all) {

@@ -77,6 +77,7 @@ struct Rows {
 
 struct Header {
   std::string program, scene_hash, title, frequency_unit;
+  Object reduction{};  // of the structure; empty: none
 };
 
 /// Data of a result before it is computed.

@@ -21,6 +21,24 @@ std::string place(int row, int column) {
   return "row " + std::to_string(row + 1) + ", column " + std::to_string(column + 1);
 }
 
+// What is wrong in many places, as the middle of one message: the first of them, and how many more.
+class Places {
+ public:
+  template <class Text>
+  void add(const Text& text) {
+    if (++count_ <= most_named) told_ += (count_ > 1 ? "; " : "") + text();
+  }
+  bool any() const { return count_ > 0; }
+  std::string told() const {
+    return count_ <= most_named ? told_ : told_ + "; and " + std::to_string(count_ - most_named) + " more";
+  }
+
+ private:
+  static constexpr std::size_t most_named = 3;
+  std::size_t count_ = 0;
+  std::string told_;
+};
+
 void add_without_highest(const std::string& pointer, int rows, Faults& faults) {
   faults.add(pointer, "found matrices of " + std::to_string(rows) +
                           " rows without \"highest_frequency\", must have it above " +
@@ -84,32 +102,28 @@ class Files {
     if (A.rows != A.columns || A.rows == 0)
       return fault(std::to_string(A.rows) + " rows and " + std::to_string(A.columns) +
                    " columns, must be square");
+    Places negative, asymmetric;
     for (int j = 0; j < A.columns; ++j)
       for (int k = A.starts[static_cast<std::size_t>(j)]; k < A.starts[static_cast<std::size_t>(j) + 1];
            ++k) {
         const int i = A.row_of[static_cast<std::size_t>(k)];
         const double value = A.values[static_cast<std::size_t>(k)];
-        if (i == j && value < 0)
-          return fault(number_text(value) + " in " + place(i, j) +
-                       ", must be positive semidefinite: no negative entry on the diagonal");
-        if (i <= j) continue;
+        if (i == j && value < 0) negative.add([&] { return number_text(value) + " in " + place(i, j); });
+        if (i == j || value == 0) continue;
         const double other = value_at(A, j, i);
-        const double scale = std::max(
-            {std::abs(value), std::abs(other), std::sqrt(std::abs(value_at(A, i, i) * value_at(A, j, j)))});
-        if (!(std::abs(value - other) <= symmetric * scale))
-          return fault(number_text(value) + " in " + place(i, j) + " and " + number_text(other) + " in " +
-                       place(j, i) + ", must be symmetric");
+        if (i < j && other != 0) continue;  // compared from there
+        const double diagonal =
+            std::sqrt(std::abs(value_at(A, i, i))) * std::sqrt(std::abs(value_at(A, j, j)));
+        const double scale = std::max({std::abs(value), std::abs(other), diagonal});
+        if (std::abs(value - other) <= symmetric * scale) continue;
+        asymmetric.add([&] {
+          return number_text(value) + " in " + place(i, j) + " and " + number_text(other) + " in " +
+                 place(j, i);
+        });
       }
-    // The other triangle has as many entries.
-    for (int j = 0; j < A.columns; ++j)
-      for (int k = A.starts[static_cast<std::size_t>(j)]; k < A.starts[static_cast<std::size_t>(j) + 1];
-           ++k) {
-        const int i = A.row_of[static_cast<std::size_t>(k)];
-        const double value = A.values[static_cast<std::size_t>(k)];
-        if (i < j && value != 0 && value_at(A, j, i) == 0)
-          return fault(number_text(value) + " in " + place(i, j) + " and 0 in " + place(j, i) +
-                       ", must be symmetric");
-      }
+    if (negative.any())
+      fault(negative.told() + ", must be positive semidefinite: no negative entry on the diagonal");
+    if (asymmetric.any()) fault(asymmetric.told() + ", must be symmetric");
   }
 
   void check_size(const std::string& key, const MatrixFile& file, int size) {
@@ -121,14 +135,15 @@ class Files {
 
   void check_rows(const Matrices& matrices) {
     bool mass = false;
+    Places empty;
     for (int i = 0; i < matrices.size(); ++i) {
       const double m = value_at(*matrices.mass.matrix, i, i), k = value_at(*matrices.stiffness.matrix, i, i);
       mass = mass || m > 0;
-      if (m == 0 && k == 0)
-        return faults_.add(keys_.pointer(), "found neither mass nor stiffness in row " +
-                                                std::to_string(i + 1) +
-                                                ", must have one of them on the diagonal in each row");
+      if (m == 0 && k == 0) empty.add([&] { return std::to_string(i + 1); });
     }
+    if (empty.any())
+      faults_.add(keys_.pointer(), "found neither mass nor stiffness in row " + empty.told() +
+                                       ", must have one of them on the diagonal in each row");
     if (!mass) faults_.add(child(keys_.pointer(), "mass"), "found no mass, must have some on its diagonal");
   }
 

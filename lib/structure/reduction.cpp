@@ -1,104 +1,38 @@
 #include <arcslip/structure/reduction.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/structure/blocks.hpp>
+#include <arcslip/structure/projected.hpp>
+#include <arcslip/structure/rounding.hpp>
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <optional>
+#include <random>
+#include <sstream>
 #include <utility>
 
 namespace arcslip::structure {
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-using Complex = std::complex<double>;
 
-constexpr double shift_at = 0.3;       // sqrt(sigma) over the highest frequency
-constexpr double tolerance = 1e-11;    // of Reduced::error
-constexpr double converging = 1e-6;    // the same: from here on each block makes it much less
-constexpr double dependent = 1e-12;    // what remains of a vector after taking out those before
-constexpr double almost = 0.1;         // the same: from here on rounding counts
-constexpr Index largest_whole = 1000;  // rows of which the space may have all
-constexpr Index most_vectors = 1500;   // of V
-constexpr int samples = 24;            // of the frequency
-constexpr int samples_with_damping = 8;
-constexpr double loss_factor = 0.01;
+constexpr double shift_at = 0.3;     // sqrt(sigma) over the highest frequency
+constexpr double tolerance = 1e-11;  // of the error
+constexpr double converging = 1e-6;  // the same: from here on each estimate is much less
+constexpr double settling = 1e-2;    // the same: from here on some of the next few are
+constexpr int next_few = 6;          // estimates
+constexpr double much_less = 0.3;    // an error over the one before
+constexpr double largest_error = 1e-3;
+constexpr double growth = 1.1;       // of V from one estimate to the next
+constexpr double dependent = 1e-12;  // what remains of a vector after taking out those before
+constexpr double almost = 0.1;       // the same: from here on rounding counts
 
 void listen(const scene::StopRequest& stop) {
   if (scene::is_asked(stop)) throw scene::Interrupted("interrupted while the structure was reduced");
 }
-
-// Rows that are linked to those kept, as places in (b, i); -1: not linked.
-struct Partition {
-  std::vector<int> place;
-  Index kept = 0, others = 0;
-};
-
-Partition partition(const scene::Matrices& matrices, const std::vector<int>& kept) {
-  Partition parts;
-  parts.kept = static_cast<Index>(kept.size());
-  parts.place.assign(static_cast<std::size_t>(matrices.size()), -1);
-  std::vector<int> reached = kept;
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    parts.place[static_cast<std::size_t>(kept[i])] = static_cast<int>(i);
-  for (std::size_t next = 0; next < reached.size(); ++next)
-    for (const auto* file : {&matrices.stiffness, &matrices.mass, &matrices.damping}) {
-      if (!file->matrix) continue;
-      const scene::SparseMatrix& A = *file->matrix;
-      const auto j = static_cast<std::size_t>(reached[next]);
-      for (auto k = static_cast<std::size_t>(A.starts[j]); k < static_cast<std::size_t>(A.starts[j + 1]);
-           ++k) {
-        const auto row = static_cast<std::size_t>(A.row_of[k]);
-        if (parts.place[row] >= 0 || A.values[k] == 0) continue;
-        parts.place[row] = static_cast<int>(reached.size());
-        reached.push_back(A.row_of[k]);
-      }
-    }
-  parts.others = static_cast<Index>(reached.size()) - parts.kept;
-  return parts;
-}
-
-// The blocks of a symmetric matrix in (b, i).
-struct Blocks {
-  MatrixXd bb;
-  Sparse ib, ii;
-};
-
-Blocks blocks(const scene::SparseMatrix& A, const Partition& parts) {
-  Blocks of{MatrixXd::Zero(parts.kept, parts.kept), Sparse(parts.others, parts.kept),
-            Sparse(parts.others, parts.others)};
-  std::vector<Eigen::Triplet<double>> ib, ii;
-  ii.reserve(A.entries());
-  const auto kept = static_cast<int>(parts.kept);
-  for (std::size_t c = 0; c < parts.place.size(); ++c) {
-    const int j = parts.place[c];
-    if (j < 0) continue;
-    for (auto k = static_cast<std::size_t>(A.starts[c]); k < static_cast<std::size_t>(A.starts[c + 1]); ++k) {
-      const int i = parts.place[static_cast<std::size_t>(A.row_of[k])];
-      if (i < 0) continue;
-      if (i < kept && j < kept)
-        of.bb(i, j) = A.values[k];
-      else if (i >= kept && j < kept)
-        ib.emplace_back(i - kept, j, A.values[k]);
-      else if (i >= kept && j >= kept)
-        ii.emplace_back(i - kept, j - kept, A.values[k]);
-    }
-  }
-  of.ib.setFromTriplets(ib.begin(), ib.end());
-  of.ii.setFromTriplets(ii.begin(), ii.end());
-  return of;
-}
-
-// Z of the coordinates (b, z), V^T A_ii V = 1: M_zz, and C_zz where there is damping.
-struct Projected {
-  MatrixXd M_c, A_c, C_c;
-  MatrixXd M_zz, C_zz, M_zb, C_zb;
-};
 
 class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
  public:
@@ -112,10 +46,11 @@ class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
 
 class Reduction {
  public:
-  Reduction(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,
+  Reduction(const scene::Matrices& matrices, const std::vector<int>& kept, double highest, Index most,
             const scene::StopRequest& stop)
       : matrices_(matrices),
         highest_(highest),
+        most_(most),
         sigma_(std::pow(shift_at * highest, 2)),
         stop_(stop),
         parts_(partition(matrices, kept)),
@@ -135,6 +70,9 @@ class Reduction {
       P_.M_c = M_.bb;
       if (C_) P_.C_c = C_->bb;
     }
+    for (const MatrixXd* of : {&P_.M_c, &P_.A_c, &P_.C_c, &P_.M_zz, &P_.C_zz, &P_.M_zb, &P_.C_zb})
+      if (!of->allFinite()) refuse_overflow();
+    add_rounding(result);
     project(result);
     return result;
   }
@@ -149,14 +87,31 @@ class Reduction {
     A_.compute(K_.ii + sigma_ * M_.ii);
     listen(stop_);
     if (A_.info() == Eigen::Success) return;
-    std::string message =
-        "the matrices cannot be reduced: K + s M with s = " + std::to_string(sigma_) +
-        " 1/s^2 is not positive definite, as it is where mass and stiffness are positive semidefinite";
+    std::string where;
     if (const auto column = A_.failed_at())
       for (std::size_t row = 0; row < parts_.place.size(); ++row)
         if (parts_.place[row] == *column + parts_.kept)
-          message += "; the elimination stops at row " + std::to_string(row + 1);
-    throw ReductionError(message);
+          where = "; the elimination stops at row " + std::to_string(row + 1);
+    refuse_indefinite(where);
+  }
+
+  [[noreturn]] static void refuse(const std::string& cause) {
+    throw ReductionError("the matrices cannot be reduced: " + cause);
+  }
+  [[noreturn]] static void refuse_overflow() {
+    refuse("their entries are too large, too small or too far apart for double precision");
+  }
+  [[noreturn]] void refuse_indefinite(const std::string& where) const {
+    refuse("K + s M with s = " + text(sigma_) +
+           " 1/s^2 is not positive definite, as it is where mass and stiffness are positive semidefinite and "
+           "no part without mass floats" +
+           where);
+  }
+  static std::string text(double value) {
+    std::ostringstream out;
+    out.precision(3);
+    out << value;
+    return out.str();
   }
 
   void condense_statically() {
@@ -177,43 +132,101 @@ class Reduction {
 
   // Makes V, and all that is projected onto it. The estimate of the error.
   double span() {
-    const Index most = std::min(most_vectors, parts_.others);
+    const Index most = std::min(most_, parts_.others);
     V_.resize(parts_.others, 0);
     AV_.resize(parts_.others, 0);
     P_.M_zb.resize(0, parts_.kept);
     P_.C_zb.resize(0, parts_.kept);
     MatrixXd right = R_;
     if (C_) right = beside(R_, R_C_);
-    double error = HUGE_VAL;
-    while (V_.cols() < most) {
+    double error = HUGE_VAL, least = HUGE_VAL;
+    Index estimated = 0;  // vectors at the last estimate
+    int since_least = 0;  // estimates
+    while (V_.cols() < most && since_least < next_few && !std::isnan(error)) {
       const Index old = V_.cols();
       append(std::move(right), most);
-      if (V_.cols() == old) return span_whole(error);  // all that b can excite, to rounding
-      const double last = std::exchange(error, change(old));
-      if (error <= tolerance) return error;
-      if (last < converging && error > 0.3 * last) {  // to rounding: this block brings no more
-        keep(old);
-        return std::max(error, last);
+      if (V_.cols() == old) {  // all that b can excite, to rounding: then any others add nothing
+        append(noise(), most);
+        if (V_.cols() == old) break;
+        const double missed = change(P_, sigma_, highest_, old);
+        if (missed <= tolerance) {
+          keep(old);
+          return missed;
+        }
       }
       const MatrixXd added = V_.rightCols(V_.cols() - old);
       right = M_.ii * added;
       if (C_) right = beside(right, C_->ii * added);
+      if (static_cast<double>(V_.cols()) < growth * static_cast<double>(estimated) && V_.cols() < most)
+        continue;
+      const double last = std::exchange(error, change(P_, sigma_, highest_, estimated));
+      if (error <= tolerance) return error;
+      if (std::max(error, last) < converging && error > much_less * last) {
+        keep(estimated);  // to rounding: what came since brings no more
+        return std::max(error, last);
+      }
+      since_least = least < settling && !(error < much_less * least) ? since_least + 1 : 0;
+      least = std::min(least, error);
+      estimated = V_.cols();
     }
-    return span_whole(error);
+    if (std::isnan(error)) refuse_overflow();
+    if (parts_.others <= most_) return span_whole();
+    if (error > largest_error)
+      refuse("the error of the dynamic stiffness is " + text(error) + " with " + std::to_string(V_.cols()) +
+             " coordinates and does not fall any further, must be at most " + text(largest_error) +
+             "; lower \"highest_frequency\", or let the scene use fewer rows");
+    return error;
   }
 
-  // All of the others, if the space has grown to most of them without an end.
-  double span_whole(double error) {
-    if (error <= converging || parts_.others > largest_whole) return error;
+  // All of the others, where the space has grown to most of them without an end.
+  double span_whole() {
     keep(0);
     const MatrixXd M = M_.ii, A = K_.ii + sigma_ * M_.ii;
     V_ = continuation::symmetric_modes(M, A).V;
+    if (V_.size() == 0) refuse_indefinite("");
     P_.M_zz = V_.transpose() * (M_.ii * V_);
     P_.M_zb = V_.transpose() * R_;
     if (!C_) return 0;
     P_.C_zz = V_.transpose() * (C_->ii * V_);
     P_.C_zb = V_.transpose() * R_C_;
     return 0;
+  }
+
+  // Forces that excite everything.
+  MatrixXd noise() const {
+    std::minstd_rand random;
+    const auto any = [&] { return static_cast<double>(random()) / std::minstd_rand::max() - 0.5; };
+    const VectorXd scale = (K_.ii.diagonal() + sigma_ * M_.ii.diagonal()).cwiseAbs().cwiseSqrt();
+    return scale.asDiagonal() * MatrixXd::NullaryExpr(parts_.others, parts_.kept, any);
+  }
+
+  // What the last digits of the entries change, as far as the rows that are kept see it.
+  void add_rounding(Reduced& result) const {
+    const Index b = parts_.kept, z = P_.M_zz.rows();
+    MatrixXd M = MatrixXd::Zero(b + z, b + z), A = MatrixXd::Identity(b + z, b + z);
+    A.topLeftCorner(b, b) = P_.A_c;
+    M.topLeftCorner(b, b) = P_.M_c;
+    if (z > 0) {
+      M.bottomRightCorner(z, z) = P_.M_zz;
+      M.bottomLeftCorner(z, b) = P_.M_zb;
+      M.topRightCorner(b, z) = P_.M_zb.transpose();
+    }
+    const auto modes = continuation::symmetric_modes(M, A);
+    if (modes.values.size() != b + z) refuse_indefinite("; it is not in the rows that the scene uses");
+    const auto mode = [&](Index j) {
+      const VectorXd v = modes.V.col(b + z - 1 - j);
+      VectorXd x(b + parts_.others);
+      x.head(b) = v.head(b);
+      if (parts_.others > 0) x.tail(parts_.others) = Psi_ * v.head(b) + V_ * v.tail(z);
+      return x;
+    };
+    const Rounding found = rounding(matrices_, parts_, sigma_, b + z, mode);
+    if (!(found.change <= largest_error))
+      refuse("the last digits of their entries change the square of the lowest natural frequency by " +
+             text(found.change) + " of it, must be at most " + text(largest_error) +
+             "; replace very stiff links by rigid ones, and very short elements by longer ones");
+    result.error += found.change;
+    result.free_below = found.free_below;
   }
 
   static MatrixXd beside(const MatrixXd& a, const MatrixXd& b) {
@@ -228,6 +241,7 @@ class Reduction {
     listen(stop_);
     MatrixXd W = A_.solve(right);
     listen(stop_);
+    if (!W.allFinite()) refuse_overflow();
     const VectorXd size = (W.array() * right.array()).colwise().sum().max(0.0).sqrt();
     const auto take_out = [](const auto& V, const auto& AV, auto&& w, auto&& Aw) {
       for (int pass = 0; pass < 2; ++pass) {
@@ -287,60 +301,6 @@ class Reduction {
     P_.C_zb.conservativeResize(count, Eigen::NoChange);
   }
 
-  // The largest difference that the vectors after the first ones make, at frequencies all over the range and,
-  // without C, at the poles. What they add to Z is a Schur complement.
-  double change(Index first) const {
-    const Modes before = modes(first), now = modes(P_.M_zz.rows());
-    std::vector<double> squares;  // s^2
-    const int all = C_ ? samples_with_damping : samples;
-    for (int k = 0; k <= all; ++k) squares.push_back(std::pow(highest_ * k / all, 2));
-    if (!C_)
-      for (const double theta : now.theta)
-        if (const double square = 1 / theta - sigma_; theta > 0 && square > 0 && square < highest_ * highest_)
-          squares.push_back(square);
-    double largest = 0;
-    for (const double square : squares) {
-      const Complex p = square * Complex(1, loss_factor) + sigma_;
-      const VectorXd scale =
-          (P_.A_c.diagonal().cwiseAbs() + std::abs(p) * P_.M_c.diagonal().cwiseAbs()).cwiseSqrt();
-      const Eigen::MatrixXcd added =
-          C_ ? Eigen::MatrixXcd(interior(P_.M_zz.rows(), square) - interior(first, square))
-             : Eigen::MatrixXcd(now.interior(p) - before.interior(p));
-      for (Index j = 0; j < added.cols(); ++j)
-        for (Index i = 0; i < added.rows(); ++i)
-          if (scale[i] * scale[j] > 0)
-            largest = std::max(largest, std::abs(added(i, j)) / (scale[i] * scale[j]));
-    }
-    return largest;
-  }
-
-  // Eigenvalues of M_zz, and M_zb in its eigenvectors.
-  struct Modes {
-    VectorXd theta;
-    MatrixXd mu;
-
-    // Z_bz Z_zz^-1 Z_zb
-    Eigen::MatrixXcd interior(Complex p) const {
-      const Eigen::VectorXcd factors = p * p / (1.0 - p * theta.array().cast<Complex>());
-      return mu.transpose() * factors.asDiagonal() * mu;
-    }
-  };
-  Modes modes(Index count) const {
-    if (C_ || count == 0) return {VectorXd(0), MatrixXd(0, parts_.kept)};
-    const auto found = continuation::symmetric_modes(P_.M_zz.topLeftCorner(count, count));
-    return {found.values, found.V.transpose() * P_.M_zb.topRows(count)};
-  }
-  // The same with C.
-  Eigen::MatrixXcd interior(Index count, double square) const {
-    if (count == 0) return Eigen::MatrixXcd::Zero(parts_.kept, parts_.kept);
-    const Complex p = square * Complex(1, loss_factor) + sigma_, is(0, std::sqrt(square));
-    const Eigen::MatrixXcd Z_zz = MatrixXd::Identity(count, count).cast<Complex>() -
-                                  p * P_.M_zz.topLeftCorner(count, count) +
-                                  is * P_.C_zz.topLeftCorner(count, count),
-                           Z_zb = -p * P_.M_zb.topRows(count) + is * P_.C_zb.topRows(count);
-    return Z_zb.transpose() * continuation::solve_complex(Z_zz, Z_zb);
-  }
-
   // In the eigenvectors of M_zz.
   void project(Reduced& into) const {
     const Index b = parts_.kept, z = P_.M_zz.rows();
@@ -369,7 +329,9 @@ class Reduction {
   }
 
   const scene::Matrices& matrices_;
-  const double highest_, sigma_;
+  const double highest_;
+  const Index most_;
+  const double sigma_;
   const scene::StopRequest& stop_;
   const Partition parts_;
   const Blocks M_, K_;
@@ -383,8 +345,8 @@ class Reduction {
 }  // namespace
 
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,
-               const scene::StopRequest& stop) {
-  return Reduction(matrices, kept, highest, stop).run();
+               const scene::StopRequest& stop, int most) {
+  return Reduction(matrices, kept, highest, most, stop).run();
 }
 
 }  // namespace arcslip::structure

@@ -33,9 +33,12 @@ namespace arcslip::structure {
 /// In (x_b, z): dense, symmetric, M and K diagonal in z. Without damping C is empty.
 struct Reduced {
   Eigen::MatrixXd M, C, K;
-  /// Estimate of the largest error of an entry of Z, for s from 0 to the highest frequency and a loss factor
-  /// of 1 %, relative to the terms of its row and column on the diagonal: what the last block changes.
+  /// The largest error of an entry of Z, for s from 0 to the highest frequency and a loss factor of 1 %,
+  /// relative to the terms of its row and column on the diagonal, as the last vectors of V tell it; and
+  /// what the last digits of the entries of M and K change of the square of the lowest natural frequency.
   double error = 0;
+  /// Natural frequencies below this, rad/s, are not told from 0: rigid-body motions. 0: there are none.
+  double free_below = 0;
 };
 
 /// Matrices that cannot be reduced: what() says why, with the row at fault.
@@ -43,9 +46,10 @@ class ReductionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// kept: rows of the matrices, from 0. highest: rad/s, above 0. Throws ReductionError, where K + sigma M is
-/// not positive definite, and scene::Interrupted.
+/// kept: rows of the matrices, from 0. highest: rad/s, above 0. most: vectors of V. Throws ReductionError,
+/// where K + sigma M is not positive definite, numbers overflow, or the error stays above 1e-3, and
+/// scene::Interrupted.
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,
-               const scene::StopRequest& stop = {});
+               const scene::StopRequest& stop = {}, int most = 1500);
 
 }  // namespace arcslip::structure

@@ -1,5 +1,6 @@
 #include <arcslip/studies/columns.hpp>
 
+#include <arcslip/observables/prepare.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/version.hpp>
 
@@ -131,8 +132,16 @@ void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown) {
 }
 
 results::Header header(const scene::Scene& scene) {
-  return {"arcslip " + std::string(results::version()), scene::hash(scene), scene.title,
-          std::string(scene::unit_name(scene.frequency_unit))};
+  const std::string unit(scene::unit_name(scene.frequency_unit));
+  results::Header header{"arcslip " + std::string(results::version()), scene::hash(scene), scene.title, unit};
+  if (const auto reduction = observables::reduction(scene)) {
+    header.reduction = {{"rows", reduction->rows},
+                        {"kept", reduction->kept},
+                        {"coordinates", reduction->coordinates},
+                        {"error", reduction->error},
+                        {"highest_frequency", scene.matrices->highest_frequency, unit}};
+  }
+  return header;
 }
 
 results::Object stop(const observables::Stop& stop) {

@@ -34,6 +34,7 @@ void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<
 /// stick.
 void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown);
 
+/// Reduces the matrices of the scene, if they are to be: observables::reduction().
 results::Header header(const scene::Scene& scene);
 
 results::Object stop(const observables::Stop& stop);

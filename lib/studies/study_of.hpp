@@ -4,6 +4,7 @@
 
 #include <arcslip/results/progress.hpp>
 #include <arcslip/scene/combinations.hpp>
+#include <arcslip/scene/highest_harmonic.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_keys.hpp>
 #include <arcslip/scene/study_type.hpp>
@@ -81,10 +82,13 @@ std::vector<results::FigureData> run_items(const scene::Scene& scene, const scen
                                            std::size_t schema, results::Sink& sink, const Compute& compute,
                                            const FiguresOf& figures_of) {
   std::vector<Item> kept;
+  const std::string beyond = scene::beyond_reduction(scene, study);
   for_each(scene, scene::Combinations(study), compute, options.progress, [&](Item&& item) {
     item.study = study.name;
     item.kind = study.type->name();
-    results::hand(described.result(item), schema, sink);
+    results::Result result = described.result(item);
+    if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
+    results::hand(result, schema, sink);
     if (options.figures) kept.push_back(std::move(item));
   });
   return options.figures ? figures_of(std::span<const Item>(kept)) : std::vector<results::FigureData>();

@@ -310,6 +310,38 @@ TEST_CASE("check prints the resolved scene, which is a fixed point") {
   CHECK(run(place, {"check", "resolved.json", "--quiet"}).out.empty());
 }
 
+TEST_CASE("harmonics beyond a reduction are told with the scene, with its results and in them") {
+  const Workplace place;
+  place.write("beam.json",
+              R"({"format": "arcslip-scene-1", "structure": {"beam": {"elements": 20, "length": 1,
+      "young": 2.1e11, "density": 7850, "width": 0.04, "height": 0.02, "points": {"tip": 1}, "highest_frequency": 80},
+      "damping": [{"name": "steel", "type": "rayleigh", "beta": 1e-4}]},
+    "elements": [{"name": "d", "type": "jenkins", "at": "tip", "stiffness": 1e4, "friction_coefficient": 0.5,
+                  "normal_load": 3}],
+    "excitation": [{"name": "f", "at": "tip", "cosine": 10}], "response": {"at": "tip"}, "harmonics": {"order": 5},
+    "studies": [{"name": "frf", "kind": "frf", "from": 15, "to": 20}]})");
+  const std::string doubt =
+      "harmonics beyond highest_frequency of the reduction: 5 times 20 Hz is 100 Hz, above 80 Hz";
+  const auto tells = [](const Ended& ended, const std::string& what) {
+    return ended.err.find(what) != std::string::npos;
+  };
+  CHECK(tells(run(place, {"check", "beam.json"}), "the study \"frf\" has " + doubt));
+  const Ended beyond = run(place, {"frf", "beam.json", "--json", "-"});
+  CHECK(beyond.exit_code == 0);
+  CHECK(tells(beyond, "the study \"frf\" has " + doubt));
+  CHECK(tells(beyond, "branch 1 complete, but " + doubt));
+  const Json json = Json::parse(beyond.out);
+  CHECK(json["branches"][0]["doubt"] == doubt);
+  CHECK(json["reduction"]["rows"] == 40);
+  CHECK(json["reduction"]["kept"] == 1);
+  CHECK(json["reduction"]["coordinates"].get<int>() < 39);
+  CHECK(json["reduction"]["error"].get<double>() < 1e-7);
+  CHECK(json["reduction"]["highest_frequency"] == 80.0);
+  const Ended within = run(place, {"frf", "beam.json", "--to", "16", "--json", "-"});
+  CHECK_FALSE(tells(within, "harmonics beyond"));
+  CHECK_FALSE(Json::parse(within.out)["branches"][0].contains("doubt"));
+}
+
 TEST_CASE("help and version stand on standard output") {
   const Workplace place;
   const Ended version = run(place, {"--version"});

@@ -6,6 +6,7 @@
 #include "lib/laws/polynomial.hpp"
 #include "lib/laws/table_spring.hpp"
 #include "lib/laws/two_sliders.hpp"
+#include "lib/scene/folder.hpp"
 
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -17,9 +18,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
 
 using namespace arcslip;
 using continuation::Vector;
@@ -287,13 +285,8 @@ TEST_CASE("directions that are lacking or not as they must be are told where the
 }
 
 TEST_CASE("a table in a file that the scene names is read from the scene's folder, and its hash covers it") {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("arcslip-table-" + std::to_string(::getpid()));
-  fs::create_directories(folder / "tables");
-  fs::create_directories(folder / "out");
-  const auto write = [](const fs::path& path, const std::string& text) { std::ofstream(path) << text; };
   const std::string table = "-1,-0.5\n0,0\n1,0.5\n";
-  write(folder / "tables" / "k.csv", table);
+  const Folder folder = {{"tables/k.csv", table}, {"out/scene.json", ""}};
   const std::string text = R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
@@ -304,20 +297,20 @@ TEST_CASE("a table in a file that the scene names is read from the scene's folde
     std::istringstream in(scene_text);
     return scene::read(in, catalogue(), at);
   };
-  const scene::Scene s = from(text, folder.string());
+  const scene::Scene s = from(text, folder.path());
   const auto found = observables::point_responses(s, {.frequency = 0.9});
   REQUIRE(found.size() == 1);
   CHECK(found[0].point.amplitude ==
         Approx(0.3 / std::hypot(1.5 - 0.81, 0.1 * 0.9)).epsilon(1e-12));  // the table is a spring of 0.5 N/m
 
   // The same in a file, written again, checked, and from another folder.
-  write(folder / "scene.json", text);
-  CHECK(scene::read_file((folder / "scene.json").string(), catalogue()) == s);
-  CHECK(from(scene::write(s), folder.string()) == s);
+  folder.write("scene.json", text);
+  CHECK(scene::read_file(folder / "scene.json", catalogue()) == s);
+  CHECK(from(scene::write(s), folder.path()) == s);
   scene::check(s);
-  const scene::Scene moved = scene::from_folder(s, (folder / "out").string());
+  const scene::Scene moved = scene::from_folder(s, folder / "out");
   CHECK(scene::write(moved).find("\"../tables/k.csv\"") != std::string::npos);
-  const scene::Scene again = from(scene::write(moved), (folder / "out").string());
+  const scene::Scene again = from(scene::write(moved), folder / "out");
   CHECK(observables::point_responses(again, {.frequency = 0.9})[0].point.amplitude ==
         found[0].point.amplitude);
 
@@ -328,13 +321,13 @@ TEST_CASE("a table in a file that the scene names is read from the scene's folde
   // What the file holds counts, wherever it is, as it was when the scene was read.
   const std::string before = scene::hash(s);
   CHECK(scene::hash(moved) == before);
-  CHECK(scene::hash(from(text, folder.string())) == before);
-  write(folder / "tables" / "k.csv", "-1,-0.5\n0,0\n1,0.6\n");
-  const scene::Scene other = from(text, folder.string());
+  CHECK(scene::hash(from(text, folder.path())) == before);
+  folder.write("tables/k.csv", "-1,-0.5\n0,0\n1,0.6\n");
+  const scene::Scene other = from(text, folder.path());
   CHECK(scene::hash(other) != before);
   CHECK(scene::hash(s) == before);
   CHECK_FALSE(other == s);
-  fs::remove(folder / "tables" / "k.csv");
+  std::filesystem::remove(folder / "tables/k.csv");
   scene::check(s);
   CHECK(scene::hash(s) == before);
 
@@ -342,7 +335,7 @@ TEST_CASE("a table in a file that the scene names is read from the scene's folde
     std::string copy = text;
     copy.replace(copy.find("tables/k.csv"), 12, path);
     try {
-      from(copy, folder.string());
+      from(copy, folder.path());
     } catch (const scene::SceneError& error) {
       REQUIRE(error.faults().size() == 1);
       CHECK(error.faults()[0].pointer == "/elements/0/table");
@@ -350,15 +343,14 @@ TEST_CASE("a table in a file that the scene names is read from the scene's folde
     }
     return std::string();
   };
-  const std::string at = folder.string() + "/";
+  const std::string at = folder.path() + "/";
   CHECK(fault("nowhere.csv") == "found \"nowhere.csv\", which cannot be read: cannot open " + at +
                                     "nowhere.csv: No such file or directory");
   CHECK(fault("tables") ==
         "found \"tables\", which cannot be read: " + at + "tables is a directory, must be a file");
   CHECK(fault("scene.json") == "found a table of fewer than 2 rows, must be lines \"q,f\"");
-  write(folder / "big", "");
-  fs::resize_file(folder / "big", scene::largest_size + 1);
+  folder.write("big", "");
+  std::filesystem::resize_file(folder / "big", scene::largest_size + 1);
   CHECK(fault("big") ==
         "found \"big\", which cannot be read: found a file of 67108865 bytes, a file must be at most 64 MB");
-  fs::remove_all(folder);
 }

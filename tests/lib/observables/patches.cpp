@@ -4,6 +4,7 @@
 #include "contains.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/scene/folder.hpp"
 #include "lib/time/beside_exact.hpp"
 
 #include <arcslip/observables/quantities.hpp>
@@ -18,10 +19,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 using namespace arcslip;
@@ -31,13 +28,11 @@ namespace {
 
 // A plate of two translations and a rotation on a patch of three contacts, one of them behind a gap.
 scene::Scene plate(int order, bool details = true) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("arcslip_plate_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  std::ofstream(folder / "pad.csv") << "tangential,normal,area,pressure,gap\n"
-                                       "t + 0.01*r,n,2e-4,2e4,0\n"
-                                       "t + 0.01*r,n - 0.05*r,1e-4,5e4,0\n"
-                                       "t + 0.01*r,n + 0.05*r,1e-4,0,2e-5\n";
+  const Folder folder = {{"pad.csv",
+                          "tangential,normal,area,pressure,gap\n"
+                          "t + 0.01*r,n,2e-4,2e4,0\n"
+                          "t + 0.01*r,n - 0.05*r,1e-4,5e4,0\n"
+                          "t + 0.01*r,n + 0.05*r,1e-4,0,2e-5\n"}};
   std::istringstream text(
       R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     )" +
@@ -49,7 +44,7 @@ scene::Scene plate(int order, bool details = true) {
     "excitation": [{"name": "f", "direction": {"t": 1, "n": 0.6, "r": 0.02}, "cosine": 20}],
     "response": {"at": "t"}, "harmonics": {"order": )" +
       std::to_string(order) + R"(}, "studies": [{"kind": "frf", "from": 80, "to": 120}]})");
-  return scene::read(text, test_catalogue::whole(), folder.string());
+  return scene::read(text, test_catalogue::whole(), folder.path());
 }
 
 scene::Scene by_elements(scene::Scene s) {

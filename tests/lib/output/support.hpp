@@ -1,5 +1,7 @@
 #pragma once
-// Made-up results with numbers that are easy to find again, and a folder that goes away by itself.
+// Made-up results with numbers that are easy to find again.
+
+#include "lib/scene/folder.hpp"
 
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/response.hpp>
@@ -12,33 +14,11 @@
 #include <string>
 #include <vector>
 
-#include <stdlib.h>
-
 namespace support {
 
 namespace fs = std::filesystem;
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "arcslip_test_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  std::string path() const { return path_.string(); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
-  }
-
- private:
-  fs::path path_;
-};
+using TemporaryFolder = Folder;
 
 inline std::string content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

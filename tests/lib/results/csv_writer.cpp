@@ -65,4 +65,9 @@ TEST_CASE("the summary as CSV has a row for each result, with all facts that are
         std::vector<std::string>{
             "study,kind,load (N),thing,other,over,status,stop.reason,stop.value,best.x (m)",
             "first,kind,2.5,1,,x,complete,end,1,1.5", ",,,,1,,failed,other,,"});
+  Results doubtful = made_up::results();
+  doubtful.results[0].end.doubt = "hardly, so";
+  CHECK(summary(doubtful)[0] ==
+        "study,kind,load (N),thing,other,over,status,stop.reason,stop.value,doubt,best.x (m)");
+  CHECK(summary(doubtful)[1] == "first,kind,2.5,1,,x,complete,end,1,\"hardly, so\",1.5");
 }

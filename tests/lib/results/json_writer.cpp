@@ -63,6 +63,17 @@ TEST_CASE("a result in JSON has its head, a list of rows for each table, and its
                      {"best", {{"x", 1.5}}}});
 }
 
+TEST_CASE("JSON has the reduction of the structure, and the doubt about a result, where there is one") {
+  Results results = made_up::results();
+  CHECK_FALSE(written(results).contains("reduction"));
+  CHECK_FALSE(written(results)["things"][0].contains("doubt"));
+  results.header.reduction = {{"rows", 5}, {"error", 1.5e-12}};
+  results.results[0].end.doubt = "hardly \"so\"";
+  const Json json = written(results);
+  CHECK(json["reduction"] == Json{{"rows", 5}, {"error", 1.5e-12}});
+  CHECK(json["things"][0]["doubt"] == "hardly \"so\"");
+}
+
 TEST_CASE("a table by columns is an object of lists") {
   const Json json = written(made_up::results())["others"][0];
   CHECK(json["rows"] == Json{{"x", {0.1, -0.0}}, {"elements", {{"d", {{"load", {3.0, 7.0}}}}}}});

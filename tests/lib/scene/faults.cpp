@@ -1,14 +1,12 @@
 #include <arcslip/scene/scene.hpp>
 
-#include <unistd.h>
-
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "bad_scenes.hpp"
 #include "catalogue.hpp"
 #include "catch.hpp"
+#include "lib/scene/folder.hpp"
 
 using namespace arcslip::scene;
 using namespace arcslip::scene::test;
@@ -36,27 +34,6 @@ std::vector<Fault> faults_of(const std::string& text) {
   std::istringstream in(text);
   return faults_of(in);
 }
-
-// A file that is gone after the test.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() /
-              ("arcslip_" + std::to_string(::getpid()) + "_" + std::to_string(counter()) + ".json")) {
-    std::ofstream(path_, std::ios::binary) << text;
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { std::filesystem::remove(path_); }
-  std::string path() const { return path_.string(); }
-
- private:
-  static std::uint64_t counter() {
-    return static_cast<std::uint64_t>(
-        std::filesystem::file_time_type::clock::now().time_since_epoch().count());
-  }
-  std::filesystem::path path_;
-};
 
 }  // namespace
 
@@ -243,16 +220,17 @@ TEST_CASE("a stream that has failed is a file error and not an empty scene") {
 }
 
 TEST_CASE("a regular file above 64 MB is refused by its size") {
-  const TemporaryFile file("[");
-  std::filesystem::resize_file(file.path(), largest_size + 1);  // sparse: nothing is written
-  CHECK_THROWS_WITH(read_path(file.path()), "found a file of 67108865 bytes, a scene must be at most 64 MB");
-  CHECK_THROWS_AS(read_path(file.path()), SceneError);
+  const ::Folder folder = {{"scene.json", "["}};
+  std::filesystem::resize_file(folder / "scene.json", largest_size + 1);  // sparse: nothing is written
+  CHECK_THROWS_WITH(read_path(folder / "scene.json"),
+                    "found a file of 67108865 bytes, a scene must be at most 64 MB");
+  CHECK_THROWS_AS(read_path(folder / "scene.json"), SceneError);
 }
 
 TEST_CASE("a scene is read from a file as from a stream") {
-  const TemporaryFile file(good_scene());
+  const ::Folder folder = {{"scene.json", good_scene()}};
   std::istringstream in(good_scene());
-  CHECK(read_path(file.path()) == read_stream(in));
+  CHECK(read_path(folder / "scene.json") == read_stream(in));
 }
 
 TEST_CASE("a scene that was changed in code is checked as its file would be") {

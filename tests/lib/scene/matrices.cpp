@@ -4,21 +4,18 @@
 #include "contains.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/scene/folder.hpp"
 
 #include <arcslip/observables/prepare.hpp>
+#include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/json_schema.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 using namespace arcslip;
 
 namespace {
-
-namespace fs = std::filesystem;
 
 // A chain of five masses of 1 to 1.4 kg, held at its left end by the first of springs of 1000 to 1400 N/m.
 std::string mass_file() {
@@ -40,24 +37,12 @@ std::string damping_file() {
   return "%%MatrixMarket matrix coordinate real general\n5 5 4\n2 2 0.3\n3 3 0.3\n2 3 -0.3\n3 2 -0.3\n";
 }
 
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("arcslip_matrices_" + std::to_string(::getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-    write("M.mtx", mass_file());
-    write("K.mtx", stiffness_file());
-    write("C.mtx", damping_file());
-    write("names.csv", "name,row\n# the free end, then the one that rubs\nend.x, 5\nb,2\n");
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
-  std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
+Folder chain() {
+  return {{"M.mtx", mass_file()},
+          {"K.mtx", stiffness_file()},
+          {"C.mtx", damping_file()},
+          {"names.csv", "name,row\n# the free end, then the one that rubs\nend.x, 5\nb,2\n"}};
+}
 
 constexpr const char* files = R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "damping": "C.mtx"},
   "names": "names.csv", "dofs": ["tuned"],
@@ -113,7 +98,7 @@ void check_same(const scene::Scene& one, const scene::Scene& other, double toler
 }  // namespace
 
 TEST_CASE("a structure from matrices is that of its masses and springs") {
-  const Folder folder;
+  const Folder folder = chain();
   const scene::Scene by_parts = read(scene_of(parts), folder.path());
   SECTION("whole") {
     check_same(by_parts, read(scene_of(files), folder.path()), 1e-11);
@@ -127,8 +112,36 @@ TEST_CASE("a structure from matrices is that of its masses and springs") {
   }
 }
 
+TEST_CASE("rigid friction stops the same motions of matrices alone as of masses and springs") {
+  const Folder folder = chain();
+  const auto with_rigid_friction = [&](const std::string& structure) {
+    std::string text = scene_of(structure);
+    text.replace(text.find("\"jenkins\""), 9, "\"coulomb\"");
+    text.erase(text.find("\"stiffness\": 300, "), 18);
+    return read(text, folder.path());
+  };
+  scene::Scene masses = with_rigid_friction(parts);
+  masses.dofs.pop_back();  // with what acts on it alone, and the mass at the tip
+  masses.masses.erase(masses.masses.begin() + 5, masses.masses.end());
+  masses.springs.pop_back();
+  const std::string key = GENERATE("", R"(, "highest_frequency": 200)");
+  const scene::Scene matrices =
+      with_rigid_friction(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "damping": "C.mtx")" + key +
+                          R"(}, "names": "names.csv")");
+  int stopped = 0, going_on = 0;
+  for (const double omega : {3.0, 5.0, 8.0, 12.0, 14.0, 20.0, 26.0, 33.0}) {
+    const auto one = scenes::response_at(masses, omega), other = scenes::response_at(matrices, omega);
+    CAPTURE(omega, key, one.amplitude);
+    CHECK(other.amplitude == Approx(one.amplitude).epsilon(1e-9));
+    CHECK(other.stops == one.stops);
+    ++(one.stops.empty() ? going_on : stopped);
+  }
+  CHECK(stopped > 0);
+  CHECK(going_on > 0);
+}
+
 TEST_CASE("damping in proportion to the structure is that of its dampers") {
-  const Folder folder;
+  const Folder folder = chain();
   std::string structure = files;
   structure.erase(structure.find(", \"damping\": \"C.mtx\""), 20);
   const std::string rayleigh = R"(, "damping": [{"name": "steel", "type": "rayleigh", "beta": 2e-3}])";
@@ -151,15 +164,15 @@ TEST_CASE("damping in proportion to the structure is that of its dampers") {
 }
 
 TEST_CASE("a scene with matrices is written, read, checked and hashed with its files") {
-  const Folder folder;
+  const Folder folder = chain();
   const scene::Scene s = read(scene_of(files), folder.path());
   CHECK(s.dofs == std::vector<std::string>{"end.x", "b", "tuned"});
   CHECK(s.matrices->rows == std::vector<int>{4, 1});
   CHECK(read(scene::write(s), folder.path()) == s);
   scene::check(s);
   const std::string hash = scene::hash(s);
-  fs::create_directories(folder.path() + "/out");
-  const scene::Scene moved = scene::from_folder(s, folder.path() + "/out");
+  folder.write("out/scene.json", "");
+  const scene::Scene moved = scene::from_folder(s, folder / "out");
   CHECK(contains(scene::write(moved), "\"../K.mtx\""));
   CHECK(scene::hash(moved) == hash);
   CHECK(contains(scene::json_schema(test_catalogue::whole()), "\"highest_frequency\""));
@@ -170,9 +183,9 @@ TEST_CASE("a scene with matrices is written, read, checked and hashed with its f
 }
 
 TEST_CASE("what is wrong with matrices is told with file, line and cause") {
-  const Folder folder;
+  const Folder folder = chain();
   const auto with = [&](const std::string& name, const std::string& text) {
-    const Folder own;
+    const Folder own = chain();
     own.write(name, text);
     return fault(files, own);
   };
@@ -187,10 +200,29 @@ TEST_CASE("what is wrong with matrices is told with file, line and cause") {
       "/structure/matrices/damping: found the damping matrix with 0.4 in row 2, column 1 and 0.5 in row "
       "1, column 2, must be symmetric"));
   CHECK(contains(with("C.mtx", head + "5 5 1\n1 2 0.5\n"), "must be symmetric"));
+  CHECK(contains(with("C.mtx", head + "5 5 2\n1 2 0.5\n2 1 0\n"),
+                 "with 0.5 in row 1, column 2 and 0 in row 2, column 1, must be symmetric"));
+  CHECK(contains(with("C.mtx", head + "5 5 4\n1 1 1e300\n2 2 1e300\n1 2 1e300\n2 1 0.9e300\n"),
+                 "with 9e+299 in row 2, column 1 and 1e+300 in row 1, column 2, must be symmetric"));
+  CHECK(contains(with("C.mtx", head + "5 5 5\n1 2 1\n1 3 2\n5 1 3\n1 4 4\n3 2 5\n"),
+                 "with 3 in row 5, column 1 and 0 in row 1, column 5; 1 in row 1, column 2 and 0 in row 2, "
+                 "column 1; 5 in row 3, column 2 and 0 in row 2, column 3; and 2 more, must be symmetric"));
+  CHECK(contains(
+      with("M.mtx", head + "5 5 5\n1 1 -1\n2 2 -2\n3 3 -3\n4 4 -4\n5 5 -5\n"),
+      "with -1 in row 1, column 1; -2 in row 2, column 2; -3 in row 3, column 3; and 2 more, must be "
+      "positive semidefinite: no negative entry on the diagonal"));
   CHECK(contains(with("M.mtx", head + "5 5 1\n3 3 -1\n"),
                  "found the mass matrix with -1 in row 3, column 3, must be positive semidefinite"));
   CHECK(contains(with("M.mtx", head + "5 4 1\n3 3 1\n"), "with 5 rows and 4 columns, must be square"));
   CHECK(contains(with("M.mtx", head + "5 5 0\n"), "/structure/matrices/mass: found no mass"));
+  {
+    const Folder own = chain();
+    own.write("M.mtx", head + "5 5 1\n5 5 1\n");
+    own.write("K.mtx", head + "5 5 1\n5 5 1\n");
+    CHECK(contains(fault(files, own),
+                   "/structure/matrices: found neither mass nor stiffness in row 1; 2; 3; and 1 more, must "
+                   "have one of them on the diagonal in each row"));
+  }
   CHECK(contains(with("K.mtx", head + "6 6 1\n1 1 1\n"), "must have 6 as the stiffness matrix"));
   CHECK(contains(with("names.csv", "b,2\n"), "line 1 of \"names.csv\": found \"b,2\", must be the header"));
   CHECK(
@@ -211,7 +243,7 @@ TEST_CASE("what is wrong with matrices is told with file, line and cause") {
 }
 
 TEST_CASE("motions of the ground are refused with matrices") {
-  const Folder folder;
+  const Folder folder = chain();
   std::string text = scene_of(files);
   text.replace(text.find("\"at\": \"end.x\", \"cosine\": 1"), 26,
                "\"type\": \"base_acceleration\", \"cosine\": 1");
@@ -224,7 +256,7 @@ TEST_CASE("motions of the ground are refused with matrices") {
 }
 
 TEST_CASE("a structure that cannot be reduced is told with the row at fault") {
-  const Folder folder;
+  const Folder folder = chain();
   std::string text = stiffness_file();
   text.replace(text.find("4 3 -1300"), 9, "4 3 -9300");  // indefinite, in rows that are not kept
   folder.write("K.mtx", text);
@@ -234,8 +266,75 @@ TEST_CASE("a structure that cannot be reduced is told with the row at fault") {
                  "/structure/matrices: the matrices cannot be reduced"));
 }
 
+TEST_CASE("a structure whose lowest natural frequency is lost in the last digits of its entries is told") {
+  const Folder folder = chain();
+  folder.write("M.mtx",
+               "%%MatrixMarket matrix coordinate real symmetric\n5 5 5\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n5 5 1\n");
+  std::string text = "%%MatrixMarket matrix coordinate real symmetric\n5 5 9\n1 1 1000000000001\n";
+  for (int i = 2; i <= 5; ++i) {
+    const std::string row = std::to_string(i), before = std::to_string(i - 1);
+    text += row + " " + row + (i < 5 ? " 2e12\n" : " 1e12\n") + row + " " + before + " -1e12\n";
+  }
+  folder.write("K.mtx", text);
+  CHECK(contains(fault(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 10},
+                       "names": "names.csv")",
+                       folder),
+                 "/structure/matrices: the matrices cannot be reduced: the last digits of their entries"));
+}
+
+TEST_CASE("a structure that floats says so, and drifts by its name where it has one") {
+  const Folder folder = chain();
+  const auto first_message = [&](const std::string& key) {
+    std::string whole = scene_of(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx")" + key +
+                                 R"(}, "names": "names.csv")");
+    whole.replace(whole.find("\"cosine\": 1"), 11, "\"cosine\": 1, \"harmonic\": 2");
+    const scene::Scene s = read(whole, folder.path());
+    return observables::prepare(s, {}) + "\n" +
+           observables::frequency_response(s, {2, 20}).at(0).stop.message;
+  };
+  const std::string reduced = R"(, "highest_frequency": 200)",
+                    free = " are not told from 0, that of motions as a rigid body";
+  CHECK_FALSE(contains(first_message(reduced), free));
+  // Without the spring to the ground, then with a part of its own that has no name.
+  std::string text = stiffness_file();
+  text.replace(text.find("1 1 2100"), 8, "1 1 1100");
+  folder.write("K.mtx", text);
+  CHECK(contains(first_message(reduced), free));
+  for (const std::string& key : {std::string(), reduced})
+    CHECK((contains(first_message(key), "no spring holds the mean position of \"b\"") ||
+           contains(first_message(key), "no spring holds the mean position of \"end.x\"")));
+  folder.write("K.mtx",
+               "%%MatrixMarket matrix coordinate real symmetric\n5 5 8\n1 1 100\n2 1 -100\n2 2 100\n"
+               "3 3 200\n4 3 -100\n4 4 200\n5 4 -100\n5 5 100\n");
+  folder.write("names.csv", "name,row\nend.x,5\nb,4\n");
+  CHECK(contains(first_message(""), "no spring holds the mean position of the structure, and friction"));
+  CHECK_FALSE(contains(first_message(reduced), "no spring holds"));  // nothing links that part to the names
+}
+
+TEST_CASE("results have the reduction, and a doubt where harmonics are beyond its highest frequency") {
+  const Folder folder = chain();
+  const auto run = [&](double highest) {
+    std::string text = scene_of(files);  // 5 times 20 rad/s
+    text.replace(text.find("\"damping\": \"C"), 0,
+                 "\"highest_frequency\": " + std::to_string(highest) + ", ");
+    return studies::run(read(text, folder.path()));
+  };
+  const results::Results enough = run(100), too_low = run(99);
+  REQUIRE(enough.results.size() == 1);
+  CHECK(enough.results[0].end.doubt.empty());
+  REQUIRE(too_low.results.size() == 1);
+  CHECK(too_low.results[0].end.doubt ==
+        "harmonics beyond highest_frequency of the reduction: 5 times 20 rad/s is 100 rad/s, above 99 rad/s");
+  std::ostringstream json;
+  results::write_json(json, too_low);
+  CHECK(contains(json.str(), R"("reduction": {"rows":5,"kept":2,"coordinates":3,"error":)"));
+  CHECK(contains(json.str(), R"("highest_frequency":99.0})"));
+  CHECK(contains(json.str(), R"("doubt": "harmonics beyond)"));
+  CHECK(studies::header(read(scene_of(files), folder.path())).reduction.empty());
+}
+
 TEST_CASE("large matrices need the highest frequency to which they are reduced") {
-  const Folder folder;
+  const Folder folder = chain();
   std::string K = "%%MatrixMarket matrix coordinate real symmetric\n600 600 1199\n1 1 2\n", M = K;
   for (int i = 2; i <= 600; ++i) {
     K += std::to_string(i) + " " + std::to_string(i) + " 2\n" + std::to_string(i) + " " +

@@ -4,20 +4,14 @@
 #include "contains.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/scene/folder.hpp"
 
 #include <arcslip/scene/json_schema.hpp>
 #include <arcslip/scene/patch.hpp>
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
 using namespace arcslip;
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* rows =
     "tangential, normal, area, pressure, gap\n"
@@ -27,22 +21,9 @@ constexpr const char* rows =
     "t, n - 0.05*r, 1e-4, 5e4, 0\r\n"
     "t - ground, 1*n + 0.05*r, 1e-4, 0, 2e-4\n";
 
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("arcslip_patches_" + std::to_string(::getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_ / "contacts");
-    fs::create_directories(path_ / "out");
-    write("contacts/pad.csv", rows);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
-  std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
+Folder pad() {
+  return {{"contacts/pad.csv", rows}, {"out/scene.json", ""}};
+}
 
 std::string text(const std::string& contacts) {
   return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
@@ -78,7 +59,7 @@ std::string faults(const std::string& whole, const std::string& folder) {
 }  // namespace
 
 TEST_CASE("a patch has an element for each row, with fields by area, pressure and gap") {
-  const Folder folder;
+  const Folder folder = pad();
   const scene::Scene s = read(text(patch), folder.path());
   REQUIRE(s.elements.empty());
   const auto elements = scene::all_elements(s);
@@ -94,7 +75,7 @@ TEST_CASE("a patch has an element for each row, with fields by area, pressure an
 }
 
 TEST_CASE("the parameters of a patch are those of all its elements") {
-  const Folder folder;
+  const Folder folder = pad();
   scene::Scene s = read(text(patch), folder.path());
   const std::vector<std::string> own = {"pad.tangential_stiffness", "pad.normal_stiffness",
                                         "pad.friction_coefficient", "pad.pressure_factor"};
@@ -123,15 +104,15 @@ TEST_CASE("the parameters of a patch are those of all its elements") {
 }
 
 TEST_CASE("a scene with a patch is written, read, checked and hashed with its file") {
-  const Folder folder;
+  const Folder folder = pad();
   const scene::Scene s = read(text(patch), folder.path());
   CHECK(read(scene::write(s), folder.path()) == s);
   scene::check(s);
   const std::string hash = scene::hash(s);
-  const scene::Scene moved = scene::from_folder(s, folder.path() + "/out");
+  const scene::Scene moved = scene::from_folder(s, folder / "out");
   CHECK(contains(scene::write(moved), "\"../contacts/pad.csv\""));
   CHECK(scene::hash(moved) == hash);
-  const scene::Scene again = read(scene::write(moved), folder.path() + "/out");
+  const scene::Scene again = read(scene::write(moved), folder / "out");
   CHECK(scene::all_elements(again) == scene::all_elements(s));
   folder.write("contacts/pad.csv", "tangential,normal,area\nt,n,1\n");
   CHECK(scene::hash(read(text(patch), folder.path())) != hash);
@@ -141,7 +122,7 @@ TEST_CASE("a scene with a patch is written, read, checked and hashed with its fi
 }
 
 TEST_CASE("contacts may have names, and laws of one direction a place") {
-  const Folder folder;
+  const Folder folder = pad();
   folder.write("one.csv",
                "name,at,area,pressure\nleft,-t,1e-4,1e4\nright,t - n,2e-4,1e4\n"
                "low,-0.5*t + -n,1,0\n");
@@ -162,7 +143,7 @@ TEST_CASE("contacts may have names, and laws of one direction a place") {
 }
 
 TEST_CASE("faults of a patch name the line of its file") {
-  const Folder folder;
+  const Folder folder = pad();
   struct Case {
     const char *file, *fault;
   };
@@ -216,7 +197,7 @@ TEST_CASE("faults of a patch name the line of its file") {
 }
 
 TEST_CASE("faults of a patch in the scene name its keys") {
-  const Folder folder;
+  const Folder folder = pad();
   const auto with = [&](const std::string& entry) {
     return faults(text("\"patches\": [" + entry + "],"), folder.path());
   };

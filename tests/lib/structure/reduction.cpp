@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <string>
 
 using namespace arcslip;
@@ -41,6 +42,32 @@ Eigen::MatrixXd in_order(const Eigen::MatrixXd& A, const std::vector<int>& kept)
   for (int i = 0; i < A.rows(); ++i)
     if (std::find(kept.begin(), kept.end(), i) == kept.end()) order.push_back(i);
   return A(order, order);
+}
+
+// Masses of 1 kg between springs: the first of them holds the first mass, the others link neighbours.
+scene::Matrices chain(const std::vector<double>& springs) {
+  const auto size = static_cast<int>(springs.size());
+  structures::Entries M, K;
+  for (int i = 0; i < size; ++i) {
+    const double k = springs[static_cast<std::size_t>(i)];
+    M.push_back({i, i, 1});
+    K.push_back({i, i, k});
+    if (i > 0) K.insert(K.end(), {{i - 1, i - 1, k}, {i, i - 1, -k}, {i - 1, i, -k}});
+  }
+  scene::Matrices all;
+  all.mass = structures::matrix(size, M);
+  all.stiffness = structures::matrix(size, K);
+  return all;
+}
+
+std::string refusal(const scene::Matrices& of, const std::vector<int>& kept, double highest,
+                    int most = 1500) {
+  try {
+    structure::reduce(of, kept, highest, {}, most);
+  } catch (const structure::ReductionError& error) {
+    return error.what();
+  }
+  return "none";
 }
 
 // The largest difference of the condensed stiffness up to the highest frequency, each entry over the terms of
@@ -114,7 +141,7 @@ TEST_CASE("a reduced chain has the dynamic stiffness of the whole one") {
 TEST_CASE("a structure of which all rows are kept is not changed") {
   const scene::Matrices beam = structures::beam(2, true);
   const structure::Reduced reduced = structure::reduce(beam, {2, 0, 3, 1}, 10);
-  CHECK(reduced.error == 0);
+  CHECK(reduced.error < 1e-12);  // rounding
   CHECK((reduced.M - in_order(structures::dense(beam.mass), {2, 0, 3, 1})).norm() < 1e-15 * reduced.M.norm());
   CHECK((reduced.K - in_order(structures::dense(beam.stiffness), {2, 0, 3, 1})).norm() <
         1e-15 * reduced.K.norm());
@@ -146,4 +173,80 @@ TEST_CASE("a reduced beam has the natural frequencies of the closed form") {
   CHECK(std::pow(modes.eigenvalues()[0], 0.25) == Approx(1.8751040687).epsilon(1e-8));
   CHECK(std::pow(modes.eigenvalues()[1], 0.25) == Approx(4.6940911330).epsilon(5e-7));
   CHECK(std::pow(modes.eigenvalues()[2], 0.25) == Approx(7.8547574382).epsilon(5e-6));
+}
+
+TEST_CASE("the error of a reduction has what the last digits of the entries change") {
+  // Two masses that a spring of 1 N/m holds, and one of k links: x = (1, 1), x^T K x = 1 of entries of k.
+  const double eps = std::numeric_limits<double>::epsilon(), sigma = 0.09;
+  const auto kept = GENERATE(std::vector{0}, std::vector{1}, std::vector{1, 0});
+  for (const double k : {1e3, 1e6, 1e9}) {
+    const structure::Reduced reduced = structure::reduce(chain({1, k}), kept, 1);
+    CHECK(reduced.error == Approx(4 * eps * (4 * k + 1 + 2 * sigma)).epsilon(0.01));
+    CHECK(reduced.free_below == 0);
+  }
+  const std::string found = refusal(chain({1, 1e12}), kept, 1);
+  CAPTURE(found);
+  CHECK(found.find("the last digits of their entries change the square of the lowest natural frequency by "
+                   "0.00355 of it, must be at most 0.001; replace very stiff links by rigid ones") !=
+        std::string::npos);
+  CHECK(refusal(chain({1, 1e15}), kept, 1) != "none");
+}
+
+TEST_CASE("a reduction tells up to where natural frequencies of 0 cannot be told from others") {
+  const double eps = std::numeric_limits<double>::epsilon(), sigma = 0.09, k = 1e9;
+  const structure::Reduced reduced = structure::reduce(chain({0, k}), {0}, 1);
+  CHECK(reduced.free_below == Approx(std::sqrt(2 * eps * k + 1e-9 * sigma)).epsilon(1e-6));
+  CHECK(reduced.error == Approx(8 * eps * k / sigma).epsilon(1e-4));
+  CHECK(refusal(chain({0, 1e12}), {0}, 1) != "none");
+  CHECK(refusal(chain({0, 1e12}), {0}, 1000) == "none");  // far below the frequencies of interest
+}
+
+TEST_CASE("coordinates that the rows kept do not excite are found to add nothing, and are left out") {
+  // Two equal branches of three masses at the mass that is kept: they move alike.
+  structures::Entries M, K = {{0, 0, 1}};
+  const auto link = [&](int i, int j) {
+    K.insert(K.end(), {{i, i, 100}, {j, j, 100}, {i, j, -100}, {j, i, -100}});
+  };
+  for (int i = 0; i < 7; ++i) M.push_back({i, i, 1});
+  for (int i = 1; i < 7; ++i) link(i, i == 4 ? 0 : i - 1);
+  scene::Matrices branches;
+  branches.mass = structures::matrix(7, M);
+  branches.stiffness = structures::matrix(7, K);
+  const structure::Reduced reduced = structure::reduce(branches, {0}, 30);
+  CHECK(reduced.M.rows() == 4);
+  CHECK(reduced.error < 1e-11);
+  CHECK(difference(branches, {0}, 30, reduced) < 1e-11);
+}
+
+TEST_CASE("a reduction whose error does not fall is refused") {
+  const std::string found = refusal(chain(std::vector<double>(300, 100.0)), {150}, 30, 40);
+  CAPTURE(found);
+  CHECK(found.find("the matrices cannot be reduced: the error of the dynamic stiffness is ") == 0);
+  CHECK(found.find("with 40 coordinates and does not fall any further, must be at most 0.001; lower "
+                   "\"highest_frequency\"") != std::string::npos);
+  CHECK(refusal(chain(std::vector<double>(300, 100.0)), {150}, 30) == "none");
+}
+
+TEST_CASE("numbers that overflow or are none are refused") {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto with = [](int row, int column, double mass) {
+    scene::Matrices all = chain({100, 100, 100, 100});
+    structures::Entries M = {{row, column, mass}};
+    if (row != column) M.push_back({column, row, mass});
+    for (int i = 0; i < 4; ++i) M.push_back({i, i, 1});
+    all.mass = structures::matrix(4, M);
+    return all;
+  };
+  const std::string too_large = "their entries are too large, too small or too far apart";
+  CHECK(refusal(with(0, 0, 1), {0}, 100) == "none");
+  CHECK(refusal(with(0, 0, 1e308), {0}, 100).find(too_large) != std::string::npos);
+  CHECK(refusal(with(0, 0, none), {0}, 100).find(too_large) != std::string::npos);
+  CHECK(refusal(with(0, 1, none), {0}, 100).find(too_large) != std::string::npos);
+  CHECK(refusal(with(2, 2, none), {0}, 100).find("is not positive definite") != std::string::npos);
+  CHECK(refusal(with(2, 2, 1e308), {0}, 100).find(too_large) != std::string::npos);
+  CHECK(refusal(with(0, 0, 1), {0}, 1e200).find(too_large) != std::string::npos);
+  CHECK(refusal(chain({-500, 100, 100}), {0}, 1)
+            .find("is not positive definite, as it is where mass and stiffness are positive semidefinite and "
+                  "no part without mass floats; it is not in the rows that the scene uses") !=
+        std::string::npos);
 }

@@ -1,0 +1,31 @@
+#pragma once
+// The rows of large matrices that are linked to those kept, b, and the others among them, i.
+
+#include <arcslip/scene/matrices.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <vector>
+
+namespace arcslip::structure {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Rows of the matrices as places in (b, i); -1: no entry links it to b.
+struct Partition {
+  std::vector<int> place;
+  Eigen::Index kept = 0, others = 0;
+};
+
+Partition partition(const scene::Matrices& matrices, const std::vector<int>& kept);
+
+/// The blocks of a symmetric matrix in (b, i).
+struct Blocks {
+  Eigen::MatrixXd bb;
+  Sparse ib, ii;
+};
+
+Blocks blocks(const scene::SparseMatrix& A, const Partition& parts);
+
+}  // namespace arcslip::structure
