@@ -86,29 +86,33 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, int mode,
   const auto at = motions->hbm_evaluator();
   modes = linear_modes(*motions, p, nullptr, omega);
   double in_response = 0;
-  for (int pass = 0; pass < 2; ++pass) {
-    if (start.no_mode = no_oscillation(modes, j); modes.size() <= j) return start;
-    in_response = response.dot(modes[j].shape);
-    const double largest = modes[j].shape.cwiseAbs().maxCoeff();
-    const bool node = std::abs(in_response) <= at_a_node * largest;
-    const double tiny = std::pow(10, -decades) * amplitude / (node ? largest : in_response);
-    if (at->move_to(*rest + tiny * unknowns_of(*motions, modes[j].shape), p, continuation::Needs::jacobian) !=
+  for (int pass = 0;; ++pass) {
+    if (start.no_mode = no_oscillation(modes, j); !start.no_mode.empty()) return start;
+    const LinearMode& linear = modes[j];
+    omega = p[model::frequency] = linear.omega;
+    const double largest = linear.shape.cwiseAbs().maxCoeff();
+    in_response = response.dot(linear.shape);
+    if (std::abs(in_response) <= at_a_node * largest) {
+      start.no_mode = "mode " + std::to_string(mode) +
+                      " does not move the response, which is at one of its nodes; choose another response";
+      return start;
+    }
+    if (linear.shape.head(motions->coordinates().unknowns).cwiseAbs().maxCoeff() <= at_a_node * largest) {
+      start.no_mode = "mode " + std::to_string(mode) + " moves no element: it is linear, of " + text(omega) +
+                      " rad/s and the damping ratio " + text(linear.damping_ratio + 0.0) +
+                      " at every amplitude";
+      return start;
+    }
+    if (pass == 2) break;
+    const double tiny = std::pow(10, -decades) * amplitude / in_response;
+    if (at->move_to(*rest + tiny * unknowns_of(*motions, linear.shape), p, continuation::Needs::jacobian) !=
         continuation::Evaluated::ok) {
       start.failure = "the equations could not be evaluated next to rest";
       return start;
     }
     modes = linear_modes(*motions, p, at.get(), omega);
-    if (modes.size() > j && modes[j].omega > 0) omega = modes[j].omega;
-    p[model::frequency] = omega;
   }
-  if (start.no_mode = no_oscillation(modes, j); !start.no_mode.empty()) return start;
   const LinearMode& linear = modes[j];
-  in_response = response.dot(linear.shape);
-  if (std::abs(in_response) <= at_a_node * linear.shape.cwiseAbs().maxCoeff()) {
-    start.no_mode = "mode " + std::to_string(mode) +
-                    " does not move the response, which is at one of its nodes; choose another response";
-    return start;
-  }
 
   start.problem = std::make_shared<const ModeProblem>(motions, *rest, omega);
   const int n = motions->size();

@@ -96,6 +96,7 @@ class Modes {
         [&](const Accepted& now, const continuation::Event* event) { return record(*problem, now, event); });
     add(traced.counts, result_.solver);
     finish(traced);
+    add_ends();
   }
 
   // Why there is no mode to look for.
@@ -186,6 +187,11 @@ class Modes {
   void finish(const continuation::Branch& traced) {
     result_.status = status_of(traced.stop.reason);
     result_.stop = {reason_of(traced.stop.reason), traced.stop.value, traced.stop.limit, traced.stop.message};
+    if (traced.stop.reason == StopReason::state_too_large && !result_.points.empty())
+      result_.stop.message = "the motion of the structure grew " +
+                             std::to_string(static_cast<int>(resolvable)) +
+                             " times over that of the response, which comes to rest in this mode near " +
+                             metres(result_.points.back().amplitude) + "; choose another response";
     if (traced.stop.reason != StopReason::boundary) return;
     const ResponsePoint& last = result_.points.back();
     result_.stop.value = last.amplitude;
@@ -203,6 +209,16 @@ class Modes {
     for (const auto& event : result_.events) highest = std::max(highest, event.point.amplitude);
     result_.stop.message =
         "turned back at " + metres(highest) + " and left the range at its start, " + metres(range_.from);
+  }
+
+  // The first and the last point are events too: of a mode without others, all that is told of it in short.
+  void add_ends() {
+    if (result_.points.empty()) return;
+    const auto end = [](const char* kind, const ResponsePoint& point, std::size_t after) {
+      return ResponseEvent{kind, false, true, point, after};
+    };
+    result_.events.insert(result_.events.begin(), end(event_kinds::start, result_.points.front(), 0));
+    result_.events.push_back(end(event_kinds::end, result_.points.back(), result_.points.size() - 1));
   }
 
   scene::FrequencyUnit unit_;

@@ -246,6 +246,16 @@ constexpr ResponseQuantity of_response[] = {
      one_mass_and_friction_part},
 };
 
+constexpr ResponseQuantity of_mode[] = {
+    {"damping_ratio", "-", "of the negative damping in proportion to the masses that balances the losses",
+     value<&Point::damping_ratio>},
+    {"energy", "J",
+     "kinetic energy and that of the linear springs, from the static displacement, where the kinetic energy "
+     "is "
+     "largest",
+     value<&Point::energy>},
+};
+
 constexpr ElementQuantity of_element[] = {
     {"stick_percent", "%", "friction elements: share of the period in stick",
      element<&Element::stick_percent>, is_friction, is_friction_part},
@@ -333,6 +343,17 @@ const auto& at(const List& list, std::string_view path) {
 
 std::span<const ResponseQuantity> response_quantities() {
   return of_response;
+}
+
+std::span<const ResponseQuantity> mode_quantities() {
+  return of_mode;
+}
+
+bool is_of_modes(std::string_view path) {
+  for (const std::string_view without :
+       {"unbounded", "phase", "truncation", "force_per_displacement", "maxima"})
+    if (path.starts_with(without)) return false;
+  return true;
 }
 
 std::span<const ElementQuantity> element_quantities() {

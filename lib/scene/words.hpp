@@ -34,7 +34,7 @@ inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 
 /// Names of quantities in results, which the continuation parameter of a study must not have.
-inline constexpr std::array<std::string_view, 30> result_names = {"kind",
+inline constexpr std::array<std::string_view, 32> result_names = {"kind",
                                                                   "nonsmooth",
                                                                   "located",
                                                                   "omega",
@@ -48,6 +48,8 @@ inline constexpr std::array<std::string_view, 30> result_names = {"kind",
                                                                   "energy_total",
                                                                   "energy_input",
                                                                   "friction_percent",
+                                                                  "damping_ratio",
+                                                                  "energy",
                                                                   "force_per_displacement",
                                                                   "maxima",
                                                                   "stick_percent",

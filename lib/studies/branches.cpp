@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace arcslip::studies {
@@ -18,10 +19,16 @@ bool has_maxima(const ResponseBranch& branch) {
   return !branch.points.empty() && !std::isnan(branch.points.front().maxima.velocity);
 }
 
+// What the points of a branch have.
+Asked asked_of(const ResponseBranch& branch) {
+  return {.over = branch.over,
+          .maxima = has_maxima(branch),
+          .mode = !branch.points.empty() && !std::isnan(branch.points.front().damping_ratio)};
+}
+
 /// The tables of branches with the same columns.
 struct Tables {
-  Tables(const scene::Scene& scene, const std::string& over, bool maxima, bool coefficients)
-      : points(responses(scene, {over, maxima, coefficients})) {
+  Tables(const scene::Scene& scene, Asked asked) : points(responses(scene, asked)) {
     events.add({"kind"}, "", "`peak`, `fold` and so on",
                [](const ResponseEvent& event) { return event.kind; });
     events.add({"nonsmooth"}, "", "at a kink of the branch",
@@ -30,32 +37,34 @@ struct Tables {
                [](const ResponseEvent& event) { return event.located; });
     events.add({"after"}, "", "index of the preceding point",
                [](const ResponseEvent& event) { return event.after; });
-    events.add(responses(scene, {over, true, coefficients}),
-               [](const ResponseEvent& event) { return &event.point; });
+    asked.maxima = !asked.mode;
+    events.add(responses(scene, asked), [](const ResponseEvent& event) { return &event.point; });
   }
 
   results::TableOf<ResponsePoint> points;
   results::TableOf<ResponseEvent> events;
 };
 
-std::vector<results::Shown> shown(const scene::Scene& scene, const std::string& over) {
+std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked) {
   std::vector<results::Shown> all;
-  if (!over.empty()) all.push_back({results::with_unit(over, parameter_unit(scene, over)), {over}});
+  if (!asked.over.empty())
+    all.push_back({results::with_unit(asked.over, parameter_unit(scene, asked.over)), {asked.over}});
   all.push_back({"event", {"kind"}});
   all.push_back(
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"});
-  all.push_back({"A_max (m)", {"amplitude"}, "%.8e", "unbounded"});
+  all.push_back({asked.mode ? "A (m)" : "A_max (m)", {"amplitude"}, "%.8e", "unbounded"});
+  if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});
   add_stick(scene, all);
   return all;
 }
 
-results::Schema schema(const scene::Scene& scene, const std::string& over, const Tables& tables) {
+results::Schema schema(const scene::Scene& scene, const Asked& asked, const Tables& tables) {
   return {.format = "arcslip-branches-1",
           .list = "branches",
           .noun = "branch",
           .tables = {{"points", tables.points.columns(), {"elements"}},
                      {"events", tables.events.columns(), {"elements"}}},
-          .shown = shown(scene, over),
+          .shown = shown(scene, asked),
           .shown_table = "events"};
 }
 
@@ -78,10 +87,10 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
 
 }  // namespace
 
-Described<ResponseBranch> branches(const scene::Scene& scene, const std::string& over, bool maxima,
-                                   const RunOptions& options) {
-  const auto tables = std::make_shared<const Tables>(scene, over, maxima, options.coefficients);
-  return {schema(scene, over, *tables), [&scene, tables, options](const ResponseBranch& branch) {
+Described<ResponseBranch> branches(const scene::Scene& scene, Asked asked, const RunOptions& options) {
+  asked.coefficients = options.coefficients;
+  const auto tables = std::make_shared<const Tables>(scene, asked);
+  return {schema(scene, asked, *tables), [&scene, tables, options](const ResponseBranch& branch) {
             return result(scene, branch, *tables, options);
           }};
 }
@@ -89,20 +98,21 @@ Described<ResponseBranch> branches(const scene::Scene& scene, const std::string&
 results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> all,
                             const RunOptions& options) {
   results::Results found{header(scene), {}, {}};
-  std::map<std::pair<std::string, bool>, std::size_t> index;  // of schemas, by their distinguishing columns
+  std::map<std::tuple<std::string, bool, bool>, std::size_t>
+      index;  // of schemas, by their distinguishing columns
   std::vector<Described<ResponseBranch>> described;
   for (const ResponseBranch& branch : all) {
-    const bool maxima = has_maxima(branch);
-    const auto [at, is_new] = index.try_emplace({branch.over, maxima}, described.size());
+    const Asked asked = asked_of(branch);
+    const auto [at, is_new] = index.try_emplace({asked.over, asked.maxima, asked.mode}, described.size());
     if (is_new) {
-      described.push_back(branches(scene, branch.over, maxima, options));
+      described.push_back(branches(scene, asked, options));
       found.schemas.push_back(described.back().schema);
     }
     add_columns(scene, branch.set, found.schemas[at->second].set);
     found.results.push_back(described[at->second].result(branch));
     found.results.back().schema = at->second;
   }
-  if (all.empty()) found.schemas.push_back(branches(scene, "", false, options).schema);
+  if (all.empty()) found.schemas.push_back(branches(scene, {}, options).schema);
   return found;
 }
 

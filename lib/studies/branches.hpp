@@ -12,10 +12,9 @@
 
 namespace arcslip::studies {
 
-/// The schema of a study. over: the continuation parameter, if it is not the frequency; maxima: whether its
-/// points have maxima. See docs/results.md for all fields.
-Described<observables::ResponseBranch> branches(const scene::Scene& scene, const std::string& over,
-                                                bool maxima, const RunOptions& options);
+/// The schema of a study, with the columns asked of its points. See docs/results.md for all fields.
+Described<observables::ResponseBranch> branches(const scene::Scene& scene, Asked asked,
+                                                const RunOptions& options);
 
 /// The results of existing branches, of any studies.
 results::Results results_of(const scene::Scene& scene, std::span<const observables::ResponseBranch> all,

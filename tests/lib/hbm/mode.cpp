@@ -4,8 +4,11 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/hbm/mode.hpp>
 #include <arcslip/hbm/mode_start.hpp>
+
+#include <cmath>
 
 using namespace arcslip;
 using continuation::Needs;
@@ -105,5 +108,78 @@ TEST_CASE(
       CHECK(gradient.dot(dx) == Approx(slope).epsilon(1e-7).margin(1e-8));
     }
     CHECK(range.of(Vector::Zero(h.size())) == 0);
+  }
+}
+
+namespace {
+
+// The largest residual, over all harmonics and degrees of freedom, of
+//
+//   M x'' + C x' + K x + f(x) = 2 zeta omega M x' + static loads,
+//
+// put together from the matrices and the forces of the elements without any condensation, over the largest
+// K x.
+double residual_of_motion(const hbm::ModeProblem& problem, const Vector& u, double log_amplitude) {
+  hbm::ModeEvaluator at(problem);
+  REQUIRE(at.move_to(u, Vector::Constant(1, log_amplitude), Needs::residual) == continuation::Evaluated::ok);
+  const hbm::HbmProblem& motions = problem.motions();
+  const model::Model& model = motions.model();
+  const Vector p = model::defaults(model);
+  const Eigen::MatrixXd M = model::mass_matrix(model, p), C = model::damping_matrix(model, p),
+                        K = model::stiffness_matrix(model, p);
+  const auto& h = motions.harmonics();
+  const Eigen::MatrixXd x = at.motion().stiffness().motion(motions.coordinates().P, at.unknowns(), 1);
+  Eigen::MatrixXd R(x.rows(), x.cols()), slope = R, bend = R;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    elements::series_slope(h, x.col(i), slope.col(i));
+    elements::series_slope(h, slope.col(i), bend.col(i));
+  }
+  const double w = at.omega();
+  R = w * w * bend * M + w * slope * (C - 2 * at.damping_ratio() * w * M) + x * K;
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
+    for (std::size_t i = 0; i < model.elements[e].directions.size(); ++i)
+      R += at.motion().element(e).force().segment(static_cast<Eigen::Index>(i) * h.size(), h.size()) *
+           Eigen::RowVectorXd(Vector(model.elements[e].directions[i]).transpose());
+  for (const auto& load : model.excitation)
+    R.row(0) -= p[load.cosine] * Eigen::RowVectorXd(Vector(load.direction).transpose());
+  return R.cwiseAbs().maxCoeff() / (x * K).cwiseAbs().maxCoeff();
+}
+
+// Traced from a start at `from` to each of these amplitudes.
+void check_motions(const scene::Scene& s, int mode, double from, double to) {
+  const auto model = free_model(s);
+  const auto start = hbm::mode_start(model, mode, from);
+  INFO(start.no_mode << start.failure);
+  REQUIRE((start.no_mode.empty() && start.failure.empty()));
+  continuation::Options options;
+  options.lower = std::log(start.amplitude);
+  options.upper = std::log(to);
+  options.largest_state = 1e3;
+  const auto branch =
+      continuation::trace(start.problem, {start.u, Vector::Constant(1, options.lower), 0, 1}, options);
+  INFO(branch.stop.message);
+  // Elements may come to hold a mass of the chain, whose amplitude then stays below `to`.
+  REQUIRE((branch.stop.reason == continuation::StopReason::boundary ||
+           branch.stop.reason == continuation::StopReason::state_too_large));
+  CHECK(branch.warnings.empty());
+  double worst = 0;
+  for (const auto& point : branch.points)
+    worst = std::max(worst, residual_of_motion(*start.problem, point.u, point.parameter));
+  CAPTURE(mode, branch.points.size());
+  CHECK(worst < 1e-12);
+}
+
+}  // namespace
+
+TEST_CASE("motions of modes satisfy the equations of all degrees of freedom with the damping that balances") {
+  check_motions(scenes::paper(55), 1, 1e-5, 0.1);
+  for (const int mode : {1, 2, 3}) {
+    check_motions(scenes::chain(9, false), mode, 1e-3, 30);
+    scene::Scene s = scenes::chain(9, true);
+    s.excitation.push_back(s.excitation.front());
+    s.excitation.back().name = "weight";
+    s.excitation.back().harmonic = 0;
+    s.excitation.back().values = {0.4, 0};
+    check_motions(s, mode, 1e-3, 30);
   }
 }
