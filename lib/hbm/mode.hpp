@@ -1,7 +1,6 @@
 #pragma once
-// Nonlinear modes by the extended periodic motion concept (Krack, Nonlinear modal analysis of nonconservative
-// systems: extension of the periodic motion concept, Computers & Structures 154, 2015, Eq. 6): periodic
-// motions of the structure without its periodic excitation,
+// Nonlinear modes by the extended periodic motion concept (Krack 2015): periodic motions of the structure
+// without its periodic excitation,
 //
 //   M x'' + (C - 2 zeta omega M) x' + K x + f(x, x') = static loads
 //

@@ -15,7 +15,7 @@ constexpr int decades = 9;                // of the amplitude, down to where con
 constexpr double close_frequency = 0.02;  // of omega and v to the linear mode, relative
 constexpr double close_shape = 0.1;
 constexpr double at_a_node = 1e-9;  // the response over the largest coordinate
-constexpr double same_frequency = 1e-6;
+constexpr double same_frequency = 1e-9;
 
 // The static displacement: the means of the motion without excitation.
 std::optional<Vector> rest_of(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
@@ -103,6 +103,12 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, int mode,
                       " at every amplitude";
       return start;
     }
+    for (std::size_t other = 0; other < modes.size(); ++other)
+      if (other != j && std::abs(modes[other].omega - omega) <= same_frequency * omega) {
+        start.no_mode = "mode " + std::to_string(mode) + " has the frequency of mode " +
+                        std::to_string(other + 1) + ", so that neither has a shape of its own";
+        return start;
+      }
     if (pass == 2) break;
     const double tiny = std::pow(10, -decades) * amplitude / in_response;
     if (at->move_to(*rest + tiny * unknowns_of(*motions, linear.shape), p, continuation::Needs::jacobian) !=
@@ -138,9 +144,6 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, int mode,
   start.failure = "Newton's method failed from the linear mode of " + text(omega) +
                   " rad/s, at amplitudes from " + text(amplitude) + " m down to " +
                   text(std::pow(10, -decades) * amplitude) + " m";
-  for (std::size_t other = 0; other < modes.size(); ++other)
-    if (other != j && std::abs(modes[other].omega - omega) <= same_frequency * omega)
-      start.failure += "; mode " + std::to_string(other + 1) + " has the same frequency";
   return start;
 }
 

@@ -96,6 +96,7 @@ class Modes {
         [&](const Accepted& now, const continuation::Event* event) { return record(*problem, now, event); });
     add(traced.counts, result_.solver);
     finish(traced);
+    drop_rounding();
     add_ends();
   }
 
@@ -136,10 +137,12 @@ class Modes {
   bool record(const hbm::ModeProblem& problem, const Accepted& now, const continuation::Event* event) {
     ResponsePoint point = observe(problem, static_cast<const hbm::ModeEvaluator&>(now.at));
     if (event) {
+      at_.push_back(now.arclength);
       result_.events.push_back(
           {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
       return true;
     }
+    course_.emplace_back(now.arclength, 1 + point.damping_ratio);
     told_.points = static_cast<long>(result_.points.size()) + 1;
     told_.step = (point.omega - last_) / scene::to_rad_per_s(unit_);
     last_ = point.omega;
@@ -188,10 +191,9 @@ class Modes {
     result_.status = status_of(traced.stop.reason);
     result_.stop = {reason_of(traced.stop.reason), traced.stop.value, traced.stop.limit, traced.stop.message};
     if (traced.stop.reason == StopReason::state_too_large && !result_.points.empty())
-      result_.stop.message = "the motion of the structure grew " +
-                             std::to_string(static_cast<int>(resolvable)) +
-                             " times over that of the response, which comes to rest in this mode near " +
-                             metres(result_.points.back().amplitude) + "; choose another response";
+      result_.stop.message =
+          "the motion of the structure grew more than 1e8 times over that of the response, near " +
+          metres(result_.points.back().amplitude) + "; choose another response";
     if (traced.stop.reason != StopReason::boundary) return;
     const ResponsePoint& last = result_.points.back();
     result_.stop.value = last.amplitude;
@@ -211,6 +213,14 @@ class Modes {
         "turned back at " + metres(highest) + " and left the range at its start, " + metres(range_.from);
   }
 
+  // Extrema of a damping ratio that changes by its rounding only, as while all contacts stick, are none.
+  void drop_rounding() {
+    for (std::size_t i = at_.size(); i-- > 0;)
+      if (result_.events[i].kind != event_kinds::fold &&
+          !departs(course_, at_[i], 1 + result_.events[i].point.damping_ratio))
+        result_.events.erase(result_.events.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
   // The first and the last point are events too: of a mode without others, all that is told of it in short.
   void add_ends() {
     if (result_.points.empty()) return;
@@ -228,6 +238,8 @@ class Modes {
   std::unique_ptr<Observer> observer_;
   std::unique_ptr<MechanicalEnergy> energy_;
   ResponseBranch result_;
+  std::vector<std::pair<double, double>> course_;  // arclength, 1 + zeta
+  std::vector<double> at_;                         // arclength of the events
   results::Progress told_{};
   double last_ = 0;  // rad/s
   bool stopped_ = false;

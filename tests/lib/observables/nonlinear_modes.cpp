@@ -6,6 +6,7 @@
 #include <arcslip/model/model.hpp>
 #include <arcslip/observables/nonlinear_modes.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/studies/figures.hpp>
 
 #include <algorithm>
 
@@ -394,6 +395,17 @@ TEST_CASE("where there is no mode to follow a branch says why") {
   linear.responses.front().direction = {{0, 1.0}};
   check_contains(failure(linear, 2, 1e-3, 1, no_mode),
                  "mode 2 moves no element: it is linear, of 1.4142136 rad/s and the damping ratio 0");
+  // Two blades that nothing couples, and two of different stiffness: 1/k of the dampers shifts no other mode.
+  const auto pair = [](double k2) {
+    return parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", )" +
+                 scenes::uncoupled({{"a", 1, 1, 0.1}, {"b", 1, k2, 0.1}}) +
+                 R"(, "elements": [{"name": "s", "type": "cubic_spring", "at": "a", "stiffness": 0.5},
+                                   {"name": "t", "type": "cubic_spring", "at": "b", "stiffness": 0.5}],
+    "excitation": [{"name": "f", "at": "a", "cosine": 1}], "harmonics": {"order": 3},
+    "response": {"at": "b"}, "studies": [{"kind": "frf", "from": 0.5, "to": 2}]})");
+  };
+  check_contains(failure(pair(1), 1, 1e-3, 1, no_mode), "mode 1 has the frequency of mode 2");
+  CHECK(mode(pair(1.21), 2, 1e-4, 1).points.front().omega == Approx(1.1).epsilon(1e-6));
   // Harmonics without the fundamental: a motion of three periods with two harmonics.
   scene::Scene subharmonic = oscillator(cubic, 2);
   subharmonic.harmonics.period = 3;
@@ -414,4 +426,38 @@ TEST_CASE("a mode may be stopped, and takes only amplitudes in order and a numbe
   CHECK(at_once.front().points.empty());
   for (const auto& bad : {observables::ModeRange{0, 1e-3, 1}, {1, 0, 1}, {1, 1, 1}, {1, 2, 1}})
     CHECK_THROWS_AS(observables::nonlinear_modes(s, bad), std::invalid_argument);
+}
+
+TEST_CASE("figures of modes are over the amplitude: the frequency, the damping ratio, and stick") {
+  const scene::Scene s = scenes::paper(1);
+  const std::vector branches{mode(s, 1, 1e-5, 1e-2)};
+  const results::FigureData data = studies::figures_of(s, studies::BranchKind::modes, branches);
+  REQUIRE(data.columns.size() == 4);
+  CHECK(data.columns[0].label == "amplitude (m)");
+  CHECK(data.columns[0].scale == results::Scale::logarithmic);
+  CHECK(data.columns[1].label == "frequency (Hz)");
+  CHECK(data.columns[2].label == "damping ratio");
+  CHECK(data.columns[2].scale == results::Scale::linear);
+  REQUIRE(data.figures.size() == 4);
+  const char* names[] = {"frequency", "damping_ratio", "stick", "contact"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(data.figures[i].name == names[i]);
+    CHECK(data.figures[i].x == 0);
+    if (i < 3) CHECK(data.figures[i].y == i + 1);
+  }
+  const ResponsePoint& point = branches[0].points[60];
+  CHECK(data.lines[0].parts[0][60] == results::Record{point.amplitude, point.omega / scenes::hertz,
+                                                      point.damping_ratio, point.elements[0].stick_percent});
+  REQUIRE(data.lines[0].marks.size() == 1);  // no mark at the ends
+  CHECK(data.lines[0].marks[0].kind == "maximum");
+}
+
+TEST_CASE("where the motion outgrows that of the response a branch ends, and says so") {
+  // At high energy mode 3 leaves the mass c behind, which only the damper of b still moves: by c_bc b/(m_c
+  // w).
+  const ResponseBranch branch = mode(scenes::chain(1, false), 3, 1e-3, 30);
+  CHECK(branch.status == observables::Status::failed);
+  CHECK(branch.stop.reason == observables::reasons::state_too_large);
+  check_contains(branch.stop.message, "grew more than 1e8 times over that of the response");
+  check_contains(branch.stop.message, "choose another response");
 }
