@@ -455,9 +455,45 @@ TEST_CASE("figures of modes are over the amplitude: the frequency, the damping r
 TEST_CASE("where the motion outgrows that of the response a branch ends, and says so") {
   // At high energy mode 3 leaves the mass c behind, which only the damper of b still moves: by c_bc b/(m_c
   // w).
-  const ResponseBranch branch = mode(scenes::chain(1, false), 3, 1e-3, 30);
+  const ResponseBranch branch = mode(scenes::chain(3, false), 3, 1e-3, 30);
   CHECK(branch.status == observables::Status::failed);
   CHECK(branch.stop.reason == observables::reasons::state_too_large);
   check_contains(branch.stop.message, "grew more than 1e8 times over that of the response");
   check_contains(branch.stop.message, "choose another response");
+}
+
+TEST_CASE(
+    "the peaks of examples/damped_mode lie on the mode, where the force does the work that the mode loses") {
+  scene::Scene s = scenes::example("damped_mode");
+  for (const double force : {2.0, 6.0, 12.0}) {
+    scene::set(s, "force.cosine", force);
+    const auto response = observables::frequency_response(s, {30, 36}).front();
+    const auto peak = std::find_if(response.events.begin(), response.events.end(),
+                                   [](const auto& event) { return event.kind == "peak"; });
+    REQUIRE(peak != response.events.end());
+    const double A = peak->point.amplitude;
+    const ResponsePoint on = at_end(mode(s, 1, 1e-4, A), A);
+    CAPTURE(force, on.damping_ratio);
+    // The peak of a linear oscillator lies zeta^2 below its frequency.
+    CHECK(std::abs(peak->point.omega / on.omega - 1) < 2 * on.damping_ratio * on.damping_ratio + 1e-6);
+    // The higher harmonics of the motion are less than 2 % of it, and the phase at the peak is not quite 90
+    // degrees.
+    CHECK(on.energy_total() / (std::numbers::pi * A) == Approx(force).epsilon(2e-3));
+  }
+}
+
+TEST_CASE(
+    "the largest damping of examples/damped_mode is the same for every load, at amplitudes in proportion to "
+    "it") {
+  scene::Scene s = scenes::example("damped_mode");
+  std::vector<ResponsePoint> largest;
+  for (const double load : {5.0, 10.0, 20.0}) {
+    scene::set(s, "damper.normal_load", load);
+    const ResponseBranch branch = mode(s, 1, 1e-4, 1e-2);
+    REQUIRE(branch.events.size() == 3);
+    largest.push_back(branch.events[1].point);
+    CHECK(largest.back().damping_ratio == Approx(largest.front().damping_ratio).epsilon(1e-12));
+    CHECK(largest.back().omega == Approx(largest.front().omega).epsilon(1e-9));
+    CHECK(largest.back().amplitude / load == Approx(largest.front().amplitude / 5).epsilon(1e-7));
+  }
 }
