@@ -27,7 +27,7 @@ std::string type_name(const Key& key) {
     case KeyType::frequency:
       return key.name == "from" ? "A" : key.name == "to" ? "B" : "F";
     case KeyType::window:
-      return "F";
+      return key.unit == "frequency" ? "F" : "X";
     case KeyType::parameter:
       return "NAME.FIELD";
     case KeyType::parameters:
@@ -41,7 +41,7 @@ std::string type_name(const Key& key) {
 
 std::string help(const Key& key) {
   std::string text = key.help;
-  if (key.type == KeyType::window) text += ", lower and upper";
+  if (key.type == KeyType::window) text += key.unit == "frequency" ? ", lower and upper" : ", from and to";
   if (key.unit == "frequency") text += ", in the scene's unit";
   if (key.type == KeyType::value && key.name == "from") text += ", in its unit";
   if (key.type == KeyType::parameter) text += ", e.g. damper.normal_load";
@@ -85,7 +85,8 @@ Node node_of(const Key& key, const std::string& option, const std::vector<std::s
     case KeyType::frequency:
       return node(*frequency(option, first));
     case KeyType::window:
-      return node(frequencies(texts));
+      return node(key.unit == "frequency" ? frequencies(texts)
+                                          : numbers(option, texts, "two numbers, " + key.allowed));
     case KeyType::parameter:
       if (first.empty()) {
         throw UsageError(option + " needs the name of a parameter, such as " + option +

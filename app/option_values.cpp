@@ -32,6 +32,13 @@ std::optional<double> number(const std::string& option, const std::string& text,
   return value;
 }
 
+std::vector<double> numbers(const std::string& option, const std::vector<std::string>& texts,
+                            const std::string& what) {
+  std::vector<double> values;
+  for (const std::string& text : texts) values.push_back(number(option, text, what).value());
+  return values;
+}
+
 std::optional<double> frequency(const std::string& option, const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto value = number(text);

@@ -16,6 +16,8 @@ std::pair<std::string, double> assignment(const std::string& text);
 
 /// what: the expected value in error messages, "a finite number".
 std::optional<double> number(const std::string& option, const std::string& text, const std::string& what);
+std::vector<double> numbers(const std::string& option, const std::vector<std::string>& texts,
+                            const std::string& what);
 std::optional<int> whole_number(const std::string& option, const std::string& text, const std::string& what);
 std::optional<double> frequency(const std::string& option, const std::string& text);
 /// --frequency: one frequency, or a window.

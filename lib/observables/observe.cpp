@@ -38,10 +38,7 @@ Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem, int free)
 
 Extreme Observer::extreme(const hbm::HbmEvaluator& at, continuation::In u) {
   at.stiffness().response(u, at.force_factor(), x_);
-  const Extreme found = amplitude_.of(x_);
-  last_amplitude_ = found.amplitude;
-  last_reversal_ = found.reversal;
-  return found;
+  return last_ = amplitude_.of(x_);
 }
 
 double Observer::amplitude_change(const hbm::HbmEvaluator& at, continuation::In u, continuation::In du,
@@ -59,14 +56,13 @@ double Observer::amplitude_slope(const continuation::Accepted& now) {
   const Eigen::Index n = now.u.size();
   const double slope =
       amplitude_change(evaluator_of(now), now.u, now.tangent.head(n), {{free_, now.tangent[n]}});
-  if (last_amplitude_ > at_rest * now.u.norm()) return slope;
-  last_amplitude_ = 0;
-  last_reversal_ = 0;
+  if (last_.amplitude > at_rest * now.u.norm()) return slope;
+  last_ = {};
   return 0;
 }
 
 // Lag of the fundamental of x behind the first excitation of that harmonic, in (-pi, pi].
-double Observer::phase(const continuation::Accepted& now, continuation::In x) const {
+double Observer::phase(continuation::In p, continuation::In x) const {
   const auto& h = problem_->harmonics();
   const auto& model = problem_->model();
   const int n = h.excited(model.force_harmonic);
@@ -74,23 +70,23 @@ double Observer::phase(const continuation::Accepted& now, continuation::In x) co
   const std::complex<double> X(x[h.cosine_index(n)], -x[h.sine_index(n)]);
   for (const auto& excitation : model.excitation) {
     if (excitation.harmonic != model.force_harmonic) continue;
-    const std::complex<double> F(now.p[excitation.cosine], -now.p[excitation.sine]);
+    const std::complex<double> F(p[excitation.cosine], -p[excitation.sine]);
     return X == 0.0 || F == 0.0 ? 0 : std::arg(F * std::conj(X));
   }
   return 0;
 }
 
-void Observer::add_named_responses(const continuation::Accepted& now, ResponsePoint& point) {
+void Observer::add_named_responses(const hbm::HbmEvaluator& at, continuation::In u, continuation::In p,
+                                   ResponsePoint& point) {
   if (named_.rows() == 0) return;
-  const auto& at = evaluator_of(now);
   const model::Model& model = problem_->model();
-  Eigen::MatrixXd motions = at.stiffness().motion(named_, now.u, at.force_factor());
+  Eigen::MatrixXd motions = at.stiffness().motion(named_, u, at.force_factor());
   for (std::size_t i = 0; i < model.named_responses.size(); ++i)
     if (model.named_absolute[i])
       at.stiffness().add_base(model.named_responses[i], at.force_factor(),
                               motions.col(static_cast<Eigen::Index>(i)));
   for (const auto& x : motions.colwise())
-    point.responses.push_back({amplitude_.of(x).amplitude, phase(now, x)});
+    point.responses.push_back({amplitude_.of(x).amplitude, phase(p, x)});
 }
 
 const StabilityAnalysis* Observer::stability(const continuation::Accepted& now) {
@@ -122,21 +118,31 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
 
 ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {
   const auto& at = evaluator_of(now);
-  const auto& h = problem_->harmonics();
-  ResponsePoint point;
-  const Extreme at_most = extreme(at, now.u);
-  point.omega = now.p[model::frequency];
-  point.amplitude = at_most.amplitude;
-  point.phase = phase(now, x_);
-  add_named_responses(now, point);
+  ResponsePoint point = motion(at, now.u, now.p);
+  const Extreme at_most = last_;
+  point.phase = phase(now.p, x_);
   if (!truncation_) truncation_ = std::make_unique<Truncation>(*problem_, free_, now.p);
   const TruncationEstimate truncation = truncation_->estimate(now, at_most, held);
   point.truncation_estimate = truncation.amplitude;
-  point.truncation_flagged = truncation.flagged;
+  point.truncation_flagged = truncation.flagged || !point.stops.empty();
   if (stability_) add_stability(now, point);
-  point.energy_viscous = at.stiffness().viscous_energy(now.u, at.force_factor());
   point.energy_input = input_energy(*problem_, at, now.u);
   point.forces = force_components(*problem_, at, x_);
+  if (maxima) {
+    if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
+    maxima_->add_to(point, at, x_);
+  }
+  return point;
+}
+
+ResponsePoint Observer::motion(const hbm::HbmEvaluator& at, continuation::In u,
+                               const continuation::Vector& p) {
+  const auto& h = problem_->harmonics();
+  ResponsePoint point;
+  point.amplitude = extreme(at, u).amplitude;
+  point.omega = p[model::frequency];
+  add_named_responses(at, u, p, point);
+  point.energy_viscous = at.stiffness().viscous_energy(u, at.force_factor());
   elements::FrictionState state;
   point.elements.reserve(at.element_count());
   for (std::size_t e = 0; e < at.element_count(); ++e) {
@@ -145,10 +151,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
     state.open_share = 0;
     state.mean_min = state.mean_max = no_value;
     response.has_stick = at.element(e).friction(state);
-    if (stops_.at_reversals(at.element(e), e, now.p)) {
-      point.stops = response.name;
-      point.truncation_flagged = true;
-    }
+    if (stops_.at_reversals(at.element(e), e, p)) point.stops = response.name;
     const elements::Law& law = *problem_->model().elements[e].law;
     const int displacements = law.directions() * h.size();
     if (law.dissipative()) {
@@ -177,18 +180,14 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
     set_fundamental(*problem_, at, e, response);
     point.elements.push_back(std::move(response));
   }
-  add_patches(*problem_, at, now.p, point);
+  add_patches(*problem_, at, p, point);
   point.coefficients.reserve(static_cast<std::size_t>(2 * h.cosines()));
   for (int i = 0; i < h.cosines(); ++i) {
     const int n = h.cosine_order(i);
     point.coefficients.push_back(x_[i]);
     point.coefficients.push_back(n == 0 ? 0.0 : x_[h.sine_index(n)]);
   }
-  point.unknowns.assign(now.u.data(), now.u.data() + now.u.size());
-  if (maxima) {
-    if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
-    maxima_->add_to(point, at, x_);
-  }
+  point.unknowns.assign(u.data(), u.data() + u.size());
   return point;
 }
 

@@ -40,6 +40,10 @@ class Observer {
   /// Why none of the points has any (StabilityAnalysis::unknown()).
   std::string unknown_stability() const { return stability_ ? stability_->unknown() : ""; }
 
+  /// Those of the motion alone: without phases, work of the excitation, parts of forces and what the
+  /// harmonics left out would add. u, p: where `at` is.
+  ResponsePoint motion(const hbm::HbmEvaluator& at, continuation::In u, const continuation::Vector& p);
+
   /// Largest |x| of the observed coordinate, for unknowns u at the parameters of an evaluator.
   Extreme extreme(const hbm::HbmEvaluator& at, continuation::In u);
 
@@ -48,17 +52,18 @@ class Observer {
                           std::initializer_list<std::pair<int, double>> dp);
 
   /// A at the last call of any of these.
-  double last_amplitude() const { return last_amplitude_; }
+  double last_amplitude() const { return last_.amplitude; }
 
   /// Its reversal.
-  std::size_t last_reversal() const { return last_reversal_; }
+  std::size_t last_reversal() const { return last_.reversal; }
 
   /// dA/ds along the branch.
   double amplitude_slope(const continuation::Accepted& now);
 
  private:
-  double phase(const continuation::Accepted& now, continuation::In x) const;
-  void add_named_responses(const continuation::Accepted& now, ResponsePoint& point);
+  double phase(continuation::In p, continuation::In x) const;
+  void add_named_responses(const hbm::HbmEvaluator& at, continuation::In u, continuation::In p,
+                           ResponsePoint& point);
   void add_stability(const continuation::Accepted& now, ResponsePoint& point);
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
@@ -72,8 +77,7 @@ class Observer {
   continuation::Vector stable_u_, stable_p_;  // the place of its last call
   bool stability_known_ = false;
   continuation::Vector x_, dx_, by_parameter_;
-  double last_amplitude_ = 0;
-  std::size_t last_reversal_ = 0;
+  Extreme last_;
 };
 
 /// Peaks: dA/ds falls through zero. Unlike dA/domega it has no pole at folds.

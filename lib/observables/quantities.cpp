@@ -270,6 +270,16 @@ constexpr Quantity<Stability> of_stability[] = {
      [](const Stability& stability) { return !std::isnan(stability.rotation); }},
 };
 
+constexpr ResponseQuantity of_mode[] = {
+    {"damping_ratio", "-", "of the negative damping in proportion to the masses that balances the losses",
+     value<&Point::damping_ratio>},
+    {"energy", "J",
+     "kinetic energy and that of the linear springs, from the static displacement, where the kinetic energy "
+     "is "
+     "largest",
+     value<&Point::energy>},
+};
+
 constexpr ElementQuantity of_element[] = {
     {"stick_percent", "%", "friction elements: share of the period in stick",
      element<&Element::stick_percent>, is_friction, is_friction_part},
@@ -361,6 +371,17 @@ std::span<const ResponseQuantity> response_quantities() {
 
 std::span<const Quantity<Stability>> stability_quantities() {
   return of_stability;
+}
+
+std::span<const ResponseQuantity> mode_quantities() {
+  return of_mode;
+}
+
+bool is_of_modes(std::string_view path) {
+  for (const std::string_view without :
+       {"unbounded", "phase", "truncation", "force_per_displacement", "maxima"})
+    if (path.starts_with(without)) return false;
+  return true;
 }
 
 std::span<const ElementQuantity> element_quantities() {

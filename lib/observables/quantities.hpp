@@ -65,6 +65,11 @@ bool is_friction_part(const scene::Part& part);
 std::span<const ResponseQuantity> response_quantities();
 /// Where the stability is requested, and known.
 std::span<const Quantity<Stability>> stability_quantities();
+/// What modes have beside those of a response.
+std::span<const ResponseQuantity> mode_quantities();
+/// Whether modes have the quantity with this path, of a response or of a named one: not where it takes an
+/// excitation.
+bool is_of_modes(std::string_view path);
 std::span<const ElementQuantity> element_quantities();
 std::span<const ElementQuantity> patch_quantities();
 std::span<const Quantity<NamedResponse>> named_response_quantities();

@@ -26,7 +26,7 @@ inline constexpr Reason closed{"closed", "the curve closed on itself"};
 inline constexpr Reason event{
     "event", "a curve could not be continued where it reaches or leaves a corner of the response"};
 inline constexpr Reason start_failed{"start_failed",
-                                     "no periodic response, peak or fold was found to start from"};
+                                     "no periodic response, peak, fold or mode was found to start from"};
 inline constexpr Reason step_too_small{
     "step_too_small",
     "the step size fell below its minimum, as at an end of the branch or where rounding errors dominate"};
@@ -51,6 +51,12 @@ inline constexpr Reason fold{
 inline constexpr Reason corner{
     "corner",
     "of curves: the peak or fold reaches a corner of the response, from which another curve continues"};
+
+// Modes.
+inline constexpr Reason no_mode{
+    "no_mode",
+    "the structure at rest has no such mode: there are fewer, or it does not oscillate, or does not move the "
+    "response, or friction without a stiffness holds it"};
 
 // Responses at one frequency.
 inline constexpr Reason solved{"solved", "the response was found"};
@@ -80,8 +86,8 @@ using time::reasons::singular;
 
 /// The reasons of a branch, or of a curve of peaks or folds.
 inline constexpr std::array of_branches = {
-    boundary,     unbounded,      closed,          fold,  corner,        point_limit,   user,
-    start_failed, step_too_small, state_too_large, event, not_evaluated, monitor_failed};
+    boundary,     unbounded,      closed,          fold,  corner,        point_limit,    user,
+    start_failed, step_too_small, state_too_large, event, not_evaluated, monitor_failed, no_mode};
 
 /// The reasons of a response at one frequency.
 inline constexpr std::array of_responses = {solved, unbounded, user, start_failed, not_evaluated};

@@ -121,6 +121,8 @@ struct ResponsePoint {
       coefficients;              // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
   std::vector<double> unknowns;  // of the whole motion, as in hbm/problem.hpp: see histories.hpp
   double energy_input = 0;       // work of the excitation, J per period; equals energy_total()
+  double damping_ratio = no_value;  // of a mode (hbm/mode.hpp)
+  double energy = no_value;         // of a mode, J (mechanical_energy.hpp)
   ForceComponents forces{};
   MotionMaxima maxima{};
   std::optional<Stability> stability{};  // if requested and known

@@ -87,6 +87,12 @@ std::pair<double, double> read_window(const Reading& reading) {
   return window;
 }
 
+std::pair<double, double> read_window(const Reading& reading, const Field& field) {
+  const std::string name(field.name);
+  const std::string wanted = "two values [from, to], each " + allowed_text(field);
+  return read_pair(reading.keys.require(name, wanted, reading.faults), wanted, field, "end", reading.faults);
+}
+
 double read_frequency(const Reading& reading) {
   const std::string wanted = "one frequency, " + allowed_text(reading.frequency);
   const Location place = reading.keys.require("frequency", wanted, reading.faults);

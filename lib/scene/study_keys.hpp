@@ -56,6 +56,8 @@ struct RangeOver {
 RangeOver read_range_over(const Reading& reading);
 /// "frequency": a window [lower, upper], or a single frequency.
 std::pair<double, double> read_window(const Reading& reading);
+/// A window [lower, upper] of a field, under its name.
+std::pair<double, double> read_window(const Reading& reading, const Field& field);
 double read_frequency(const Reading& reading);
 /// "from" and "to" of a field.
 std::pair<double, double> read_range(const Reading& reading, const Field& field);
@@ -101,6 +103,18 @@ KeyGroup<S> window(double S::*lower, double S::*upper) {
           [=](const Reading& reading, S& s) { std::tie(s.*lower, s.*upper) = read_window(reading); },
           [=](const S& s, const Scene&, Node::Object& to_file) {
             to_file.push_back({"frequency", node(std::vector{s.*lower, s.*upper})});
+          }};
+}
+
+/// A window of another field, whose bounds are open at 0.
+template <class S>
+KeyGroup<S> window_of(double S::*lower, double S::*upper, const Field& field, std::string help) {
+  const std::string name(field.name);
+  return {{{name, KeyType::window, std::string(field.unit), "[from, to], 0 < from < to", "", true,
+            std::move(help)}},
+          [=](const Reading& reading, S& s) { std::tie(s.*lower, s.*upper) = read_window(reading, field); },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({name, node(std::vector{s.*lower, s.*upper})});
           }};
 }
 

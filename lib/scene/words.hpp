@@ -34,7 +34,7 @@ inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 
 /// Names of quantities in results, which the continuation parameter of a study must not have.
-inline constexpr std::array<std::string_view, 35> result_names = {"kind",
+inline constexpr std::array<std::string_view, 37> result_names = {"kind",
                                                                   "stable",
                                                                   "unstable_multipliers",
                                                                   "multipliers",
@@ -53,6 +53,8 @@ inline constexpr std::array<std::string_view, 35> result_names = {"kind",
                                                                   "energy_total",
                                                                   "energy_input",
                                                                   "friction_percent",
+                                                                  "damping_ratio",
+                                                                  "energy",
                                                                   "force_per_displacement",
                                                                   "maxima",
                                                                   "stick_percent",

@@ -32,10 +32,12 @@ KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, st
                     const results::ProgressCallback& progress) { return follow(at.scene, range, progress); },
       .results =
           [](const scene::Scene& scene, const Range& range, const scene::RunOptions& options) {
-            std::string over;
-            if constexpr (requires { range.over; }) over = range.over;
-            const bool maxima = drawn == BranchKind::peaks || drawn == BranchKind::folds;
-            return branches(scene, {.over = over, .maxima = maxima, .stability = range.stability}, options);
+            Asked asked;
+            if constexpr (requires { range.over; }) asked.over = range.over;
+            asked.maxima = drawn == BranchKind::peaks || drawn == BranchKind::folds;
+            asked.mode = drawn == BranchKind::modes;
+            if constexpr (requires { range.stability; }) asked.stability = range.stability;
+            return branches(scene, asked, options);
           },
       .figures = [](const scene::Scene& scene,
                     Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; }};

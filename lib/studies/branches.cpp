@@ -25,6 +25,14 @@ bool has_stability(const ResponseBranch& branch) {
                      [](const ResponsePoint& point) { return point.stability.has_value(); });
 }
 
+// What the points of a branch have.
+Asked asked_of(const ResponseBranch& branch) {
+  return {.over = branch.over,
+          .maxima = has_maxima(branch),
+          .mode = !branch.points.empty() && !std::isnan(branch.points.front().damping_ratio),
+          .stability = has_stability(branch)};
+}
+
 /// The tables of branches with the same columns.
 struct Tables {
   Tables(const scene::Scene& scene, Asked asked) : points(responses(scene, asked)) {
@@ -36,7 +44,7 @@ struct Tables {
                [](const ResponseEvent& event) { return event.located; });
     events.add({"after"}, "", "index of the preceding point",
                [](const ResponseEvent& event) { return event.after; });
-    asked.maxima = true;
+    asked.maxima = !asked.mode;
     events.add(responses(scene, asked), [](const ResponseEvent& event) { return &event.point; });
   }
 
@@ -45,13 +53,14 @@ struct Tables {
 };
 
 std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked) {
-  const std::string& over = asked.over;
   std::vector<results::Shown> all;
-  if (!over.empty()) all.push_back({results::with_unit(over, parameter_unit(scene, over)), {over}});
+  if (!asked.over.empty())
+    all.push_back({results::with_unit(asked.over, parameter_unit(scene, asked.over)), {asked.over}});
   all.push_back({"event", {"kind"}});
   all.push_back(
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"});
-  all.push_back({"A_max (m)", {"amplitude"}, "%.8e", "unbounded"});
+  all.push_back({asked.mode ? "A (m)" : "A_max (m)", {"amplitude"}, "%.8e", "unbounded"});
+  if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});
   add_stick(scene, all);
   if (asked.stability) all.push_back({"stable", {"stable"}});
   return all;
@@ -102,15 +111,15 @@ Described<ResponseBranch> branches(const scene::Scene& scene, Asked asked, const
 results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> all,
                             const RunOptions& options) {
   results::Results found{header(scene), {}, {}};
-  std::map<std::tuple<std::string, bool, bool>, std::size_t>
+  std::map<std::tuple<std::string, bool, bool, bool>, std::size_t>
       index;  // of schemas, by their distinguishing columns
   std::vector<Described<ResponseBranch>> described;
   for (const ResponseBranch& branch : all) {
-    const bool maxima = has_maxima(branch), stability = has_stability(branch);
-    const auto [at, is_new] = index.try_emplace({branch.over, maxima, stability}, described.size());
+    const Asked asked = asked_of(branch);
+    const auto [at, is_new] =
+        index.try_emplace({asked.over, asked.maxima, asked.mode, asked.stability}, described.size());
     if (is_new) {
-      described.push_back(
-          branches(scene, {.over = branch.over, .maxima = maxima, .stability = stability}, options));
+      described.push_back(branches(scene, asked, options));
       found.schemas.push_back(described.back().schema);
     }
     add_columns(scene, branch.set, found.schemas[at->second].set);

@@ -12,8 +12,7 @@
 
 namespace arcslip::studies {
 
-/// The schema of a study, with these columns in its points, and coefficients by the options. See
-/// docs/results.md for all fields.
+/// The schema of a study, with the columns asked of its points. See docs/results.md for all fields.
 Described<observables::ResponseBranch> branches(const scene::Scene& scene, Asked asked,
                                                 const RunOptions& options);
 

@@ -16,6 +16,7 @@ const scene::StudyType& peaks();  // resonance peaks over a parameter; observabl
 const scene::StudyType& folds();  // folds over a parameter; observables::CurveRange
 const scene::StudyType& time();   // time integration; observables::TimeSettings
 const scene::StudyType& point();  // responses at one frequency; observables::PointSettings
+const scene::StudyType& modes();  // nonlinear modes over the amplitude; observables::ModeRange
 
 /// All of them.
 scene::Catalogue catalogue();

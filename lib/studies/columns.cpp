@@ -40,6 +40,9 @@ void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::
     if ((!asked.maxima && quantity.path.starts_with("maxima.")) ||
         (!asked.amplitude && quantity.path == "amplitude"))
       continue;
+    if (!std::is_same_v<Of, observables::ElementResponse> && asked.mode &&
+        !observables::is_of_modes(quantity.path))
+      continue;
     std::vector<std::string> path = prefix;
     for (std::string& key : keys(quantity.path)) path.push_back(std::move(key));
     const bool is_frequency = quantity.unit == observables::frequency_unit;
@@ -77,6 +80,10 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
         observables::stability_quantities(), scene, scene, asked, {},
         [](const ResponsePoint& response) { return response.stability ? &*response.stability : nullptr; },
         table);
+  if (asked.mode)
+    add(
+        observables::mode_quantities(), scene, scene, {}, {},
+        [](const ResponsePoint& response) { return &response; }, table);
   const std::vector<scene::Part> elements = scene::all_elements(scene);
   for (std::size_t e = 0; e < elements.size(); ++e)
     if (elements[e].detailed)
@@ -96,7 +103,8 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
   for (std::size_t r = 0; r < scene.responses.size(); ++r)
     if (const scene::Response& named = scene.responses[r]; !named.name.empty())
       add(
-          observables::named_response_quantities(), named, scene, {}, {"responses", named.name},
+          observables::named_response_quantities(), named, scene, {.mode = asked.mode},
+          {"responses", named.name},
           [r](const ResponsePoint& response) {
             return r < response.responses.size() ? &response.responses[r] : nullptr;
           },

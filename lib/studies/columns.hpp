@@ -21,6 +21,7 @@ struct Asked {
   bool maxima = false;        // over the period
   bool coefficients = false;  // Fourier coefficients of the response
   bool amplitude = true;      // false: given elsewhere
+  bool mode = false;          // of modes
   bool stability = false;     // Floquet multipliers
 };
 

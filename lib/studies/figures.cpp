@@ -58,10 +58,16 @@ using results::Record;
 using results::Scale;
 
 constexpr double decade = 10;
+constexpr std::size_t damping_column = 2;  // of modes
 
 Record record(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
               const ResponsePoint& point) {
   Record values;
+  if (kind == BranchKind::modes) {
+    values = {point.amplitude, in_scene_unit(scene, point.omega), point.damping_ratio};
+    for (const Share& share : shares) values.push_back(percent(point, share));
+    return values;
+  }
   if (kind != BranchKind::responses) values.push_back(point.over);
   values.push_back(in_scene_unit(scene, point.omega));
   values.push_back(point.unbounded ? observables::no_value : point.amplitude);
@@ -76,6 +82,7 @@ void set_ranges(BranchKind kind, FigureData& data) {
     FigureColumn& column = data.columns[i];
     column.range = results::full_range(data, i);
     if (column.scale == Scale::percent || i == frequency_column(kind)) continue;
+    if (kind == BranchKind::modes && i == damping_column) continue;
     const bool is_amplitude = i == amplitude_column(kind);
     const Range positive = is_amplitude ? results::range_of(data, i, 0) : column.range;
     if (positive.lower > 0 && positive.upper >= positive.lower &&
@@ -88,12 +95,14 @@ void set_ranges(BranchKind kind, FigureData& data) {
 
 void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
                  const std::string& over, FigureData& data) {
-  if (kind != BranchKind::responses)
+  const FigureColumn amplitude{results::with_unit(label_of(scene, "amplitude"), "m")};
+  if (kind == BranchKind::modes) data.columns.push_back(amplitude);
+  if (kind != BranchKind::responses && kind != BranchKind::modes)
     data.columns.push_back(
         {results::with_unit(label_of(scene, over), over.empty() ? "" : parameter_unit(scene, over))});
   data.columns.push_back(
       {results::with_unit(label_of(scene, "frequency"), scene::unit_name(scene.frequency_unit))});
-  data.columns.push_back({results::with_unit(label_of(scene, "amplitude"), "m")});
+  data.columns.push_back(kind == BranchKind::modes ? FigureColumn{"damping ratio"} : amplitude);
   for (const Share& share : shares)
     data.columns.push_back({share.element + " " + share.state + " (%)", Scale::percent});
 }
@@ -101,6 +110,7 @@ void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<S
 /// A figure for each state of each contact, with its share on one of the axes.
 void add_share_figures(BranchKind kind, const std::vector<Share>& shares, const Figure& first,
                        bool over_share, FigureData& data) {
+  const std::size_t first_share_column = frequency_column(kind) + 2;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const Share& share = shares[i];
     const auto of_state = std::count_if(shares.begin(), shares.end(),
@@ -108,7 +118,7 @@ void add_share_figures(BranchKind kind, const std::vector<Share>& shares, const 
     Figure figure = first;
     figure.name += share.state;
     std::string& label = over_share ? figure.x_label : figure.y_label;
-    (over_share ? figure.x : figure.y) = amplitude_column(kind) + 1 + i;
+    (over_share ? figure.x : figure.y) = first_share_column + i;
     label = share.state + " (% of the period)";
     if (of_state > 1) {
       figure.name += "_" + share.element;
@@ -131,6 +141,10 @@ void set_figures(const scene::Scene& scene, BranchKind kind, const std::vector<S
     add_share_figures(kind, shares, {"amplitude_over_", 0, amplitude, "", peak}, true, data);
   } else if (kind == BranchKind::folds) {
     data.figures = {{"folds", frequency, 0, frequency_label, over}};
+  } else if (kind == BranchKind::modes) {
+    data.figures = {{"frequency", amplitude, frequency, amplitude_label, frequency_label},
+                    {"damping_ratio", amplitude, damping_column, amplitude_label, "damping ratio"}};
+    add_share_figures(kind, shares, {"", amplitude, 0, amplitude_label, ""}, false, data);
   } else {  // responses, also those of optima
     data.figures = {{"amplitude", 0, amplitude, over, amplitude_label}};
     add_share_figures(kind, shares, {"", 0, 0, over, ""}, false, data);
@@ -144,7 +158,7 @@ std::size_t frequency_column(BranchKind kind) {
 }
 
 std::size_t amplitude_column(BranchKind kind) {
-  return frequency_column(kind) + 1;
+  return kind == BranchKind::modes ? 0 : frequency_column(kind) + 1;
 }
 
 FigureLine line_of(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {

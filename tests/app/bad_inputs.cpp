@@ -56,8 +56,15 @@ std::vector<BadInput> make() {
       // the command line
       line("no verb", {}, "Give a verb and a scene"),
       line("an unknown verb", {"fry", "scene.json"},
-           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, time, point, optimize, check or "
+           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, time, point, modes, optimize, check "
+           "or "
            "schema"),
+      line("an amplitude that is no number", {"modes", "scene.json", "--amplitude", "x", "1"},
+           "--amplitude x: must be two numbers, [from, to], 0 < from < to"),
+      line("one amplitude", {"modes", "scene.json", "--amplitude", "1"},
+           "--amplitude: At least 2 required but received 1"),
+      line("amplitudes that fall", {"modes", "scene.json", "--amplitude", "1", "0.5"},
+           "--amplitude 1 0.5: found 0.5, must be above the lower end, which is 1 m"),
       line("no scene", {"run"}, "SCENE is required"),
       line("an unknown option", {"frf", "scene.json", "--harmonic", "3"},
            "The following arguments were not expected: 3 --harmonic"),

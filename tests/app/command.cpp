@@ -211,6 +211,33 @@ TEST_CASE("a study over a parameter that cannot begin is told, with exit code 3 
   CHECK(Json::parse(place.read("a.json"))["branches"][0]["status"] == "failed");
 }
 
+TEST_CASE("modes writes the mode of the describing function, and says which mode there is not") {
+  const Workplace place;
+  const Ended ended = run(place, {"modes", "scene.json", "--harmonics", "1", "--set", "damper.normal_load=3",
+                                  "--amplitude", "1e-5", "1e-2", "--json", "a.json", "--csv", "a.csv"});
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.out.find("damping ratio") != std::string::npos);
+  const Json branch = Json::parse(place.read("a.json"))["branches"][0];
+  CHECK(branch["kind"] == "modes");
+  REQUIRE(branch["events"].size() == 3);
+  CHECK(branch["events"][0]["kind"] == "start");
+  CHECK(branch["events"][1]["kind"] == "maximum");
+  CHECK(branch["events"][2]["kind"] == "end");
+  for (const Json& point : branch["points"])
+    for (const char* of_forced : {"phase", "truncation_estimate", "force_per_displacement", "maxima"})
+      CHECK_FALSE(point.contains(of_forced));
+  // Stuck: sqrt((k + k_d)/m), and c/(2 sqrt((k + k_d) m)).
+  const double omega = std::sqrt((17890.0 + 3500) / 1.24);
+  CHECK(branch["points"][0]["omega"].get<double>() == Approx(omega).epsilon(1e-12));
+  CHECK(branch["points"][0]["damping_ratio"].get<double>() ==
+        Approx(0.134 / (2 * 1.24 * omega)).epsilon(1e-10));
+  CHECK(branch["points"][0]["energy"].get<double>() == Approx(0.5e-10 * (17890 + 3500)).epsilon(1e-10));
+  CHECK(place.read("a.csv").find(",damping_ratio (-),energy (J)") != std::string::npos);
+  const Ended none = run(place, {"modes", "scene.json", "--mode", "2", "--amplitude", "1e-5", "1e-2"});
+  CHECK(none.exit_code == 3);
+  CHECK(none.err.find("mode 2 does not exist: the structure has 1 mode") != std::string::npos);
+}
+
 TEST_CASE("the resolved scene that run leaves gives the same results again, with the same hash") {
   const Workplace place;
   const std::vector<std::string> changes{"--set", "damper.normal_load=3", "--harmonics", "7"};
@@ -355,6 +382,7 @@ TEST_CASE("help and version stand on standard output") {
                                                     {"peaks", "-h"},
                                                     {"folds", "-h"},
                                                     {"time", "-h"},
+                                                    {"modes", "-h"},
                                                     {"check", "--help"}}) {
     const Ended help = run(place, arguments);
     CHECK(help.exit_code == 0);

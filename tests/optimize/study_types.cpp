@@ -93,7 +93,8 @@ std::string studies_of_all_kinds() {
      "scatter": {"damper.friction_coefficient": [0.4, 0.6]},
      "constraints": [{"observable": "energy_friction", "at_most": 1},
                      {"sum": {"damper.normal_load": 1}, "at_least": 0.5}]},
-    {"kind": "point", "frequency": 20}])";
+    {"kind": "point", "frequency": 20},
+    {"kind": "modes", "mode": 1, "amplitude": [1e-5, 1e-2]}])";
 }
 
 scene::Scene scene_with_all_kinds() {

@@ -61,8 +61,8 @@ TEST_CASE("the documentation of results has the rows of the table of quantities"
   text << file.rdbuf();
   for (const auto& wanted :
        {rows(observables::response_quantities()), rows(observables::stability_quantities()),
-        rows(observables::element_quantities()), rows(observables::patch_quantities()),
-        rows(observables::named_response_quantities())}) {
+        rows(observables::mode_quantities()), rows(observables::element_quantities()),
+        rows(observables::patch_quantities()), rows(observables::named_response_quantities())}) {
     INFO("the table is to be:\n" << wanted);
     CHECK(text.str().find(wanted) != std::string::npos);
   }
@@ -141,7 +141,10 @@ TEST_CASE("responses that a scene names have columns of their own, each as if it
 }
 
 TEST_CASE("the parameter of a study has no name by which points have a quantity") {
-  for (const auto& each : observables::response_quantities()) {
+  std::vector<observables::ResponseQuantity> all(observables::response_quantities().begin(),
+                                                 observables::response_quantities().end());
+  all.insert(all.end(), observables::mode_quantities().begin(), observables::mode_quantities().end());
+  for (const auto& each : all) {
     const std::string_view top = each.path.substr(0, each.path.find('.'));
     if (top == "frequency") continue;  // which no parameter of a scene is called
     CAPTURE(std::string(top));

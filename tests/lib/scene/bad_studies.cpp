@@ -15,7 +15,7 @@ void add_studies(std::vector<BadScene>& rows) {
                   "found no key \"kind\", which is required: must be one of \"frf\""});
   rows.push_back({"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
                   "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"time\", "
-                  "\"point\", \"optimum\"; did you "
+                  "\"point\", \"modes\", \"optimum\"; did you "
                   "mean \"frf\"?"});
   rows.push_back({"kind that is no string", with_study("{\"kind\": 1}"), "/studies/0/kind",
                   "found 1 (a number), must be one of \"frf\""});
@@ -224,6 +224,23 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "\"optimum\", must be");
   add("steps in a frequency response", "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"steps\": 100", "steps",
       "found the key \"steps\", which belongs to studies of kind \"time\", \"point\", must be");
+  const std::string mode = "\"kind\": \"modes\", ";
+  add("mode without amplitudes", mode + "\"mode\": 1", "amplitude",
+      "found no key \"amplitude\", which is required: must be two values [from, to], each above 0 and at "
+      "most "
+      "1e+100 m");
+  add("mode at one amplitude", mode + "\"amplitude\": 1", "amplitude",
+      "found 1 (a number), must be two values [from, to], each above 0");
+  add("mode at three amplitudes", mode + "\"amplitude\": [1, 2, 3]", "amplitude",
+      "found a list of 3, must be two values [from, to]");
+  add("mode from amplitude zero", mode + "\"amplitude\": [0, 1]", "amplitude/0", "found 0, must be above 0");
+  add("mode to a smaller amplitude", mode + "\"amplitude\": [1, 0.5]", "amplitude/1",
+      "found 0.5, must be above the lower end, which is 1 m");
+  add("mode number zero", mode + "\"amplitude\": [1, 2], \"mode\": 0", "mode",
+      "found 0, must be an integer from 1 to 10000");
+  add("amplitudes of a frequency response",
+      "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"amplitude\": [1, 2]", "amplitude",
+      "found the key \"amplitude\", which belongs to studies of kind \"modes\", must be");
   add("misspelt key of a motion in time", at + "\"step\": 100", "step", "did you mean \"steps\"?");
 }
 

@@ -1,0 +1,150 @@
+#include <arcslip/hbm/mode_start.hpp>
+
+#include <arcslip/continuation/tracing/corrector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace arcslip::hbm {
+namespace {
+
+constexpr int decades = 9;                // of the amplitude, down to where contacts stick
+constexpr double close_frequency = 0.02;  // of omega and v to the linear mode, relative
+constexpr double close_shape = 0.1;
+constexpr double at_a_node = 1e-9;  // the response over the largest coordinate
+constexpr double same_frequency = 1e-9;
+
+// The static displacement: the means of the motion without excitation.
+std::optional<Vector> rest_of(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+                              const std::function<bool()>& go_on) {
+  Vector rest = Vector::Zero(problem->size());
+  if (problem->harmonics().odd) return rest;
+  const auto at = problem->hbm_evaluator();
+  if (at->move_to(rest, p, continuation::Needs::residual) != continuation::Evaluated::ok) return {};
+  if (at->residual().isZero(0)) return rest;
+  const auto found = steady_state(problem, p, go_on);
+  if (!found) return {};
+  for (int i = 0; i < problem->blocks(); ++i)
+    rest[i * problem->harmonics().size()] = (*found)[i * problem->harmonics().size()];
+  return rest;
+}
+
+std::string text(double value) {
+  std::ostringstream s;
+  s.precision(8);
+  s << value;
+  return s.str();
+}
+
+// Why the mode j, counted from 0, is none to start from.
+std::string no_oscillation(const std::vector<LinearMode>& modes, std::size_t j) {
+  using Kind = LinearMode::Kind;
+  if (modes.empty())
+    return "the structure at rest has no modes: no mass, or neither mass nor spring, holds a part of it";
+  if (j >= modes.size())
+    return "mode " + std::to_string(j + 1) + " does not exist: the structure has " +
+           std::to_string(modes.size()) + (modes.size() == 1 ? " mode" : " modes");
+  if (modes[j].kind == Kind::oscillation) return {};
+  const auto first = std::find_if(modes.begin(), modes.end(),
+                                  [](const LinearMode& mode) { return mode.kind == Kind::oscillation; });
+  std::string why =
+      "mode " + std::to_string(j + 1) +
+      (modes[j].kind == Kind::rigid_body ? " is a motion that no spring resists, of frequency 0"
+                                         : " does not oscillate: the structure at rest is unstable");
+  if (first != modes.end())
+    why += "; the first mode that oscillates is mode " + std::to_string(first - modes.begin() + 1);
+  return why;
+}
+
+}  // namespace
+
+ModeStart mode_start(const std::shared_ptr<const model::Model>& model, int mode, double amplitude,
+                     const std::function<bool()>& go_on) {
+  const auto j = static_cast<std::size_t>(mode - 1);
+  ModeStart start;
+  start.amplitude = amplitude;
+  const HbmProblem plain(model, model->harmonics, amplitude, 1, 0.0);
+  std::vector<LinearMode> modes = linear_modes(plain, parameters_at(plain, 1), nullptr, 1);
+  if (start.no_mode = no_oscillation(modes, j); modes.size() <= j) return start;
+  // Without a frequency yet, as where the mean of a contact holds the structure: that of a neighbour.
+  double omega = modes[j].omega;
+  for (const LinearMode& each : modes)
+    if (omega == 0) omega = each.omega;
+  if (omega == 0) return start;
+
+  const auto motions = std::make_shared<const HbmProblem>(model, model->harmonics, amplitude, omega, omega);
+  Vector p = parameters_at(*motions, omega);
+  const auto rest = rest_of(motions, p, go_on);
+  if (!rest) {
+    start.failure = "no static displacement was found under the loads that do not change";
+    return start;
+  }
+  const Vector response = motions->coordinates().P.transpose() * motions->model().response;
+  const auto at = motions->hbm_evaluator();
+  modes = linear_modes(*motions, p, nullptr, omega);
+  double in_response = 0;
+  for (int pass = 0;; ++pass) {
+    if (start.no_mode = no_oscillation(modes, j); !start.no_mode.empty()) return start;
+    const LinearMode& linear = modes[j];
+    omega = p[model::frequency] = linear.omega;
+    const double largest = linear.shape.cwiseAbs().maxCoeff();
+    in_response = response.dot(linear.shape);
+    if (std::abs(in_response) <= at_a_node * largest) {
+      start.no_mode = "mode " + std::to_string(mode) +
+                      " does not move the response, which is at one of its nodes; choose another response";
+      return start;
+    }
+    if (linear.shape.head(motions->coordinates().unknowns).cwiseAbs().maxCoeff() <= at_a_node * largest) {
+      start.no_mode = "mode " + std::to_string(mode) + " moves no element: it is linear, of " + text(omega) +
+                      " rad/s and the damping ratio " + text(linear.damping_ratio + 0.0) +
+                      " at every amplitude";
+      return start;
+    }
+    for (std::size_t other = 0; other < modes.size(); ++other)
+      if (other != j && std::abs(modes[other].omega - omega) <= same_frequency * omega) {
+        start.no_mode = "mode " + std::to_string(mode) + " has the frequency of mode " +
+                        std::to_string(other + 1) + ", so that neither has a shape of its own";
+        return start;
+      }
+    if (pass == 2) break;
+    const double tiny = std::pow(10, -decades) * amplitude / in_response;
+    if (at->move_to(*rest + tiny * unknowns_of(*motions, linear.shape), p, continuation::Needs::jacobian) !=
+        continuation::Evaluated::ok) {
+      start.failure = "the equations could not be evaluated next to rest";
+      return start;
+    }
+    modes = linear_modes(*motions, p, at.get(), omega);
+  }
+  const LinearMode& linear = modes[j];
+
+  start.problem = std::make_shared<const ModeProblem>(motions, *rest, omega);
+  const int n = motions->size();
+  Vector guess(n + 3);
+  guess << unknowns_of(*motions, linear.shape) / in_response, 0, linear.damping_ratio, 0;
+  continuation::NewtonOptions newton;
+  newton.iterations = 30;
+  bool found = false;
+  for (int k = 0; k <= decades && (!go_on || go_on()); ++k) {
+    const double at_amplitude = std::pow(10, -k) * amplitude;
+    guess[n + 2] = std::log(at_amplitude);
+    continuation::Counts counts;
+    continuation::Corrector corrector(*start.problem, guess.tail(1), 0, newton, counts);
+    Vector v = guess;
+    if (!corrector.correct(v, Vector::Unit(n + 3, n + 2), false).converged) continue;
+    found = true;
+    start.u = v.head(n + 2);
+    start.amplitude = at_amplitude;
+    if (std::abs(v[n]) <= close_frequency && (v - guess).head(n).norm() <= close_shape * guess.head(n).norm())
+      break;
+  }
+  if (found) return start;
+  start.failure = "Newton's method failed from the linear mode of " + text(omega) +
+                  " rad/s, at amplitudes from " + text(amplitude) + " m down to " +
+                  text(std::pow(10, -decades) * amplitude) + " m";
+  return start;
+}
+
+}  // namespace arcslip::hbm

@@ -1,0 +1,255 @@
+#include <arcslip/observables/nonlinear_modes.hpp>
+
+#include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/hbm/mode_start.hpp>
+#include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/mechanical_energy.hpp>
+#include <arcslip/observables/observe.hpp>
+#include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/study_branches.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::Accepted;
+using continuation::Crossing;
+using continuation::StopReason;
+using continuation::Vector;
+
+constexpr double points_in_range = 150;   // at least
+constexpr double curve_tolerance = 1e-5;  // as of frequency responses
+constexpr double resolvable = 1e8;        // |u| over that at the start
+
+std::string metres(double amplitude) {
+  std::ostringstream s;
+  s.precision(8);
+  s << amplitude << " m";
+  return s.str();
+}
+
+// An extremum of the damping ratio: of 1 + zeta, next to which rounding counts for nothing.
+continuation::Monitor extremum(const char* kind, Crossing crossing, bool divides) {
+  const auto zeta = [](const Accepted& now) { return now.u.size() - 1; };
+  continuation::Monitor monitor{kind, [zeta](const Accepted& now) { return now.tangent[zeta(now)]; },
+                                crossing, [zeta](const Accepted& now) { return 1 + now.u[zeta(now)]; }};
+  monitor.divides_at_kinks = divides;
+  return monitor;
+}
+
+class Modes {
+ public:
+  Modes(const scene::Scene& scene, const ModeRange& range, const results::ProgressCallback& progress)
+      : unit_(scene.frequency_unit),
+        range_(range),
+        progress_(progress),
+        model_(std::make_shared<const model::Model>(model::build(scene))),
+        free_(std::make_shared<const model::Model>(hbm::without_excitation(*model_))) {
+    if (range.mode < 1 || !(range.from > 0) || !(range.from < range.to))
+      throw std::invalid_argument("a mode needs a number from 1 on and amplitudes 0 < from < to");
+  }
+
+  ResponseBranch run() {
+    const auto began = std::chrono::steady_clock::now();
+    result_ = described(*model_);
+    trace();
+    result_.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return std::move(result_);
+  }
+
+ private:
+  void trace() {
+    if (const std::string why = refusal(); !why.empty()) return fail(reasons::no_mode, why);
+    const Vector p = model::defaults(*free_);
+    if (const auto dof = model::drifting_dof(*free_, p))
+      return fail(reasons::start_failed, "no spring holds the mean position of \"" +
+                                             free_->dof_names[static_cast<std::size_t>(*dof)] +
+                                             "\", which is free to drift");
+    hbm::ModeStart start = hbm::mode_start(free_, range_.mode, range_.from, [this] { return go_on(); });
+    if (stopped_) return stop();
+    if (!start.no_mode.empty()) return fail(reasons::no_mode, start.no_mode);
+    if (!start.failure.empty()) return fail(reasons::start_failed, start.failure);
+    const auto problem = start.problem;
+    result_.solver.unknowns = problem->size();
+    Vector u = start.u;
+    if (start.amplitude < range_.from) {
+      const auto ahead = branch(problem, u, start.amplitude, range_.from, {});
+      add(ahead.counts, result_.solver);
+      if (stopped_) return stop();
+      if (ahead.stop.reason != StopReason::boundary || ahead.stop.value < std::log(range_.from))
+        return fail(reasons::start_failed, "mode " + std::to_string(range_.mode) + " was not found at " +
+                                               metres(range_.from) + ": followed from " +
+                                               metres(start.amplitude) + ", " + ahead.stop.message);
+      u = ahead.points.back().u;
+    }
+    observer_ = std::make_unique<Observer>(problem->shared_motions());
+    energy_ = std::make_unique<MechanicalEnergy>(problem->shared_motions());
+    const auto traced = branch(
+        problem, u, range_.from, range_.to,
+        [&](const Accepted& now, const continuation::Event* event) { return record(*problem, now, event); });
+    add(traced.counts, result_.solver);
+    finish(traced);
+    drop_rounding();
+    add_ends();
+  }
+
+  // Why there is no mode to look for.
+  std::string refusal() const {
+    for (const auto& element : free_->elements)
+      if (element.law->set_valued())
+        return "the friction of \"" + element.name +
+               "\" has no stiffness, and stops motions of small amplitudes; give the contact a stiffness";
+    if (!free_->harmonics.has(free_->harmonics.excited(1)))
+      return "the fundamental is not among the harmonics: raise their order to their period at least";
+    return {};
+  }
+
+  continuation::Branch branch(const std::shared_ptr<const hbm::ModeProblem>& problem, const Vector& u,
+                              double from, double to, const continuation::Observer& record) {
+    continuation::Options options;
+    options.lower = std::log(from);
+    options.upper = std::log(to);
+    options.check_jacobian = false;
+    options.step.largest_parameter = (options.upper - options.lower) / points_in_range;
+    options.step.curve_tolerance = curve_tolerance;
+    options.largest_state = resolvable;
+    options.go_on = [this] { return go_on(); };
+    const bool divides = free_->settings.friction == scene::Friction::exact;
+    std::vector<continuation::Monitor> monitors;
+    if (record) {
+      monitors = {extremum(event_kinds::maximum, Crossing::falling, divides),
+                  extremum(event_kinds::minimum, Crossing::rising, divides), continuation::fold_monitor()};
+      monitors.back().divides_at_kinks = false;
+    }
+    auto traced = continuation::trace(problem, {u, Vector::Constant(1, options.lower), 0, 1}, options,
+                                      monitors, record);
+    speak_of_scene(*model_, model::defaults(*model_), traced);
+    return traced;
+  }
+
+  bool record(const hbm::ModeProblem& problem, const Accepted& now, const continuation::Event* event) {
+    ResponsePoint point = observe(problem, static_cast<const hbm::ModeEvaluator&>(now.at));
+    if (event) {
+      at_.push_back(now.arclength);
+      result_.events.push_back(
+          {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
+      return true;
+    }
+    course_.emplace_back(now.arclength, 1 + point.damping_ratio);
+    told_.points = static_cast<long>(result_.points.size()) + 1;
+    told_.step = (point.omega - last_) / scene::to_rad_per_s(unit_);
+    last_ = point.omega;
+    told_.frequency = last_ / scene::to_rad_per_s(unit_);
+    told_.share_done =
+        std::clamp(std::log(point.amplitude / range_.from) / std::log(range_.to / range_.from), 0.0, 1.0);
+    result_.points.push_back(std::move(point));
+    return go_on();
+  }
+
+  ResponsePoint observe(const hbm::ModeProblem& problem, const hbm::ModeEvaluator& at) {
+    ResponsePoint point = observer_->motion(at.motion(), at.unknowns(), at.parameters());
+    point.amplitude = at.amplitude();
+    point.damping_ratio = at.damping_ratio();
+    point.energy = energy_->of(at.motion(), at.unknowns(), problem.rest());
+    // The work of 2 zeta omega M x' in a period, which the damping of the motion has as a loss.
+    const auto& h = problem.motions().harmonics();
+    const auto& Z = at.motion().stiffness();
+    double work = 0;
+    for (int j = 0; j < h.sines(); ++j) {
+      const int n = h.sine_order(j);
+      work += n * n * Z.quadratic_forms(n, at.unknowns(), 0).mass;
+    }
+    point.energy_input = 2 * std::numbers::pi * at.damping_ratio() * at.omega() * Z.base_frequency() * work;
+    point.energy_viscous += point.energy_input;
+    return point;
+  }
+
+  // Reports progress and checks for a stop, also between points.
+  bool go_on() {
+    if (!stopped_ && progress_ && !progress_(told_)) stopped_ = true;
+    return !stopped_;
+  }
+
+  void stop() {
+    result_.status = Status::stopped;
+    result_.stop = {reasons::user, range_.from, range_.to, "stopped by the caller"};
+  }
+
+  void fail(const results::Reason& reason, const std::string& why) {
+    result_.status = Status::failed;
+    result_.stop = {reason, range_.from, 0, why};
+  }
+
+  void finish(const continuation::Branch& traced) {
+    result_.status = status_of(traced.stop.reason);
+    result_.stop = {reason_of(traced.stop.reason), traced.stop.value, traced.stop.limit, traced.stop.message};
+    if (traced.stop.reason == StopReason::state_too_large && !result_.points.empty())
+      result_.stop.message =
+          "the motion of the structure grew more than 1e8 times over that of the response, near " +
+          metres(result_.points.back().amplitude) + "; choose another response";
+    if (traced.stop.reason != StopReason::boundary) return;
+    const ResponsePoint& last = result_.points.back();
+    result_.stop.value = last.amplitude;
+    result_.stop.limit = range_.to;
+    if (traced.stop.value == std::log(range_.to)) {
+      std::ostringstream damping;
+      damping.precision(6);
+      damping << last.damping_ratio;
+      result_.stop.message = "reached the end of the range at " + metres(range_.to) + ": " +
+                             frequency_text(last.omega, unit_) + ", damping ratio " + damping.str();
+      return;
+    }
+    result_.status = Status::stopped;
+    double highest = range_.from;
+    for (const auto& event : result_.events) highest = std::max(highest, event.point.amplitude);
+    result_.stop.message =
+        "turned back at " + metres(highest) + " and left the range at its start, " + metres(range_.from);
+  }
+
+  // Extrema of a damping ratio that changes by its rounding only, as while all contacts stick, are none.
+  void drop_rounding() {
+    for (std::size_t i = at_.size(); i-- > 0;)
+      if (result_.events[i].kind != event_kinds::fold &&
+          !departs(course_, at_[i], 1 + result_.events[i].point.damping_ratio))
+        result_.events.erase(result_.events.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
+  // The first and the last point are events too: of a mode without others, all that is told of it in short.
+  void add_ends() {
+    if (result_.points.empty()) return;
+    const auto end = [](const char* kind, const ResponsePoint& point, std::size_t after) {
+      return ResponseEvent{kind, false, true, point, after};
+    };
+    result_.events.insert(result_.events.begin(), end(event_kinds::start, result_.points.front(), 0));
+    result_.events.push_back(end(event_kinds::end, result_.points.back(), result_.points.size() - 1));
+  }
+
+  scene::FrequencyUnit unit_;
+  ModeRange range_;
+  const results::ProgressCallback& progress_;
+  std::shared_ptr<const model::Model> model_, free_;
+  std::unique_ptr<Observer> observer_;
+  std::unique_ptr<MechanicalEnergy> energy_;
+  ResponseBranch result_;
+  std::vector<std::pair<double, double>> course_;  // arclength, 1 + zeta
+  std::vector<double> at_;                         // arclength of the events
+  results::Progress told_{};
+  double last_ = 0;  // rad/s
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::vector<ResponseBranch> nonlinear_modes(const scene::Scene& scene, const ModeRange& range,
+                                            const results::ProgressCallback& progress) {
+  return {Modes(scene, range, progress).run()};
+}
+
+}  // namespace arcslip::observables
