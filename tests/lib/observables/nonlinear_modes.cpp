@@ -1,6 +1,7 @@
 // Nonlinear modes against closed forms.
 #include "catch.hpp"
 
+#include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/model/model.hpp>
@@ -496,4 +497,41 @@ TEST_CASE(
     CHECK(largest.back().omega == Approx(largest.front().omega).epsilon(1e-9));
     CHECK(largest.back().amplitude / load == Approx(largest.front().amplitude / 5).epsilon(1e-7));
   }
+}
+
+TEST_CASE("a branch that meets another mode at three times its frequency ends there, and says so") {
+  // Through an internal resonance: the fundamental vanishes, and what remains is mode 2, stuck.
+  const scene::Scene s = random_scenes::make(1, random_scenes::Excitation::first);
+  const ResponseBranch branch = mode(s, 1, 1e-7, 1e-1);
+  CHECK(branch.status == observables::Status::failed);
+  CHECK(branch.stop.reason == observables::reasons::step_too_small);
+  check_contains(branch.stop.message, "the motion came to be one of 3 times the frequency, of another mode");
+  const ResponsePoint second = mode(s, 2, 1e-7, 1e-6).points.front(), last = branch.points.back();
+  CHECK(3 * last.omega == Approx(second.omega).epsilon(1e-8));
+  CHECK(last.damping_ratio == Approx(3 * second.damping_ratio).epsilon(1e-6));  // of 2 zeta omega M
+}
+
+TEST_CASE("random structures: most modes are whole, and what they lose is what the negative damping gives") {
+  using random_scenes::Excitation;
+  int branches = 0, complete = 0;
+  for (std::uint64_t seed = 0; seed < 25; ++seed)
+    for (const scene::Scene& s : {random_scenes::make(seed, Excitation::first),
+                                  random_scenes::make(seed, Excitation::first_and_second),
+                                  random_scenes::hard(seed), random_scenes::make_hardening(seed)})
+      for (int number = 1; number <= std::min(3, static_cast<int>(s.dofs.size())); ++number) {
+        const ResponseBranch branch = mode(s, number, 1e-7, 1e-1);
+        CAPTURE(seed, number, s.dofs.size(), branch.stop.message, branch.points.size());
+        ++branches;
+        const bool whole = branch.status == observables::Status::complete;
+        complete += whole ? 1 : 0;
+        // Others end at another mode, or where the response has a sharp corner.
+        CHECK((whole || branch.stop.reason == observables::reasons::step_too_small));
+        double worst = 0;
+        for (const ResponsePoint& point : branch.points)
+          worst = std::max(worst, std::abs(point.energy_input - point.energy_total()) /
+                                      (std::abs(point.energy_total()) + 1e-9 * point.energy));
+        CHECK(worst < 1e-7);
+      }
+  CHECK(branches > 200);
+  CHECK(complete >= 0.97 * branches);
 }
