@@ -10,6 +10,7 @@
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/histories.hpp>
+#include <arcslip/observables/nonlinear_modes.hpp>
 #include <arcslip/observables/over_parameter.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>

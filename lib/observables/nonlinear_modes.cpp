@@ -26,6 +26,7 @@ using continuation::Vector;
 
 constexpr double points_in_range = 150;   // at least
 constexpr double curve_tolerance = 1e-5;  // as of frequency responses
+constexpr double alone = 1e-3;            // of a harmonic: what the others have
 constexpr double resolvable = 1e8;        // |u| over that at the start
 
 std::string metres(double amplitude) {
@@ -190,6 +191,9 @@ class Modes {
   void finish(const continuation::Branch& traced) {
     result_.status = status_of(traced.stop.reason);
     result_.stop = {reason_of(traced.stop.reason), traced.stop.value, traced.stop.limit, traced.stop.message};
+    if (const int n = harmonic_left(); result_.status == Status::failed && n > 1)
+      result_.stop.message += "; the motion came to be one of " + std::to_string(n) +
+                              " times the frequency, of another mode, where its own fundamental vanishes";
     if (traced.stop.reason == StopReason::state_too_large && !result_.points.empty())
       result_.stop.message =
           "the motion of the structure grew more than 1e8 times over that of the response, near " +
@@ -211,6 +215,23 @@ class Modes {
     for (const auto& event : result_.events) highest = std::max(highest, event.point.amplitude);
     result_.stop.message =
         "turned back at " + metres(highest) + " and left the range at its start, " + metres(range_.from);
+  }
+
+  // The harmonic, in fundamentals, of which nearly all of the response at the last point consists; 0: none.
+  int harmonic_left() const {
+    if (result_.points.empty()) return 0;
+    const std::vector<double>& c = result_.points.back().coefficients;
+    const int period = free_->harmonics.excited(1);
+    double all = 0, largest = 0;
+    int n = 0;
+    for (std::size_t i = 0; i < result_.harmonics.size(); ++i) {
+      const double size = result_.harmonics[i] == 0 ? 0 : std::hypot(c[2 * i], c[2 * i + 1]);
+      all += size;
+      if (!(size > largest)) continue;
+      largest = size;
+      n = result_.harmonics[i];
+    }
+    return largest > (1 - alone) * all && n % period == 0 ? n / period : 0;
   }
 
   // Extrema of a damping ratio that changes by its rounding only, as while all contacts stick, are none.

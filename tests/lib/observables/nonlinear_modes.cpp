@@ -1,58 +1,48 @@
-// Nonlinear modes against closed forms.
-#include "catch.hpp"
-
-#include "lib/hbm/scenes.hpp"
+// Nonlinear modes against closed forms and published numbers.
+#include "lib/observables/modes.hpp"
 
 #include <arcslip/model/model.hpp>
-#include <arcslip/observables/nonlinear_modes.hpp>
-#include <arcslip/observables/reasons.hpp>
-#include <arcslip/studies/figures.hpp>
 
 #include <algorithm>
-
 #include <cmath>
-#include <string>
 
-using namespace arcslip;
-using observables::ResponseBranch;
-using observables::ResponsePoint;
-using scenes::parse;
+using namespace modes;
 
 namespace {
-
-// One mass, m = k = 1 unless told, with elements.
-scene::Scene oscillator(const std::string& elements, int order, const std::string& more = "",
-                        double damping = 0, const std::string& excitation = R"("harmonic": 1, "cosine": 1)") {
-  return parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
-      "springs": [{"name": "k", "at": "x", "value": 1}],
-      "dampers": [{"name": "c", "at": "x", "value": )" +
-               std::to_string(damping) + R"(}])" + more + R"(},
-    "elements": [)" +
-               elements + R"(], "excitation": [{"name": "f", "at": "x", )" + excitation +
-               R"(}], "harmonics": {"order": )" + std::to_string(order) + R"(},
-    "response": {"at": "x"}, "studies": [{"kind": "frf", "from": 0.5, "to": 2}]})");
-}
-
-ResponseBranch mode(const scene::Scene& s, int number, double from, double to) {
-  return observables::nonlinear_modes(s, {number, from, to}).front();
-}
-
-// The last point of a branch that must be complete.
-ResponsePoint at_end(const ResponseBranch& branch, double amplitude) {
-  INFO(branch.stop.message);
-  REQUIRE(branch.status == observables::Status::complete);
-  CHECK(branch.stop.reason == observables::reasons::boundary);
-  CHECK(branch.points.back().amplitude == Approx(amplitude).epsilon(1e-14));
-  return branch.points.back();
-}
-
-const char* cubic = R"({"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 1})";
 
 // omega of x'' + x + x^3 = 0 at the amplitude A: pi sqrt(1 + A^2) / (2 K(m)), m = A^2/(2 (1 + A^2)).
 double duffing(double A) {
   const double m = A * A / (2 * (1 + A * A));
   return std::numbers::pi * std::sqrt(1 + A * A) / (2 * std::comp_ellint_1(std::sqrt(m)));
+}
+
+// The paper's oscillator with one harmonic: a force cosine and a loss of the friction in closed form.
+struct ClosedForm {
+  double m = 0, k = 0, c = 0, kd = 0, limit = 0;
+
+  double stiffness(double A) const {
+    const double onset = limit / kd;
+    if (A <= onset) return kd;
+    const double theta = std::acos(1 - 2 * onset / A);
+    return kd / std::numbers::pi * (theta - 0.5 * std::sin(2 * theta));
+  }
+  double loss(double A) const { return A <= limit / kd ? 0 : 4 * limit * (A - limit / kd); }
+  double omega(double A) const { return std::sqrt((k + stiffness(A)) / m); }
+  double damping(double A) const {
+    const double w = omega(A);
+    return c / (2 * m * w) + loss(A) / (2 * std::numbers::pi * m * w * w * A * A);
+  }
+};
+
+double value_of(const scene::Scene& s, const std::string& name) {
+  const model::Model built = model::build(s);
+  return built.parameters[static_cast<std::size_t>(model::parameter_index(built, name))].value;
+}
+
+ClosedForm closed_form(const scene::Scene& s) {
+  return {value_of(s, "m.value"), value_of(s, "k.value"), value_of(s, "c.value"),
+          value_of(s, "damper.stiffness"),
+          value_of(s, "damper.friction_coefficient") * value_of(s, "damper.normal_load")};
 }
 
 }  // namespace
@@ -118,70 +108,6 @@ TEST_CASE("one mass with one Jenkins element has the frequency, the loss and the
   CHECK(std::abs(last.energy_viscous) < 1e-13);
   CHECK(last.energy == Approx(0.5 * 4 * last.omega * last.omega).epsilon(1e-11));
 }
-
-namespace {
-
-// The paper's oscillator with one harmonic: a force cosine and a loss of the friction in closed form.
-struct ClosedForm {
-  double m = 0, k = 0, c = 0, kd = 0, limit = 0;
-
-  double stiffness(double A) const {
-    const double onset = limit / kd;
-    if (A <= onset) return kd;
-    const double theta = std::acos(1 - 2 * onset / A);
-    return kd / std::numbers::pi * (theta - 0.5 * std::sin(2 * theta));
-  }
-  double loss(double A) const { return A <= limit / kd ? 0 : 4 * limit * (A - limit / kd); }
-  double omega(double A) const { return std::sqrt((k + stiffness(A)) / m); }
-  double damping(double A) const {
-    const double w = omega(A);
-    return c / (2 * m * w) + loss(A) / (2 * std::numbers::pi * m * w * w * A * A);
-  }
-};
-
-double value_of(const scene::Scene& s, const std::string& name) {
-  const model::Model built = model::build(s);
-  return built.parameters[static_cast<std::size_t>(model::parameter_index(built, name))].value;
-}
-
-ClosedForm closed_form(const scene::Scene& s) {
-  return {value_of(s, "m.value"), value_of(s, "k.value"), value_of(s, "c.value"),
-          value_of(s, "damper.stiffness"),
-          value_of(s, "damper.friction_coefficient") * value_of(s, "damper.normal_load")};
-}
-
-// m = 1, k and a Jenkins element, with a mass of the structure "m2" coupled.
-std::string two_masses(const std::string& elements, int order, const std::string& response) {
-  return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": ["x1", "x2"],
-      "masses": [{"name": "m1", "at": "x1", "value": 1}, {"name": "m2", "at": "x2", "value": 1}],
-      "springs": [{"name": "k1", "at": "x1", "value": 1}, {"name": "k12", "between": ["x1", "x2"], "value": 1},
-                  {"name": "k2", "at": "x2", "value": 1}]},
-    "elements": [)" +
-         elements + R"(], "excitation": [{"name": "f", "at": "x1", "cosine": 1}],
-    "harmonics": {"order": )" +
-         std::to_string(order) + R"(}, "response": {"at": ")" + response +
-         R"("}, "studies": [{"kind": "frf", "from": 0.5, "to": 2}]})";
-}
-
-const char* cubic_at_x1 = R"({"name": "s", "type": "cubic_spring", "at": "x1", "stiffness": 0.5})";
-
-std::string failure(const scene::Scene& s, int number, double from, double to,
-                    const results::Reason& reason) {
-  const ResponseBranch branch = mode(s, number, from, to);
-  CHECK(branch.status == observables::Status::failed);
-  CHECK(branch.stop.reason == reason);
-  CHECK(branch.points.empty());
-  CHECK(branch.events.empty());
-  return branch.stop.message;
-}
-
-void check_contains(const std::string& text, const std::string& part) {
-  INFO(text);
-  CHECK(text.find(part) != std::string::npos);
-}
-
-}  // namespace
 
 TEST_CASE(
     "with one harmonic the paper's oscillator has the mode of the describing function of its friction") {
@@ -297,7 +223,7 @@ TEST_CASE("a mass that meets a stop has the period of its two half motions") {
 TEST_CASE("a static load shifts the mode of a spring to its stiffness at rest, and counts as no amplitude") {
   // x + x^3 = 2 at x = 1: stiffness 1 + 3 x^2 = 4.
   const scene::Scene s =
-      oscillator(cubic, 9, "", 0.1, R"("harmonic": 0, "cosine": 2}, {"name": "g", "at": "x", "cosine": 1)");
+      oscillator(cubic, 9, 0.1, R"("harmonic": 0, "cosine": 2}, {"name": "g", "at": "x", "cosine": 1)");
   const ResponseBranch branch = mode(s, 1, 1e-6, 1e-2);
   at_end(branch, 1e-2);
   CHECK(branch.points.front().omega == Approx(2).epsilon(1e-9));
@@ -344,122 +270,6 @@ TEST_CASE(
   CHECK(hysteretic.points.front().omega == Approx(std::sqrt(2)).epsilon(1e-3));
   for (const ResponsePoint& point : hysteretic.points)
     CHECK(point.energy_total() == Approx(point.energy_input).epsilon(1e-9));
-}
-
-TEST_CASE("where there is no mode to follow a branch says why") {
-  using namespace observables::reasons;
-  const scene::Scene s = parse(two_masses(cubic_at_x1, 3, "x2"));
-  check_contains(failure(s, 3, 1e-3, 1, no_mode), "mode 3 does not exist: the structure has 2 modes");
-  check_contains(
-      failure(oscillator(R"({"name": "d", "type": "coulomb", "at": "x", "friction_coefficient": 0.5,
-                             "normal_load": 0.4})",
-                         3),
-              1, 1e-3, 1, no_mode),
-      "the friction of \"d\" has no stiffness");
-  check_contains(failure(oscillator(R"({"name": "s", "type": "bilinear_spring", "at": "x", "stiffness": -3,
-                                        "stiffness_beyond": 3, "corner": 1})",
-                                    3),
-                         1, 1e-3, 1, no_mode),
-                 "mode 1 does not oscillate: the structure at rest is unstable");
-  // A free pair of masses, first in odd harmonics and then with a mean.
-  const auto floating = [](const std::string& excitation) {
-    return parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": ["x1", "x2"],
-      "masses": [{"name": "m1", "at": "x1", "value": 1}, {"name": "m2", "at": "x2", "value": 1}],
-      "springs": [{"name": "k12", "between": ["x1", "x2"], "value": 1}]},
-    "elements": [{"name": "s", "type": "cubic_spring", "between": ["x1", "x2"], "stiffness": 0.5}],
-    "excitation": [{"name": "f", "at": "x1", "cosine": 1)" +
-                 excitation + R"(}],
-    "harmonics": {"order": 3}, "response": {"at": "x1"},
-    "studies": [{"kind": "frf", "from": 0.5, "to": 2}]})");
-  };
-  check_contains(
-      failure(floating(""), 1, 1e-3, 1, no_mode),
-      "mode 1 is a motion that no spring resists, of frequency 0; the first mode that oscillates is "
-      "mode 2");
-  CHECK(mode(floating(""), 2, 1e-4, 1).points.front().omega == Approx(std::sqrt(2)).epsilon(1e-6));
-  check_contains(failure(floating(R"(, "harmonic": 2)"), 2, 1e-3, 1, start_failed),
-                 "no spring holds the mean position of \"x1\"");
-  // Mode 2 of three equal masses between walls does not move the one in the middle.
-  const scene::Scene node = parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": ["a", "b", "c"],
-      "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1},
-                 {"name": "mc", "at": "c", "value": 1}],
-      "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 1},
-                  {"name": "kbc", "between": ["b", "c"], "value": 1}, {"name": "kc", "at": "c", "value": 1}]},
-    "elements": [{"name": "s", "type": "cubic_spring", "at": "b", "stiffness": 0.5}],
-    "excitation": [{"name": "f", "at": "a", "cosine": 1}], "harmonics": {"order": 3},
-    "response": {"at": "b"}, "studies": [{"kind": "frf", "from": 0.5, "to": 2}]})");
-  check_contains(failure(node, 2, 1e-3, 1, no_mode), "mode 2 does not move the response");
-  scene::Scene linear = node;
-  linear.responses.front().direction = {{0, 1.0}};
-  check_contains(failure(linear, 2, 1e-3, 1, no_mode),
-                 "mode 2 moves no element: it is linear, of 1.4142136 rad/s and the damping ratio 0");
-  // Two blades that nothing couples, and two of different stiffness: 1/k of the dampers shifts no other mode.
-  const auto pair = [](double k2) {
-    return parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", )" +
-                 scenes::uncoupled({{"a", 1, 1, 0.1}, {"b", 1, k2, 0.1}}) +
-                 R"(, "elements": [{"name": "s", "type": "cubic_spring", "at": "a", "stiffness": 0.5},
-                                   {"name": "t", "type": "cubic_spring", "at": "b", "stiffness": 0.5}],
-    "excitation": [{"name": "f", "at": "a", "cosine": 1}], "harmonics": {"order": 3},
-    "response": {"at": "b"}, "studies": [{"kind": "frf", "from": 0.5, "to": 2}]})");
-  };
-  check_contains(failure(pair(1), 1, 1e-3, 1, no_mode), "mode 1 has the frequency of mode 2");
-  CHECK(mode(pair(1.21), 2, 1e-4, 1).points.front().omega == Approx(1.1).epsilon(1e-6));
-  // Harmonics without the fundamental: a motion of three periods with two harmonics.
-  scene::Scene subharmonic = oscillator(cubic, 2);
-  subharmonic.harmonics.period = 3;
-  check_contains(failure(subharmonic, 1, 1e-3, 1, no_mode), "the fundamental is not among the harmonics");
-}
-
-TEST_CASE("a mode may be stopped, and takes only amplitudes in order and a number from 1 on") {
-  const scene::Scene s = oscillator(cubic, 5);
-  long calls = 0;
-  const auto stopped = observables::nonlinear_modes(
-      s, {1, 1e-3, 1}, [&](const results::Progress& now) { return ++calls > 0 && now.points < 5; });
-  CHECK(stopped.front().status == observables::Status::stopped);
-  CHECK(stopped.front().stop.reason == observables::reasons::user);
-  CHECK(stopped.front().points.size() == 5);
-  const auto at_once =
-      observables::nonlinear_modes(s, {1, 1e-3, 1}, [](const results::Progress&) { return false; });
-  CHECK(at_once.front().stop.reason == observables::reasons::user);
-  CHECK(at_once.front().points.empty());
-  for (const auto& bad : {observables::ModeRange{0, 1e-3, 1}, {1, 0, 1}, {1, 1, 1}, {1, 2, 1}})
-    CHECK_THROWS_AS(observables::nonlinear_modes(s, bad), std::invalid_argument);
-}
-
-TEST_CASE("figures of modes are over the amplitude: the frequency, the damping ratio, and stick") {
-  const scene::Scene s = scenes::paper(1);
-  const std::vector branches{mode(s, 1, 1e-5, 1e-2)};
-  const results::FigureData data = studies::figures_of(s, studies::BranchKind::modes, branches);
-  REQUIRE(data.columns.size() == 4);
-  CHECK(data.columns[0].label == "amplitude (m)");
-  CHECK(data.columns[0].scale == results::Scale::logarithmic);
-  CHECK(data.columns[1].label == "frequency (Hz)");
-  CHECK(data.columns[2].label == "damping ratio");
-  CHECK(data.columns[2].scale == results::Scale::linear);
-  REQUIRE(data.figures.size() == 4);
-  const char* names[] = {"frequency", "damping_ratio", "stick", "contact"};
-  for (std::size_t i = 0; i < 4; ++i) {
-    CHECK(data.figures[i].name == names[i]);
-    CHECK(data.figures[i].x == 0);
-    if (i < 3) CHECK(data.figures[i].y == i + 1);
-  }
-  const ResponsePoint& point = branches[0].points[60];
-  CHECK(data.lines[0].parts[0][60] == results::Record{point.amplitude, point.omega / scenes::hertz,
-                                                      point.damping_ratio, point.elements[0].stick_percent});
-  REQUIRE(data.lines[0].marks.size() == 1);  // no mark at the ends
-  CHECK(data.lines[0].marks[0].kind == "maximum");
-}
-
-TEST_CASE("where the motion outgrows that of the response a branch ends, and says so") {
-  // At high energy mode 3 leaves the mass c behind, which only the damper of b still moves: by c_bc b/(m_c
-  // w).
-  const ResponseBranch branch = mode(scenes::chain(3, false), 3, 1e-3, 30);
-  CHECK(branch.status == observables::Status::failed);
-  CHECK(branch.stop.reason == observables::reasons::state_too_large);
-  check_contains(branch.stop.message, "grew more than 1e8 times over that of the response");
-  check_contains(branch.stop.message, "choose another response");
 }
 
 TEST_CASE(
