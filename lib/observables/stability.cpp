@@ -37,7 +37,6 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEv
                                 const continuation::Vector& p) {
   if (!same_but_frequency(p, p_)) {
     p_ = p;
-    unknown_.clear();
     floquet_.reset();
     const int dofs = problem.model().dofs;
     if (dofs > most_dofs) {
@@ -57,8 +56,12 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEv
   }
   if (!floquet_) return false;
   time::courses_of(problem, at, courses_);
-  return floquet_->compute(problem.harmonics().base_frequency(p[model::frequency]), problem.harmonics(),
-                           courses_);
+  const double omega = problem.harmonics().base_frequency(p[model::frequency]);
+  const bool found = floquet_->compute(omega, problem.harmonics(), courses_);
+  if (!found)
+    unknown_ =
+        "at some of its points multipliers were not found, as where a law is very stiff along the motion";
+  return found;
 }
 
 int count_unstable(const Multipliers& multipliers) {

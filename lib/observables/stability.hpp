@@ -40,7 +40,8 @@ class StabilityAnalysis {
   const Multipliers& multipliers() const { return floquet_->multipliers(); }
   const Multipliers& half_multipliers() const { return floquet_->half_multipliers(); }
 
-  /// Why there are no multipliers, as the end of a sentence; empty: there are, or would be at other places.
+  /// Why there are none, or were none at one of the places so far, as the end of a sentence; empty: there
+  /// were.
   const std::string& unknown() const { return unknown_; }
 
  private:

@@ -14,8 +14,11 @@ namespace arcslip::time {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr int nodes = 4;                // of Gauss, in a piece with coefficients that change
-constexpr int pieces_at_least = 64;     // of such ones in a period
+constexpr int nodes = 4;             // of Gauss, in a piece with coefficients that change
+constexpr int pieces_at_least = 64;  // of such ones in a period
+constexpr double most_pieces = 200;  // into which one is divided further
+constexpr double fastest_turns =
+    1e12;  // of the fastest motion in a period: beyond, nothing is left of its phase
 constexpr double pieces_per_order = 2;  // of the motion's harmonics
 
 // Gauss-Legendre nodes on [0, 1].
@@ -101,6 +104,7 @@ struct Floquet::Impl {
     span = harmonics.span();
     if (!follow(harmonics, elements)) return false;
     begin(harmonics);
+    if (!(rate < fastest_turns)) return false;
     std::size_t next = 0;
     double theta = 0;
     while (true) {
@@ -109,7 +113,7 @@ struct Floquet::Impl {
       if (smooth.empty()) {
         variation.move(end - theta, rate, K, C, G, {}, W, V);
       } else {
-        move_with_smooth(theta, end, harmonics, elements);
+        if (!move_with_smooth(theta, end, harmonics, elements)) return false;
       }
       theta = end;
       if (next == changes.size()) break;
@@ -195,7 +199,8 @@ struct Floquet::Impl {
         G.noalias() -= Z.col(part.memory) * (scale * (part.over_mass * part.mode().f_z)).transpose();
   }
 
-  void move_with_smooth(double theta, double end, const elements::Harmonics& harmonics,
+  // False: too many pieces.
+  bool move_with_smooth(double theta, double end, const elements::Harmonics& harmonics,
                         const std::vector<ElementCourse>& elements) {
     const double length = end - theta;
     const int coarse = static_cast<int>(std::ceil(length / piece));
@@ -203,7 +208,9 @@ struct Floquet::Impl {
       const double from = theta + length * i / coarse, h = length / coarse;
       const double stiffest = interpolate(from, h, harmonics, elements);
       // With the largest coefficients at the nodes.
-      const int fine = std::max(1, static_cast<int>(std::ceil(h * stiffest / 2)));
+      const double needed = std::ceil(h * stiffest / 2);
+      if (!(needed <= most_pieces)) return false;
+      const int fine = std::max(1, static_cast<int>(needed));
       if (fine == 1) {
         variation.move(h, stiffest, K, C, G, variables, W, V);
         continue;
@@ -213,6 +220,7 @@ struct Floquet::Impl {
         variation.move(h / fine, finest, K, C, G, variables, W, V);
       }
     }
+    return true;
   }
 
   // Returns the rate of the fastest motion, from above, in rad/rad.

@@ -158,11 +158,12 @@ class Examination {
       const auto& problem = study.settings.as<optimize::OptimumSettings>().problem;
       return range(problem.frequency_from, problem.frequency_to);
     }
+    if (study.type == &studies::modes()) return {1, 10};  // they have none
     const auto& curve = study.settings.as<observables::CurveRange>();
     return range(curve.frequency_from, curve.frequency_to);
   }
 
-  /// The scene with a study of little work; false: it is too large.
+  /// The scene with a study of little work, and with stability; false: it is too large.
   static bool make_small(scene::Scene& s) {
     if (s.dofs.size() > most_dofs || scene::all_elements(s).size() > most_elements ||
         s.excitation.size() > most_elements)
@@ -174,7 +175,9 @@ class Examination {
     scene::Study frf{"frf", &studies::frf(), scene::Settings::of(observables::FrequencyRange{1, 10})};
     if (!s.studies.empty()) {
       const scene::Study& first = s.studies.front();
-      frf.settings = scene::Settings::of(window(first));
+      observables::FrequencyRange range = window(first);
+      range.stability = true;
+      frf.settings = scene::Settings::of(range);
       std::size_t combinations = 1;
       for (const auto& [name, values] : first.for_each)
         combinations = std::min<std::size_t>(combinations * values.size(), most_combinations + 1);
@@ -241,6 +244,9 @@ class Examination {
       fault("an energy is negative: " + std::to_string(least / energy) + " of all at " +
             std::to_string(point.omega) + " rad/s");
     for (const auto& element : point.elements) check_contact(element);
+    if (!point.stability) return;
+    for (const auto& multiplier : point.stability->multipliers)
+      if (!std::isfinite(std::abs(multiplier))) fault("a multiplier is not finite");
   }
 
   void check_contact(const observables::ElementResponse& element) {

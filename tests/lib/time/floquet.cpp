@@ -333,4 +333,8 @@ TEST_CASE("there are no multipliers along a motion that is not finite") {
   for (const double amplitude : {double(NAN), 1e200, double(INFINITY)})
     CHECK_FALSE(floquet.compute(1, {1}, cosine(equation, {1}, amplitude)));
   CHECK(floquet.compute(1, {1}, cosine(equation, {1}, 0.5)));
+  // Nor where the phase of the fastest motion has no digits, or takes more pieces than anyone waits for.
+  CHECK(floquet.compute(1, {1}, cosine(equation, {1}, 1e3)));
+  CHECK_FALSE(floquet.compute(1, {1}, cosine(equation, {1}, 1e9)));
+  CHECK_FALSE(Floquet(systems::oscillator(1, 0.1, 1e30)).compute(1, {1}, {}));
 }
