@@ -163,8 +163,8 @@ class Examination {
     return range(curve.frequency_from, curve.frequency_to);
   }
 
-  /// The scene with a study of little work, and with stability; false: it is too large.
-  static bool make_small(scene::Scene& s) {
+  /// The scene with a study of little work, some with their stability; false: it is too large.
+  bool make_small(scene::Scene& s) const {
     if (s.dofs.size() > most_dofs || scene::all_elements(s).size() > most_elements ||
         s.excitation.size() > most_elements)
       return false;
@@ -176,7 +176,7 @@ class Examination {
     if (!s.studies.empty()) {
       const scene::Study& first = s.studies.front();
       observables::FrequencyRange range = window(first);
-      range.stability = true;
+      range.stability = text_.size() % 8 == 0;
       frf.settings = scene::Settings::of(range);
       std::size_t combinations = 1;
       for (const auto& [name, values] : first.for_each)
