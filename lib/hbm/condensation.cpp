@@ -176,16 +176,24 @@ Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, cons
 // Each degree of freedom of a large structure is linked to few others, and so is each coordinate in y.
 void Condensation::choose_sparse(const std::vector<PartInY>& parts) {
   const auto n = static_cast<double>(l_);
-  ComplexMatrix linked = ComplexMatrix::Identity(l_, l_);
+  std::vector<bool> is_linked(static_cast<std::size_t>(l_ * l_), false);
+  std::vector<Eigen::Triplet<Complex>> linked;
+  const auto link = [&](Eigen::Index i, Eigen::Index j) {
+    std::vector<bool>::reference known = is_linked[static_cast<std::size_t>(i + j * l_)];
+    if (!known) linked.emplace_back(i, j, 1);
+    known = true;
+  };
+  for (Eigen::Index i = 0; i < l_; ++i) link(i, i);
   for (const PartInY& part : parts) {
     const auto& entries = part.direction.entries();
     const auto links = static_cast<double>(entries.size());
     if (links * links > sparse_share * n * n) return;
     for (const auto& [j, at_j] : entries)
       for (const auto& [i, at_i] : entries)
-        if (i >= r_ && j >= r_) linked(i - r_, j - r_) = 1;
+        if (i >= r_ && j >= r_) link(i - r_, j - r_);
   }
-  sparse_Zll_ = linked.sparseView();
+  sparse_Zll_.resize(l_, l_);
+  sparse_Zll_.setFromTriplets(linked.begin(), linked.end());
   if (static_cast<double>(sparse_Zll_.nonZeros()) > sparse_share * n * n) return;
   sparse_lu_.emplace(sparse_Zll_);
   if (sparse_lu_->multiplications() > sparse_share * n * n * n / 3) sparse_lu_.reset();

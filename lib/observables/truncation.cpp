@@ -50,9 +50,11 @@ HeldBy held_by(const continuation::Event& event) {
   return bifurcation ? HeldBy::parameter : HeldBy::extremum;
 }
 
-double highest_natural_frequency(const model::Model& model, const Vector& p,
-                                 const std::vector<double>& motions) {
-  const Eigen::MatrixXd M = model::mass_matrix(model, p);
+namespace {
+
+// With the stiffnesses of the elements.
+Eigen::MatrixXd whole_stiffness(const model::Model& model, const Vector& p,
+                                const std::vector<double>& motions) {
   Eigen::MatrixXd K = model::stiffness_matrix(model, p);
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const auto& element = model.elements[e];
@@ -62,6 +64,24 @@ double highest_natural_frequency(const model::Model& model, const Vector& p,
       model::add_outer(stiffness, element.directions[i], K);
     }
   }
+  return K;
+}
+
+// The highest natural frequency is at least this: the largest quotient k_ii/m_ii of a structure of lumped
+// masses. 0 of other structures.
+double bound_of_highest(const model::Model& model, const Vector& p) {
+  const Eigen::MatrixXd M = model::mass_matrix(model, p);
+  const Vector masses = M.diagonal();
+  if (!(masses.minCoeff() > 0) || !M.isDiagonal(0)) return 0;
+  const double square = (whole_stiffness(model, p, {}).diagonal().array() / masses.array()).maxCoeff();
+  return square > 0 ? std::sqrt(square) : 0;
+}
+
+}  // namespace
+
+double highest_natural_frequency(const model::Model& model, const Vector& p,
+                                 const std::vector<double>& motions) {
+  const Eigen::MatrixXd M = model::mass_matrix(model, p), K = whole_stiffness(model, p, motions);
   // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift >
   // 0.
   const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
@@ -79,7 +99,8 @@ Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p
       free_(free),
       wide_(problem, widened(problem.harmonics())),
       narrow_(problem, problem.harmonics()),
-      highest_(highest_natural_frequency(problem.model(), p)),
+      p_(p),
+      bound_of_highest_(observables::bound_of_highest(problem.model(), p)),
       stiffens_(stiffen(problem.model(), p)),
       base_(wide_.problem().size()),
       residual_(base_.size()),
@@ -157,7 +178,9 @@ bool Truncation::samples_too_few() const {
 bool Truncation::resonance_left_out(const continuation::Accepted& now) {
   const elements::Harmonics& kept = problem_.harmonics();
   const double reach = kept.order * kept.base_frequency(now.p[model::frequency]);
-  if (reach < highest_) return true;
+  if (reach < bound_of_highest_) return true;
+  if (!highest_) highest_ = highest_natural_frequency(problem_.model(), p_);
+  if (reach < *highest_) return true;
   if (!stiffens_) return false;
   std::vector<double> motions;
   for (std::size_t e = 0; e < wide_.at().element_count(); ++e) {
