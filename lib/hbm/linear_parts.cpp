@@ -50,8 +50,6 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
     }
     forces_.push_back(std::move(force));
   }
-  if (modes_) return;
-  for (Eigen::MatrixXd* sum : {&matrices_.M, &matrices_.C, &matrices_.K}) sum->setZero(size_, size_);
 }
 
 double LinearParts::modal_value(const PartInY& part) const {
@@ -64,7 +62,8 @@ void LinearParts::move_to(In p) {
   p_ = p;
   for (ForceInY& force : forces_)
     force.given = amplitude(force.harmonic, p[force.of.cosine], p[force.of.sine]);
-  bool same = true;
+  bool same = has_place_;
+  has_place_ = true;
   for (PartInY& part : parts_) {
     same = same && part.value == p[part.parameter];
     part.value = p[part.parameter];

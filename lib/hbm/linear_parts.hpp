@@ -157,7 +157,7 @@ class LinearParts {
   int period_;
   Eigen::Index size_;
   std::shared_ptr<const FixedInterfaceModes> modes_;
-  bool modal_ = false;
+  bool has_place_ = false, modal_ = false;
   std::vector<ChangedPart> changes_;
   std::vector<PartInY> parts_;
   std::vector<MatrixInY> matrix_parts_;

@@ -355,13 +355,18 @@ std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, 
 
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
                                    const std::function<bool()>& go_on) {
+  const auto stopped = [&] { return go_on && !go_on(); };
   const Vector rest = Vector::Zero(problem->size());
-  for (const Vector& guess : {rest, linear_response(*problem, p), stuck_response(*problem, p)})
-    if (const auto found = response_near(*problem, p, guess)) return found;
+  if (stopped()) return {};
+  if (const auto found = response_near(*problem, p, rest)) return found;
+  for (const auto guess : {linear_response, stuck_response}) {
+    if (stopped()) return {};
+    if (const auto found = response_near(*problem, p, guess(*problem, p))) return found;
+  }
   if (const auto found = ramp(problem, p, 0, rest, go_on)) return found;
   if (const auto found = ramp_from_part(problem, p, go_on)) return found;
   for (const bool springs : {false, true}) {
-    if (go_on && !go_on()) return {};
+    if (stopped()) return {};
     if (const auto found = gradual(problem, p, springs, go_on)) return found;
   }
   return {};
