@@ -14,7 +14,7 @@ inline constexpr const char* minimum = "minimum";  // of the amplitude over a pa
 inline constexpr const char* maximum = "maximum";
 inline constexpr const char* cusp = continuation::cusp_event;
 inline constexpr const char* turn = "turn";    // of a curve of folds in the frequency
-inline constexpr const char* start = "start";  // of the branch of a mode
+inline constexpr const char* start = "start";  // of the branch of a mode, or of one that leaves another
 inline constexpr const char* end = "end";
 inline constexpr const char* corner = "corner";  // a curve reaches or leaves a corner of the response
 
@@ -23,6 +23,7 @@ inline constexpr const char* period_doubling = "period_doubling";
 inline constexpr const char* neimark_sacker = "neimark_sacker";
 inline constexpr const char* symmetry_breaking = "symmetry_breaking";
 inline constexpr const char* stability_lost = "stability_lost";
+inline constexpr const char* branch_point = "branch_point";  // continuation::branch_point_monitor()
 inline constexpr std::array of_stability = {period_doubling, neimark_sacker, symmetry_breaking,
                                             stability_lost};
 

@@ -94,22 +94,8 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
   return {problem_with(u->norm()), u, {}};
 }
 
-FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
-                                 const FrequencyWindow& window, double from, const Record& record,
-                                 int direction, Steps steps, const GoOn& go_on, bool stability) {
+continuation::Options frequency_options(const FrequencyWindow& window, Steps steps, const GoOn& go_on) {
   const double width = window.upper - window.lower;
-  const FirstResponse first = first_response(model, from, width, go_on);
-  if (!first.u) {
-    FrequencyBranch none{first.problem, {}};
-    if (go_on && !go_on()) {
-      none.branch.stop = {continuation::StopReason::user, 1, 1, "stopped by the caller"};
-      return none;
-    }
-    none.branch.stop = {continuation::StopReason::start_failed, from, 0, first.failure};
-    return none;
-  }
-  const auto& problem = first.problem;
-
   continuation::Options options;
   options.lower = window.lower;
   options.upper = window.upper;
@@ -125,6 +111,41 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
                std::numeric_limits<double>::min());  // also where the window spans hundreds of decades
   options.largest_state = resolvable;
   options.go_on = go_on;
+  return options;
+}
+
+std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Observer>& observer, Steps steps,
+                                                      const Watched& watched) {
+  std::vector monitors{continuation::fold_monitor()};  // so that no pair of folds is stepped over
+  monitors[0].divides_at_kinks = false;
+  if (steps != Steps::passage) {
+    monitors.insert(monitors.begin(), peak_monitor(observer));
+    monitors[1].divides_at_kinks = monitors[0].divides_at_kinks;
+  }
+  if (watched.stability) {
+    observer->watch_stability();
+    for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
+  }
+  if (watched.branch_points) monitors.push_back(continuation::branch_point_monitor());
+  return monitors;
+}
+
+FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
+                                 const FrequencyWindow& window, double from, const Record& record,
+                                 int direction, Steps steps, const GoOn& go_on, const Watched& watched) {
+  const double width = window.upper - window.lower;
+  const FirstResponse first = first_response(model, from, width, go_on);
+  if (!first.u) {
+    FrequencyBranch none{first.problem, {}};
+    if (go_on && !go_on()) {
+      none.branch.stop = {continuation::StopReason::user, 1, 1, "stopped by the caller"};
+      return none;
+    }
+    none.branch.stop = {continuation::StopReason::start_failed, from, 0, first.failure};
+    return none;
+  }
+  const auto& problem = first.problem;
+  const continuation::Options options = frequency_options(window, steps, go_on);
   const auto observer = std::make_shared<Observer>(problem);
   continuation::Observer each;
   if (record)
@@ -132,18 +153,9 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
       return record(*observer, now, event);
     };
   const Vector p = hbm::parameters_at(*problem, from);
-  std::vector monitors{continuation::fold_monitor()};  // so that no pair of folds is stepped over
-  monitors[0].divides_at_kinks = false;
-  if (steps != Steps::passage) {
-    monitors.insert(monitors.begin(), peak_monitor(observer));
-    monitors[1].divides_at_kinks = monitors[0].divides_at_kinks;
-  }
-  if (stability) {
-    observer->watch_stability();
-    for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
-  }
-  FrequencyBranch traced{problem, continuation::trace(problem, {*first.u, p, model::frequency, direction},
-                                                      options, std::move(monitors), each)};
+  FrequencyBranch traced{problem,
+                         continuation::trace(problem, {*first.u, p, model::frequency, direction}, options,
+                                             frequency_monitors(observer, steps, watched), each)};
   traced.unknown_stability = observer->unknown_stability();
   speak_of_scene(*model, p, traced.branch);
   return traced;

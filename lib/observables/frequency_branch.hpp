@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace arcslip::observables {
 
@@ -56,11 +57,22 @@ using Record = std::function<bool(Observer&, const continuation::Accepted&, cons
 /// folds at kinks to the length of a step only, for where the branch passes a frequency.
 enum class Steps { curve, events, passage };
 
+/// Which events branches over the frequency have beside folds.
+struct Watched {
+  bool stability = false;      // points have it, and bifurcations are events
+  bool branch_points = false;  // where branches of the same harmonics cross
+};
+
+/// Options and monitors of branches over the frequency.
+continuation::Options frequency_options(const FrequencyWindow& window, Steps steps, const GoOn& go_on);
+std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Observer>& observer, Steps steps,
+                                                      const Watched& watched);
+
 /// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). If go_on returns false
-/// the branch ends with reason user. stability: points have it, and bifurcations are events.
+/// the branch ends with reason user.
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record = {},
                                  int direction = 1, Steps steps = Steps::curve, const GoOn& go_on = {},
-                                 bool stability = false);
+                                 const Watched& watched = {});
 
 }  // namespace arcslip::observables

@@ -26,24 +26,44 @@ class Sweep {
         frequency_unit_(scene.frequency_unit),
         lower_(range.from * unit_),
         upper_(range.to * unit_),
-        stability_(range.stability),
+        all_(range.branches == Branches::all),
+        watched_{.stability = range.stability || all_, .branch_points = all_},
+        limits_(range.limits),
         progress_(progress),
         model_(std::make_shared<const model::Model>(model::build(scene))) {}
 
   std::vector<ResponseBranch> run() {
-    std::vector<ResponseBranch> branches;
+    std::vector<TracedBranch> pieces;
     double from = lower_;
     for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
-      branches.push_back(trace_from(from));
-      if (piece > 0) branches.back().parent = 1;
-      if (branches.back().stop.reason != reasons::unbounded || !(far_side_ < upper_)) break;
+      pieces.push_back(trace_from(from));
+      ResponseBranch& last = pieces.back().response;
+      if (piece > 0) last.parent = 1;
+      if (last.stop.reason != reasons::unbounded || !(far_side_ < upper_)) break;
       from = far_side_;
     }
+    if (all_) return all_branches(std::move(pieces), following());
+    std::vector<ResponseBranch> branches;
+    for (TracedBranch& piece : pieces) branches.push_back(std::move(piece.response));
     return branches;
   }
 
  private:
-  ResponseBranch trace_from(double from) {
+  Following following() {
+    return {.window = {lower_, upper_},
+            .unit = frequency_unit_,
+            .limits = limits_,
+            .go_on = [this] { return go_on(); },
+            .at =
+                [this](double omega) {
+                  ++told_.points;
+                  told_.step = (omega - told_.frequency * unit_) / unit_;
+                  told_.frequency = omega / unit_;
+                  return go_on();
+                }};
+  }
+
+  TracedBranch trace_from(double from) {
     const auto began = std::chrono::steady_clock::now();
     ResponseBranch result = described(*model_);
 
@@ -76,16 +96,16 @@ class Sweep {
     told_ = {.frequency = from / unit_};
     if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
       end_unbounded(result, on_it, {{from, HUGE_VAL}});
-      return result;
+      return {std::move(result), nullptr, {}};
     }
-    const auto traced = frequency_branch(
-        model_, {lower_, upper_}, from, record, 1, Steps::curve, [this] { return go_on(); }, stability_);
+    auto traced = frequency_branch(
+        model_, {lower_, upper_}, from, record, 1, Steps::curve, [this] { return go_on(); }, watched_);
     result.unknown_stability = traced.unknown_stability;
     drop_told_losses(result.events);
     result.solver.unknowns = traced.problem->size();
     finish(result, traced, from, growth, course);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    return result;
+    return {std::move(result), traced.problem, std::move(traced.branch.events)};
   }
 
   // Reports progress and checks for a stop, also between points, with the numbers of the last one.
@@ -151,7 +171,9 @@ class Sweep {
   double unit_;
   scene::FrequencyUnit frequency_unit_;
   double lower_, upper_;
-  bool stability_;
+  bool all_;
+  Watched watched_;
+  BranchLimits limits_;
   const ProgressCallback& progress_;
   std::shared_ptr<const model::Model> model_;
   double far_side_ = 0;

@@ -2,6 +2,7 @@
 // Frequency responses: the branch of periodic responses over the excitation frequency, with its peaks and
 // folds.
 
+#include <arcslip/observables/all_branches.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/results/progress.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -13,15 +14,20 @@ namespace arcslip::observables {
 using results::Progress;
 using results::ProgressCallback;
 
+/// one: the branch from the lower end on; all: also those that leave it, and so on (all_branches.hpp).
+enum class Branches { one, all };
+
 /// Of the excitation, in the scene's unit; from < to.
 struct FrequencyRange {
   double from = 0, to = 0;
-  bool stability = false;  // of the points, and their bifurcations
+  bool stability = false;  // of the points, and their bifurcations; where all branches are asked for, always
+  Branches branches = Branches::one;
+  BranchLimits limits{};  // of all branches
   friend bool operator==(const FrequencyRange&, const FrequencyRange&) = default;
 };
 
-/// One branch, or several if an unbounded resonance divides it. A branch that ends early is reported with
-/// its reason. Throws std::invalid_argument unless from < to. Threads may share the scene.
+/// One branch, or several if an unbounded resonance divides it or all are asked for. A branch that ends early
+/// is reported with its reason. Throws std::invalid_argument unless from < to. Threads may share the scene.
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
                                                const ProgressCallback& progress = {});
 

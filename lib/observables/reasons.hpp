@@ -52,6 +52,12 @@ inline constexpr Reason corner{
     "corner",
     "of curves: the peak or fold reaches a corner of the response, from which another curve continues"};
 
+// Branches that leave others.
+inline constexpr Reason branch_point{
+    "branch_point",
+    "a branch that left another one reached a bifurcation of a branch that is known, or of one that is "
+    "not: there it ends"};
+
 // Modes.
 inline constexpr Reason no_mode{
     "no_mode",
@@ -85,9 +91,10 @@ using time::reasons::set_valued;
 using time::reasons::singular;
 
 /// The reasons of a branch, or of a curve of peaks or folds.
-inline constexpr std::array of_branches = {
-    boundary,     unbounded,      closed,          fold,  corner,        point_limit,    user,
-    start_failed, step_too_small, state_too_large, event, not_evaluated, monitor_failed, no_mode};
+inline constexpr std::array of_branches = {boundary,      unbounded,      closed,          branch_point,
+                                           fold,          corner,         point_limit,     user,
+                                           start_failed,  step_too_small, state_too_large, event,
+                                           not_evaluated, monitor_failed, no_mode};
 
 /// The reasons of a response at one frequency.
 inline constexpr std::array of_responses = {solved, unbounded, user, start_failed, not_evaluated};

@@ -150,6 +150,17 @@ struct Stop {
   std::string message;          // one sentence for the user
 };
 
+/// What a shift by half a period does to the motions of a branch, mirrored: nothing where they are
+/// antisymmetric; of mirror_pair it gives another motion, which is on the branch as well.
+enum class Symmetry { none, antisymmetric, mirror_pair };
+
+/// The event of its parent at which a branch leaves it.
+struct Leaves {
+  std::string kind{};     // empty: it leaves none
+  std::size_t event = 0;  // its index
+  double omega = 0;       // of the branch point, rad/s
+};
+
 /// complete: over the whole window, or up to an unbounded peak, beyond which another branch continues.
 /// stopped: correct up to where it ends, by the user, by a limit, or back at the end of the window where it
 /// started. failed: it could not be started or continued.
@@ -168,7 +179,11 @@ struct SolverSummary {
 struct ResponseBranch {
   std::string study, kind;  // name and kind of its study; may be empty
   int parent = 0;  // the branch that it continues, counted backwards in the list: across an unbounded peak,
-                   // or from the preceding part of its curve; 0: none
+                   // from the preceding part of its curve, or from where it leaves it; 0: none
+  Leaves leaves{};
+  bool isolated = false;  // found by a search: no other branch reaches it
+  int period = 1;         // of the motions, in periods of the excitation
+  Symmetry symmetry = Symmetry::none;
   Status status = Status::complete;
   Stop stop;
   std::string over;  // the continuation parameter; empty for frequency responses
@@ -179,6 +194,8 @@ struct ResponseBranch {
   std::vector<ResponseEvent> events;
   std::string doubt;                // why the accuracy of a complete branch is doubtful; empty: it is not
   std::string unknown_stability{};  // why its points have no stability, where it is requested
+  std::vector<std::string>
+      untraced{};  // branches that leave it and were not followed, and why, where all are requested
   SolverSummary solver;
 };
 

@@ -22,6 +22,8 @@ ResponseBranch described(const model::Model& model, const std::string& over) {
     if (parameter.name != "frequency" && parameter.name != over)
       branch.parameters.emplace_back(parameter.name, parameter.value);
   const auto& h = model.harmonics;
+  branch.period = h.period;
+  branch.symmetry = h.odd ? Symmetry::antisymmetric : Symmetry::none;
   for (int i = 0; i < h.cosines(); ++i) branch.harmonics.push_back(h.cosine_order(i));
   branch.solver.linear_solver = "dense LU";
   return branch;

@@ -47,11 +47,12 @@ const Value* find(const Object& object, std::span<const std::string> path) {
   return inner ? find(*inner, path.subspan(1)) : nullptr;
 }
 
-/// The cells of what is shown of an object.
-Row cells(const std::vector<Shown>& shown, const Object& object) {
+/// The cells of what is shown of an object, or else of the facts of its result.
+Row cells(const std::vector<Shown>& shown, const Object& object, const Object& facts) {
   Row row;
   for (const Shown& each : shown) {
     const Value* value = find(object, each.path);
+    if (!value) value = find(facts, each.path);
     row.push_back(value ? text_of(*value, each.format) : no_value);
     if (row.back() != no_value || each.otherwise.empty()) continue;
     const Value* flag = find(object, {&each.otherwise, 1});
@@ -95,9 +96,11 @@ void TableWriter::curve(const Head& head, std::size_t schema) {
   if (schema != schema_) {
     finish();
     is_apart_ = any_;
+    count_ = 0;
   }
   schema_ = schema;
   head_ = head;
+  head_.facts.push_back({"id", ++count_});
   of_it_.clear();
 }
 
@@ -105,7 +108,7 @@ void TableWriter::rows(std::size_t table, const Rows& rows) {
   const Schema& schema = schemas_[schema_];
   const Table& of = schema.tables[table];
   for (std::size_t i = 0; i < rows.count && of.key == schema.shown_table; ++i)
-    of_it_.push_back(cells(schema.shown, object(of.columns, rows, i)));
+    of_it_.push_back(cells(schema.shown, object(of.columns, rows, i), head_.facts));
 }
 
 void TableWriter::end(const End& end) {
@@ -115,7 +118,7 @@ void TableWriter::end(const End& end) {
     out_ << end.text;
     return;
   }
-  if (schema.shown_table.empty()) of_it_ = {cells(schema.shown, end.facts)};
+  if (schema.shown_table.empty()) of_it_ = {cells(schema.shown, end.facts, head_.facts)};
   if (of_it_.empty()) of_it_.emplace_back(schema.shown.size(), no_value);
   for (Row& row : of_it_) {
     Row& line = lines_.emplace_back();
@@ -159,6 +162,10 @@ void Remarks::begin(const Header& /*header*/, std::span<const Schema> schemas) {
 void Remarks::curve(const Head& head, std::size_t schema) {
   const std::string set = assignment(head.set);
   which_ = nouns_[schema] + " " + std::to_string(++count_) + (set.empty() ? "" : " (" + set + ")");
+  from_.clear();
+  if (head.parent > 0)
+    from_ = "from " + nouns_[schema] + " " + std::to_string(count_ - static_cast<std::size_t>(head.parent)) +
+            ", ";
 }
 
 void Remarks::end(const End& end) {
@@ -168,7 +175,7 @@ void Remarks::end(const End& end) {
     early_ends.push_back(how + ": " + (message ? text_of(*message, "") : ""));
   else if (!end.doubt.empty())
     doubts.push_back(how + ", but " + end.doubt);
-  if (!end.remark.empty()) others.push_back(which_ + ": " + end.remark);
+  if (!end.remark.empty()) others.push_back(which_ + ": " + from_ + end.remark);
 }
 
 }  // namespace arcslip::results

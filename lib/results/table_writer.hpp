@@ -33,7 +33,8 @@ class TableWriter : public Sink {
   std::size_t schema_ = 0;    // of the result that is open, and of the lines
   bool any_ = false;          // of what is written
   bool is_apart_ = false;     // what comes next is of another kind
-  Head head_;                 // of that result
+  Head head_;                 // of that result; its facts have its number as "id"
+  long count_ = 0;            // of the results of its schema
   std::vector<Cells> of_it_;  // its rows so far
   std::vector<Cells> lines_;  // those of all results since the last table
 };
@@ -55,7 +56,7 @@ class Remarks : public Sink {
  private:
   std::vector<std::string> nouns_;  // of the schemas
   std::size_t count_ = 0;           // of results so far
-  std::string which_;               // the result that is open
+  std::string which_, from_;        // the result that is open, and the one it continues
 };
 
 }  // namespace arcslip::results

@@ -37,6 +37,10 @@ KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, st
             asked.maxima = drawn == BranchKind::peaks || drawn == BranchKind::folds;
             asked.mode = drawn == BranchKind::modes;
             if constexpr (requires { range.stability; }) asked.stability = range.stability;
+            if constexpr (requires { range.branches; }) {
+              asked.leaving = range.branches == decltype(range.branches)::all;
+              asked.stability = asked.stability || asked.leaving;
+            }
             return branches(scene, asked, options);
           },
       .figures = [](const scene::Scene& scene,

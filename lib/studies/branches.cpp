@@ -54,6 +54,7 @@ struct Tables {
 
 std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked) {
   std::vector<results::Shown> all;
+  if (asked.leaving) all = {{"no.", {"id"}}, {"period", {"period"}}};
   if (!asked.over.empty())
     all.push_back({results::with_unit(asked.over, parameter_unit(scene, asked.over)), {asked.over}});
   all.push_back({"event", {"kind"}});
@@ -76,25 +77,57 @@ results::Schema schema(const scene::Scene& scene, const Asked& asked, const Tabl
           .shown_table = "events"};
 }
 
+const char* name(observables::Symmetry symmetry) {
+  if (symmetry == observables::Symmetry::none) return "none";
+  return symmetry == observables::Symmetry::antisymmetric ? "antisymmetric" : "mirror_pair";
+}
+
+results::Object leaves(const scene::Scene& scene, const observables::Leaves& at) {
+  return {{"event", at.event},
+          {"kind", at.kind},
+          {"frequency", in_scene_unit(scene, at.omega), std::string(scene::unit_name(scene.frequency_unit))}};
+}
+
+// What is told beside the table: what its motions are, where they are unstable, and what was not followed.
+std::string remark(const scene::Scene& scene, const ResponseBranch& branch) {
+  std::string text;
+  const auto add = [&](const std::string& more) {
+    if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
+  };
+  if (branch.isolated) add("no other branch reaches it");
+  if (!branch.leaves.kind.empty()) {
+    add(branch.symmetry == observables::Symmetry::mirror_pair ? "a pair of mirror images" : "");
+    add("period " + std::to_string(branch.period));
+  }
+  add(unstable_ranges(scene, branch));
+  add(untraced(branch));
+  return text;
+}
+
 results::Result result(const scene::Scene& scene, const ResponseBranch& branch, const Tables& tables,
-                       const RunOptions& options) {
+                       const Asked& asked, const RunOptions& options) {
   results::Result result{0, {branch.study, branch.kind, named(scene, branch.set)}, {}, {}};
   result.head.parent = branch.parent;
   if (!branch.over.empty()) result.head.facts.push_back({"over", branch.over});
   result.head.facts.push_back({"parameters", named(scene, branch.parameters)});
-  result.head.facts.push_back({"period", scene.harmonics.period});
+  result.head.facts.push_back({"period", branch.period});
+  if (asked.leaving) {
+    result.head.facts.push_back({"symmetry", name(branch.symmetry)});
+    if (branch.isolated) result.head.facts.push_back({"isolated", true});
+    if (!branch.leaves.kind.empty()) result.head.facts.push_back({"leaves", leaves(scene, branch.leaves)});
+  }
   if (options.coefficients)
     result.head.facts.push_back(
         {"harmonics", results::Value::List(branch.harmonics.begin(), branch.harmonics.end())});
   if (options.points) result.tables.push_back(tables.points.rows(branch.points));
   result.tables.resize(1);
   result.tables.push_back(tables.events.rows(branch.events));
-  result.end = {branch.status,
-                stop(branch.stop),
-                {{"solver", solver(branch.solver)}},
-                doubt_of(branch),
-                {},
-                unstable_ranges(scene, branch)};
+  result.end = {
+      branch.status,        stop(branch.stop), {{"solver", solver(branch.solver)}}, doubt_of(branch), {},
+      remark(scene, branch)};
+  if (!branch.untraced.empty())
+    result.end.facts.push_back(
+        {"untraced", results::Value::List(branch.untraced.begin(), branch.untraced.end())});
   return result;
 }
 
@@ -103,8 +136,8 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
 Described<ResponseBranch> branches(const scene::Scene& scene, Asked asked, const RunOptions& options) {
   asked.coefficients = options.coefficients;
   const auto tables = std::make_shared<const Tables>(scene, asked);
-  return {schema(scene, asked, *tables), [&scene, tables, options](const ResponseBranch& branch) {
-            return result(scene, branch, *tables, options);
+  return {schema(scene, asked, *tables), [&scene, tables, asked, options](const ResponseBranch& branch) {
+            return result(scene, branch, *tables, asked, options);
           }};
 }
 
@@ -114,8 +147,12 @@ results::Results results_of(const scene::Scene& scene, std::span<const ResponseB
   std::map<std::tuple<std::string, bool, bool, bool>, std::size_t>
       index;  // of schemas, by their distinguishing columns
   std::vector<Described<ResponseBranch>> described;
+  const bool leaving = std::any_of(all.begin(), all.end(), [](const ResponseBranch& branch) {
+    return branch.isolated || !branch.leaves.kind.empty();
+  });
   for (const ResponseBranch& branch : all) {
-    const Asked asked = asked_of(branch);
+    Asked asked = asked_of(branch);
+    asked.leaving = leaving;
     const auto [at, is_new] =
         index.try_emplace({asked.over, asked.maxima, asked.mode, asked.stability}, described.size());
     if (is_new) {

@@ -217,6 +217,12 @@ std::string unstable_ranges(const scene::Scene& scene, const observables::Respon
   return text + (unit.empty() ? "" : " " + unit);
 }
 
+std::string untraced(const observables::ResponseBranch& branch) {
+  std::string text;
+  for (const std::string& each : branch.untraced) text += (text.empty() ? "not followed: " : "; ") + each;
+  return text;
+}
+
 std::string doubt_of(const observables::ResponseBranch& branch) {
   if (!branch.doubt.empty())
     return "dominated by rounding errors, so that its results lose digits: " + branch.doubt;

@@ -23,6 +23,7 @@ struct Asked {
   bool amplitude = true;      // false: given elsewhere
   bool mode = false;          // of modes
   bool stability = false;     // Floquet multipliers
+  bool leaving = false;       // of branches that leave others
 };
 
 /// The quantities of responses of a scene, by element in an object "elements", by patch in "patches".
@@ -46,6 +47,9 @@ std::string doubt_of_stops(const std::string& element);
 
 /// Where the responses of a branch are unstable, a sentence; empty: nowhere, or not known.
 std::string unstable_ranges(const scene::Scene& scene, const observables::ResponseBranch& branch);
+
+/// The branches that leave a branch and were not followed, a sentence; empty: none.
+std::string untraced(const observables::ResponseBranch& branch);
 
 /// The doubts about a branch (ResponseBranch::doubt, motions that stop, an unknown stability), as the end of
 /// a sentence; empty: none.

@@ -2,15 +2,42 @@
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
+#include <array>
+
 namespace arcslip::studies {
 namespace {
 
+using observables::Branches;
+using observables::BranchLimits;
 using observables::FrequencyRange;
+
+constexpr int most_doublings = 6, most_branches = 10'000, most_searches = 1000;
+
+constexpr std::array<scene::file::Word<Branches>, 2> branch_words = {
+    {{"one", Branches::one}, {"all", Branches::all}}};
 
 scene::file::KeysOf<FrequencyRange> keys() {
   scene::file::KeysOf<FrequencyRange> keys;
   keys.add(scene::file::frequency_range(&FrequencyRange::from, &FrequencyRange::to));
   keys.add(scene::file::flag("stability", &FrequencyRange::stability, stability_help));
+  keys.add(
+      scene::file::word("branches", &FrequencyRange::branches, branch_words,
+                        "the branch that begins at the first frequency, or also those that leave it at "
+                        "breaks of symmetry, period doublings and branch points, those that leave these, "
+                        "and so on"));
+  keys.add(scene::file::within(&FrequencyRange::limits,
+                               scene::file::whole("doublings", &BranchLimits::doublings, 0, most_doublings,
+                                                  "with all branches: how many period doublings in a row are "
+                                                  "followed")));
+  keys.add(
+      scene::file::within(&FrequencyRange::limits,
+                          scene::file::whole("most_branches", &BranchLimits::most_branches, 1, most_branches,
+                                             "with all branches: how many are traced at most")));
+  keys.add(scene::file::within(
+      &FrequencyRange::limits,
+      scene::file::whole("searches", &BranchLimits::searches, 0, most_searches,
+                         "with all branches: at how many frequencies between the first and the last one "
+                         "branches that no other reaches are looked for")));
   return keys;
 }
 

@@ -191,7 +191,8 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "found the key \"over\", which belongs to studies of kind \"trace\", \"peaks\", \"folds\", "
       "\"optimum\", must be one "
       "of "
-      "\"name\", \"kind\", \"from\", \"to\", \"stability\", \"for_each\"");
+      "\"name\", \"kind\", \"from\", \"to\", \"stability\", \"branches\", \"doublings\", \"most_branches\", "
+      "\"searches\", \"for_each\"");
   add("misspelt key of a study over a parameter", kind + over + range + window + ", \"frequencies\": 1",
       "frequencies", "did you mean \"frequency\"?");
 
