@@ -38,14 +38,11 @@ std::vector<scene::file::Word<SweepDirection>> direction_words() {
 KeyGroup<SweepSettings> spacing() {
   using namespace scene::file;
   return {{{"spacing", scene::KeyType::frequency, "frequency", "above 0", "", false,
-            "in place of \"points\": the largest difference between two frequencies"}},
+            "largest difference between two frequencies, which takes the place of \"points\""}},
           [](const Reading& reading, SweepSettings& s) {
             const Location place = reading.keys.find("spacing");
             if (place.node == nullptr) return;
             s.spacing = read_number(place, reading.frequency, reading.faults).value_or(0);
-            if (reading.keys.has("points"))
-              reading.faults.add(place.pointer,
-                                 "found beside \"points\", must be alone: one of them tells the other");
           },
           [](const SweepSettings& s, const scene::Scene&, Node::Object& to) {
             if (s.spacing > 0) to.push_back({"spacing", node(s.spacing)});
