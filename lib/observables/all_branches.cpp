@@ -1,12 +1,12 @@
 #include <arcslip/observables/all_branches.hpp>
 
 #include <arcslip/observables/branch_course.hpp>
-#include <arcslip/observables/departure.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/observe.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/solutions_beside.hpp>
 #include <arcslip/observables/study_branches.hpp>
+#include <arcslip/observables/wider_branches.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -56,7 +56,7 @@ class AllBranches {
       known.response = std::move(each.response);
       known.problem = std::move(each.problem);
       known_.push_back(std::move(known));
-      find_departures(each.events);
+      find_half_branches(each.events);
     }
     follow_ways();
     for (int i = 0; i < f_.limits.searches && !stopped_; ++i)
@@ -65,7 +65,8 @@ class AllBranches {
       known_.front().response.untraced.push_back("branches that no other reaches: " + limit_told());
     for (; next_ < ways_.size(); ++next_)
       if (const Way& way = ways_[next_]; !way.followed)
-        untraced(way.from, way.kind, way.departure.x[way.departure.x.size() - 1], "stopped by the caller");
+        untraced(way.from, way.kind, way.half_branch.x[way.half_branch.x.size() - 1],
+                 "stopped by the caller");
     std::vector<ResponseBranch> all;
     for (Known& each : known_) all.push_back(std::move(each.response));
     return all;
@@ -83,7 +84,7 @@ class AllBranches {
     std::size_t from = 0;  // of known_
     std::size_t event = 0;
     std::string kind;
-    Departure departure;
+    HalfBranch half_branch;
     bool wider = false;  // of more harmonics: both halves are one
     bool followed = false;
   };
@@ -110,7 +111,7 @@ class AllBranches {
   }
 
   // Of the last known branch: all branches that leave it. events: those of its trace.
-  void find_departures(const std::vector<continuation::Event>& events) {
+  void find_half_branches(const std::vector<continuation::Event>& events) {
     const std::size_t k = known_.size() - 1;
     std::map<std::string, WiderBranchPoints> wider;
     const auto& all = known_[k].response.events;
@@ -165,7 +166,7 @@ class AllBranches {
                                  : "several branches cross there at once, as in symmetric structures");
         continue;
       }
-      Departure way{known_[k].problem, joined(event.point.u, omega), crossing->tangents[1], 0};
+      HalfBranch way{known_[k].problem, joined(event.point.u, omega), crossing->tangents[1], 0};
       continuation::Counts counts;
       const continuation::Corrector with(*way.problem, hbm::parameters_at(*way.problem, omega),
                                          model::frequency, {}, counts);
@@ -179,17 +180,17 @@ class AllBranches {
   }
 
   // Whether the half-branch leaves a branch point of which the ways are known.
-  bool is_known(const Departure& way, const continuation::Corrector& in) const {
+  bool is_known(const HalfBranch& way, const continuation::Corrector& in) const {
     return std::any_of(ways_.begin(), ways_.end(), [&](const Way& other) {
       return meets(other, *way.problem, way.x, in) && !other.wider &&
-             in.dot(other.departure.direction, way.direction) > same_direction;
+             in.dot(other.half_branch.direction, way.direction) > same_direction;
     });
   }
 
   static bool meets(const Way& way, const hbm::HbmProblem& problem, const Vector& x,
                     const continuation::Corrector& in) {
-    if (!(way.departure.problem->harmonics() == problem.harmonics())) return false;
-    const Vector apart = way.departure.x - x;
+    if (!(way.half_branch.problem->harmonics() == problem.harmonics())) return false;
+    const Vector apart = way.half_branch.x - x;
     return std::sqrt(in.dot(apart, apart)) <= same_place * (1 + in.norm_u(x));
   }
 
@@ -201,16 +202,16 @@ class AllBranches {
     if (ways_[k].followed) return;
     const std::size_t from = ways_[k].from;
     const std::string kind = ways_[k].kind;
-    const double omega = ways_[k].departure.x[ways_[k].departure.x.size() - 1];
+    const double omega = ways_[k].half_branch.x[ways_[k].half_branch.x.size() - 1];
     if (is_full()) {
       untraced(from, kind, omega, limit_told());
       return;
     }
     ways_[k].followed = true;
-    const auto problem = ways_[k].departure.problem;
+    const auto problem = ways_[k].half_branch.problem;
     continuation::Counts counts;
     continuation::Corrector with(*problem, hbm::parameters_at(*problem, omega), model::frequency, {}, counts);
-    const auto entry = enter(ways_[k].departure, with);
+    const auto entry = enter(ways_[k].half_branch, with);
     if (!entry) {
       untraced(from, kind, omega, "no solution was found on it next to the branch point");
       return;
@@ -221,11 +222,11 @@ class AllBranches {
       return;
     }
     Run run = begin(problem);
-    const Vector& x = ways_[k].departure.x;
+    const Vector& x = ways_[k].half_branch.x;
     with.move_to(x, continuation::Needs::jacobian);
     const Vector u = x.head(n), p = hbm::parameters_at(*problem, omega);
     run.course.points.emplace_back(
-        -entry->step, run.observer->observe({u, p, ways_[k].departure.direction, 0, with.evaluator(),
+        -entry->step, run.observer->observe({u, p, ways_[k].half_branch.direction, 0, with.evaluator(),
                                              with.factors(), omega, with.scratch()}));
     continuation::Start start{entry->v.head(n), hbm::parameters_at(*problem, entry->v[n]), model::frequency,
                               1, entry->tangent};
@@ -314,7 +315,7 @@ class AllBranches {
     response.solver.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - run.began).count();
     known_.push_back(std::move(run.known));
-    find_departures(run.events);
+    find_half_branches(run.events);
   }
 
   // Branches of the first harmonics that no other reaches, by what they have at one frequency.
@@ -358,7 +359,7 @@ class AllBranches {
     End end{event.point.arclength, x, crossing->tangents.front()};
     for (Way& other : ways_) {
       if (!meets(other, problem, x, in)) continue;
-      if (!other.wider && in.dot(other.departure.direction, -end.tangent) < same_direction) continue;
+      if (!other.wider && in.dot(other.half_branch.direction, -end.tangent) < same_direction) continue;
       other.followed = true;
       end.message = "reached the " + std::string(told(other.kind)) + " at " +
                     frequency(event.point.parameter) + " of a branch that is known";

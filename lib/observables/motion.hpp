@@ -32,6 +32,18 @@ struct ElementMotion {
   double wear_rate = no_value;                      // m^3/s; no_value without a wear coefficient
 };
 
+/// What became of a transient that began beside a response of harmonic balance (departure.hpp).
+struct MotionDeparture {
+  double response_amplitude = 0;         // m
+  int unstable = 0;                      // multipliers of the response outside the unit circle
+  double largest_multiplier = no_value;  // of them, modulus; no_value: not known
+  double multiplier_error = no_value;    // estimated
+  double growth = 0;                     // of the disturbance in a period, measured
+  double distance = 0;                   // of the end from the exact motion at the start, relative
+  bool returned = false;                 // to that motion
+  int motion_period = 0;                 // of the end, in periods of the motion at the start; 0: not settled
+};
+
 /// complete: a steady motion within the tolerance, or, if that is 0, the requested number of periods.
 /// stopped: at the period limit before it was steady, or by the user. failed: no periodic motion was found,
 /// or the integration failed; the history is the part computed.
@@ -53,6 +65,7 @@ struct Motion {
   std::vector<ElementMotion> patches;             // their totals
   std::vector<std::complex<double>> multipliers;  // Floquet, by decreasing modulus; with shooting
   std::optional<bool> stable;                     // all of them within the unit circle
+  std::optional<MotionDeparture> departure;       // with TimeSettings::start_amplitude
   time::TimeHistory history;                      // of the recorded periods; t = 0 at their start
   double seconds = 0;                             // computing time
 };

@@ -90,6 +90,9 @@ using time::reasons::not_finite;
 using time::reasons::set_valued;
 using time::reasons::singular;
 
+// Sweeps.
+inline constexpr Reason swept{"swept", "the sweep reached its last frequency"};
+
 /// The reasons of a branch, or of a curve of peaks or folds.
 inline constexpr std::array of_branches = {boundary,      unbounded,      closed,          branch_point,
                                            fold,          corner,         point_limit,     user,
@@ -100,10 +103,27 @@ inline constexpr std::array of_branches = {boundary,      unbounded,      closed
 inline constexpr std::array of_responses = {solved, unbounded, user, start_failed, not_evaluated};
 
 /// The reasons of a motion in time.
-inline constexpr std::array of_motions = {
-    periodic,       steady,       periods,    period_limit,         user,     unbounded,  no_periodic_motion,
-    no_convergence, singular,     not_finite, not_piecewise_linear, massless, set_valued, loss_factor,
-    event_limit,    energy_defect};
+inline constexpr std::array of_motions = {periodic,
+                                          steady,
+                                          periods,
+                                          period_limit,
+                                          user,
+                                          unbounded,
+                                          no_periodic_motion,
+                                          no_convergence,
+                                          singular,
+                                          not_finite,
+                                          not_piecewise_linear,
+                                          massless,
+                                          set_valued,
+                                          loss_factor,
+                                          event_limit,
+                                          energy_defect,
+                                          start_failed};
+
+/// The reasons of a sweep.
+inline constexpr std::array of_sweeps = {swept,      user,       no_convergence, singular,
+                                         not_finite, set_valued, loss_factor,    event_limit};
 
 }  // namespace reasons
 

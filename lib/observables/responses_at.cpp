@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 namespace arcslip::observables {
@@ -52,6 +53,20 @@ void add_others(const std::shared_ptr<const model::Model>& model, double omega, 
     else if (std::none_of(found.u.begin(), found.u.end(), is_same))
       found.u.push_back(*u);
   }
+}
+
+// The first point of a branch that begins there, which is corrected and observed as every other one.
+continuation::Branch observe_one(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u,
+                                 double omega, Observer& observer, std::optional<ResponsePoint>& point) {
+  continuation::Options options;
+  options.lower = omega;
+  options.upper = omega * search_ratio;
+  options.check_jacobian = false;
+  return continuation::trace(problem, {u, hbm::parameters_at(*problem, omega), model::frequency, 1}, options,
+                             {}, [&](const continuation::Accepted& now, const continuation::Event*) {
+                               point = observer.observe(now, HeldBy::parameter, true);
+                               return false;
+                             });
 }
 
 class Points {
@@ -102,22 +117,12 @@ class Points {
     return result;
   }
 
-  // The first point of a branch that begins there, which is corrected and observed as every other one.
   PointResponse at(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u) {
     const auto began = std::chrono::steady_clock::now();
     Observer observer(problem);
     if (settings_.stability) observer.watch_stability();
     std::optional<ResponsePoint> point;
-    continuation::Options options;
-    options.lower = omega_;
-    options.upper = omega_ * search_ratio;
-    options.check_jacobian = false;
-    const auto branch =
-        continuation::trace(problem, {u, hbm::parameters_at(*problem, omega_), model::frequency, 1}, options,
-                            {}, [&](const continuation::Accepted& now, const continuation::Event*) {
-                              point = observer.observe(now, HeldBy::parameter, true);
-                              return false;
-                            });
+    const auto branch = observe_one(problem, u, omega_, observer, point);
     PointResponse result = ended(Status::complete, reasons::solved, "the response was found " + place());
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
@@ -163,6 +168,30 @@ ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, doubl
   if (stopped() || !first.u) return found;
   found.u.push_back(*first.u);
   add_others(model, omega, go_on, found);
+  return found;
+}
+
+ResponseOfAmplitude response_of_amplitude(const std::shared_ptr<const model::Model>& model, double omega,
+                                          double amplitude, const GoOn& go_on) {
+  const ResponsesAt all = responses_at(model, omega, go_on);
+  ResponseOfAmplitude found;
+  found.problem = all.problem;
+  found.failure = all.unbounded.empty() ? all.failure : all.unbounded;
+  for (const Vector& u : all.u) {
+    if (go_on && !go_on()) break;
+    Observer observer(all.problem);
+    observer.watch_stability();
+    std::optional<ResponsePoint> point;
+    const auto branch = observe_one(all.problem, u, omega, observer, point);
+    if (!point) {
+      found.failure = branch.stop.message;
+      continue;
+    }
+    const auto difference = [&](const ResponsePoint& at) { return std::abs(at.amplitude - amplitude); };
+    if (found.point && difference(*found.point) <= difference(*point)) continue;
+    found.u = Eigen::Map<const Vector>(point->unknowns.data(), all.problem->size());
+    found.point = std::move(point);
+  }
   return found;
 }
 

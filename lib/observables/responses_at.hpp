@@ -29,6 +29,17 @@ struct ResponsesAt {
 ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega,
                          const GoOn& go_on = {});
 
+/// Of these, the one with the amplitude (m) nearest to the one given, with its stability where that is known.
+/// Without a response: the reason.
+struct ResponseOfAmplitude {
+  std::shared_ptr<const hbm::HbmProblem> problem;
+  continuation::Vector u;
+  std::optional<ResponsePoint> point;
+  std::string failure;
+};
+ResponseOfAmplitude response_of_amplitude(const std::shared_ptr<const model::Model>& model, double omega,
+                                          double amplitude, const GoOn& go_on = {});
+
 /// Of sliders that stick throughout the period: the choices of their elements, or also a search for the range
 /// of what they leave open, PointResponse::offset_range.
 enum class Offsets { chosen, range };

@@ -1,18 +1,21 @@
 #include <arcslip/observables/time_study.hpp>
 
+#include <arcslip/observables/departure.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/integrator.hpp>
 #include <arcslip/observables/patches.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 #include <arcslip/time/from_harmonics.hpp>
-#include <arcslip/time/newmark_periods.hpp>
 #include <arcslip/time/shooting.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -25,82 +28,8 @@ using time::EquationOfMotion;
 using time::MotionState;
 using time::PeriodMotion;
 
+constexpr int longest_period = 8;  // of a motion that a transient comes to
 constexpr int expected_maps = 20;  // of shooting, for progress
-constexpr long affordable_events = 100'000,
-               affordable_pieces = 1'000'000;  // beyond, shooting takes Newmark's steps
-
-/// One way to integrate one equation of motion.
-struct Integrator {
-  std::string name;
-  bool between_events = false;  // else in steps
-  MotionState start;            // at rest, as it takes it
-  results::Reason failure;      // why it cannot begin; none: it can
-  std::string message;
-  time::Periods periods{};
-  time::Flow flow{};
-};
-
-Integrator newmark(const EquationOfMotion& equation, long steps, const std::function<bool()>& stop) {
-  const auto method = std::make_shared<time::Newmark>(equation, steps);
-  Integrator result{"newmark", false, {}, {}, {}};
-  std::tie(result.failure, result.message) = time::failure_of(method->begin(time::at_rest(equation)), 0);
-  result.start = method->state();
-  result.periods = [method, stop](const MotionState& start, long count, bool with_history) {
-    return time::newmark_periods(*method, start, count, with_history, false, stop);
-  };
-  result.flow = [method](const MotionState& start) { return time::newmark_map(*method, start); };
-  return result;
-}
-
-results::Reason failure_of(time::EndReason reason) {
-  switch (reason) {
-    case time::EndReason::reached:
-      return {};
-    case time::EndReason::events:
-    case time::EndReason::pieces:
-      return reasons::event_limit;
-    case time::EndReason::stopped:
-      return reasons::user;
-    case time::EndReason::not_finite:
-      break;
-  }
-  return reasons::not_finite;
-}
-
-PeriodMotion periods_between_events(time::EventDriven& events, const MotionState& start, long count,
-                                    long steps, bool with_history) {
-  const double period = events.equation().period(), end = static_cast<double>(count) * period;
-  std::vector<double> instants;
-  for (long k = 0; with_history && k <= count * steps; ++k)
-    instants.push_back(std::min(static_cast<double>(k) * (period / static_cast<double>(steps)), end));
-  time::EventDrivenMotion motion = events.integrate(start, 0, end, instants);
-  PeriodMotion result;
-  result.failure = failure_of(motion.reason);
-  result.message = motion.message;
-  result.time = motion.time;
-  result.end = motion.end;
-  result.amplitude = motion.amplitude;
-  result.energy = motion.energy;
-  const double per_time = motion.time > 0 ? 1 / motion.time : 0;
-  for (const time::FrictionRecord& record : motion.friction)
-    result.friction.push_back({record.stick_time * per_time, record.open_time * per_time, record.energy,
-                               record.load_max, record.load_min});
-  if (with_history) result.history = std::move(motion.history);
-  return result;
-}
-
-/// Throws NotPiecewiseLinear, SingularMass.
-Integrator event_driven(const EquationOfMotion& equation, long steps, const time::EventLimits& limits) {
-  const auto events = std::make_shared<time::EventDriven>(equation, limits);
-  Integrator result{"event-driven", true, time::at_rest(equation), {}, {}};
-  result.periods = [events, steps](const MotionState& start, long count, bool with_history) {
-    return periods_between_events(*events, start, count, steps, with_history);
-  };
-  result.flow = [events](const MotionState& start) {
-    return events->map(start, events->equation().period());
-  };
-  return result;
-}
 
 class InTime {
  public:
@@ -121,6 +50,7 @@ class InTime {
     } catch (const time::NotInTime& error) {
       end(Status::failed, error.reason(), 0, 0, error.what());
     }
+    if (motion_.stop.reason.code.empty()) start_ = time::at_rest(equation_);
     progress_.frequency = settings_.frequency;
     progress_.item = "motion";
     progress_.counted = "periods";
@@ -135,6 +65,7 @@ class InTime {
 
  private:
   void integrate() {
+    if (settings_.start_amplitude > 0 && !begin_at_response()) return;
     Integrator integrator;
     if (!choose(integrator)) return;
     motion_.integrator = integrator.name;
@@ -142,8 +73,25 @@ class InTime {
       end(Status::failed, integrator.failure, 0, 0, integrator.message);
     else if (settings_.method == TimeMethod::shooting || settings_.method == TimeMethod::newmark_shooting)
       shoot(integrator);
+    else if (response_)
+      depart(integrator);
     else
       march(integrator);
+  }
+
+  bool begin_at_response() {
+    ResponseOfAmplitude found = response_of_amplitude(model_, motion_.omega, settings_.start_amplitude,
+                                                      [this] { return go_on(progress_.points); });
+    if (stopped_) {
+      end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
+    } else if (!found.point) {
+      end(Status::failed, reasons::start_failed, 0, 0,
+          "no response was found to start from: " + found.failure);
+    } else {
+      start_ = time::state_of(*found.problem, found.u, hbm::parameters_at(*found.problem, motion_.omega));
+      response_ = std::move(found.point);
+    }
+    return response_.has_value() && !stopped_;
   }
 
   bool choose(Integrator& integrator) {
@@ -155,7 +103,7 @@ class InTime {
         time::EventLimits limits;
         if (may_differ) limits = {affordable_events, affordable_pieces};
         limits.stop = [this] { return !go_on(progress_.points); };
-        integrator = event_driven(equation_, settings_.steps, limits);
+        integrator = between_events(equation_, start_, settings_.steps, limits);
         return true;
       } catch (const time::NotPiecewiseLinear& error) {
         reason = reasons::not_piecewise_linear;
@@ -169,12 +117,12 @@ class InTime {
         return false;
       }
     }
-    integrator = in_steps();
+    integrator = newmark();
     return true;
   }
 
-  Integrator in_steps() {
-    return newmark(equation_, settings_.steps, [this] { return !go_on(progress_.points); });
+  Integrator newmark() {
+    return in_steps(equation_, start_, settings_.steps, [this] { return !go_on(progress_.points); });
   }
 
   // Tells of the progress; false where the user stops.
@@ -204,11 +152,12 @@ class InTime {
     };
     time::ShootingOptions options;
     options.tolerance = settings_.tolerance;
+    if (response_) options.transients = 0;
     time::ShootingResult found = time::shoot(flow, integrator.start, equation_.omega, options);
     const bool may_differ = settings_.method == TimeMethod::shooting && integrator.between_events;
     if (found.reason == time::ShootingEnd::flow_failed && may_differ && !stopped_) {
       motion_.integrator = "newmark";
-      return shoot(in_steps());
+      return shoot(newmark());
     }
     if (!found.converged() && !stopped_) {
       if (const auto start = from_harmonic_balance()) {
@@ -252,6 +201,48 @@ class InTime {
     MotionState state = time::state_of(*first.problem, *first.u, p);
     const bool finite = state.x.allFinite() && state.v.allFinite() && state.z.allFinite();
     return finite ? std::optional(std::move(state)) : std::nullopt;
+  }
+
+  void depart(const Integrator& integrator) {
+    const time::SettleOptions options{settings_.periods, longest_period, settings_.tolerance};
+    Departure found = departure(integrator, integrator.start, equation_.omega, settings_.perturbation,
+                                options, [&](long periods, double change) { return go_on(periods, change); });
+    const time::Settled& reached = found.end;
+    const bool is_known = found.failure.empty();
+    const int repeats = std::max(settings_.recorded, reached.period);
+    motion_.periods = reached.periods + repeats;
+    motion_.change = reached.change;
+    record(integrator.periods(is_known ? reached.state : integrator.start, repeats, true));
+    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
+    if (!is_known) return end(Status::failed, reasons::no_periodic_motion, 0, 0, found.failure);
+    MotionDeparture& told = motion_.departure.emplace();
+    told.response_amplitude = response_->amplitude;
+    if (const auto& stability = response_->stability) {
+      told.unstable = stability->unstable;
+      if (!stability->multipliers.empty()) told.largest_multiplier = std::abs(stability->multipliers.front());
+      told.multiplier_error = stability->error;
+    }
+    told.growth = found.growth;
+    told.distance = found.distance;
+    told.returned = found.returned;
+    told.motion_period = reached.period;
+    if (reached.reason == time::SettleEnd::failed)
+      return end(Status::failed, reached.failure, 0, 0, reached.message);
+    std::ostringstream text;
+    text.precision(6);
+    if (reached.reason != time::SettleEnd::settled) {
+      text << "not settled after " << reached.periods << " periods (the limit), at a distance of "
+           << found.distance << " of its size from the motion where it started";
+      return end(Status::stopped, reasons::period_limit, reached.change, settings_.tolerance, text.str());
+    }
+    motion_.multipliers = reached.multipliers;
+    if (!reached.multipliers.empty()) motion_.stable = std::abs(reached.multipliers.front()) < 1;
+    if (found.returned)
+      text << "back on the motion where it started, within " << found.distance << " of its size";
+    else
+      text << "came to another motion, of period " << reached.period << " and amplitude " << motion_.amplitude
+           << " m, from that of amplitude " << found.amplitude << " m";
+    end_balanced(reasons::steady, reached.change, text.str());
   }
 
   void march(const Integrator& integrator) {
@@ -343,6 +334,8 @@ class InTime {
   Progress progress_;
   continuation::Vector p_;
   EquationOfMotion equation_;
+  MotionState start_;                      // at rest, or of the response
+  std::optional<ResponsePoint> response_;  // from which it starts
   Motion motion_;
   bool stopped_ = false;
 };

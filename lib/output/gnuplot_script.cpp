@@ -50,7 +50,8 @@ constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
     "pointtype 8 pointsize 1 linewidth 1.5",
     "pointtype 6 pointsize 1 linewidth 1.5",
     "pointtype 12 pointsize 1.1 linewidth 1.5",
-    "pointtype 2 pointsize 0.9 linewidth 1.5"};
+    "pointtype 2 pointsize 0.9 linewidth 1.5",
+    "pointtype 3 pointsize 0.9 linewidth 1.5"};
 
 /// Colours of the areas, in the order of area_kinds: alike where two kinds never meet.
 constexpr std::array<const char*, results::area_kinds.size()> area_colours = {

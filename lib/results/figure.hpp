@@ -26,7 +26,7 @@ struct FigureColumn {
 using Record = std::vector<double>;  // a value for each column, NaN if missing
 
 /// The kinds of events that are drawn, in the order of the data.
-inline constexpr std::array<std::string_view, 10> mark_kinds = {"peak",
+inline constexpr std::array<std::string_view, 11> mark_kinds = {"peak",
                                                                 "fold",
                                                                 "maximum",
                                                                 "minimum",
@@ -35,7 +35,8 @@ inline constexpr std::array<std::string_view, 10> mark_kinds = {"peak",
                                                                 "period_doubling",
                                                                 "neimark_sacker",
                                                                 "symmetry_breaking",
-                                                                "stability_lost"};
+                                                                "stability_lost",
+                                                                "jump"};
 
 struct FigureMark {
   std::string kind;

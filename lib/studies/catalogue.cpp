@@ -10,7 +10,7 @@
 namespace arcslip::studies {
 
 scene::Catalogue catalogue() {
-  return {elements::laws(), {&frf(), &trace(), &peaks(), &folds(), &time(), &point(), &modes()}};
+  return {elements::laws(), {&frf(), &trace(), &peaks(), &folds(), &time(), &point(), &modes(), &sweep()}};
 }
 
 void run(const scene::Scene& scene, const scene::RunOptions& options, results::Sink& sink) {

@@ -9,6 +9,7 @@
 #include <complex>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -72,6 +73,31 @@ results::Object contacts(const std::vector<observables::ElementMotion>& list,
   return all;
 }
 
+results::Object start(const observables::MotionDeparture& departure) {
+  results::Object object{{"amplitude", departure.response_amplitude, "m"}};
+  if (!std::isnan(departure.largest_multiplier))
+    object.insert(object.end(), {{"largest_multiplier", departure.largest_multiplier},
+                                 {"multiplier_error", departure.multiplier_error},
+                                 {"unstable_multipliers", departure.unstable}});
+  object.insert(
+      object.end(),
+      {{"growth", departure.growth}, {"returned", departure.returned}, {"distance", departure.distance}});
+  if (departure.motion_period > 0) object.push_back({"motion_period", departure.motion_period});
+  return object;
+}
+
+// Where it went, a sentence.
+std::string remark(const Motion& motion) {
+  if (!motion.departure) return {};
+  const observables::MotionDeparture& of = *motion.departure;
+  std::ostringstream text;
+  text.precision(6);
+  text << motion.stop.message << "; in a period the disturbance changed by the factor " << of.growth;
+  if (!std::isnan(of.largest_multiplier))
+    text << ", beside a largest multiplier of modulus " << of.largest_multiplier;
+  return text.str();
+}
+
 results::Object facts(const scene::Scene& scene, const Motion& motion) {
   results::Value::List multipliers;
   for (const std::complex<double>& multiplier : motion.multipliers)
@@ -95,6 +121,7 @@ results::Object facts(const scene::Scene& scene, const Motion& motion) {
   if (!motion.multipliers.empty())
     all.push_back({"largest_multiplier", std::abs(motion.multipliers.front())});
   if (motion.stable) all.push_back({"stable", *motion.stable});
+  if (motion.departure) all.push_back({"start", start(*motion.departure)});
   if (motion.elements.size() == 1)
     all.push_back({"stick_percent", motion.elements.front().stick_percent, "%"});
   std::set<std::string> hidden;
@@ -136,19 +163,21 @@ Described<Motion> motions(const scene::Scene& scene, const RunOptions& options) 
                          .noun = "motion",
                          .tables = {{"history", table->columns(), {"elements"}, true}},
                          .shown = std::move(shown)};
-  return {std::move(schema), [&scene, table, points = options.points](const Motion& motion) {
-            std::vector<Instant> instants;
-            for (std::size_t i = 0; points && i < motion.history.time.size(); ++i)
-              instants.push_back({&motion.history, i});
-            return results::Result{
-                .schema = 0,
-                .head = {motion.study,
-                         motion.kind,
-                         named(scene, motion.set),
-                         {{"parameters", named(scene, motion.parameters)}}},
-                .tables = {table->rows(instants)},
-                .end = {motion.status, stop(motion.stop), facts(scene, motion), doubt(motion)}};
-          }};
+  return {
+      std::move(schema), [&scene, table, points = options.points](const Motion& motion) {
+        std::vector<Instant> instants;
+        for (std::size_t i = 0; points && i < motion.history.time.size(); ++i)
+          instants.push_back({&motion.history, i});
+        return results::Result{
+            .schema = 0,
+            .head = {motion.study,
+                     motion.kind,
+                     named(scene, motion.set),
+                     {{"parameters", named(scene, motion.parameters)}}},
+            .tables = {table->rows(instants)},
+            .end = {
+                motion.status, stop(motion.stop), facts(scene, motion), doubt(motion), {}, remark(motion)}};
+      }};
 }
 
 results::Results results_of(const scene::Scene& scene, std::span<const Motion> all,

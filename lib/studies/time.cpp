@@ -5,6 +5,8 @@
 #include <arcslip/studies/study_of.hpp>
 
 #include <array>
+#include <limits>
+#include <string>
 
 namespace arcslip::studies {
 namespace {
@@ -24,6 +26,17 @@ std::vector<scene::file::Word<TimeMethod>> method_words() {
   std::vector<scene::file::Word<TimeMethod>> words;
   for (const TimeMethod method : methods) words.push_back({name(method), method});
   return words;
+}
+
+void check_start(const Reading& reading, const TimeSettings& time) {
+  if (time.perturbation == TimeSettings{}.perturbation) return;
+  const auto fault = [&](const char* why) {
+    reading.faults.add(reading.keys.find("perturbation").pointer, std::string("found beside ") + why);
+  };
+  if (time.start_amplitude == 0)
+    fault("no \"start\", must be with one: a transient from rest is not disturbed");
+  else if (time.method == TimeMethod::shooting || time.method == TimeMethod::newmark_shooting)
+    fault("a method of shooting, must be with \"newmark\" or \"event-driven\"");
 }
 
 void check_history(const Reading& reading, TimeSettings& time) {
@@ -50,7 +63,18 @@ scene::file::KeysOf<TimeSettings> keys() {
   keys.add(number(&TimeSettings::tolerance, {.name = "tolerance", .unit = "-", .lower = 0, .upper = 1},
                   "relative tolerance of the state: its change over a period in steady state, or the last "
                   "correction of shooting; 0: a transient runs for all of its periods"));
-  keys.check(check_history);
+  keys.add(number(
+      &TimeSettings::start_amplitude,
+      {.name = "start", .unit = "m", .lower = 0, .upper = std::numeric_limits<double>::infinity()},
+      "to start from the response of harmonic balance with the amplitude nearest to it; 0: from rest"));
+  keys.add(
+      number(&TimeSettings::perturbation, {.name = "perturbation", .unit = "-", .lower = 0, .upper = 1},
+             "of a transient with a \"start\": its disturbance there, relative to the size of the state, "
+             "along the largest multiplier"));
+  keys.check([](const Reading& reading, TimeSettings& time) {
+    check_history(reading, time);
+    check_start(reading, time);
+  });
   return keys;
 }
 

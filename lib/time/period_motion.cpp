@@ -15,13 +15,13 @@ double size_of(const MotionState& state, double omega) {
   return std::max({largest(state.x), largest(state.v) / omega, largest(state.z)});
 }
 
+}  // namespace
+
 double change_of(const MotionState& from, const MotionState& to, double omega) {
   const double size = std::max(size_of(from, omega), size_of(to, omega));
   const double change = size_of({to.x - from.x, to.v - from.v, to.z - from.z}, omega);
   return size > 0 ? change / size : 0;
 }
-
-}  // namespace
 
 Transient transient(const Periods& integrate, const MotionState& start, double omega,
                     const TransientOptions& options, const std::function<bool(long, double)>& progress) {

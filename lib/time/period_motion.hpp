@@ -37,6 +37,9 @@ struct PeriodMotion {
 /// first.
 using Periods = std::function<PeriodMotion(const MotionState& start, long count, bool with_history)>;
 
+/// Between two states, relative to the larger one: of the largest |x|, |v|/omega or |z|.
+double change_of(const MotionState& from, const MotionState& to, double omega);
+
 struct TransientOptions {
   long periods = 1000;      // maximum, including the recorded ones
   long recorded = 1;        // with history, at the end, once the motion is steady

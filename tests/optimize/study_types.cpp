@@ -94,7 +94,9 @@ std::string studies_of_all_kinds() {
      "constraints": [{"observable": "energy_friction", "at_most": 1},
                      {"sum": {"damper.normal_load": 1}, "at_least": 0.5}]},
     {"kind": "point", "frequency": 20},
-    {"kind": "modes", "mode": 1, "amplitude": [1e-5, 1e-2]}])";
+    {"kind": "modes", "mode": 1, "amplitude": [1e-5, 1e-2]},
+    {"kind": "sweep", "from": 18, "to": 22, "direction": "up"},
+    {"kind": "sweep", "from": 18, "to": 22, "spacing": 0.5}])";
 }
 
 scene::Scene scene_with_all_kinds() {

@@ -6,10 +6,10 @@
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/elements/series.hpp>
-#include <arcslip/observables/departure.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/wider_branches.hpp>
 #include <arcslip/time/from_harmonics.hpp>
 #include <arcslip/time/shooting.hpp>
 

@@ -15,7 +15,7 @@ void add_studies(std::vector<BadScene>& rows) {
                   "found no key \"kind\", which is required: must be one of \"frf\""});
   rows.push_back({"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
                   "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"time\", "
-                  "\"point\", \"modes\", \"optimum\"; did you "
+                  "\"point\", \"modes\", \"sweep\", \"optimum\"; did you "
                   "mean \"frf\"?"});
   rows.push_back({"kind that is no string", with_study("{\"kind\": 1}"), "/studies/0/kind",
                   "found 1 (a number), must be one of \"frf\""});
@@ -222,9 +222,9 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "found \"1e-9\" (a string), must be a number");
   add("range in a motion in time", at + "\"from\": 1", "from",
       "found the key \"from\", which belongs to studies of kind \"frf\", \"trace\", \"peaks\", \"folds\", "
-      "\"optimum\", must be");
+      "\"sweep\", \"optimum\", must be");
   add("steps in a frequency response", "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"steps\": 100", "steps",
-      "found the key \"steps\", which belongs to studies of kind \"time\", \"point\", must be");
+      "found the key \"steps\", which belongs to studies of kind \"time\", \"point\", \"sweep\", must be");
   const std::string mode = "\"kind\": \"modes\", ";
   add("mode without amplitudes", mode + "\"mode\": 1", "amplitude",
       "found no key \"amplitude\", which is required: must be two values [from, to], each above 0 and at "
