@@ -76,22 +76,83 @@ bool course_of(const Automaton& automaton, const std::vector<elements::ContactIn
 
 namespace {
 
-constexpr std::size_t terms = 21;
 constexpr int most_periods = 6;
 constexpr int most_changes = 10'000;
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 constexpr double touch = 1e-7;     // rad
 constexpr double repeats = 1e-11;  // of the memory, relative to the motion
 
-using Series = std::array<double, terms>;
+using Series = MotionSeries::Series;
+
+// c(s_0 + (1 - s_0) s), by Horner's scheme.
+void begin_at(double s_0, Series& c) {
+  for (std::size_t k = 0; k < c.size(); ++k)
+    for (std::size_t j = c.size() - 1; j-- > k;) c[j] += s_0 * c[j + 1];
+  double factor = 1;
+  for (double& term : c) {
+    term *= factor;
+    factor *= 1 - s_0;
+  }
+}
+
+}  // namespace
+
+void MotionSeries::expand(const elements::Harmonics& harmonics, const Eigen::MatrixXd& q) {
+  order_ = harmonics.order;
+  pieces_ = static_cast<int>(std::ceil(turn * order_));
+  directions_ = static_cast<std::size_t>(q.cols());
+  length_ = turn / pieces_;
+  size_ = q.colwise().norm().sum();
+  series_.assign(static_cast<std::size_t>(pieces_) * directions_, Series{});
+  for (int piece = 0; piece < pieces_; ++piece) {
+    const double theta = turn * piece / pieces_;
+    for (int j = 0; j < harmonics.cosines(); ++j) {
+      const int n = harmonics.cosine_order(j);
+      const double cosine = std::cos(n * theta), sine = std::sin(n * theta);
+      for (std::size_t i = 0; i < directions_; ++i) {
+        const auto column = q.col(static_cast<Eigen::Index>(i));
+        const double a = column[j], b = n > 0 ? column[harmonics.sine_index(n)] : 0;
+        // x and its derivative by n theta turn by a quarter with each term.
+        const double x = a * cosine + b * sine, d = b * cosine - a * sine;
+        Series& c = series_[static_cast<std::size_t>(piece) * directions_ + i];
+        double factor = 1;
+        for (std::size_t k = 0; k < terms; ++k) {
+          const double part = k % 2 == 0 ? x : d;
+          c[k] += (k % 4 < 2 ? factor : -factor) * part;
+          factor *= n * length_ / static_cast<double>(k + 1);
+        }
+      }
+    }
+  }
+  const int groups = (pieces_ + in_group - 1) / in_group;
+  const Range none{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  displacements_.assign(static_cast<std::size_t>(groups) * directions_, none);
+  velocities_ = displacements_;
+  for (int piece = 0; piece < pieces_; ++piece)
+    for (std::size_t i = 0; i < directions_; ++i) {
+      const Series& c = series(piece, i);
+      double swing = 0, bend = 0;
+      for (std::size_t k = 1; k < terms; ++k) {
+        swing += std::abs(c[k]);
+        if (k > 1) bend += static_cast<double>(k) * std::abs(c[k]);
+      }
+      const auto widen = [](Range& range, double middle, double by) {
+        range.low = std::min(range.low, middle - by);
+        range.high = std::max(range.high, middle + by);
+      };
+      const auto at = static_cast<std::size_t>(piece / in_group) * directions_ + i;
+      widen(displacements_[at], c[0], swing);
+      widen(velocities_[at], c[1] / length_, bend / length_);
+    }
+}
+
+namespace {
 
 // One automaton that is led along a motion.
 class Follower {
  public:
-  Follower(const Automaton& automaton, const elements::Harmonics& harmonics, const Eigen::MatrixXd& q)
-      : automaton_(automaton), harmonics_(harmonics), q_(q), series_(static_cast<std::size_t>(q.cols())) {
-    for (const auto& column : q.colwise()) size_ += column.norm();
-  }
+  Follower(const Automaton& automaton, const MotionSeries& motion)
+      : automaton_(automaton), motion_(motion), series_(motion.directions()) {}
 
   bool run(Course& course) {
     for (int period = 0; period < most_periods; ++period) {
@@ -99,7 +160,8 @@ class Follower {
       course.first = now_;
       const double before = memory_at_start();
       if (!one_period(course.changes)) return false;
-      const bool again = now_ == course.first && std::abs(memory_at_start() - before) <= repeats * size_;
+      const bool again =
+          now_ == course.first && std::abs(memory_at_start() - before) <= repeats * motion_.size();
       if (again && period > 0) {
         drop_touches(course.changes);
         return true;
@@ -112,26 +174,8 @@ class Follower {
   const Mode& mode() const { return mode_of(automaton_, now_); }
   bool follows() const { return automaton_.memory >= 0 && !mode().rests; }
 
-  // The series of each direction over [theta, theta + h].
-  void expand(double theta, double h) {
-    for (std::size_t i = 0; i < series_.size(); ++i) {
-      const auto column = q_.col(static_cast<Eigen::Index>(i));
-      Series& c = series_[i];
-      c.fill(0);
-      for (int j = 0; j < harmonics_.cosines(); ++j) {
-        const int n = harmonics_.cosine_order(j);
-        const double a = column[j], b = n > 0 ? column[harmonics_.sine_index(n)] : 0;
-        const double cosine = std::cos(n * theta), sine = std::sin(n * theta);
-        // x and its derivative by n theta turn by a quarter with each term.
-        const double x = a * cosine + b * sine, d = b * cosine - a * sine;
-        double factor = 1;
-        for (std::size_t k = 0; k < terms; ++k) {
-          const double part = k % 2 == 0 ? x : d;
-          c[k] += (k % 4 < 2 ? factor : -factor) * part;
-          factor *= n * h / static_cast<double>(k + 1);
-        }
-      }
-    }
+  void look_at(int piece) {
+    for (std::size_t i = 0; i < series_.size(); ++i) series_[i] = motion_.series(piece, i);
   }
 
   double at(std::size_t i, double s) const { return value(series_[i], s); }
@@ -156,31 +200,47 @@ class Follower {
   }
 
   double memory_at_start() {
-    expand(0, 1);
+    look_at(0);
     return automaton_.memory < 0 ? 0 : memory(0);
   }
 
+  // A guard as c + sum by_q q + by_v q' (by the angle) along what the memory does now.
+  struct Along {
+    double c, size;  // size: of its terms at the start of a piece
+  };
+  Along along(const Guard& guard) {
+    const double by_z = automaton_.memory < 0 ? 0 : guard.z;
+    const double shift = by_z == 0 ? 0 : by_z * (follows() ? mode().z_0 : z_);
+    Along result{guard.c + shift, std::abs(guard.c) + std::abs(shift)};
+    by_q_.resize(series_.size());
+    by_v_.resize(series_.size());
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      by_q_[i] = (guard.q.size() > 0 ? guard.q[k] : 0) + (follows() && by_z != 0 ? by_z * mode().z_q[k] : 0);
+      by_v_[i] = guard.v.size() > 0 ? guard.v[k] : 0;
+      result.size += (std::abs(by_q_[i]) + std::abs(by_v_[i]) * motion_.order()) * motion_.size();
+    }
+    return result;
+  }
+
   // The first guard that falls on [0, 1] of a piece of length h.
-  const Guard* first(double h, double& s) const {
+  const Guard* first(double h, double& s) {
     const Guard* found = nullptr;
     s = 1;
     Series c{};
     for (const Guard& guard : mode().leaves) {
-      const double by_z = automaton_.memory < 0 ? 0 : guard.z;
+      const Along now = along(guard);
       c.fill(0);
-      c[0] = guard.c + (by_z == 0 ? 0 : by_z * (follows() ? mode().z_0 : z_));
-      double size = std::abs(guard.c) + std::abs(c[0] - guard.c);
+      c[0] = now.c;
       for (std::size_t i = 0; i < series_.size(); ++i) {
-        const auto k = static_cast<Eigen::Index>(i);
-        const double by_q =
-            (guard.q.size() > 0 ? guard.q[k] : 0) + (follows() && by_z != 0 ? by_z * mode().z_q[k] : 0);
-        const double by_v = guard.v.size() > 0 ? guard.v[k] : 0;
-        for (std::size_t j = 0; j < terms; ++j) c[j] += by_q * series_[i][j];
-        for (std::size_t j = 0; j + 1 < terms; ++j)
-          c[j] += by_v * static_cast<double>(j + 1) * series_[i][j + 1] / h;
-        size += (std::abs(by_q) + std::abs(by_v) * harmonics_.order) * size_;
+        const double by_q = by_q_[i], by_v = by_v_[i] / h;
+        if (by_q != 0)
+          for (std::size_t j = 0; j < c.size(); ++j) c[j] += by_q * series_[i][j];
+        if (by_v != 0)
+          for (std::size_t j = 0; j + 1 < c.size(); ++j)
+            c[j] += by_v * static_cast<double>(j + 1) * series_[i][j + 1];
       }
-      const auto fall = first_fall(c, rounding * size);
+      const auto fall = first_fall(c, rounding * now.size);
       if (!fall || (found && *fall >= s)) continue;
       s = *fall;
       found = &guard;
@@ -188,14 +248,32 @@ class Follower {
     return found;
   }
 
+  // Whether no guard comes near zero in a group of pieces.
+  bool stays(int group) {
+    for (const Guard& guard : mode().leaves) {
+      const Along now = along(guard);
+      double least = now.c - rounding * now.size;
+      const auto take = [&](double by, const MotionSeries::Range& range) {
+        least += std::min(by * range.low, by * range.high);
+      };
+      for (std::size_t i = 0; i < series_.size(); ++i) {
+        if (by_q_[i] != 0) take(by_q_[i], motion_.displacement(group, i));
+        if (by_v_[i] != 0) take(by_v_[i], motion_.velocity(group, i));
+      }
+      if (!(least > 0)) return false;
+    }
+    return true;
+  }
+
   bool one_period(std::vector<ModeChange>& changes) {
-    const int pieces = static_cast<int>(std::ceil(turn * harmonics_.order));
-    for (int piece = 0; piece < pieces; ++piece) {
-      double theta = turn * piece / pieces;
-      const double end = turn * (piece + 1) / pieces;
-      while (theta < end) {
-        const double h = end - theta;
-        expand(theta, h);
+    for (int piece = 0; piece < motion_.pieces(); ++piece) {
+      if (piece % MotionSeries::in_group == 0 && stays(piece / MotionSeries::in_group)) {
+        piece += MotionSeries::in_group - 1;
+        continue;
+      }
+      look_at(piece);
+      double theta = turn * piece / motion_.pieces(), h = motion_.length();
+      while (true) {
         double s = 1;
         const Guard* guard = first(h, s);
         if (!guard) break;
@@ -204,30 +282,32 @@ class Follower {
         theta += s * h;
         changes.push_back({std::min(theta, std::nexttoward(turn, 0.0L)), now_, guard->to, guard});
         now_ = guard->to;
+        h *= 1 - s;
+        if (!(h > 0)) break;
+        for (Series& each : series_) begin_at(s, each);
       }
     }
     return true;
   }
 
   const Automaton& automaton_;
-  const elements::Harmonics& harmonics_;
-  const Eigen::MatrixXd& q_;
-  std::vector<Series> series_;
-  double size_ = 0, z_ = 0;
+  const MotionSeries& motion_;
+  std::vector<Series> series_;  // on the piece
+  std::vector<double> by_q_, by_v_;
+  double z_ = 0;
   int now_ = 0;
 };
 
 }  // namespace
 
-bool course_along(const Automaton& automaton, const elements::Harmonics& harmonics, const Eigen::MatrixXd& q,
-                  Course& course) {
+bool course_along(const Automaton& automaton, const MotionSeries& motion, Course& course) {
   if (std::all_of(automaton.modes.begin(), automaton.modes.end(),
                   [](const Mode& mode) { return mode.leaves.empty(); })) {
     course.changes.clear();
     course.first = 0;
     return true;
   }
-  return Follower(automaton, harmonics, q).run(course);
+  return Follower(automaton, motion).run(course);
 }
 
 }  // namespace arcslip::time

@@ -1,6 +1,7 @@
 #include <arcslip/time/floquet.hpp>
 
 #include <arcslip/time/linear_motion.hpp>
+#include <arcslip/time/linear_phases.hpp>
 #include <arcslip/time/variation.hpp>
 
 #include <Eigen/LU>
@@ -8,7 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 namespace arcslip::time {
 namespace {
@@ -20,6 +23,7 @@ constexpr double most_pieces = 200;  // into which one is divided further
 constexpr double fastest_turns =
     1e12;  // of the fastest motion in a period: beyond, nothing is left of its phase
 constexpr double pieces_per_order = 2;  // of the motion's harmonics
+constexpr double long_enough = 0.05;    // of the longest interval without a change, to begin in it
 
 // Gauss-Legendre nodes on [0, 1].
 std::array<double, nodes> gauss_nodes() {
@@ -70,51 +74,78 @@ bool falling(const std::complex<double>& a, const std::complex<double>& b) {
 }  // namespace
 
 struct Floquet::Impl {
-  explicit Impl(const EquationOfMotion& of) : equation(of), along(interpolation()) {
+  Impl(const EquationOfMotion& of, double highest_natural, Impl* before)
+      : equation(of), highest(highest_natural), along(interpolation()) {
+    const bool all_linear =
+        std::none_of(equation.elements.begin(), equation.elements.end(),
+                     [](const auto& e) { return e.law->memory() == 0 && !e.law->automata(e.fields); });
+    if (!all_linear) mass.factorize(equation.M);
+    for (std::size_t e = 0; e < equation.elements.size(); ++e) add(static_cast<int>(e));
+    if (all_linear) {
+      auto all = phase_parts();
+      if (before && before->phases && before->phases->parts() == all && before->equation.M == equation.M &&
+          before->equation.C == equation.C && before->equation.K == equation.K)
+        phases = std::move(before->phases);
+      else
+        phases.emplace(equation, std::move(all), highest);
+      return;
+    }
     std::vector<LinearMotion::Part> stiffnesses;
-    mass.factorize(equation.M);
-    for (std::size_t e = 0; e < equation.elements.size(); ++e) add(static_cast<int>(e), stiffnesses);
+    for (const Part& part : parts) {
+      stiffnesses.push_back({part.directions, {}});
+      for (const auto& mode : part.automaton.modes) stiffnesses.back().stiffnesses.push_back(mode.f_q);
+    }
     fastest_mode = fastest(equation, stiffnesses);
     over_mass_K = mass.solve(equation.K);
     over_mass_C = mass.solve(equation.C);
+    for (Part& part : parts) part.over_mass = mass.solve(part.directions);
   }
 
-  void add(int e, std::vector<LinearMotion::Part>& stiffnesses) {
+  std::vector<PhasePart> phase_parts() const {
+    std::vector<PhasePart> all;
+    for (const Part& part : parts) {
+      PhasePart& each = all.emplace_back(PhasePart{part.directions, {}, {}, part.memory});
+      for (const auto& mode : part.automaton.modes) {
+        each.stiffness.push_back(mode.f_q);
+        each.by_memory.push_back(mode.rests ? mode.f_z : Vector::Zero(mode.f_z.size()));
+      }
+    }
+    return all;
+  }
+
+  void add(int e) {
     const TimeElement& element = equation.elements[static_cast<std::size_t>(e)];
-    const Matrix over_mass = mass.solve(element.directions);
     if (auto automata = element.law->automata(element.fields)) {
       for (auto& automaton : *automata) {
         const int memory = automaton.memory < 0 ? -1 : element.memory + automaton.memory;
-        stiffnesses.push_back({element.directions, {}});
-        for (const auto& mode : automaton.modes) stiffnesses.back().stiffnesses.push_back(mode.f_q);
-        parts.push_back({e, std::move(automaton), memory, over_mass, element.directions});
+        parts.push_back({e, std::move(automaton), memory, {}, element.directions});
       }
       return;
     }
     if (element.law->memory() > 0)
       throw NoVariation("the memory of \"" + element.name + "\" is not piecewise linear");
     smooth.push_back({e, element.law->rate_dependent(), {element.law->directions(), 0}, {}, {}});
-    variables.push_back({over_mass, element.directions, std::vector<Matrix>(nodes), {}});
-    if (smooth.back().moving) variables.back().B.resize(nodes);
+    variables.emplace_back(mass.solve(element.directions), element.directions, nodes, smooth.back().moving);
   }
 
   bool compute(double base_frequency, const elements::Harmonics& harmonics,
-               const std::vector<ElementCourse>& elements) {
+               const std::vector<ElementCourse>& elements, const GoOn& go_on) {
     omega = base_frequency;
     span = harmonics.span();
     if (!follow(harmonics, elements)) return false;
-    begin(harmonics);
-    if (!(rate < fastest_turns)) return false;
+    begin();
+    if (phases)
+      phases->begin(modes_now(), kept);
+    else if (!begin_with_smooth(harmonics))
+      return false;
     std::size_t next = 0;
     double theta = 0;
     while (true) {
+      if (go_on && !go_on()) return false;
       const double end = next < changes.size() ? changes[next].theta : span;
-      set_modes();
-      if (smooth.empty()) {
-        variation.move(end - theta, rate, K, C, G, {}, W, V);
-      } else {
-        if (!move_with_smooth(theta, end, harmonics, elements)) return false;
-      }
+      const bool moved =
+          phases ? phases->move((end - theta) / omega) : move_with_smooth(theta, end, harmonics, elements);
+      if (!moved) return false;
       theta = end;
       if (next == changes.size()) break;
       pass(changes[next++], harmonics, elements);
@@ -122,29 +153,56 @@ struct Floquet::Impl {
     return finish(harmonics.odd);
   }
 
-  // The courses, and the changes of all of them from the middle of the longest interval without one.
+  std::vector<int> modes_now() const {
+    std::vector<int> all;
+    for (const Part& part : parts) all.push_back(part.now);
+    return all;
+  }
+
+  // The courses, and the changes of all of them from the middle of an interval without one: a long one in
+  // which the fewest sliders rest, as each of these is one more start.
   bool follow(const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements) {
     changes.clear();
+    int expanded = -1;  // the element whose motion `series` is
     for (std::size_t i = 0; i < parts.size(); ++i) {
       Part& part = parts[i];
       const ElementCourse& element = elements[static_cast<std::size_t>(part.element)];
       if (!element.q.allFinite()) return false;
-      if (!course_of(part.automaton, element.contact, part.course) &&
-          !course_along(part.automaton, harmonics, element.q, part.course))
-        return false;
+      if (!course_of(part.automaton, element.contact, part.course)) {
+        if (expanded != part.element) series.expand(harmonics, element.q);
+        expanded = part.element;
+        if (!course_along(part.automaton, series, part.course)) return false;
+      }
       for (std::size_t k = 0; k < part.course.changes.size(); ++k)
         changes.push_back({part.course.changes[k].theta, i, k});
     }
     std::stable_sort(changes.begin(), changes.end(),
                      [](const Change& a, const Change& b) { return a.theta < b.theta; });
-    start = 0;
-    double longest = 0;
-    for (std::size_t k = 0; k < changes.size(); ++k) {
+    const auto length = [&](std::size_t k) {
       const bool last = k + 1 == changes.size();
-      const double from = changes[k].theta, to = last ? changes.front().theta + turn : changes[k + 1].theta;
-      if (to - from <= longest) continue;
-      longest = to - from;
-      start = 0.5 * (from + to);
+      return (last ? changes.front().theta + turn : changes[k + 1].theta) - changes[k].theta;
+    };
+    double longest = 0;
+    for (std::size_t k = 0; k < changes.size(); ++k) longest = std::max(longest, length(k));
+    int resting = 0;
+    for (Part& part : parts) {
+      part.now = part.course.first;
+      resting += part.rests() && !part.course.changes.empty() ? 1 : 0;
+    }
+    start = 0;
+    int fewest = std::numeric_limits<int>::max();
+    double its_length = 0;
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+      Part& part = parts[changes[k].part];
+      resting -= part.rests() ? 1 : 0;
+      part.now = part.course.changes[changes[k].index].to;
+      resting += part.rests() ? 1 : 0;
+      const double is_long = length(k);
+      if (is_long < long_enough * longest || std::pair(resting, -is_long) >= std::pair(fewest, -its_length))
+        continue;
+      fewest = resting;
+      its_length = is_long;
+      start = changes[k].theta + 0.5 * is_long;
     }
     for (Change& change : changes) {
       change.theta -= start;
@@ -156,8 +214,7 @@ struct Floquet::Impl {
     return true;
   }
 
-  void begin(const elements::Harmonics& harmonics) {
-    const Eigen::Index n = equation.dofs();
+  void begin() {
     kept.clear();
     zeros = 0;
     for (Part& part : parts) {
@@ -169,6 +226,11 @@ struct Floquet::Impl {
       if (!part.rests()) ++zeros;
       if (part.rests() && !always) kept.push_back(part.memory);
     }
+  }
+
+  // False: too fast.
+  bool begin_with_smooth(const elements::Harmonics& harmonics) {
+    const Eigen::Index n = equation.dofs();
     const auto starts = 2 * n + static_cast<Eigen::Index>(kept.size());
     W.setZero(starts, n);
     V.setZero(starts, n);
@@ -179,6 +241,7 @@ struct Floquet::Impl {
     C = over_mass_C / omega;
     rate = fastest_mode / omega;
     piece = turn / std::max<double>(pieces_at_least, pieces_per_order * harmonics.order);
+    return rate < fastest_turns;
   }
 
   void set_modes() {
@@ -202,6 +265,7 @@ struct Floquet::Impl {
   // False: too many pieces.
   bool move_with_smooth(double theta, double end, const elements::Harmonics& harmonics,
                         const std::vector<ElementCourse>& elements) {
+    set_modes();
     const double length = end - theta;
     const int coarse = static_cast<int>(std::ceil(length / piece));
     for (int i = 0; i < coarse; ++i) {
@@ -260,9 +324,8 @@ struct Floquet::Impl {
           if (law.moving) variable.B[j] += weight / omega * law.B[i];
         }
       }
-      const double size = variable.over_mass.norm() * variable.directions.norm();
-      stiffness += size * most_T / (omega * omega);
-      damping += size * most_B / omega;
+      stiffness += variable.size * most_T / (omega * omega);
+      damping += variable.size * most_B / omega;
     }
     return std::sqrt(rate * rate + stiffness) + damping;
   }
@@ -274,17 +337,20 @@ struct Floquet::Impl {
     const elements::Mode& left = part.mode();
     const elements::Mode& next = part.automaton.modes[static_cast<std::size_t>(change.to)];
     if (part.memory >= 0 && !left.rests && next.rests)
-      settle(part, *change.by, change.theta, harmonics, elements);
+      settle(at.part, *change.by, change.theta, harmonics, elements);
     part.now = change.to;
+    if (phases) phases->change(at.part, change.to);
   }
 
   // The memory that followed comes to rest: where the instant moves, by -dg/g', dz moves along.
-  void settle(const Part& part, const elements::Guard& guard, double theta,
+  void settle(std::size_t index, const elements::Guard& guard, double theta,
               const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements) {
+    const Part& part = parts[index];
     const elements::Mode& left = part.mode();
     const Matrix& motion = elements[static_cast<std::size_t>(part.element)].q;
-    auto dz = Z.col(part.memory);
-    dz.noalias() = W * (part.directions * left.z_q.transpose());
+    const Matrix dq = phases ? phases->along(index) : Matrix(W * part.directions);
+    auto dz = (phases ? phases->memory() : Z).col(part.memory);
+    dz.noalias() = dq * left.z_q.transpose();
     if (guard.v.size() > 0 && !guard.v.isZero(0)) return;  // of the memory's velocity: it is at rest
     by_q = guard.z * left.z_q;
     if (guard.q.size() > 0) by_q += guard.q;
@@ -294,20 +360,23 @@ struct Floquet::Impl {
       velocity += left.z_q[k] * d1;
       falls += by_q[k] * d1;
     }
-    if (velocity != 0 && falls != 0) dz -= velocity / falls * (W * (part.directions * by_q.transpose()));
+    if (velocity != 0 && falls != 0) dz -= velocity / falls * (dq * by_q.transpose());
   }
 
   bool finish(bool half) {
-    const Eigen::Index n = equation.dofs();
-    const auto size = 2 * n + static_cast<Eigen::Index>(kept.size());
-    map.resize(size, size);
-    map.topRows(n) = W.transpose();
-    map.middleRows(n, n) = V.transpose();
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      map.row(2 * n + static_cast<Eigen::Index>(k)) = Z.col(kept[k]);
+    if (phases) {
+      map = phases->map();
+    } else {
+      const Eigen::Index n = equation.dofs();
+      const auto size = 2 * n + static_cast<Eigen::Index>(kept.size());
+      map.resize(size, size);
+      map.topRows(n) = W.transpose();
+      map.middleRows(n, n) = V.transpose();
+      for (std::size_t k = 0; k < kept.size(); ++k)
+        map.row(2 * n + static_cast<Eigen::Index>(k)) = Z.col(kept[k]);
+    }
     if (half) map = -map;
-    if (!map.allFinite() || !eigenvalues.compute(map)) return false;
-    multipliers.assign(eigenvalues.values().begin(), eigenvalues.values().end());
+    if (!map.allFinite() || !set_eigenvalues()) return false;
     half_multipliers.clear();
     if (half) {
       half_multipliers = multipliers;
@@ -318,8 +387,23 @@ struct Floquet::Impl {
     return true;
   }
 
+  bool set_eigenvalues() {
+    if (map.rows() == 2) {
+      const double mean = 0.5 * (map(0, 0) + map(1, 1)), difference = 0.5 * (map(0, 0) - map(1, 1));
+      const double square = difference * difference + map(0, 1) * map(1, 0);
+      const std::complex<double> root = std::sqrt(std::complex<double>(square));
+      multipliers.assign({mean + root, mean - root});
+      return true;
+    }
+    if (!eigenvalues.compute(map)) return false;
+    multipliers.assign(eigenvalues.values().begin(), eigenvalues.values().end());
+    return true;
+  }
+
   const EquationOfMotion equation;
+  const double highest;
   const Eigen::Matrix4d along;
+  std::optional<LinearPhases> phases;  // of a structure without smooth laws; then no W, V and Z
   continuation::Cholesky mass;
   std::vector<Part> parts;
   std::vector<Smooth> smooth;
@@ -328,6 +412,7 @@ struct Floquet::Impl {
   double fastest_mode = 0;  // rad/s, of the automata's stiffest modes
 
   // Of one motion.
+  MotionSeries series;
   double omega = 0, span = 0, start = 0, rate = 0, piece = 0;
   std::vector<Change> changes;  // in [0, span)
   std::vector<int> kept;        // memories with a column
@@ -341,13 +426,23 @@ struct Floquet::Impl {
   std::vector<std::complex<double>> multipliers, half_multipliers;
 };
 
-Floquet::Floquet(const EquationOfMotion& equation) : impl_(std::make_unique<Impl>(equation)) {}
+Floquet::Floquet(const EquationOfMotion& equation, double highest)
+    : impl_(std::make_unique<Impl>(equation, highest, nullptr)) {}
 Floquet::~Floquet() = default;
 Floquet::Floquet(Floquet&&) noexcept = default;
+Floquet& Floquet::operator=(Floquet&&) noexcept = default;
+
+void Floquet::move_to(const EquationOfMotion& equation) {
+  impl_ = std::make_unique<Impl>(equation, impl_->highest, impl_.get());
+}
 
 bool Floquet::compute(double omega, const elements::Harmonics& harmonics,
-                      const std::vector<ElementCourse>& elements) {
-  return impl_->compute(omega, harmonics, elements);
+                      const std::vector<ElementCourse>& elements, const GoOn& go_on) {
+  return impl_->compute(omega, harmonics, elements, go_on);
+}
+
+int Floquet::modes() const {
+  return impl_->phases ? static_cast<int>(impl_->phases->modes()) : impl_->equation.dofs();
 }
 
 const std::vector<std::complex<double>>& Floquet::multipliers() const {

@@ -10,10 +10,15 @@
 // the variation of this instant, -dg/g', moves it too. Other laws without memory have T = df/dq and
 // B = df/dv along the motion.
 //
-// Propagation: power series of w over pieces of the period. T and B of other laws are replaced by polynomials
-// through their values at four Gauss nodes of each piece, which leaves an error of order 8. Long pieces of
-// constant coefficients are halved and squared. An antisymmetric motion is followed over half a period: its
-// multipliers are the squares of those of the map w(theta) -> -w(theta + pi).
+// Propagation: where all laws are piecewise linear, in the oscillators of the structure in each set of modes,
+// kept from motion to motion (linear_phases.hpp). Otherwise by power series of w over pieces of the period: T
+// and B of other laws are replaced by polynomials through their values at four Gauss nodes of each piece,
+// which leaves an error of order 8. Long pieces of constant coefficients are halved and squared. An
+// antisymmetric motion is followed over half a period: its multipliers are the squares of those of the map
+// w(theta) -> -w(theta + pi).
+//
+// Where all laws are piecewise linear, degrees of freedom may have no mass, and natural modes above a limit
+// may be left out, whose flexibility remains: they have no multipliers.
 //
 // A slider that sticks throughout has a neutral multiplier 1, which is left out. As many multipliers are 0 as
 // sliders follow at once at some instant. Errors: those of the motion, and of the roundings of the period;
@@ -24,11 +29,15 @@
 #include <arcslip/time/equation_of_motion.hpp>
 
 #include <complex>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
 namespace arcslip::time {
+
+using GoOn = std::function<bool()>;
 
 /// A law with a memory that is not piecewise linear.
 class NoVariation : public std::runtime_error {
@@ -45,22 +54,33 @@ struct ElementCourse {
 class Floquet {
  public:
   /// Throws NoVariation, SingularMass (event_driven.hpp). The frequency, the forces and the harmonics of the
-  /// equation do not matter.
-  explicit Floquet(const EquationOfMotion& equation);
+  /// equation do not matter. highest: natural frequency, rad/s, above which modes have no inertia; only where
+  /// all laws are piecewise linear.
+  explicit Floquet(const EquationOfMotion& equation,
+                   double highest = std::numeric_limits<double>::infinity());
   ~Floquet();
   Floquet(Floquet&&) noexcept;
+  Floquet& operator=(Floquet&&) noexcept;
+
+  /// Goes to another equation of the same elements, with the same `highest`. Throws as the constructor, and
+  /// is then as before. What was found of the structure in sets of modes is kept where its matrices and the
+  /// stiffnesses of its elements are the same, as where only forces or normal loads are others.
+  void move_to(const EquationOfMotion& equation);
 
   /// omega: base frequency, rad/s; elements: as in the equation. False: there are none, as where the motion
-  /// is not finite or a contact chatters.
-  bool compute(double omega, const elements::Harmonics& harmonics,
-               const std::vector<ElementCourse>& elements);
+  /// is not finite or a contact chatters, or go_on returned false.
+  bool compute(double omega, const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements,
+               const GoOn& go_on = {});
+
+  /// The modes that move with inertia.
+  int modes() const;
 
   /// Of the motion's period, by falling modulus.
   const std::vector<std::complex<double>>& multipliers() const;
   /// Of the map over half a period, where the motion is antisymmetric: -1 where the symmetry breaks.
   const std::vector<std::complex<double>>& half_multipliers() const;
-  /// The map of (w, dw/dtheta, dz of the sliders that rest at the first instant and slip later), over
-  /// harmonics.span(), from an instant between two changes.
+  /// The map of the variation and its velocity, in coordinates of its own, and of dz of the sliders that rest
+  /// at the first instant and slip later, over harmonics.span(), from an instant between two changes.
   const Matrix& map() const;
 
  private:

@@ -21,6 +21,20 @@ std::size_t terms_of(double x) {
 
 }  // namespace
 
+Variable::Variable(const Matrix& over_mass, const Matrix& along, std::size_t powers, bool moving)
+    : T(powers, Matrix::Zero(along.cols(), along.cols())), size(over_mass.norm() * along.norm()) {
+  if (moving) B = T;
+  const auto entries = [](const Matrix& of) {
+    std::vector<Entry> all;
+    for (Eigen::Index j = 0; j < of.cols(); ++j)
+      for (Eigen::Index i = 0; i < of.rows(); ++i)
+        if (of(i, j) != 0) all.push_back({i, j, of(i, j)});
+    return all;
+  };
+  onto = entries(over_mass);
+  from = entries(along);
+}
+
 void Variation::move(double h, double fastest, const Matrix& K, const Matrix& C, const Matrix& G,
                      const std::vector<Variable>& variables, Matrix& W, Matrix& V) {
   if (!(h > 0)) return;
@@ -44,42 +58,84 @@ void Variation::take(const Matrix& K, const Matrix& C) {
 void Variation::series(double h, double fastest, const Matrix& G, const std::vector<Variable>& variables,
                        Matrix& W, Matrix& V) {
   const std::size_t terms = terms_of(h * fastest);
+  const Eigen::Index starts = W.rows();
   w_ = W;
   v_ = V;
   next_w_.resizeLike(W);
   next_v_.resizeLike(V);
-  along_w_.resize(std::max(along_w_.size(), variables.size() * most_terms));
-  along_v_.resize(along_w_.size());
+  along_w_.resize(variables.size());
+  along_v_.resize(variables.size());
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const auto columns = static_cast<Eigen::Index>(most_terms) * variables[i].T.front().rows();
+    along_w_[i].resize(starts, columns);
+    if (!variables[i].B.empty()) along_v_[i].resize(starts, columns);
+  }
   for (std::size_t k = 0; k < terms; ++k) {
     const double factor = h / static_cast<double>(k + 1);
     next_w_ = factor * v_;
     for (Eigen::Index i = 0; i < W.cols(); ++i) {
-      auto next = next_v_.col(i);
-      if (k == 0 && G.size() > 0)
-        next = factor * G.col(i);
-      else
-        next.setZero();
+      double* const next = next_v_.col(i).data();
+      for (Eigen::Index r = 0; r < starts; ++r) next[r] = k == 0 && G.size() > 0 ? G(r, i) : 0;
       for (const Entry& entry : rows_[static_cast<std::size_t>(i)]) {
-        if (entry.k != 0) next -= factor * entry.k * w_.col(entry.column);
-        if (entry.c != 0) next -= factor * entry.c * v_.col(entry.column);
+        const double* const w = w_.col(entry.column).data();
+        const double* const v = v_.col(entry.column).data();
+        for (Eigen::Index r = 0; r < starts; ++r) next[r] -= entry.k * w[r] + entry.c * v[r];
       }
     }
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      const Variable& part = variables[i];
-      const auto at = [&](std::size_t term) { return i * most_terms + term; };
-      along_w_[at(k)].noalias() = w_ * part.directions;
-      along_v_[at(k)].noalias() = v_ * part.directions;
-      sum_.setZero(W.rows(), part.directions.cols());
-      for (std::size_t j = 0; j <= k && j < part.T.size(); ++j) {
-        sum_.noalias() += along_w_[at(k - j)] * part.T[j].transpose();
-        if (!part.B.empty()) sum_.noalias() += along_v_[at(k - j)] * part.B[j].transpose();
-      }
-      next_v_.noalias() -= factor * sum_ * part.over_mass.transpose();
-    }
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      add_variable(variables[i], k, along_w_[i], along_v_[i]);
+    next_v_ *= factor;
     W += next_w_;
     V += next_v_;
     w_.swap(next_w_);
     v_.swap(next_v_);
+  }
+}
+
+namespace {
+
+// into.col(offset + direction) = of D.
+void project(const Variable& variable, const Matrix& of, Eigen::Index offset, Matrix& into) {
+  into.middleCols(offset, variable.T.front().rows()).setZero();
+  for (const Variable::Entry& entry : variable.from) {
+    const double* const from = of.col(entry.dof).data();
+    double* const to = into.col(offset + entry.direction).data();
+    for (Eigen::Index r = 0; r < of.rows(); ++r) to[r] += entry.weight * from[r];
+  }
+}
+
+// sum += sum_j (term k - j) T_j^T.
+void convolve(const std::vector<Matrix>& T, std::size_t k, const Matrix& terms, Matrix& sum) {
+  for (std::size_t j = 0; j <= k && j < T.size(); ++j) {
+    const Matrix& by = T[j];
+    for (Eigen::Index b = 0; b < by.cols(); ++b) {
+      const double* const from = terms.col(static_cast<Eigen::Index>(k - j) * by.cols() + b).data();
+      for (Eigen::Index a = 0; a < by.rows(); ++a) {
+        const double weight = by(a, b);
+        if (weight == 0) continue;
+        double* const to = sum.col(a).data();
+        for (Eigen::Index r = 0; r < sum.rows(); ++r) to[r] += weight * from[r];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void Variation::add_variable(const Variable& variable, std::size_t k, Matrix& along_w, Matrix& along_v) {
+  const Eigen::Index directions = variable.T.front().rows();
+  const Eigen::Index offset = static_cast<Eigen::Index>(k) * directions;
+  project(variable, w_, offset, along_w);
+  sum_.setZero(w_.rows(), directions);
+  convolve(variable.T, k, along_w, sum_);
+  if (!variable.B.empty()) {
+    project(variable, v_, offset, along_v);
+    convolve(variable.B, k, along_v, sum_);
+  }
+  for (const Variable::Entry& entry : variable.onto) {
+    const double* const from = sum_.col(entry.direction).data();
+    double* const to = next_v_.col(entry.dof).data();
+    for (Eigen::Index r = 0; r < sum_.rows(); ++r) to[r] -= entry.weight * from[r];
   }
 }
 

@@ -14,8 +14,16 @@ namespace arcslip::time {
 
 /// Coefficients that change over the piece.
 struct Variable {
-  Matrix over_mass, directions;  // dofs x directions: M^-1 D, D
-  std::vector<Matrix> T, B;      // of s^j
+  /// over_mass, along: M^-1 D and D, dofs x directions; moving: with B.
+  Variable(const Matrix& over_mass, const Matrix& along, std::size_t powers, bool moving);
+
+  struct Entry {
+    Eigen::Index dof, direction;
+    double weight;
+  };
+  std::vector<Entry> onto, from;  // of M^-1 D and D, without zeros
+  std::vector<Matrix> T, B;       // of s^j, directions x directions
+  double size;                    // |M^-1 D| |D|
 };
 
 class Variation {
@@ -36,10 +44,13 @@ class Variation {
               Matrix& V);
   void squared(double h, double fastest, int halvings, const Matrix& G, Matrix& W, Matrix& V);
 
-  std::vector<std::vector<Entry>> rows_;   // of K and C, without zeros
-  Matrix w_, v_, next_w_, next_v_;         // terms
-  std::vector<Matrix> along_w_, along_v_;  // the terms so far along D, of all variables
-  Matrix sum_;                             // of one variable
+  void add_variable(const Variable& variable, std::size_t k, Matrix& along_w, Matrix& along_v);
+
+  std::vector<std::vector<Entry>> rows_;  // of K and C, without zeros
+  Matrix w_, v_, next_w_, next_v_;        // terms
+  std::vector<Matrix> along_w_,
+      along_v_;  // of each variable, the terms so far along D: starts x directions each
+  Matrix sum_;   // of one variable
   Matrix map_, twice_, map_w_, map_v_, input_, state_, moved_;
 };
 

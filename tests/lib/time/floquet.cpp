@@ -5,6 +5,7 @@
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/time/beside_exact.hpp"
+#include "lib/time/cosine.hpp"
 #include "lib/time/random_contacts.hpp"
 #include "lib/time/systems.hpp"
 
@@ -46,21 +47,6 @@ double distance(const std::vector<Complex>& some, const std::vector<Complex>& ot
 
 double difference(const std::vector<Complex>& a, const std::vector<Complex>& b) {
   return std::max(distance(a, b), distance(b, a));
-}
-
-// x = amplitude cos theta, with the elements of `equation`, each on the first coordinate.
-std::vector<ElementCourse> cosine(const EquationOfMotion& equation, const elements::Harmonics& harmonics,
-                                  double amplitude) {
-  Matrix q = Matrix::Zero(harmonics.size(), 1);
-  q(harmonics.cosine_index(1), 0) = amplitude;
-  return std::vector<ElementCourse>(equation.elements.size(), {q, {}});
-}
-
-double trace_of_cosine(const EquationOfMotion& equation, const elements::Harmonics& harmonics,
-                       double amplitude, double omega = 1) {
-  Floquet floquet(equation);
-  REQUIRE(floquet.compute(omega, harmonics, cosine(equation, harmonics, amplitude)));
-  return floquet.map().trace();
 }
 
 std::vector<Complex> along_harmonics(const beside_exact::Pair& pair) {
@@ -184,7 +170,7 @@ TEST_CASE("on the boundaries of Mathieu's stability the trace of the map is 2 or
       const elements::Harmonics harmonics{1, odd};
       // Over pi the trace is 2 or -2, the map of half a period has a sign of its own; over 2 pi it is 2. The
       // stored digits move it by 1e-11 times its slope.
-      CHECK(std::abs(trace_of_cosine(equation, harmonics, A) - (odd ? -trace : 2)) < (odd ? 1e-8 : 1e-7));
+      CHECK(std::abs(cosine::trace(equation, harmonics, A) - (odd ? -trace : 2)) < (odd ? 1e-8 : 1e-7));
     }
 }
 
@@ -197,14 +183,14 @@ TEST_CASE("the trace of Meissner's equation is the closed form") {
       2 * std::cos(pi * a) * std::cos(pi * b) - (a / b + b / a) * std::sin(pi * a) * std::sin(pi * b);
   CHECK(std::abs(exact - 2.11407486035) < 1e-11);
   for (const double amplitude : {1.0, 1e-9})
-    CHECK(std::abs(trace_of_cosine(equation, {3}, amplitude) - exact) < 1e-13);
+    CHECK(std::abs(cosine::trace(equation, {3}, amplitude) - exact) < 1e-13);
   // Stiff modes: long pieces in many halvings.
   equation.K(0, 0) = 0.5e4;
   equation.elements[0].fields[0] = 1e4;
   const double A = 100 * a, B = 100 * b;
-  CHECK(std::abs(trace_of_cosine(equation, {3}, 1) -
-                 (2 * std::cos(pi * A) * std::cos(pi * B) -
-                  (A / B + B / A) * std::sin(pi * A) * std::sin(pi * B))) < 1e-10);
+  CHECK(std::abs(cosine::trace(equation, {3}, 1) - (2 * std::cos(pi * A) * std::cos(pi * B) -
+                                                    (A / B + B / A) * std::sin(pi * A) * std::sin(pi * B))) <
+        1e-10);
 }
 
 TEST_CASE(
@@ -228,7 +214,7 @@ TEST_CASE(
   auto self = systems::oscillator(1, 0, 1);
   self.add("vdp", elements::van_der_pol().law({}), {0.3, 0.5}, Matrix::Ones(1, 1));
   Floquet floquet(self);
-  REQUIRE(floquet.compute(1.1, {1}, cosine(self, {1}, 0.9)));
+  REQUIRE(floquet.compute(1.1, {1}, cosine::along(self, {1}, 0.9)));
   const double damping = 0.3 * (0.9 * 0.9 / (2 * 0.25) - 1);
   CHECK(std::abs(floquet.map().determinant() * std::exp(damping * 2 * pi / 1.1) - 1) < 1e-9);
 }
@@ -331,10 +317,10 @@ TEST_CASE("there are no multipliers along a motion that is not finite") {
   equation.add("cubic", elements::cubic_spring().law({}), {1.0}, Matrix::Ones(1, 1));
   Floquet floquet(equation);
   for (const double amplitude : {double(NAN), 1e200, double(INFINITY)})
-    CHECK_FALSE(floquet.compute(1, {1}, cosine(equation, {1}, amplitude)));
-  CHECK(floquet.compute(1, {1}, cosine(equation, {1}, 0.5)));
+    CHECK_FALSE(floquet.compute(1, {1}, cosine::along(equation, {1}, amplitude)));
+  CHECK(floquet.compute(1, {1}, cosine::along(equation, {1}, 0.5)));
   // Nor where the phase of the fastest motion has no digits, or takes more pieces than anyone waits for.
-  CHECK(floquet.compute(1, {1}, cosine(equation, {1}, 1e3)));
-  CHECK_FALSE(floquet.compute(1, {1}, cosine(equation, {1}, 1e9)));
+  CHECK(floquet.compute(1, {1}, cosine::along(equation, {1}, 1e3)));
+  CHECK_FALSE(floquet.compute(1, {1}, cosine::along(equation, {1}, 1e9)));
   CHECK_FALSE(Floquet(systems::oscillator(1, 0.1, 1e30)).compute(1, {1}, {}));
 }
