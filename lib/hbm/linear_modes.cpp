@@ -85,7 +85,7 @@ std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p,
     const Vector v = found.V.col(j).normalized();
     const double mass = v.dot(M * v), stiffness = v.dot(K * v);
     const double terms = v.cwiseAbs().dot(K.cwiseAbs() * v.cwiseAbs());
-    LinearMode mode{LinearMode::Kind::oscillation, 0, 0, v};
+    LinearMode mode{LinearMode::Kind::oscillation, 0, 0, v, mass};
     if (std::abs(stiffness) <= rigid * terms) {
       mode.kind = LinearMode::Kind::rigid_body;
     } else if (stiffness < 0) {
@@ -99,11 +99,14 @@ std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p,
   return modes;
 }
 
-Vector unknowns_of(const HbmProblem& problem, const Vector& shape) {
+Vector unknowns_of(const HbmProblem& problem, const ComplexVector& shape) {
   const elements::Harmonics& h = problem.harmonics();
+  const int n = h.excited(1);
   Vector u = Vector::Zero(problem.size());
-  for (int i = 0; i < problem.coordinates().unknowns; ++i)
-    u[i * h.size() + h.cosine_index(h.excited(1))] = shape[i];
+  for (int i = 0; i < problem.coordinates().unknowns; ++i) {
+    u[i * h.size() + h.cosine_index(n)] = shape[i].real();
+    u[i * h.size() + h.sine_index(n)] = -shape[i].imag();
+  }
   return u;
 }
 

@@ -14,7 +14,8 @@ struct LinearMode {
   Kind kind = Kind::oscillation;
   double omega = 0;          // rad/s
   double damping_ratio = 0;  // of its own motion: v^T C v/(2 omega v^T M v)
-  Vector shape;              // in the coordinates y (coordinates.hpp)
+  Vector shape;              // v, in the coordinates y (coordinates.hpp)
+  double mass = 0;           // v^T M v
 };
 
 /// In the order of omega^2, those of massless motions left out, of
@@ -27,7 +28,7 @@ struct LinearMode {
 std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p, const HbmEvaluator* at,
                                      double omega);
 
-/// The unknowns of the motion y = shape cos(omega t).
-Vector unknowns_of(const HbmProblem& problem, const Vector& shape);
+/// The unknowns of the motion y = Re shape exp(i omega t).
+Vector unknowns_of(const HbmProblem& problem, const ComplexVector& shape);
 
 }  // namespace arcslip::hbm

@@ -72,6 +72,11 @@ double ModeProblem::own_alpha() const {
   return motions_->model().parameters[static_cast<std::size_t>(alpha())].value;
 }
 
+Vector ModeProblem::motion(continuation::In unknowns, double log_amplitude) const {
+  const double a = std::exp(log_amplitude + unknowns[log_ratio()]);
+  return rest_ + a * unknowns.head(motions_->size());
+}
+
 std::unique_ptr<continuation::Evaluator> ModeProblem::evaluator() const {
   return std::make_unique<ModeEvaluator>(*this);
 }
@@ -87,7 +92,7 @@ ModeEvaluator::ModeEvaluator(const ModeProblem& problem)
       range_(problem.motions().harmonics()),
       u_(n_),
       p_(continuation::parameter_values(problem.motions())),
-      R_(n_ + 2),
+      R_(n_ + 3),
       x_(problem.motions().harmonics().size()),
       unit_(Vector::Unit(x_.size(), phase_)),
       by_omega_(n_),
@@ -96,21 +101,24 @@ ModeEvaluator::ModeEvaluator(const ModeProblem& problem)
       x_alpha_(x_.size()),
       row_(Vector::Zero(n_)),
       by_amplitude_(n_),
-      jacobian_(Eigen::MatrixXd(Eigen::MatrixXd::Zero(n_ + 2, n_ + 2))) {}
+      jacobian_(Eigen::MatrixXd(Eigen::MatrixXd::Zero(n_ + 3, n_ + 3))) {}
 
 Evaluated ModeEvaluator::move_to(continuation::In u, continuation::In p, Needs needs) {
   A_ = std::exp(p[0]);
   omega_ = omega_0_ * std::exp(u[n_]);
   zeta_ = u[n_ + 1];
-  if (!std::isfinite(A_) || A_ == 0 || !std::isfinite(omega_)) return Evaluated::failed;
-  u_ = rest_ + A_ * u.head(n_);
+  ratio_ = std::exp(u[n_ + 2]);
+  const double a = A_ * ratio_;
+  if (!std::isfinite(a) || a == 0 || A_ == 0 || !std::isfinite(omega_)) return Evaluated::failed;
+  u_ = rest_ + a * u.head(n_);
   p_[model::frequency] = omega_;
   p_[alpha_] = own_alpha_ - 2 * zeta_ * omega_;
   if (const Evaluated result = inner_->move_to(u_, p_, needs); result != Evaluated::ok) return result;
-  R_.head(n_) = inner_->residual() / A_;
+  R_.head(n_) = inner_->residual() / a;
   inner_->stiffness().response(u.head(n_), 0, x_);
-  R_[n_] = range_.of(x_) - 1;
+  R_[n_] = ratio_ * range_.of(x_) - 1;
   R_[n_ + 1] = x_[phase_];
+  R_[n_ + 2] = 0.5 * (u.head(n_).squaredNorm() - 1);
   if (!R_.allFinite()) return Evaluated::failed;
   if (needs == Needs::jacobian) differentiate(u.head(n_));
   return Evaluated::ok;
@@ -127,25 +135,30 @@ void ModeEvaluator::differentiate(continuation::In v) {
   const DynamicStiffness& Z = inner_->stiffness();
   inner_->parameter_derivative(model::frequency, by_omega_);
   inner_->parameter_derivative(alpha_, by_alpha_);
-  J.col(n_).head(n_) = (omega_ / A_) * (by_omega_ - 2 * zeta_ * by_alpha_);
-  J.col(n_ + 1).head(n_) = (-2 * omega_ / A_) * by_alpha_;
+  const double a = A_ * ratio_;
+  J.col(n_).head(n_) = (omega_ / a) * (by_omega_ - 2 * zeta_ * by_alpha_);
+  J.col(n_ + 1).head(n_) = (-2 * omega_ / a) * by_alpha_;
+  J.col(n_ + 2).head(n_) = by_amplitude_;
   Z.response_derivative(model::frequency, v, 0, x_omega_);
   Z.response_derivative(alpha_, v, 0, x_alpha_);
   x_omega_ = omega_ * (x_omega_ - 2 * zeta_ * x_alpha_);
   x_alpha_ *= -2 * omega_;
 
   for (const int row : {n_, n_ + 1}) {
-    const Vector& a = row == n_ ? range_.gradient() : unit_;
-    Z.response_transposed(a, row_);
-    J.row(row).head(n_) = row_.transpose();
-    J(row, n_) = a.dot(x_omega_);
-    J(row, n_ + 1) = a.dot(x_alpha_);
+    const Vector& of_response = row == n_ ? range_.gradient() : unit_;
+    const double factor = row == n_ ? ratio_ : 1;
+    Z.response_transposed(of_response, row_);
+    J.row(row).head(n_) = factor * row_.transpose();
+    J(row, n_) = factor * of_response.dot(x_omega_);
+    J(row, n_ + 1) = factor * of_response.dot(x_alpha_);
   }
+  J(n_, n_ + 2) = R_[n_] + 1;
+  J.row(n_ + 2).head(n_) = v.transpose();
 }
 
 void ModeEvaluator::parameter_derivative(int /*k*/, continuation::Out dR) const {
   dR.head(n_) = by_amplitude_;
-  dR.tail(2).setZero();
+  dR.tail(3).setZero();
 }
 
 std::uint64_t ModeEvaluator::piece() const {

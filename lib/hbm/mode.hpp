@@ -7,12 +7,14 @@
 // where negative damping in proportion to the masses, of the ratio zeta, balances what the structure
 // dissipates. In conservative structures zeta = 0. In harmonic balance, at an amplitude A of the response:
 //
-//   R(x_s + A v; omega, zeta) / A = 0
-//   h(x_r) = 1         x_r: the response of A v, over A; h: half the way between its extremes over the period
+//   R(x_s + a v; omega, zeta) / a = 0,   a = A e^l
+//   e^l h(x_r) = 1     x_r: the response of v; h: half the way between its extremes over the period
 //   b_1(x_r) = 0       the phase: no sine in the fundamental of the response
+//   |v| = 1            the whole motion
 //
-// x_s: the static displacement. Unknowns (v, ln(omega/omega_0), zeta), in this order; the parameter is ln A,
-// A in m. In these all are of order 1 over any number of decades of A.
+// x_s: the static displacement. Unknowns (v, ln(omega/omega_0), zeta, l), in this order; the parameter is ln
+// A, A in m. In these all are of order 1 over any number of decades of A, and v, omega and zeta change
+// smoothly where the response is small beside the motion, or another of its reversals becomes the extreme.
 
 #include <arcslip/elements/reversals.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -50,7 +52,7 @@ class ModeProblem final : public continuation::Problem {
   /// frequency to measure others by.
   ModeProblem(std::shared_ptr<const HbmProblem> motions, Vector rest, double omega_0);
 
-  int size() const override { return motions_->size() + 2; }
+  int size() const override { return motions_->size() + 3; }
   std::span<const continuation::Parameter> parameters() const override { return parameters_; }
   Vector scales() const override { return Vector::Ones(size()); }
   std::unique_ptr<continuation::Evaluator> evaluator() const override;
@@ -59,6 +61,12 @@ class ModeProblem final : public continuation::Problem {
   const std::shared_ptr<const HbmProblem>& shared_motions() const { return motions_; }
   const Vector& rest() const { return rest_; }
   double omega_0() const { return omega_0_; }
+  /// The positions of ln(omega/omega_0), zeta and l.
+  int log_frequency() const { return motions_->size(); }
+  int damping_ratio() const { return motions_->size() + 1; }
+  int log_ratio() const { return motions_->size() + 2; }
+  /// x_s + a v, unknowns of motions().
+  Vector motion(continuation::In unknowns, double log_amplitude) const;
   /// Of the damping in proportion to the masses: its index among the parameters, and its value at zeta = 0.
   int alpha() const { return motions_->model().damping->alpha; }
   double own_alpha() const;
@@ -99,6 +107,7 @@ class ModeEvaluator final : public continuation::Evaluator {
   Vector u_, p_, R_, x_, unit_, by_omega_, by_alpha_, x_omega_, x_alpha_, row_, by_amplitude_;
   continuation::Jacobian jacobian_;
   double A_ = 1, omega_ = 1, zeta_ = 0;
+  double ratio_ = 1;  // e^l
 };
 
 }  // namespace arcslip::hbm

@@ -1,5 +1,6 @@
 #include <arcslip/hbm/mode_start.hpp>
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
 
 #include <algorithm>
@@ -16,6 +17,8 @@ constexpr double close_frequency = 0.02;  // of omega and v to the linear mode, 
 constexpr double close_shape = 0.1;
 constexpr double at_a_node = 1e-9;  // the response over the largest coordinate
 constexpr double same_frequency = 1e-9;
+constexpr double beside = 1e-5;  // of their frequency, at which the equations are singular: ln(omega/omega_0)
+constexpr double isolated = 1e-10;  // a motion of modes of one frequency: the least pivot of J
 
 // The static displacement: the means of the motion without excitation.
 std::optional<Vector> rest_of(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
@@ -59,10 +62,54 @@ std::string no_oscillation(const std::vector<LinearMode>& modes, std::size_t j) 
   return why;
 }
 
+// The fundamental of the periodic forces of a model, in y.
+ComplexVector driving_forces(const model::Model& excited, const Eigen::MatrixXd& P, double omega) {
+  Vector p = model::defaults(excited);
+  p[model::frequency] = omega;
+  ComplexVector f = ComplexVector::Zero(P.cols());
+  for (const model::Excitation& each : excited.excitation)
+    if (each.harmonic == 1)
+      f += Complex(p[each.cosine], -p[each.sine]) * (P.transpose() * model::shape(excited, each, p));
+  return f;
+}
+
+// The modes of the frequency of mode j, itself among them.
+std::vector<const LinearMode*> together(const std::vector<LinearMode>& modes, std::size_t j) {
+  std::vector<const LinearMode*> all;
+  for (const LinearMode& each : modes)
+    if (std::abs(each.omega - modes[j].omega) <= same_frequency * modes[j].omega) all.push_back(&each);
+  return all;
+}
+
+// The combination of modes that the forces f drive; none: they drive none.
+std::optional<ComplexVector> driven_shape(const std::vector<const LinearMode*>& modes,
+                                          const ComplexVector& f) {
+  ComplexVector shape = ComplexVector::Zero(f.size());
+  double driven = 0, drive = 0;
+  for (const LinearMode* each : modes) {
+    const Complex along = each->shape.cast<Complex>().dot(f);
+    shape += along / each->mass * each->shape;
+    driven = std::max(driven, std::abs(along));
+    drive = std::max(drive, each->shape.cwiseAbs().dot(f.cwiseAbs()));
+  }
+  if (!(driven > at_a_node * drive)) return {};
+  return shape / shape.norm();
+}
+
+// Whether the motion at a solution of the mode's equations has no neighbours of the same amplitude.
+bool is_isolated(const ModeProblem& problem, const Vector& v) {
+  const auto at = problem.evaluator();
+  if (at->move_to(v.head(v.size() - 1), v.tail(1), continuation::Needs::jacobian) !=
+      continuation::Evaluated::ok)
+    return false;
+  const auto& J = std::get<Eigen::MatrixXd>(at->jacobian());
+  return continuation::orthogonal_complement(J, isolated).cols() == 0;
+}
+
 }  // namespace
 
-ModeStart mode_start(const std::shared_ptr<const model::Model>& model, int mode, double amplitude,
-                     const std::function<bool()>& go_on) {
+ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const model::Model& excited, int mode,
+                     double amplitude, const std::function<bool()>& go_on) {
   const auto j = static_cast<std::size_t>(mode - 1);
   ModeStart start;
   start.amplitude = amplitude;
@@ -85,33 +132,42 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, int mode,
   const Vector response = motions->coordinates().P.transpose() * motions->model().response;
   const auto at = motions->hbm_evaluator();
   modes = linear_modes(*motions, p, nullptr, omega);
-  double in_response = 0;
+  ComplexVector shape;  // per unit of the response
+  bool alone = true;    // no other mode has its frequency
   for (int pass = 0;; ++pass) {
     if (start.no_mode = no_oscillation(modes, j); !start.no_mode.empty()) return start;
     const LinearMode& linear = modes[j];
     omega = p[model::frequency] = linear.omega;
-    const double largest = linear.shape.cwiseAbs().maxCoeff();
-    in_response = response.dot(linear.shape);
+    shape = linear.shape.cast<Complex>();
+    const auto same = together(modes, j);
+    if (alone = same.size() == 1; !alone) {
+      const auto driven = driven_shape(same, driving_forces(excited, motions->coordinates().P, omega));
+      if (!driven) {
+        start.no_mode = "mode " + std::to_string(mode) + " is one of " + std::to_string(same.size()) +
+                        " with its frequency, so that none has a shape of its own, and the excitation of "
+                        "harmonic 1, whose motion would be taken, drives none of them; excite them, or tell "
+                        "the modes apart by a small change of a mass or a spring";
+        return start;
+      }
+      shape = *driven;
+    }
+    const double largest = shape.cwiseAbs().maxCoeff();
+    const Complex in_response = response.cast<Complex>().dot(shape);
     if (std::abs(in_response) <= at_a_node * largest) {
       start.no_mode = "mode " + std::to_string(mode) +
                       " does not move the response, which is at one of its nodes; choose another response";
       return start;
     }
-    if (linear.shape.head(motions->coordinates().unknowns).cwiseAbs().maxCoeff() <= at_a_node * largest) {
+    if (shape.head(motions->coordinates().unknowns).cwiseAbs().maxCoeff() <= at_a_node * largest) {
       start.no_mode = "mode " + std::to_string(mode) + " moves no element: it is linear, of " + text(omega) +
                       " rad/s and the damping ratio " + text(linear.damping_ratio + 0.0) +
                       " at every amplitude";
       return start;
     }
-    for (std::size_t other = 0; other < modes.size(); ++other)
-      if (other != j && std::abs(modes[other].omega - omega) <= same_frequency * omega) {
-        start.no_mode = "mode " + std::to_string(mode) + " has the frequency of mode " +
-                        std::to_string(other + 1) + ", so that neither has a shape of its own";
-        return start;
-      }
+    shape /= in_response;
     if (pass == 2) break;
-    const double tiny = std::pow(10, -decades) * amplitude / in_response;
-    if (at->move_to(*rest + tiny * unknowns_of(*motions, linear.shape), p, continuation::Needs::jacobian) !=
+    const double tiny = std::pow(10, -decades) * amplitude;
+    if (at->move_to(*rest + tiny * unknowns_of(*motions, shape), p, continuation::Needs::jacobian) !=
         continuation::Evaluated::ok) {
       start.failure = "the equations could not be evaluated next to rest";
       return start;
@@ -122,25 +178,37 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, int mode,
 
   start.problem = std::make_shared<const ModeProblem>(motions, *rest, omega);
   const int n = motions->size();
-  Vector guess(n + 3);
-  guess << unknowns_of(*motions, linear.shape) / in_response, 0, linear.damping_ratio, 0;
+  const Vector per_response = unknowns_of(*motions, shape);
+  const double ratio = per_response.norm();
+  Vector guess(n + 4);
+  guess << per_response / ratio, (alone ? 0 : beside), linear.damping_ratio, std::log(ratio), 0;
   continuation::NewtonOptions newton;
   newton.iterations = 30;
   bool found = false;
   for (int k = 0; k <= decades && (!go_on || go_on()); ++k) {
     const double at_amplitude = std::pow(10, -k) * amplitude;
-    guess[n + 2] = std::log(at_amplitude);
+    guess[n + 3] = std::log(at_amplitude);
     continuation::Counts counts;
     continuation::Corrector corrector(*start.problem, guess.tail(1), 0, newton, counts);
     Vector v = guess;
-    if (!corrector.correct(v, Vector::Unit(n + 3, n + 2), false).converged) continue;
+    if (!corrector.correct(v, Vector::Unit(n + 4, n + 3), false).converged) continue;
+    if (!alone && ((v - guess).head(n).norm() > close_shape || !is_isolated(*start.problem, v))) continue;
     found = true;
-    start.u = v.head(n + 2);
+    start.u = v.head(n + 3);
     start.amplitude = at_amplitude;
-    if (std::abs(v[n]) <= close_frequency && (v - guess).head(n).norm() <= close_shape * guess.head(n).norm())
-      break;
+    if (std::abs(v[n]) <= close_frequency && (v - guess).head(n).norm() <= close_shape) break;
   }
   if (found) return start;
+  if (!alone) {
+    start.no_mode = "mode " + std::to_string(mode) +
+                    " shares its frequency with others, and the combination that the excitation drives is no "
+                    "single motion at " +
+                    text(amplitude) +
+                    " m: while all contacts stick, every combination is one, and without symmetry none need "
+                    "be; begin at an amplitude at which contacts slip, or tell the modes apart by a small "
+                    "change of a mass or a spring";
+    return start;
+  }
   start.failure = "Newton's method failed from the linear mode of " + text(omega) +
                   " rad/s, at amplitudes from " + text(amplitude) + " m down to " +
                   text(std::pow(10, -decades) * amplitude) + " m";

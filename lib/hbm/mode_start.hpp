@@ -22,7 +22,12 @@ struct ModeStart {
 /// mode: from 1, in the order of the frequencies of the structure linearized about a motion of 1e-9 of the
 /// amplitude (m). The motion is at that amplitude, or as far below as the mode is linear, but at most nine
 /// decades. model: without_excitation(). If go_on returns false, a failure.
-ModeStart mode_start(const std::shared_ptr<const model::Model>& model, int mode, double amplitude,
-                     const std::function<bool()>& go_on = {});
+///
+/// Modes of one frequency have no shapes of their own: any combination is a motion of the linear structure.
+/// Of these the one is taken that the fundamental of the excitation drives, such as a travelling wave under
+/// an engine order. It must be, in the nonlinear structure, a motion alone among its neighbours, as the
+/// symmetry of structure and excitation makes it.
+ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const model::Model& excited, int mode,
+                     double amplitude, const std::function<bool()>& go_on = {});
 
 }  // namespace arcslip::hbm

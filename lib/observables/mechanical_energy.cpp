@@ -1,5 +1,7 @@
 #include <arcslip/observables/mechanical_energy.hpp>
 
+#include <arcslip/observables/stored_energy.hpp>
+
 #include <utility>
 
 namespace arcslip::observables {
@@ -10,49 +12,102 @@ using continuation::Vector;
 constexpr int instants = 8;   // looked at, for each order of the energy
 constexpr int halvings = 52;  // of the time between two of them
 
+// The displacements of an element at one instant.
+Vector displacements(const elements::Law& law, const elements::Harmonics& h, elements::In motion,
+                     const Vector& phi) {
+  Vector q(law.directions());
+  for (int i = 0; i < law.directions(); ++i) q[i] = motion.segment(i * h.size(), h.size()).dot(phi);
+  return q;
+}
+
 }  // namespace
 
-MechanicalEnergy::MechanicalEnergy(std::shared_ptr<const hbm::HbmProblem> problem)
-    : problem_(std::move(problem)) {
+MechanicalEnergy::MechanicalEnergy(std::shared_ptr<const hbm::HbmProblem> problem, const Vector& rest,
+                                   const Vector& p)
+    : problem_(std::move(problem)), rest_(rest) {
   const model::Model& model = problem_->model();
-  const Vector p = model::defaults(model);
-  M_ = model::mass_matrix(model, p);
-  K_ = model::stiffness_matrix(model, p);
+  const Vector own = model::defaults(model);
+  M_ = model::mass_matrix(model, own);
+  K_ = model::stiffness_matrix(model, own);
   const elements::Harmonics& h = problem_->harmonics();
   const int count = instants * (h.order + 1) * (h.odd ? 1 : 2);
   basis_.resize(h.size(), count);
   for (int k = 0; k < count; ++k) elements::series_basis(h, h.span() * k / count, basis_.col(k));
+  phi_.resize(h.size());
+  elements::series_basis(h, 0, phi_);
+  const auto at = problem_->hbm_evaluator();
+  const bool known = at->move_to(rest, p, continuation::Needs::residual) == continuation::Evaluated::ok;
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const elements::Law& law = *model.elements[e].law;
+    Element element{model.elements[e].fields(own), Vector::Zero(law.directions()),
+                    Vector::Zero(law.directions())};
+    if (known) {
+      element.q = displacements(law, h, at->element_motion(e), phi_);
+      element.f = displacements(law, h, at->element(e).force(), phi_);
+      element.stored = stored_energy(law, element.fields, h, at->element_motion(e), 0);
+    }
+    elements_.push_back(std::move(element));
+  }
 }
 
-double MechanicalEnergy::of(const hbm::HbmEvaluator& at, continuation::In u, continuation::In rest) {
+void MechanicalEnergy::move_to(const hbm::HbmEvaluator& at, continuation::In u) {
   const elements::Harmonics& h = problem_->harmonics();
   const Eigen::MatrixXd& P = problem_->coordinates().P;
-  const Eigen::MatrixXd x = at.stiffness().motion(P, u, at.force_factor());
-  Eigen::MatrixXd velocity(x.rows(), x.cols()), acceleration(x.rows(), x.cols());
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    elements::series_slope(h, x.col(i), velocity.col(i));
-    elements::series_slope(h, velocity.col(i), acceleration.col(i));
+  x_ = at.stiffness().motion(P, u, at.force_factor());
+  velocity_.resize(x_.rows(), x_.cols());
+  acceleration_.resize(x_.rows(), x_.cols());
+  for (Eigen::Index i = 0; i < x_.cols(); ++i) {
+    elements::series_slope(h, x_.col(i), velocity_.col(i));
+    elements::series_slope(h, velocity_.col(i), acceleration_.col(i));
   }
-  velocity *= at.stiffness().base_frequency();
+  velocity_ *= at.stiffness().base_frequency();
+  x_ -= at.stiffness().motion(P, rest_, at.force_factor());
+}
 
+double MechanicalEnergy::kinetic(double theta) {
+  elements::series_basis(problem_->harmonics(), theta, phi_);
+  now_.noalias() = velocity_.transpose() * phi_;
+  return 0.5 * now_.dot(M_ * now_);
+}
+
+double MechanicalEnergy::potential(const hbm::HbmEvaluator& at, double theta) {
+  const elements::Harmonics& h = problem_->harmonics();
+  elements::series_basis(h, theta, phi_);
+  now_.noalias() = x_.transpose() * phi_;
+  double sum = 0.5 * now_.dot(K_ * now_);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const elements::Law& law = *problem_->model().elements[e].law;
+    const Element& rest = elements_[e];
+    if (law.rate_dependent()) continue;
+    const elements::In motion = at.element_motion(e);
+    sum += stored_energy(law, rest.fields, h, motion, theta) - rest.stored -
+           rest.f.dot(displacements(law, h, motion, phi_) - rest.q);
+  }
+  return sum;
+}
+
+double MechanicalEnergy::at_angle(const hbm::HbmEvaluator& at, continuation::In u, double theta) {
+  move_to(at, u);
+  return kinetic(theta) + potential(at, theta);
+}
+
+double MechanicalEnergy::of(const hbm::HbmEvaluator& at, continuation::In u) {
+  const elements::Harmonics& h = problem_->harmonics();
+  move_to(at, u);
   // The largest kinetic energy: of the instants, then where its power is zero next to that.
   Eigen::Index best = 0;
-  const Eigen::MatrixXd v = velocity.transpose() * basis_;
+  const Eigen::MatrixXd v = velocity_.transpose() * basis_;
   v.cwiseProduct(M_ * v).colwise().sum().maxCoeff(&best);
-  Vector phi(h.size()), now(x.cols());
   const double step = h.span() / static_cast<double>(basis_.cols());
   double from = step * static_cast<double>(best - 1), to = step * static_cast<double>(best + 1);
   for (int k = 0; k < halvings; ++k) {
     const double middle = 0.5 * (from + to);
-    elements::series_basis(h, middle, phi);
-    now.noalias() = velocity.transpose() * phi;
-    (now.dot(M_ * (acceleration.transpose() * phi)) > 0 ? from : to) = middle;
+    elements::series_basis(h, middle, phi_);
+    now_.noalias() = velocity_.transpose() * phi_;
+    (now_.dot(M_ * (acceleration_.transpose() * phi_)) > 0 ? from : to) = middle;
   }
-  elements::series_basis(h, 0.5 * (from + to), phi);
-  now.noalias() = velocity.transpose() * phi;
-  const double kinetic = 0.5 * now.dot(M_ * now);
-  now.noalias() = (x - at.stiffness().motion(P, rest, at.force_factor())).transpose() * phi;
-  return kinetic + 0.5 * now.dot(K_ * now);
+  const double theta = 0.5 * (from + to);
+  return kinetic(theta) + potential(at, theta);
 }
 
 }  // namespace arcslip::observables

@@ -24,10 +24,11 @@ using continuation::Crossing;
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double points_in_range = 150;   // at least
-constexpr double curve_tolerance = 1e-5;  // as of frequency responses
-constexpr double alone = 1e-3;            // of a harmonic: what the others have
-constexpr double resolvable = 1e8;        // |u| over that at the start
+constexpr double points_in_range = 150;       // at least
+constexpr double curve_tolerance = 1e-5;      // as of frequency responses
+constexpr double alone = 1e-3;                // of a harmonic: what the others have
+constexpr double resolvable = 1e8;            // the motion over that of the response
+constexpr const char* outgrown = "outgrown";  // the monitor of that
 
 std::string metres(double amplitude) {
   std::ostringstream s;
@@ -36,11 +37,10 @@ std::string metres(double amplitude) {
   return s.str();
 }
 
-// An extremum of the damping ratio: of 1 + zeta, next to which rounding counts for nothing.
-continuation::Monitor extremum(const char* kind, Crossing crossing, bool divides) {
-  const auto zeta = [](const Accepted& now) { return now.u.size() - 1; };
-  continuation::Monitor monitor{kind, [zeta](const Accepted& now) { return now.tangent[zeta(now)]; },
-                                crossing, [zeta](const Accepted& now) { return 1 + now.u[zeta(now)]; }};
+// An extremum of the damping ratio, unknown zeta: of 1 + zeta, next to which rounding counts for nothing.
+continuation::Monitor extremum(const char* kind, Crossing crossing, bool divides, int zeta) {
+  continuation::Monitor monitor{kind, [zeta](const Accepted& now) { return now.tangent[zeta]; }, crossing,
+                                [zeta](const Accepted& now) { return 1 + now.u[zeta]; }};
   monitor.divides_at_kinks = divides;
   return monitor;
 }
@@ -73,7 +73,8 @@ class Modes {
       return fail(reasons::start_failed, "no spring holds the mean position of \"" +
                                              free_->dof_names[static_cast<std::size_t>(*dof)] +
                                              "\", which is free to drift");
-    hbm::ModeStart start = hbm::mode_start(free_, range_.mode, range_.from, [this] { return go_on(); });
+    hbm::ModeStart start =
+        hbm::mode_start(free_, *model_, range_.mode, range_.from, [this] { return go_on(); });
     if (stopped_) return stop();
     if (!start.no_mode.empty()) return fail(reasons::no_mode, start.no_mode);
     if (!start.failure.empty()) return fail(reasons::start_failed, start.failure);
@@ -91,7 +92,8 @@ class Modes {
       u = ahead.points.back().u;
     }
     observer_ = std::make_unique<Observer>(problem->shared_motions());
-    energy_ = std::make_unique<MechanicalEnergy>(problem->shared_motions());
+    energy_ = std::make_unique<MechanicalEnergy>(problem->shared_motions(), problem->rest(),
+                                                 hbm::parameters_at(problem->motions(), problem->omega_0()));
     const auto traced = branch(
         problem, u, range_.from, range_.to,
         [&](const Accepted& now, const continuation::Event* event) { return record(*problem, now, event); });
@@ -120,15 +122,17 @@ class Modes {
     options.check_jacobian = false;
     options.step.largest_parameter = (options.upper - options.lower) / points_in_range;
     options.step.curve_tolerance = curve_tolerance;
-    options.largest_state = resolvable;
     options.go_on = [this] { return go_on(); };
     const bool divides = free_->settings.friction == scene::Friction::exact;
     std::vector<continuation::Monitor> monitors;
     if (record) {
-      monitors = {extremum(event_kinds::maximum, Crossing::falling, divides),
-                  extremum(event_kinds::minimum, Crossing::rising, divides), continuation::fold_monitor()};
+      const int zeta = problem->damping_ratio();
+      monitors = {extremum(event_kinds::maximum, Crossing::falling, divides, zeta),
+                  extremum(event_kinds::minimum, Crossing::rising, divides, zeta),
+                  continuation::fold_monitor()};
       monitors.back().divides_at_kinks = false;
     }
+    monitors.push_back(continuation::bound_monitor(outgrown, problem->log_ratio(), std::log(resolvable)));
     auto traced = continuation::trace(problem, {u, Vector::Constant(1, options.lower), 0, 1}, options,
                                       monitors, record);
     speak_of_scene(*model_, model::defaults(*model_), traced);
@@ -136,6 +140,7 @@ class Modes {
   }
 
   bool record(const hbm::ModeProblem& problem, const Accepted& now, const continuation::Event* event) {
+    if (event && event->monitor == outgrown) return true;
     ResponsePoint point = observe(problem, static_cast<const hbm::ModeEvaluator&>(now.at));
     if (event) {
       at_.push_back(now.arclength);
@@ -158,7 +163,7 @@ class Modes {
     ResponsePoint point = observer_->motion(at.motion(), at.unknowns(), at.parameters());
     point.amplitude = at.amplitude();
     point.damping_ratio = at.damping_ratio();
-    point.energy = energy_->of(at.motion(), at.unknowns(), problem.rest());
+    point.energy = energy_->of(at.motion(), at.unknowns());
     // The work of 2 zeta omega M x' in a period, which the damping of the motion has as a loss.
     const auto& h = problem.motions().harmonics();
     const auto& Z = at.motion().stiffness();
@@ -194,10 +199,14 @@ class Modes {
     if (const int n = harmonic_left(); result_.status == Status::failed && n > 1)
       result_.stop.message += "; the motion came to be one of " + std::to_string(n) +
                               " times the frequency, of another mode, where its own fundamental vanishes";
-    if (traced.stop.reason == StopReason::state_too_large && !result_.points.empty())
+    if (traced.stop.reason == StopReason::event) {
+      result_.status = Status::failed;
+      result_.stop.reason = reasons::state_too_large;
       result_.stop.message =
           "the motion of the structure grew more than 1e8 times over that of the response, near " +
-          metres(result_.points.back().amplitude) + "; choose another response";
+          metres(result_.points.empty() ? range_.from : result_.points.back().amplitude) +
+          "; choose another response";
+    }
     if (traced.stop.reason != StopReason::boundary) return;
     const ResponsePoint& last = result_.points.back();
     result_.stop.value = last.amplitude;

@@ -274,9 +274,8 @@ constexpr ResponseQuantity of_mode[] = {
     {"damping_ratio", "-", "of the negative damping in proportion to the masses that balances the losses",
      value<&Point::damping_ratio>},
     {"energy", "J",
-     "kinetic energy and that of the linear springs, from the static displacement, where the kinetic energy "
-     "is "
-     "largest",
+     "kinetic energy and that of springs and elements, from the static displacement, where the kinetic "
+     "energy is largest",
      value<&Point::energy>},
 };
 

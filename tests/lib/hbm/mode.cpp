@@ -21,14 +21,14 @@ std::shared_ptr<const model::Model> free_model(const scene::Scene& s) {
 }
 
 struct Worst {
-  double unknowns = 0, omega = 0, zeta = 0, amplitude = 0;
+  double unknowns = 0, omega = 0, zeta = 0, ratio = 0, amplitude = 0;
 };
 
 // Largest differences of the derivatives from central differences, relative to the largest entries of the
 // column, or of J.
 Worst worst_derivative(const hbm::ModeProblem& problem, const Vector& u, double log_amplitude) {
   const auto at = problem.evaluator();
-  const Eigen::Index n = u.size() - 2;
+  const Eigen::Index n = u.size() - 3;
   const auto residual = [&](const Vector& v, double a) {
     REQUIRE(at->move_to(v, Vector::Constant(1, a), Needs::residual) == continuation::Evaluated::ok);
     return at->residual();
@@ -47,7 +47,7 @@ Worst worst_derivative(const hbm::ModeProblem& problem, const Vector& u, double 
     const Vector plus = residual(u + step * Vector::Unit(u.size(), i), log_amplitude);
     REQUIRE(at->piece() == piece);
     const Vector minus = residual(u - step * Vector::Unit(u.size(), i), log_amplitude);
-    double& result = i < n ? worst.unknowns : i == n ? worst.omega : worst.zeta;
+    double& result = i < n ? worst.unknowns : i == n ? worst.omega : i == n + 1 ? worst.zeta : worst.ratio;
     const double size = i < n ? J.leftCols(n).cwiseAbs().maxCoeff() : J.col(i).cwiseAbs().maxCoeff();
     result = std::max(result, compare(plus, minus, J.col(i), size));
   }
@@ -70,6 +70,7 @@ TEST_CASE(
       const hbm::ModeProblem problem(motions, rest, 1.1);
       std::srand(5);
       Vector u = Vector::Random(problem.size());
+      u[problem.log_ratio()] *= 0.5;
       const auto& h = motions->harmonics();
       for (int i = 0; i < motions->size(); ++i) {
         const int k = i % h.size();
@@ -83,6 +84,7 @@ TEST_CASE(
       CHECK(worst.unknowns < 1e-8);
       CHECK(worst.omega < 1e-8);
       CHECK(worst.zeta < 1e-8);
+      CHECK(worst.ratio < 1e-8);
       CHECK(worst.amplitude < 1e-8);
     }
   }
@@ -147,20 +149,19 @@ double residual_of_motion(const hbm::ModeProblem& problem, const Vector& u, doub
 
 // Traced from a start at `from` to each of these amplitudes.
 void check_motions(const scene::Scene& s, int mode, double from, double to) {
-  const auto model = free_model(s);
-  const auto start = hbm::mode_start(model, mode, from);
+  const auto start = hbm::mode_start(free_model(s), model::build(s), mode, from);
   INFO(start.no_mode << start.failure);
   REQUIRE((start.no_mode.empty() && start.failure.empty()));
   continuation::Options options;
   options.lower = std::log(start.amplitude);
   options.upper = std::log(to);
-  options.largest_state = 1e3;
-  const auto branch =
-      continuation::trace(start.problem, {start.u, Vector::Constant(1, options.lower), 0, 1}, options);
+  const auto branch = continuation::trace(
+      start.problem, {start.u, Vector::Constant(1, options.lower), 0, 1}, options,
+      {continuation::bound_monitor("outgrown", start.problem->log_ratio(), std::log(1e3))});
   INFO(branch.stop.message);
   // Elements may come to hold a mass of the chain, whose amplitude then stays below `to`.
   REQUIRE((branch.stop.reason == continuation::StopReason::boundary ||
-           branch.stop.reason == continuation::StopReason::state_too_large));
+           branch.stop.reason == continuation::StopReason::event));
   CHECK(branch.warnings.empty());
   double worst = 0;
   for (const auto& point : branch.points)

@@ -4,6 +4,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/model/model.hpp>
 #include <arcslip/observables/nonlinear_modes.hpp>
 #include <arcslip/observables/reasons.hpp>
 
@@ -28,6 +29,17 @@ inline scene::Scene oscillator(const std::string& elements, int order, double da
                elements + R"(], "excitation": [{"name": "f", "at": "x", )" + excitation +
                R"(}], "harmonics": {"order": )" + std::to_string(order) + R"(},
     "response": {"at": "x"}, "studies": [{"kind": "frf", "from": 0.5, "to": 2}]})");
+}
+
+inline double value_of(const scene::Scene& s, const std::string& name) {
+  const model::Model built = model::build(s);
+  return built.parameters[static_cast<std::size_t>(model::parameter_index(built, name))].value;
+}
+
+// The displacement at which the contact "damper" begins to slip.
+inline double onset_of_slip(const scene::Scene& s) {
+  return value_of(s, "damper.friction_coefficient") * value_of(s, "damper.normal_load") /
+         value_of(s, "damper.stiffness");
 }
 
 inline ResponseBranch mode(const scene::Scene& s, int number, double from, double to) {
