@@ -73,7 +73,7 @@ class Truncation {
   int free_;
   WideEquations wide_, narrow_;  // narrow_: those of order N, with exact friction
   continuation::Vector p_;
-  double bound_of_highest_;         // natural frequency, from below
+  double bound_of_highest_;        // natural frequency, from below
   std::optional<double> highest_;  // computed where the bound does not decide
   bool stiffens_, exact_ = false;
   std::unique_ptr<continuation::LinearSolver> solver_;

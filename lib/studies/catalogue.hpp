@@ -17,7 +17,7 @@ const scene::StudyType& folds();  // folds over a parameter; observables::CurveR
 const scene::StudyType& time();   // time integration; observables::TimeSettings
 const scene::StudyType& point();  // responses at one frequency; observables::PointSettings
 const scene::StudyType& modes();  // nonlinear modes over the amplitude; observables::ModeRange
-const scene::StudyType& sweep();  // motions followed by a slow sweep of the frequency; observables::SweepSettings
+const scene::StudyType& sweep();  // a slow sweep of the frequency; observables::SweepSettings
 
 /// All of them.
 scene::Catalogue catalogue();
