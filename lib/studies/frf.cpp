@@ -3,6 +3,7 @@
 #include <arcslip/studies/catalogue.hpp>
 
 #include <array>
+#include <utility>
 
 namespace arcslip::studies {
 namespace {
@@ -16,6 +17,16 @@ constexpr int most_doublings = 6, most_branches = 10'000, most_searches = 1000;
 constexpr std::array<scene::file::Word<Branches>, 2> branch_words = {
     {{"one", Branches::one}, {"all", Branches::all}}};
 
+/// A limit of all branches; without them it is not written.
+scene::file::KeyGroup<FrequencyRange> limit(scene::file::KeyGroup<BranchLimits> of) {
+  auto group = scene::file::within(&FrequencyRange::limits, std::move(of));
+  group.write = [write = group.write](const FrequencyRange& range, const scene::Scene& scene,
+                                      scene::file::Node::Object& to) {
+    if (range.branches == Branches::all) write(range, scene, to);
+  };
+  return group;
+}
+
 scene::file::KeysOf<FrequencyRange> keys() {
   scene::file::KeysOf<FrequencyRange> keys;
   keys.add(scene::file::frequency_range(&FrequencyRange::from, &FrequencyRange::to));
@@ -25,19 +36,13 @@ scene::file::KeysOf<FrequencyRange> keys() {
                         "the branch that begins at the first frequency, or also those that leave it at "
                         "breaks of symmetry, period doublings and branch points, those that leave these, "
                         "and so on"));
-  keys.add(scene::file::within(&FrequencyRange::limits,
-                               scene::file::whole("doublings", &BranchLimits::doublings, 0, most_doublings,
-                                                  "with all branches: how many period doublings in a row are "
-                                                  "followed")));
-  keys.add(
-      scene::file::within(&FrequencyRange::limits,
-                          scene::file::whole("most_branches", &BranchLimits::most_branches, 1, most_branches,
-                                             "with all branches: how many are traced at most")));
-  keys.add(scene::file::within(
-      &FrequencyRange::limits,
-      scene::file::whole("searches", &BranchLimits::searches, 0, most_searches,
-                         "with all branches: at how many frequencies between the first and the last one "
-                         "branches that no other reaches are looked for")));
+  keys.add(limit(scene::file::whole("doublings", &BranchLimits::doublings, 0, most_doublings,
+                                    "with all branches: how many period doublings in a row are followed")));
+  keys.add(limit(scene::file::whole("most_branches", &BranchLimits::most_branches, 1, most_branches,
+                                    "with all branches: how many are traced at most")));
+  keys.add(limit(scene::file::whole("searches", &BranchLimits::searches, 0, most_searches,
+                                    "with all branches: at how many frequencies between the first and the "
+                                    "last one branches that no other reaches are looked for")));
   return keys;
 }
 
