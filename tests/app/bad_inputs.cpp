@@ -56,7 +56,8 @@ std::vector<BadInput> make() {
       // the command line
       line("no verb", {}, "Give a verb and a scene"),
       line("an unknown verb", {"fry", "scene.json"},
-           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, time, point, modes, optimize, check "
+           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, time, point, modes, sweep, "
+           "optimize, check "
            "or "
            "schema"),
       line("an amplitude that is no number", {"modes", "scene.json", "--amplitude", "x", "1"},
