@@ -17,14 +17,14 @@ using Json = nlohmann::json;
 namespace {
 
 // A Duffing oscillator across both folds.
-scene::Scene swept(const std::string& more = "") {
+scene::Scene swept(const std::string& more = R"(, "points": 25)") {
   scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
     "elements": [{"name": "s", "type": "bilinear_spring", "at": "x", "stiffness": 0, "stiffness_beyond": 1,
       "corner": 1}],
     "excitation": [{"name": "f", "at": "x", "cosine": 0.15}], "response": {"at": "x"},
-    "studies": [{"kind": "sweep", "from": 1.0, "to": 1.6, "points": 25)" +
+    "studies": [{"kind": "sweep", "from": 1.0, "to": 1.6)" +
                                  more + "}]}");
   return s;
 }
@@ -115,6 +115,8 @@ TEST_CASE("keys of a sweep that contradict each other are faults") {
   CHECK(fault(R"(, "spacing": 1e-9)") ==
         "/studies/0/spacing: found 1e-09, which makes more than 1000000 frequencies");
   CHECK(fault(R"(, "spacing": 0.1)").empty());
+  CHECK(fault(R"(, "spacing": 0.1, "points": 7)") ==
+        "/studies/0/points: found beside \"spacing\", which takes its place: give one of them");
   const auto of_time = [](const std::string& more) {
     Json json = Json::parse(scene::write(swept()));
     json["studies"] = Json::parse(R"([{"kind": "time", "frequency": 1, )" + more + "}]");
