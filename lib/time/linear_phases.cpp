@@ -102,7 +102,7 @@ LinearPhases::LinearPhases(const EquationOfMotion& equation, std::vector<PhasePa
   Matrix following(rows_, cut + none);
   following.leftCols(cut) =
       D.transpose() * free.V.rightCols(cut) * natural_.tail(cut).cwiseInverse().asDiagonal();
-  following.rightCols(none) = D.transpose() * free.without_mass;
+  if (none > 0) following.rightCols(none) = D.transpose() * free.without_mass;
   residual_ = following * following.transpose();
 }
 

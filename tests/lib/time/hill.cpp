@@ -62,7 +62,8 @@ scene::Scene two_cubic_masses(int order, const std::string& more = "") {
 
 }  // namespace
 
-TEST_CASE("Hill's method: on the boundaries of Mathieu's stability the trace of the map is 2 or -2") {
+TEST_CASE("Hill's method: on the boundaries of Mathieu's stability the trace of the map is 2 or -2",
+          "[numbers]") {
   const double q = 5, by_cubic = 1.5, A = std::sqrt(2 * q / by_cubic);
   const struct {
     double a, trace;
@@ -101,7 +102,7 @@ TEST_CASE(
   CHECK(std::abs(hill.map().determinant() * std::exp(damping * 2 * pi / 1.1) - 1) < 1e-9);
 }
 
-TEST_CASE("Hill's method agrees with the multipliers in time along smooth motions") {
+TEST_CASE("Hill's method agrees with the multipliers in time along smooth motions", "[numbers]") {
   for (const double frequency : {0.3, 0.9, 1.3, 2.4}) {
     CAPTURE(frequency);
     const auto both = multipliers(two_cubic_masses(9), frequency);
