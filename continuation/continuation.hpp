@@ -17,5 +17,6 @@
 #include <arcslip/continuation/special_points/hopf_curve.hpp>
 #include <arcslip/continuation/special_points/multiple_point.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
+#include <arcslip/continuation/special_points/test_functions.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
