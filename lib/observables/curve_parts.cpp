@@ -31,8 +31,36 @@ bool is_one_place(const ResponseBranch& part) {
 
 }  // namespace
 
-CurveParts::CurveParts(bool peaks, scene::FrequencyUnit unit, OverParameter way)
-    : peaks_(peaks), what_(peaks_ ? "resonance peak" : "fold"), unit_(unit), way_(std::move(way)) {}
+bool is_bifurcation(const std::string& kind) {
+  return std::find(event_kinds::of_curves.begin(), event_kinds::of_curves.end(), kind) !=
+         event_kinds::of_curves.end();
+}
+
+std::string words_of(const std::string& kind) {
+  if (kind == event_kinds::peak) return "resonance peak";
+  if (kind == event_kinds::period_doubling) return "period doubling";
+  if (kind == event_kinds::neimark_sacker) return "Neimark-Sacker point";
+  if (kind == event_kinds::symmetry_breaking) return "break of symmetry";
+  return kind;
+}
+
+CurveParts::CurveParts(std::string kind, scene::FrequencyUnit unit, OverParameter way)
+    : kind_(std::move(kind)),
+      peaks_(kind_ == event_kinds::peak),
+      what_(words_of(kind_)),
+      unit_(unit),
+      way_(std::move(way)) {}
+
+// The start and the end as events, but for the end of a closed curve, and one at a resonance, an event
+// itself.
+void CurveParts::add_ends(const SpecialCurve& curve, ResponseBranch& part) const {
+  part.of = kind_;
+  if (part.points.empty()) return;
+  if (!curve.begin || curve.begin->reason != &reasons::resonance)
+    part.events.insert(part.events.begin(), {kind_, false, true, part.points.front(), 0});
+  if (curve.end.closed || curve.end.reason == &reasons::resonance) return;
+  part.events.push_back({kind_, false, true, part.points.back(), part.points.size() - 1});
+}
 
 ResponseBranch CurveParts::failed(double over, const std::string& message) const {
   ResponseBranch result = described(*way_.model, way_.name);
@@ -112,6 +140,7 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
           static_cast<std::size_t>(std::max<std::ptrdiff_t>(beyond - at_points.begin(), 1)) - 1;
     }
     if (is_one_place(part) && curve.points.size() > part.points.size()) continue;
+    if (is_bifurcation(kind_)) add_ends(curve, part);
     finish(part, curve, begin == -HUGE_VAL, end == HUGE_VAL);
     parts.push_back(std::move(part));
   }
@@ -135,10 +164,10 @@ void CurveParts::finish(ResponseBranch& part, const SpecialCurve& curve, bool is
   if (!is_first || !curve.begin) return;
   Status status = Status::complete;
   const Stop begin = stop(*curve.begin, HUGE_VAL, true, status);
-  if (status != Status::failed) return;
+  if (status != Status::failed && !curve.begin->reason) return;
   const std::string end = part.stop.message;
-  if (part.status != Status::failed) part.stop = begin;
-  part.status = Status::failed;
+  if (status == Status::failed && part.status != Status::failed) part.stop = begin;
+  if (status == Status::failed) part.status = Status::failed;
   part.stop.message = "at its start, " + begin.message + "; at its end, " + end;
 }
 
@@ -155,6 +184,10 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
     status = Status::complete;
     return {reasons::unbounded, end.over, end.over,
             "the " + what_ + " grows without bound near " + where + ", and beyond " + end.unbounded};
+  }
+  if (end.reason) {
+    status = Status::complete;
+    return {*end.reason, end.over, end.over, end.why + ", at " + where};
   }
   if (end.closed) {
     status = Status::complete;
@@ -184,7 +217,8 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
     stop.message = "no curve was started from the " + what_ + " at " + where + ": " + stop.message;
   } else if (end.stop.reason == StopReason::step_too_small) {
     stop.message = "the curve could not be continued beyond " + where + ": probably the " + what_ +
-                   " is at a corner of the response there, where a phase of friction starts or ends";
+                   " is at a corner of the response there, where a phase of " +
+                   (is_bifurcation(kind_) ? "contact" : "friction") + " starts or ends";
   } else {
     stop.message += ", near " + where;
   }

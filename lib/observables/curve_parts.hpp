@@ -12,13 +12,20 @@
 
 namespace arcslip::observables {
 
+/// Whether a kind of special point is that of a bifurcation with a curve of its own kind.
+bool is_bifurcation(const std::string& kind);
+
+/// "resonance peak", "fold", "period doubling", "Neimark-Sacker point", "break of symmetry".
+std::string words_of(const std::string& kind);
+
 class CurveParts {
  public:
-  /// peaks: true for curves of peaks, false for curves of folds.
-  CurveParts(bool peaks, scene::FrequencyUnit unit, OverParameter way);
+  /// kind: of the points of the curves (event_kinds.hpp).
+  CurveParts(std::string kind, scene::FrequencyUnit unit, OverParameter way);
 
   /// A curve of peaks turns where a peak meets a minimum of the amplitude over the frequency; the part on
-  /// minima, up to the next turn, is left out. A curve of folds is one part.
+  /// minima, up to the next turn, is left out. Other curves are one part. Those of bifurcations begin and end
+  /// with events of their kind.
   std::vector<ResponseBranch> of(const SpecialCurve& curve) const;
 
   /// Arclengths at which a curve turns back in the parameter, ascending.
@@ -33,6 +40,9 @@ class CurveParts {
   void finish(ResponseBranch& part, const SpecialCurve& curve, bool is_first, bool is_last) const;
   Stop stop(const SpecialCurveEnd& end, double begin, bool has_points, Status& status) const;
 
+  void add_ends(const SpecialCurve& curve, ResponseBranch& part) const;
+
+  std::string kind_;
   bool peaks_;
   std::string what_;
   scene::FrequencyUnit unit_;

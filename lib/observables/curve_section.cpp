@@ -67,6 +67,12 @@ ResponsePoint CurveSection::observe(const Accepted& now, HeldBy held) {
   return point;
 }
 
+const StabilityAnalysis* CurveSection::stability(const Accepted& now) {
+  if (!move_to(now.u, now.p, Needs::residual)) return nullptr;
+  return observer_.stability(
+      {u_, p_, tangent_, 0, *evaluator_, now.bordered, p_[model::frequency], now.scratch});
+}
+
 double CurveSection::amplitude_slope(const Accepted& now) {
   if (!move_to(now.u, now.p, Needs::residual)) return std::nan("");
   const Eigen::Index n = u_.size();

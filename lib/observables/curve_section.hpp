@@ -27,6 +27,9 @@ class CurveSection {
   /// The same at a solution x = (u, omega) with all parameters p.
   ResponsePoint observe(continuation::In x, continuation::In p, HeldBy held = HeldBy::extremum);
 
+  /// The multipliers at a point of the curve; null: not watched, or not known there.
+  const StabilityAnalysis* stability(const continuation::Accepted& now);
+
   /// dA/ds along the curve.
   double amplitude_slope(const continuation::Accepted& now);
 

@@ -1,5 +1,6 @@
 #include <arcslip/observables/curves.hpp>
 
+#include <arcslip/observables/bifurcation_curve.hpp>
 #include <arcslip/observables/curve_parts.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/reasons.hpp>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <sstream>
 
 namespace arcslip::observables {
@@ -41,13 +43,15 @@ std::string text(double value) {
 // wherever no response is near. Each curve is traced once, from the first response that shows it.
 class Curves {
  public:
-  Curves(bool peaks, const scene::Scene& scene, const CurveRange& range, const ProgressCallback& report)
-      : peaks_(peaks),
+  Curves(std::vector<std::string> kinds, const scene::Scene& scene, const CurveRange& range,
+         const ProgressCallback& report)
+      : kinds_(std::move(kinds)),
+        peaks_(kinds_.front() == event_kinds::peak),
         unit_(scene.frequency_unit),
         to_rad_per_s_(scene::to_rad_per_s(unit_)),
         window_{range.frequency_from * to_rad_per_s_, range.frequency_to * to_rad_per_s_},
         way_(over_parameter(scene, range.over, range.from, range.to)),
-        parts_(peaks, unit_, way_),
+        parts_(kinds_.front(), unit_, way_),
         report_(report),
         stability_(range.stability) {}
 
@@ -86,13 +90,14 @@ class Curves {
 
  private:
   struct Found {
+    std::string kind;
     SpecialCurve curve;
     int unknowns;
     double seconds;
     std::string doubt, unknown_stability;
   };
 
-  std::string what() const { return peaks_ ? "resonance peak" : "fold"; }
+  std::string what() const { return kinds_.size() > 1 ? "bifurcation" : words_of(kinds_.front()); }
 
   // Reports progress and checks for a stop, also between points, with the numbers of the last one.
   bool go_on() {
@@ -109,14 +114,18 @@ class Curves {
   void look_at(double share) {
     looked_at_.push_back(share);
     const double over = way_.value(share);
-    const SpecialPoints response = special_points(
-        way_, over, window_, peaks_ ? event_kinds::peak : event_kinds::fold, [this] { return go_on(); });
+    const SpecialPoints response = special_points(way_, over, window_, kinds_, [this] { return go_on(); });
     if (stopped_) return;
     for (const SpecialPoint& start : response.points) {
       follow(start, share);
       if (stopped_) return;
     }
     if (unbounded_.empty()) unbounded_ = response.unbounded;
+    if (!response.unknown_stability.empty() && failure_.empty()) {
+      failed_at_ = over;
+      failure_ = "the stability of the response at " + way_.name + " = " + text(over) +
+                 " is not known, and curves may be missing: " + response.unknown_stability;
+    }
     if (response.failure.empty() || !failure_.empty()) return;
     failed_at_ = over;
     failure_ = "the response at " + way_.name + " = " + text(over) +
@@ -125,17 +134,19 @@ class Curves {
 
   void follow(const SpecialPoint& start, double share) {
     const auto began = std::chrono::steady_clock::now();
-    SpecialCurveTracer tracer = make_tracer(start.problem);
-    const auto passes = [&](const Found& found) { return tracer.passes(found.curve, start); };
+    const std::unique_ptr<CurveTracer> tracer = make_tracer(start);
+    const auto passes = [&](const Found& found) {
+      return found.kind == start.kind && tracer->passes(found.curve, start);
+    };
     if (std::any_of(found_.begin(), found_.end(), passes)) return;
     const int ahead = way_.direction();
-    SpecialCurve curve = tracer.run(start, share == 1 ? -ahead : ahead);
+    SpecialCurve curve = tracer->run(start, share == 1 ? -ahead : ahead);
     if (share > 0 && share < 1 && !is_stopped(curve.end) && !curve.end.closed) {
-      SpecialCurve back = tracer.run(start, -ahead);
+      SpecialCurve back = tracer->run(start, -ahead);
       if (!goes_the_same_way(curve, back)) curve = joined(std::move(back), std::move(curve));
     }
     if (curve.end.closed) curve = begun_at_a_turn(std::move(curve));
-    drop_parts_of(tracer, curve);
+    drop_parts_of(*tracer, start.kind, curve);
     stopped_ = stopped_ || is_stopped(curve.end) || (curve.begin && is_stopped(*curve.begin));
     look_beyond(curve.end);
     if (curve.begin) look_beyond(*curve.begin);
@@ -143,8 +154,8 @@ class Curves {
     Vector p = hbm::parameters_at(*start.problem, start.x[start.problem->size()]);
     p[way_.index] = start.over;
     std::string doubt = doubt_of_rounding(*way_.model, p, curve.counts);
-    found_.push_back({std::move(curve), start.problem->size() + 1, seconds.count(), std::move(doubt),
-                      section_->unknown_stability()});
+    found_.push_back({start.kind, std::move(curve), start.problem->size() + 1, seconds.count(),
+                      std::move(doubt), section_->unknown_stability()});
   }
 
   static bool is_stopped(const SpecialCurveEnd& end) {
@@ -188,8 +199,9 @@ class Curves {
   }
 
   // A failed curve is covered by one traced through all of it from the other side.
-  void drop_parts_of(const SpecialCurveTracer& tracer, const SpecialCurve& curve) {
+  void drop_parts_of(const CurveTracer& tracer, const std::string& kind, const SpecialCurve& curve) {
     std::erase_if(found_, [&](const Found& earlier) {
+      if (earlier.kind != kind) return false;
       const auto& points = earlier.curve.points;
       const auto passes = [&](const SpecialCurve::At& at) {
         return tracer.passes(curve, tracer.point_of(at));
@@ -199,11 +211,12 @@ class Curves {
     });
   }
 
-  // Where several elements start to slip at once, a curve may have to be traced from both sides.
+  // Where several elements start to slip at once, a curve of peaks or folds may have to be traced from both
+  // sides.
   void see_which_meet() {
     std::vector<SpecialCurveEnd*> ends;
     for (Found& found : found_) {
-      if (found.curve.points.empty()) continue;
+      if (found.curve.points.empty() || is_bifurcation(found.kind)) continue;
       if (found.curve.begin) ends.push_back(&*found.curve.begin);
       ends.push_back(&found.curve.end);
     }
@@ -221,7 +234,7 @@ class Curves {
   }
 
   std::vector<ResponseBranch> reported(const Found& found) const {
-    auto parts = parts_.of(found.curve);
+    auto parts = CurveParts(found.kind, unit_, way_).of(found.curve);
     SolverSummary& solver = parts.front().solver;
     solver.unknowns = found.unknowns;
     solver.seconds = found.seconds;
@@ -235,9 +248,11 @@ class Curves {
     return parts;
   }
 
-  SpecialCurveTracer make_tracer(const std::shared_ptr<const hbm::HbmProblem>& problem) {
+  std::unique_ptr<CurveTracer> make_tracer(const SpecialPoint& start) {
+    const auto& problem = start.problem;
+    const bool bifurcations = is_bifurcation(start.kind);
     const auto section = std::make_shared<CurveSection>(problem, way_.index);
-    if (stability_) section->watch_stability();
+    if (stability_ || bifurcations) section->watch_stability();
     section_ = section;
     const Eigen::Index n = problem->size();
     const auto progress = [this, points = 0L, last = 0.0](double over, double omega) mutable {
@@ -248,10 +263,13 @@ class Curves {
       last = omega;
       return go_on();
     };
-    return SpecialCurveTracer(problem, peaks_ ? peak_kind(problem) : fold_kind(), way_, window_,
-                              with_folds(peaks_ ? peak_monitors(section) : fold_monitors(n)),
-                              peaks_ ? peak_monitors(section) : turn_monitors(n), section, progress,
-                              [this] { return go_on(); });
+    const auto ask = [this] { return go_on(); };
+    if (bifurcations)
+      return std::make_unique<BifurcationTracer>(problem, start.kind, way_, window_, section, progress, ask);
+    return std::make_unique<SpecialCurveTracer>(
+        problem, peaks_ ? peak_kind(problem) : fold_kind(), way_, window_,
+        with_folds(peaks_ ? peak_monitors(section) : fold_monitors(n)),
+        peaks_ ? peak_monitors(section) : std::vector{turn_monitor(n)}, section, progress, ask);
   }
 
   static std::vector<Monitor> peak_monitors(const std::shared_ptr<CurveSection>& section) {
@@ -266,18 +284,8 @@ class Curves {
   }
 
   // n: where the frequency stands among the unknowns.
-  static std::vector<Monitor> turn_monitors(Eigen::Index n) {
-    const auto slope = [n](const Accepted& now) { return now.tangent[n]; };
-    const auto frequency = [n](const Accepted& now) { return now.u[n]; };
-    Monitor turn{event_kinds::turn, slope, Crossing::any, frequency};
-    turn.divides_at_kinks = false;
-    return {turn};
-  }
-
   static std::vector<Monitor> fold_monitors(Eigen::Index n) {
-    auto monitors = turn_monitors(n);
-    monitors.push_back(continuation::cusp_monitor());
-    return monitors;
+    return {turn_monitor(n), continuation::cusp_monitor()};
   }
 
   static std::vector<Monitor> with_folds(std::vector<Monitor> monitors) {
@@ -285,6 +293,7 @@ class Curves {
     return monitors;
   }
 
+  std::vector<std::string> kinds_;
   bool peaks_;
   std::shared_ptr<CurveSection> section_;  // of the last tracer
   scene::FrequencyUnit unit_;
@@ -306,12 +315,23 @@ class Curves {
 
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
                                             const ProgressCallback& progress) {
-  return Curves(true, scene, range, progress).run();
+  return Curves({event_kinds::peak}, scene, range, progress).run();
 }
 
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRange& range,
                                         const ProgressCallback& progress) {
-  return Curves(false, scene, range, progress).run();
+  return Curves({event_kinds::fold}, scene, range, progress).run();
+}
+
+std::vector<ResponseBranch> bifurcation_curves(const scene::Scene& scene, const BifurcationRange& range,
+                                               const ProgressCallback& progress) {
+  std::vector<std::string> kinds(event_kinds::of_curves.begin(), event_kinds::of_curves.end());
+  if (range.of == BifurcationsOf::period_doubling) kinds = {event_kinds::period_doubling};
+  if (range.of == BifurcationsOf::neimark_sacker) kinds = {event_kinds::neimark_sacker};
+  if (range.of == BifurcationsOf::symmetry_breaking) kinds = {event_kinds::symmetry_breaking};
+  return Curves(std::move(kinds), scene,
+                {range.over, range.from, range.to, range.frequency_from, range.frequency_to, true}, progress)
+      .run();
 }
 
 }  // namespace arcslip::observables

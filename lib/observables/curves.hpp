@@ -27,6 +27,17 @@ struct CurveRange {
   friend bool operator==(const CurveRange&, const CurveRange&) = default;
 };
 
+/// Kinds of bifurcations; `all`: each that the motion may have.
+enum class BifurcationsOf { all, period_doubling, neimark_sacker, symmetry_breaking };
+
+/// A parameter `over`, its range, and a frequency window in the scene's unit.
+struct BifurcationRange {
+  BifurcationsOf of = BifurcationsOf::all;
+  std::string over;
+  double from = 0, to = 0, frequency_from = 0, frequency_to = 0;
+  friend bool operator==(const BifurcationRange&, const BifurcationRange&) = default;
+};
+
 /// The branches over a parameter at one frequency, one for each response found at range.from; with a cubic
 /// spring there may be several. Events: "fold" in that parameter, "maximum" and "minimum" of the amplitude.
 /// Throws scene::ParameterError for an unknown parameter or a range beyond its bounds.
@@ -52,5 +63,15 @@ std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const Cur
 /// the frequency (folds in the parameter at fixed frequency start or end there), and "corner" as for peaks.
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRange& range,
                                         const ProgressCallback& progress = {});
+
+/// The curves of bifurcations of the frequency response over range.over (bifurcation_curve.hpp), found in the
+/// same way, with the stability of their points: `unstable` counts the multipliers other than those of the
+/// bifurcation. A branch is `of` one kind; its first and its last event have that kind. Other events: "fold",
+/// where the curve turns in the parameter, so that two bifurcations of the frequency response meet; "turn",
+/// where it turns in the frequency; resonances "resonance_1_1" to "resonance_1_4" of Neimark-Sacker points,
+/// and "resonance_1_2" of others, where a second multiplier is -1. A curve of Neimark-Sacker points ends at
+/// resonances 1:1 and 1:2 ("resonance"), and any where multipliers jump across the bifurcation ("jump").
+std::vector<ResponseBranch> bifurcation_curves(const scene::Scene& scene, const BifurcationRange& range,
+                                               const ProgressCallback& progress = {});
 
 }  // namespace arcslip::observables

@@ -27,4 +27,12 @@ inline constexpr const char* branch_point = "branch_point";  // continuation::br
 inline constexpr std::array of_stability = {period_doubling, neimark_sacker, symmetry_breaking,
                                             stability_lost};
 
+inline constexpr std::array of_curves = {period_doubling, neimark_sacker, symmetry_breaking};
+
+// On curves of bifurcations: a pair of multipliers at exp(+- 2 pi i/q), q = 1, 2, 3, 4.
+inline constexpr const char* resonance_1_1 = "resonance_1_1";
+inline constexpr const char* resonance_1_2 = "resonance_1_2";
+inline constexpr const char* resonance_1_3 = "resonance_1_3";
+inline constexpr const char* resonance_1_4 = "resonance_1_4";
+
 }  // namespace arcslip::observables::event_kinds

@@ -52,6 +52,15 @@ inline constexpr Reason corner{
     "corner",
     "of curves: the peak or fold reaches a corner of the response, from which another curve continues"};
 
+inline constexpr Reason resonance{"resonance",
+                                  "of curves of Neimark-Sacker points: their pair of multipliers becomes "
+                                  "real, at 1 on a curve of folds (1:1), "
+                                  "or at -1 on one of period doublings (1:2)"};
+inline constexpr Reason jump{
+    "jump",
+    "of curves of bifurcations: the multipliers jump, where a phase of contact begins "
+    "or ends"};
+
 // Branches that leave others.
 inline constexpr Reason branch_point{
     "branch_point",
@@ -94,10 +103,11 @@ using time::reasons::singular;
 inline constexpr Reason swept{"swept", "the sweep reached its last frequency"};
 
 /// The reasons of a branch, or of a curve of peaks or folds.
-inline constexpr std::array of_branches = {boundary,      unbounded,      closed,          branch_point,
-                                           fold,          corner,         point_limit,     user,
-                                           start_failed,  step_too_small, state_too_large, event,
-                                           not_evaluated, monitor_failed, no_mode};
+inline constexpr std::array of_branches = {boundary,       unbounded,      closed,          branch_point,
+                                           fold,           corner,         resonance,       jump,
+                                           point_limit,    user,           start_failed,    step_too_small,
+                                           state_too_large, event,         not_evaluated,   monitor_failed,
+                                           no_mode};
 
 /// The reasons of a response at one frequency.
 inline constexpr std::array of_responses = {solved, unbounded, user, start_failed, not_evaluated};

@@ -187,6 +187,7 @@ struct ResponseBranch {
   Status status = Status::complete;
   Stop stop;
   std::string over;  // the continuation parameter; empty for frequency responses
+  std::string of{};  // the kind of bifurcation of a curve of such ones (event_kinds.hpp)
   std::vector<std::pair<std::string, double>> set;         // set by for_each
   std::vector<std::pair<std::string, double>> parameters;  // every other parameter, by its name
   std::vector<int> harmonics;                              // n of the coefficients

@@ -18,12 +18,12 @@ using continuation::Vector;
 
 constexpr double grown = 1e5;   // |u| in scales: where it is asked whether a response just ahead is unbounded
 constexpr double ahead = 1e-2;  // of the parameter
-constexpr const char* window_event = "window";
 constexpr const char* below_event = "below";  // the slope vanishes on this side of a corner
 constexpr const char* above_event = "above";
 constexpr int most_parts = 64;
 
-// n: where the frequency stands among the unknowns.
+}  // namespace
+
 Monitor window_monitor(const FrequencyWindow& window, Eigen::Index n) {
   Monitor monitor;
   monitor.name = window_event;
@@ -35,7 +35,12 @@ Monitor window_monitor(const FrequencyWindow& window, Eigen::Index n) {
   return monitor;
 }
 
-}  // namespace
+Monitor turn_monitor(Eigen::Index n) {
+  Monitor turn{event_kinds::turn, [n](const Accepted& now) { return now.tangent[n]; },
+               continuation::Crossing::any, [n](const Accepted& now) { return now.u[n]; }};
+  turn.divides_at_kinks = false;
+  return turn;
+}
 
 SpecialKind peak_kind(const std::shared_ptr<const hbm::HbmProblem>& problem) {
   return {event_kinds::peak, amplitude_quantity(problem), true};
@@ -56,9 +61,8 @@ SpecialCurveTracer::SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> pr
                                        std::vector<Monitor> smooth_monitors,
                                        std::vector<Monitor> corner_monitors,
                                        std::shared_ptr<CurveSection> section, Progress progress, GoOn go_on)
-    : problem_(std::move(problem)),
+    : CurveTracer(std::move(problem), std::move(way)),
       kind_(std::move(kind)),
-      way_(std::move(way)),
       window_(window),
       smooth_monitors_(std::move(smooth_monitors)),
       corner_monitors_(std::move(corner_monitors)),
@@ -185,7 +189,7 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
   return branch;
 }
 
-Vector SpecialCurveTracer::parameters(const Vector& x, double over) const {
+Vector CurveTracer::parameters(const Vector& x, double over) const {
   Vector p = hbm::parameters_at(*problem_, x[problem_->size()]);
   p[way_.index] = over;
   return p;
@@ -201,7 +205,7 @@ constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whet
 
 // From one pole to the next. Returns where the branch goes on beyond it, or the end of the window.
 double add_points(const std::shared_ptr<const model::Model>& model, double over, double from,
-                  const FrequencyWindow& window, const std::string& kind, const GoOn& go_on,
+                  const FrequencyWindow& window, const std::vector<std::string>& kinds, const GoOn& go_on,
                   SpecialPoints& found) {
   const double width = window.upper - window.lower;
   if (const auto growth = unbounded_resonance(model, from); growth.unbounded) {
@@ -213,10 +217,10 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
   bool unbounded = false;
   const auto record = [&](Observer& observer, const Accepted& now, const continuation::Event* event) {
     if (event) {
-      if (event->monitor != kind) return true;
+      if (std::find(kinds.begin(), kinds.end(), event->monitor) == kinds.end()) return true;
       Vector x(now.u.size() + 1);
       x << now.u, now.parameter;
-      found.points.push_back({{}, over, std::move(x), event->nonsmooth});
+      found.points.push_back({{}, over, std::move(x), event->nonsmooth, event->monitor});
       return true;
     }
     const double last = course.back().second;
@@ -227,7 +231,12 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
     if (unbounded) found.unbounded = growth.message;
     return !unbounded;
   };
-  const auto swept = frequency_branch(model, window, from, record, 1, Steps::curve, go_on);
+  const bool stability = std::any_of(kinds.begin(), kinds.end(), [](const std::string& kind) {
+    return std::find(event_kinds::of_curves.begin(), event_kinds::of_curves.end(), kind) !=
+           event_kinds::of_curves.end();
+  });
+  const auto swept = frequency_branch(model, window, from, record, 1, Steps::curve, go_on, stability);
+  found.unknown_stability = swept.unknown_stability;
   for (std::size_t i = before; i < found.points.size(); ++i) found.points[i].problem = swept.problem;
   if (unbounded) return beyond_pole(course, width);
   if (swept.branch.stop.reason != StopReason::boundary) found.failure = swept.branch.stop.message;
@@ -237,12 +246,12 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
 }  // namespace
 
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
-                             const std::string& kind, const GoOn& go_on) {
+                             const std::vector<std::string>& kinds, const GoOn& go_on) {
   SpecialPoints found;
   const auto model = way.at(over);
   double from = window.lower;
   for (int piece = 0; piece <= 2 * model->dofs && from < window.upper; ++piece)
-    from = add_points(model, over, from, window, kind, go_on, found);
+    from = add_points(model, over, from, window, kinds, go_on, found);
   return found;
 }
 

@@ -28,18 +28,21 @@ struct SpecialPoint {
   double over = 0;                                 // the parameter
   continuation::Vector x;                          // unknowns and frequency
   bool nonsmooth = false;
+  std::string kind{};  // of event_kinds
 };
 
 struct SpecialPoints {
   std::vector<SpecialPoint> points;
-  std::string unbounded;  // why a resonance is unbounded, and so has no peak
-  std::string failure;    // why the branch does not cover the window: points may be missing
+  std::string unbounded;            // why a resonance is unbounded, and so has no peak
+  std::string failure;              // why the branch does not cover the window: points may be missing
+  std::string unknown_stability{};  // why multipliers are not known
 };
 
-/// The special points in a frequency window at the value `over` of the parameter. kind: the event,
-/// event_kinds::peak or fold. If go_on returns false, the points found so far.
+/// The special points in a frequency window at the value `over` of the parameter. kinds: of events,
+/// event_kinds::peak, fold, or of_curves, for which multipliers are computed. If go_on returns false, the
+/// points found so far.
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
-                             const std::string& kind, const GoOn& go_on = {});
+                             const std::vector<std::string>& kinds, const GoOn& go_on = {});
 
 /// The kind of special points, as zeros of the slope of a quantity along the branch over the frequency.
 struct SpecialKind {
@@ -53,14 +56,16 @@ SpecialKind fold_kind();
 /// The start or end of a curve, and its reason.
 struct SpecialCurveEnd {
   continuation::BranchStop stop;
-  continuation::Vector x;    // unknowns and frequency
-  double over = 0;           // the parameter
-  int direction = 1;         // of the parameter, where it stopped
-  bool left_window = false;  // of the frequency
-  bool vanishes = false;     // at a corner that the branch touches from one side, or surpassed
-  bool closed = false;       // the curve returned to its start
-  bool goes_on = false;      // another curve starts or ends there
-  std::string unbounded{};   // why, where the response grows without bound
+  continuation::Vector x;                   // unknowns and frequency
+  double over = 0;                          // the parameter
+  int direction = 1;                        // of the parameter, where it stopped
+  bool left_window = false;                 // of the frequency
+  bool vanishes = false;                    // at a corner that the branch touches from one side, or surpassed
+  bool closed = false;                      // the curve returned to its start
+  bool goes_on = false;                     // another curve starts or ends there
+  std::string unbounded{};                  // why, where the response grows without bound
+  const results::Reason* reason = nullptr;  // of reasons.hpp, where the curve is complete for it,
+  std::string why{};                        // and the sentence that tells it, without the place
 };
 
 /// The record of one curve, in order of arclength.
@@ -70,6 +75,7 @@ struct SpecialCurve {
     double second = 0;  // derivative of the quantity along the frequency branch; 0 at corners
     ResponsePoint point;
     std::optional<hbm::Corner> corner{};  // none on smooth parts
+    double kappa = 0;                     // of Neimark-Sacker points (bifurcations.hpp)
   };
   struct EventAt {
     double arclength = 0;
@@ -86,10 +92,53 @@ struct SpecialCurve {
 /// Joins the two halves of a curve traced from one of its points, in the order of `ahead`.
 SpecialCurve joined(SpecialCurve back, SpecialCurve ahead);
 
-class SpecialCurveTracer {
+/// Traces curves of special points of one kind.
+class CurveTracer {
  public:
   using Progress = std::function<bool(double over, double omega)>;
 
+  CurveTracer(std::shared_ptr<const hbm::HbmProblem> problem, OverParameter way)
+      : problem_(std::move(problem)), way_(std::move(way)) {}
+  virtual ~CurveTracer() = default;
+
+  /// direction: of the parameter, +1 or -1.
+  virtual SpecialCurve run(const SpecialPoint& start, int direction) = 0;
+
+  /// Whether a curve passes through a special point.
+  virtual bool passes(const SpecialCurve& curve, const SpecialPoint& through) const = 0;
+
+  /// A point of a curve, to start from or to search for.
+  SpecialPoint point_of(const SpecialCurve::At& at) const;
+
+ protected:
+  /// Between the neighbouring points a and b of a curve: whether the curve, corrected from a guess (u, omega,
+  /// over) in the plane with the normal `row`, passes through the point sought.
+  using LiesOn = std::function<bool(const SpecialCurve::At& a, const SpecialCurve::At& b,
+                                    const continuation::Vector& guess, const continuation::Vector& row)>;
+  // The first of the `points` of a curve beyond its passage through a special point; 0: none.
+  std::size_t passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through,
+                      const LiesOn& lies_on) const;
+  std::optional<continuation::Vector> corrected(const continuation::Problem& problem,
+                                                const continuation::Vector& x, double over,
+                                                const continuation::Vector& row, double reach) const;
+  bool is_same(const continuation::Vector& x, const continuation::Vector& y) const;
+  bool is_at(const continuation::Vector& v, const SpecialPoint& point) const;  // v: x and over
+  continuation::Vector parameters(const continuation::Vector& x, double over) const;
+  bool inside(double over) const { return over >= way_.lower() && over <= way_.upper(); }
+
+  std::shared_ptr<const hbm::HbmProblem> problem_;
+  OverParameter way_;
+};
+
+/// Terminal, where the frequency leaves the window. n: where it stands among the unknowns.
+continuation::Monitor window_monitor(const FrequencyWindow& window, Eigen::Index n);
+inline constexpr const char* window_event = "window";
+
+/// Where a curve turns in the frequency.
+continuation::Monitor turn_monitor(Eigen::Index n);
+
+class SpecialCurveTracer final : public CurveTracer {
+ public:
   /// monitors: of the curve, in addition to that of the frequency window. progress: after each point, with
   /// its value of the parameter and its frequency; false stops. go_on: called in between, too.
   SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> problem, SpecialKind kind, OverParameter way,
@@ -97,16 +146,10 @@ class SpecialCurveTracer {
                      std::vector<continuation::Monitor> corner_monitors,
                      std::shared_ptr<CurveSection> section, Progress progress, GoOn go_on = {});
 
-  /// direction: of the parameter, +1 or -1.
-  SpecialCurve run(const SpecialPoint& start, int direction);
-
-  /// Whether a curve passes through a special point.
-  bool passes(const SpecialCurve& curve, const SpecialPoint& through) const {
+  SpecialCurve run(const SpecialPoint& start, int direction) override;
+  bool passes(const SpecialCurve& curve, const SpecialPoint& through) const override {
     return passage(curve, curve.points.size(), through) > 0;
   }
-
-  /// A point of a curve, to start from or to search for.
-  SpecialPoint point_of(const SpecialCurve::At& at) const;
 
  private:
   struct CurveStart {
@@ -117,7 +160,7 @@ class SpecialCurveTracer {
   };
 
   continuation::Branch trace(const CurveStart& from);
-  // The first of the `points` of a curve beyond its passage through a special point; 0: none.
+  using CurveTracer::passage;
   std::size_t passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through) const;
   bool comes_back(std::size_t begin);
   void end_at(std::size_t count, bool closed);
@@ -136,17 +179,8 @@ class SpecialCurveTracer {
   std::optional<CurveStart> seen_beyond(const CurveStart& at);
   std::optional<continuation::Vector> at_depth(const CurveStart& at, double depth, double reach) const;
   bool is_surpassed(const CurveStart& at) const;
-  std::optional<continuation::Vector> corrected(const continuation::Problem& problem,
-                                                const continuation::Vector& x, double over,
-                                                const continuation::Vector& row, double reach) const;
-  bool is_same(const continuation::Vector& x, const continuation::Vector& y) const;
-  // The unknowns at a corner: those of the smooth parts, and its two angles.
-  continuation::Vector parameters(const continuation::Vector& x, double over) const;
-  bool inside(double over) const { return over >= way_.lower() && over <= way_.upper(); }
 
-  std::shared_ptr<const hbm::HbmProblem> problem_;
   SpecialKind kind_;
-  OverParameter way_;
   FrequencyWindow window_;
   std::vector<continuation::Monitor> smooth_monitors_, corner_monitors_;
   std::shared_ptr<CurveSection> section_;

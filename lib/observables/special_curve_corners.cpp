@@ -33,8 +33,8 @@ constexpr double root_reach = 3;  // of the root of that depth, which the parame
 
 // The solution near (x, over) in the plane row . ((x, over)' - (x, over)) = 0, no farther off than `reach`,
 // relative.
-std::optional<Vector> SpecialCurveTracer::corrected(const continuation::Problem& problem, const Vector& x,
-                                                    double over, const Vector& row, double reach) const {
+std::optional<Vector> CurveTracer::corrected(const continuation::Problem& problem, const Vector& x,
+                                             double over, const Vector& row, double reach) const {
   continuation::Counts counts;
   continuation::Corrector corrector(problem, parameters(x, over), way_.index, {}, counts);
   const Eigen::Index n = x.size();
@@ -128,7 +128,7 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(co
       std::vector<SpecialPoint> near;
       const double over = at.over * (1 + direction * beside);
       if (!inside(over)) return near;
-      const auto response = special_points(way_, over, window_, kind_.event, go_on_);
+      const auto response = special_points(way_, over, window_, {kind_.event}, go_on_);
       if (!response.failure.empty() || !response.unbounded.empty()) return near;
       for (const SpecialPoint& point : response.points)
         if (std::abs(point.x[n] / at.x[n] - 1) < in_sight) near.push_back(point);

@@ -45,8 +45,8 @@ SpecialCurve joined(SpecialCurve back, SpecialCurve ahead) {
 
 // The curve between two of its points is corrected in the plane across their chord that contains the point
 // sought: so it is told from others where it turns, too.
-std::size_t SpecialCurveTracer::passage(const SpecialCurve& curve, std::size_t points,
-                                        const SpecialPoint& through) const {
+std::size_t CurveTracer::passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through,
+                                 const LiesOn& lies_on) const {
   const Eigen::Index n = problem_->size();
   const auto all_of = [&](const ResponsePoint& point) {
     Vector v(n + 2);
@@ -55,17 +55,8 @@ std::size_t SpecialCurveTracer::passage(const SpecialCurve& curve, std::size_t p
   };
   Vector sought(n + 2), scales(n + 2);
   sought << through.x, through.over;
-  scales << smooth_->scales(), smooth_->parameters()[static_cast<std::size_t>(way_.index)].scale;
-  const auto lies_on = [&](const std::optional<hbm::Corner>& corner, const Vector& guess, const Vector& row) {
-    const auto problem = corner ? hbm::corner_points(problem_, *corner) : smooth_;
-    const Vector x = corner ? hbm::with_angles(guess.head(n + 1), *corner) : Vector(guess.head(n + 1));
-    Vector border = Vector::Zero(x.size() + 1);
-    border.head(n + 1) = row.head(n + 1);
-    border[x.size()] = row[n + 1];
-    const auto v = corrected(*problem, x, guess[n + 1], border, HUGE_VAL);
-    return v && is_same(v->head(n + 1), through.x) &&
-           std::abs((*v)[x.size()] - through.over) <= same_frequency * std::abs(through.over);
-  };
+  scales << problem_->scales(), problem_->parameters()[model::frequency].change(),
+      problem_->parameters()[static_cast<std::size_t>(way_.index)].scale;
   for (std::size_t i = 1; i < points; ++i) {
     const auto &a = curve.points[i - 1], &b = curve.points[i];
     if (std::abs(a.point.omega - through.x[n]) >
@@ -76,15 +67,32 @@ std::size_t SpecialCurveTracer::passage(const SpecialCurve& curve, std::size_t p
     const double length = scaled.norm(), share = way.dot(scaled) / (length * length);
     if (!(share >= -beyond_chord && share <= 1 + beyond_chord) || (way - share * scaled).norm() > length)
       continue;
-    const Vector row = scaled.cwiseQuotient(scales) / length;
-    if (lies_on(a.corner, first + share * chord, row)) return i;
-    if (a.corner.has_value() != b.corner.has_value() && lies_on(b.corner, first + share * chord, row))
-      return i;
+    if (lies_on(a, b, first + share * chord, scaled.cwiseQuotient(scales) / length)) return i;
   }
   return 0;
 }
 
-SpecialPoint SpecialCurveTracer::point_of(const SpecialCurve::At& at) const {
+std::size_t SpecialCurveTracer::passage(const SpecialCurve& curve, std::size_t points,
+                                        const SpecialPoint& through) const {
+  const Eigen::Index n = problem_->size();
+  const auto lies_on = [&](const std::optional<hbm::Corner>& corner, const Vector& guess, const Vector& row) {
+    const auto problem = corner ? hbm::corner_points(problem_, *corner) : smooth_;
+    const Vector x = corner ? hbm::with_angles(guess.head(n + 1), *corner) : Vector(guess.head(n + 1));
+    Vector border = Vector::Zero(x.size() + 1);
+    border.head(n + 1) = row.head(n + 1);
+    border[x.size()] = row[n + 1];
+    const auto v = corrected(*problem, x, guess[n + 1], border, HUGE_VAL);
+    return v && is_at(*v, through);
+  };
+  return passage(
+      curve, points, through,
+      [&](const SpecialCurve::At& a, const SpecialCurve::At& b, const Vector& guess, const Vector& row) {
+        return lies_on(a.corner, guess, row) ||
+               (a.corner.has_value() != b.corner.has_value() && lies_on(b.corner, guess, row));
+      });
+}
+
+SpecialPoint CurveTracer::point_of(const SpecialCurve::At& at) const {
   const Eigen::Index n = problem_->size();
   SpecialPoint point{problem_, at.point.over, Vector(n + 1), at.corner.has_value()};
   point.x << Eigen::Map<const Vector>(at.point.unknowns.data(), n), at.point.omega;
@@ -165,7 +173,12 @@ void SpecialCurveTracer::end_at(std::size_t count, bool closed) {
   result_.end.vanishes = !closed;
 }
 
-bool SpecialCurveTracer::is_same(const Vector& x, const Vector& y) const {
+bool CurveTracer::is_at(const Vector& v, const SpecialPoint& point) const {
+  return is_same(v, point.x) &&
+         std::abs(v[v.size() - 1] - point.over) <= same_frequency * std::abs(point.over);
+}
+
+bool CurveTracer::is_same(const Vector& x, const Vector& y) const {
   const Eigen::Index n = problem_->size();
   return std::abs(x[n] - y[n]) <= same_frequency * y[n] &&
          (x.head(n) - y.head(n)).norm() <= same_motion * y.head(n).norm();

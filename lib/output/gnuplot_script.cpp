@@ -51,7 +51,11 @@ constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
     "pointtype 6 pointsize 1 linewidth 1.5",
     "pointtype 12 pointsize 1.1 linewidth 1.5",
     "pointtype 2 pointsize 0.9 linewidth 1.5",
-    "pointtype 3 pointsize 0.9 linewidth 1.5"};
+    "pointtype 3 pointsize 0.9 linewidth 1.5",
+    "pointtype 15 pointsize 0.9",
+    "pointtype 14 pointsize 1 linewidth 1.5",
+    "pointtype 11 pointsize 0.9",
+    "pointtype 1 pointsize 0.9 linewidth 1.5"};
 
 /// Colours of the areas, in the order of area_kinds: alike where two kinds never meet.
 constexpr std::array<const char*, results::area_kinds.size()> area_colours = {
@@ -151,6 +155,7 @@ void write_key_title(std::ostream& out, const FigureData& data) {
 std::string in_words(std::string_view kind) {
   if (kind == "neimark_sacker") return "Neimark-Sacker";
   std::string words(kind);
+  if (kind.starts_with("resonance_1_")) words[words.size() - 2] = ':';
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
 }

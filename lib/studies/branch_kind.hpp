@@ -34,8 +34,10 @@ KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, st
           [](const scene::Scene& scene, const Range& range, const scene::RunOptions& options) {
             Asked asked;
             if constexpr (requires { range.over; }) asked.over = range.over;
-            asked.maxima = drawn == BranchKind::peaks || drawn == BranchKind::folds;
+            asked.maxima =
+                drawn == BranchKind::peaks || drawn == BranchKind::folds || drawn == BranchKind::bifurcations;
             asked.mode = drawn == BranchKind::modes;
+            asked.stability = drawn == BranchKind::bifurcations;
             if constexpr (requires { range.stability; }) asked.stability = range.stability;
             if constexpr (requires { range.branches; }) {
               asked.leaving = range.branches == decltype(range.branches)::all;

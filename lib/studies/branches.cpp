@@ -109,6 +109,7 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
   results::Result result{0, {branch.study, branch.kind, named(scene, branch.set)}, {}, {}};
   result.head.parent = branch.parent;
   if (!branch.over.empty()) result.head.facts.push_back({"over", branch.over});
+  if (!branch.of.empty()) result.head.facts.push_back({"of", branch.of});
   result.head.facts.push_back({"parameters", named(scene, branch.parameters)});
   result.head.facts.push_back({"period", branch.period});
   if (asked.leaving) {

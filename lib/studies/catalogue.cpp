@@ -10,7 +10,8 @@
 namespace arcslip::studies {
 
 scene::Catalogue catalogue() {
-  return {elements::laws(), {&frf(), &trace(), &peaks(), &folds(), &time(), &point(), &modes(), &sweep()}};
+  return {elements::laws(),
+          {&frf(), &trace(), &peaks(), &folds(), &bifurcations(), &time(), &point(), &modes(), &sweep()}};
 }
 
 void run(const scene::Scene& scene, const scene::RunOptions& options, results::Sink& sink) {

@@ -10,14 +10,15 @@
 
 namespace arcslip::studies {
 
-const scene::StudyType& frf();    // frequency responses; settings: observables::FrequencyRange
-const scene::StudyType& trace();  // responses over a parameter; observables::ParameterRange
-const scene::StudyType& peaks();  // resonance peaks over a parameter; observables::CurveRange
-const scene::StudyType& folds();  // folds over a parameter; observables::CurveRange
-const scene::StudyType& time();   // time integration; observables::TimeSettings
-const scene::StudyType& point();  // responses at one frequency; observables::PointSettings
-const scene::StudyType& modes();  // nonlinear modes over the amplitude; observables::ModeRange
-const scene::StudyType& sweep();  // a slow sweep of the frequency; observables::SweepSettings
+const scene::StudyType& frf();           // frequency responses; settings: observables::FrequencyRange
+const scene::StudyType& trace();         // responses over a parameter; observables::ParameterRange
+const scene::StudyType& peaks();         // resonance peaks over a parameter; observables::CurveRange
+const scene::StudyType& folds();         // folds over a parameter; observables::CurveRange
+const scene::StudyType& bifurcations();  // others over a parameter; observables::BifurcationRange
+const scene::StudyType& time();          // time integration; observables::TimeSettings
+const scene::StudyType& point();         // responses at one frequency; observables::PointSettings
+const scene::StudyType& modes();         // nonlinear modes over the amplitude; observables::ModeRange
+const scene::StudyType& sweep();         // a slow sweep of the frequency; observables::SweepSettings
 
 /// All of them.
 scene::Catalogue catalogue();

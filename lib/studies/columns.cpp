@@ -208,7 +208,9 @@ std::string unstable_ranges(const scene::Scene& scene, const observables::Respon
       if (i > 0 && event.after + 1 == i) from = value(event.point);
       if (last + 1 < points.size() && event.after == last) to = value(event.point);
     }
-    text += (text.empty() ? "unstable from " : ", from ") + eight_digits(from) + " to " + eight_digits(to);
+    text +=
+        (text.empty() ? (branch.of.empty() ? "unstable from " : "no limit of stability from ") : ", from ") +
+        eight_digits(from) + " to " + eight_digits(to);
     i = last + 1;
   }
   if (text.empty()) return text;

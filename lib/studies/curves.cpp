@@ -1,12 +1,32 @@
-// Curves of resonance peaks and of folds, which differ only in the points they continue.
+// Curves of resonance peaks, of folds and of other bifurcations, which differ only in the points they
+// continue.
 #include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
+
+#include <array>
 
 namespace arcslip::studies {
 namespace {
 
+using observables::BifurcationRange;
+using observables::BifurcationsOf;
 using observables::CurveRange;
+
+constexpr std::array<scene::file::Word<BifurcationsOf>, 4> bifurcations_of = {
+    {{"all", BifurcationsOf::all},
+     {observables::event_kinds::period_doubling, BifurcationsOf::period_doubling},
+     {observables::event_kinds::neimark_sacker, BifurcationsOf::neimark_sacker},
+     {observables::event_kinds::symmetry_breaking, BifurcationsOf::symmetry_breaking}}};
+
+scene::file::KeysOf<BifurcationRange> keys_of_bifurcations() {
+  scene::file::KeysOf<BifurcationRange> keys;
+  keys.add(scene::file::word("of", &BifurcationRange::of, bifurcations_of, "the kind of bifurcation"));
+  keys.add(scene::file::range_over(&BifurcationRange::over, &BifurcationRange::from, &BifurcationRange::to));
+  keys.add(scene::file::window(&BifurcationRange::frequency_from, &BifurcationRange::frequency_to));
+  return keys;
+}
 
 scene::file::KeysOf<CurveRange> keys() {
   scene::file::KeysOf<CurveRange> keys;
@@ -29,6 +49,16 @@ const scene::StudyType& folds() {
   static const StudyOf<CurveRange, observables::ResponseBranch> type(
       branch_kind<observables::fold_curves, BranchKind::folds>(
           "folds", "folds of the frequency response over a parameter, with their cusps", keys()));
+  return type;
+}
+
+const scene::StudyType& bifurcations() {
+  static const StudyOf<BifurcationRange, observables::ResponseBranch> type(
+      branch_kind<observables::bifurcation_curves, BranchKind::bifurcations>(
+          "bifurcations",
+          "period doublings, Neimark-Sacker points and breaks of symmetry over a parameter, with their "
+          "resonances",
+          keys_of_bifurcations()));
   return type;
 }
 

@@ -1,5 +1,6 @@
 #include <arcslip/studies/figures.hpp>
 
+#include <arcslip/observables/curve_parts.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/contact_figures.hpp>
@@ -141,6 +142,8 @@ void set_figures(const scene::Scene& scene, BranchKind kind, const std::vector<S
     add_share_figures(kind, shares, {"amplitude_over_", 0, amplitude, "", peak}, true, data);
   } else if (kind == BranchKind::folds) {
     data.figures = {{"folds", frequency, 0, frequency_label, over}};
+  } else if (kind == BranchKind::bifurcations) {
+    data.figures = {{"bifurcations", frequency, 0, frequency_label, over}};
   } else if (kind == BranchKind::modes) {
     data.figures = {{"frequency", amplitude, frequency, amplitude_label, frequency_label},
                     {"damping_ratio", amplitude, damping_column, amplitude_label, "damping ratio"}};
@@ -160,6 +163,16 @@ std::size_t frequency_column(BranchKind kind) {
 std::size_t amplitude_column(BranchKind kind) {
   return kind == BranchKind::modes ? 0 : frequency_column(kind) + 1;
 }
+
+namespace {
+
+/// "1:3" of a resonance; others have the label of their line.
+std::string label_of_mark(const std::string& kind) {
+  const std::string resonance = "resonance_1_";
+  return kind.starts_with(resonance) ? "1:" + kind.substr(resonance.size()) : "";
+}
+
+}  // namespace
 
 FigureLine line_of(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
   return {.label = set_label(scene, set), .heading = assignment(scene, set), .set = set};
@@ -211,10 +224,12 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
     for (const ResponseBranch* branch : each.branches) {
       if (branch->points.empty()) continue;
       for (const observables::ResponseEvent& event : branch->events) {
+        if (event.kind == branch->of) continue;  // an end of the curve
         line.unbounded = line.unbounded || event.point.unbounded;
         if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) !=
             results::mark_kinds.end())
-          line.marks.push_back({event.kind, record(scene, kind, shares, event.point)});
+          line.marks.push_back(
+              {event.kind, record(scene, kind, shares, event.point), label_of_mark(event.kind)});
       }
       for (const ResponsePoint& point : branch->points) line.unbounded = line.unbounded || point.unbounded;
       add_parts(
@@ -224,7 +239,7 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
   }
   set_ranges(kind, data);
   set_figures(scene, kind, shares, data);
-  if (data.lines.size() == 1 && kind != BranchKind::folds) {
+  if (data.lines.size() == 1 && kind != BranchKind::folds && kind != BranchKind::bifurcations) {
     const auto column_0 = [&](const ResponsePoint& point) { return record(scene, kind, {}, point)[0]; };
     for (Figure& figure : contact_figures(branches, data.columns[0].label, column_0))
       data.figures.push_back(std::move(figure));
@@ -233,6 +248,15 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
 }
 
 namespace {
+
+/// That of a curve of bifurcations has their kind, too.
+FigureLine line_of_branch(const scene::Scene& scene, const ResponseBranch& branch) {
+  FigureLine line = line_of(scene, branch.set);
+  if (branch.of.empty()) return line;
+  const std::string kind = observables::words_of(branch.of);
+  for (std::string* text : {&line.label, &line.heading}) *text = kind + (text->empty() ? "" : ", " + *text);
+  return line;
+}
 
 /// Numbers lines whose labels would take the room of the figure: their headings tell what is set.
 void number_long(FigureData& data) {
@@ -250,9 +274,9 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::span<cons
   std::vector<LineOfBranches> lines;
   for (const ResponseBranch& branch : branches) {
     auto line = std::find_if(lines.begin(), lines.end(), [&](const LineOfBranches& candidate) {
-      return candidate.line.set == branch.set;
+      return candidate.line.set == branch.set && candidate.branches.front()->of == branch.of;
     });
-    if (line == lines.end()) line = lines.insert(line, {line_of(scene, branch.set), {}});
+    if (line == lines.end()) line = lines.insert(line, {line_of_branch(scene, branch), {}});
     line->branches.push_back(&branch);
   }
   FigureData data = figures_of(scene, kind, std::move(lines));

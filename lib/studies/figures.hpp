@@ -14,16 +14,17 @@
 
 namespace arcslip::studies {
 
-/// The kind of branches: responses over the frequency, responses over a parameter, resonance peaks, folds, or
-/// modes.
-enum class BranchKind { responses, over_parameter, peaks, folds, modes };
+/// The kind of branches: responses over the frequency, responses over a parameter, resonance peaks, folds,
+/// other bifurcations, or modes.
+enum class BranchKind { responses, over_parameter, peaks, folds, bifurcations, modes };
 
 /// Figures of branches of this kind, with a line for each combination of set parameters, numbered where these
 /// take too much room for a legend. Columns: the continuation parameter if it is not the frequency, the
 /// frequency, the amplitude (m), stick (%) of each friction element. For frequency responses and traces: the
 /// amplitude and the stick share of each friction element ("amplitude", "stick"). For resonance peaks: their
 /// amplitude, their frequency ("frequency"), and the amplitude over the stick share of each friction element
-/// ("amplitude_over_stick"). For folds: the parameter over the frequency ("folds"). For modes, whose columns
+/// ("amplitude_over_stick"). For folds: the parameter over the frequency ("folds"); the same
+/// for bifurcations ("bifurcations"), with a line for each kind of them. For modes, whose columns
 /// are amplitude, frequency, damping ratio and stick: all over the amplitude. Of a single line, but folds,
 /// also what each contact does (contact_figures.hpp).
 results::FigureData figures_of(const scene::Scene& scene, BranchKind kind,

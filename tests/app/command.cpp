@@ -381,6 +381,7 @@ TEST_CASE("help and version stand on standard output") {
                                                     {"trace", "-h"},
                                                     {"peaks", "-h"},
                                                     {"folds", "-h"},
+                                                    {"bifurcations", "-h"},
                                                     {"time", "-h"},
                                                     {"modes", "-h"},
                                                     {"check", "--help"}}) {

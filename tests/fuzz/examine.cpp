@@ -159,6 +159,10 @@ class Examination {
       return range(problem.frequency_from, problem.frequency_to);
     }
     if (study.type == &studies::modes()) return {1, 10};  // they have none
+    if (study.type == &studies::bifurcations()) {
+      const auto& curve = study.settings.as<observables::BifurcationRange>();
+      return range(curve.frequency_from, curve.frequency_to);
+    }
     const auto& curve = study.settings.as<observables::CurveRange>();
     return range(curve.frequency_from, curve.frequency_to);
   }

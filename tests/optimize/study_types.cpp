@@ -84,6 +84,7 @@ std::string studies_of_all_kinds() {
     {"kind": "trace", "over": "damper.normal_load", "from": 1, "to": 2, "frequency": 20},
     {"kind": "peaks", "over": "damper.normal_load", "from": 1, "to": 2, "frequency": [18, 22]},
     {"kind": "folds", "over": "damper.normal_load", "from": 1, "to": 2, "frequency": [18, 22]},
+    {"kind": "bifurcations", "over": "damper.normal_load", "from": 1, "to": 2, "frequency": [18, 22]},
     {"kind": "time", "frequency": 20},
     {"kind": "optimum", "over": ["damper.normal_load"], "bounds": [[1, 2]], "frequency": [18, 22]},
     {"kind": "optimum", "over": ["damper.normal_load"], "bounds": [[1, 2]], "frequency": [18, 22],

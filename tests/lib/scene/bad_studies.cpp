@@ -13,10 +13,11 @@ void add_studies(std::vector<BadScene>& rows) {
                   "found \"frf\" (a string), must be an object with the keys \"name\", \"kind\""});
   rows.push_back({"study without a kind", with_study("{\"from\": 1, \"to\": 2}"), "/studies/0/kind",
                   "found no key \"kind\", which is required: must be one of \"frf\""});
-  rows.push_back({"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
-                  "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"time\", "
-                  "\"point\", \"modes\", \"sweep\", \"optimum\"; did you "
-                  "mean \"frf\"?"});
+  rows.push_back(
+      {"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
+       "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"bifurcations\", \"time\", "
+       "\"point\", \"modes\", \"sweep\", \"optimum\"; did you "
+       "mean \"frf\"?"});
   rows.push_back({"kind that is no string", with_study("{\"kind\": 1}"), "/studies/0/kind",
                   "found 1 (a number), must be one of \"frf\""});
   rows.push_back({"unknown key of a study",
@@ -189,6 +190,7 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
   add("parameter of a study over the frequency", "\"kind\": \"frf\", " + over + "\"from\": 1, \"to\": 2",
       "over",
       "found the key \"over\", which belongs to studies of kind \"trace\", \"peaks\", \"folds\", "
+      "\"bifurcations\", "
       "\"optimum\", must be one "
       "of "
       "\"name\", \"kind\", \"from\", \"to\", \"stability\", \"branches\", \"doublings\", \"most_branches\", "
@@ -222,6 +224,7 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "found \"1e-9\" (a string), must be a number");
   add("range in a motion in time", at + "\"from\": 1", "from",
       "found the key \"from\", which belongs to studies of kind \"frf\", \"trace\", \"peaks\", \"folds\", "
+      "\"bifurcations\", "
       "\"sweep\", \"optimum\", must be");
   add("steps in a frequency response", "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"steps\": 100", "steps",
       "found the key \"steps\", which belongs to studies of kind \"time\", \"point\", \"sweep\", must be");
