@@ -235,7 +235,8 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
     return std::find(event_kinds::of_curves.begin(), event_kinds::of_curves.end(), kind) !=
            event_kinds::of_curves.end();
   });
-  const auto swept = frequency_branch(model, window, from, record, 1, Steps::curve, go_on, stability);
+  const auto swept =
+      frequency_branch(model, window, from, record, 1, Steps::curve, go_on, {.stability = stability});
   found.unknown_stability = swept.unknown_stability;
   for (std::size_t i = before; i < found.points.size(); ++i) found.points[i].problem = swept.problem;
   if (unbounded) return beyond_pole(course, width);

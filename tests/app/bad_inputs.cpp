@@ -56,7 +56,8 @@ std::vector<BadInput> make() {
       // the command line
       line("no verb", {}, "Give a verb and a scene"),
       line("an unknown verb", {"fry", "scene.json"},
-           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, bifurcations, time, point, modes, sweep, "
+           "unknown verb \"fry\", must be run, frf, trace, peaks, folds, bifurcations, time, point, modes, "
+           "sweep, "
            "optimize, check "
            "or "
            "schema"),
