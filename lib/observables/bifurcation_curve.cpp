@@ -1,6 +1,7 @@
 #include <arcslip/observables/bifurcation_curve.hpp>
 
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/phase_resonance.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
@@ -112,6 +113,7 @@ void BifurcationTracer::tell_end(const continuation::Branch& branch, SpecialCurv
                       : "period doublings");
     return;
   }
+  if (is_phase()) return;
   if (reason != StopReason::step_too_small && reason != StopReason::not_evaluated) return;
   if (const auto jump = jump_beyond(branch.points.back())) {
     end.reason = &reasons::jump;
@@ -140,6 +142,10 @@ std::optional<Vector> BifurcationTracer::start_of(const SpecialPoint& start) con
 std::vector<Monitor> BifurcationTracer::monitors() const {
   const Eigen::Index n = problem_->size();
   std::vector<Monitor> all{turn_monitor(n), continuation::fold_monitor(), window_monitor(window_, n)};
+  if (is_phase()) {
+    for (Monitor& extremum : amplitude_monitors(section_)) all.push_back(std::move(extremum));
+    return all;
+  }
   if (is_pair()) {
     all.push_back(kappa_monitor(event_kinds::resonance_1_1, n + 1, 1, true));
     all.push_back(kappa_monitor(event_kinds::resonance_1_2, n + 1, -1, true));
@@ -167,9 +173,13 @@ bool BifurcationTracer::is_pair() const {
   return kind_ == event_kinds::neimark_sacker;
 }
 
+bool BifurcationTracer::is_phase() const {
+  return kind_ == event_kinds::phase_resonance;
+}
+
 ResponsePoint BifurcationTracer::observe(const Accepted& now) {
   ResponsePoint point = section_->observe(now, HeldBy::parameter);
-  if (point.stability)
+  if (point.stability && !is_phase())
     set_apart(kind_, problem_->harmonics().odd, is_pair() ? now.u[problem_->size() + 1] : 0,
               *point.stability);
   return point;

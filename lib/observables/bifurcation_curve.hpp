@@ -1,7 +1,7 @@
 #pragma once
 // Curves of bifurcations of the responses over the excitation frequency, over a further parameter: period
 // doublings, breaks of symmetry and Neimark-Sacker points (bifurcations.hpp), from one that was found on a
-// branch.
+// branch. So are points of phase resonance (phase_resonance.hpp), at which the motion does not bifurcate.
 //
 // A curve ends where the pair of a Neimark-Sacker point becomes real: at 1 on a curve of folds, at -1 on one
 // of period doublings; and where the multipliers jump across the unit circle, as at the birth of slip. Each
@@ -19,7 +19,7 @@ namespace arcslip::observables {
 
 class BifurcationTracer final : public CurveTracer {
  public:
-  /// kind: of event_kinds::of_curves. progress, go_on: as for SpecialCurveTracer.
+  /// kind: of event_kinds::of_curves, or phase_resonance. progress, go_on: as for SpecialCurveTracer.
   BifurcationTracer(std::shared_ptr<const hbm::HbmProblem> problem, std::string kind, OverParameter way,
                     const FrequencyWindow& window, std::shared_ptr<CurveSection> section, Progress progress,
                     GoOn go_on = {});
@@ -34,6 +34,7 @@ class BifurcationTracer final : public CurveTracer {
   void tell_end(const continuation::Branch& branch, SpecialCurveEnd& end) const;
   std::optional<double> jump_beyond(const continuation::Point& last) const;
   bool is_pair() const;
+  bool is_phase() const;
   bool ends_curve(const std::string& event) const;
 
   std::string kind_;

@@ -1,6 +1,7 @@
 #include <arcslip/observables/bifurcations.hpp>
 
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/phase_resonance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +102,13 @@ std::optional<double> kappa_of(const Multipliers& multipliers) {
 
 continuation::TestFunctions test_functions(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                            const std::string& kind) {
+  if (kind == event_kinds::phase_resonance)
+    return {[problem]() -> continuation::TestFunction {
+      return [problem](continuation::Evaluator& at, In u, In, In, Out g) {
+        g[0] = cosine_of_phase(*problem, static_cast<const hbm::HbmEvaluator&>(at), u);
+        return true;
+      };
+    }};
   const bool pair = is_neimark_sacker(kind);
   continuation::TestFunctions functions;
   if (pair) functions.scales = continuation::Vector::Ones(1);

@@ -47,7 +47,8 @@ std::optional<PairOfMultipliers> pair_near(const StabilityAnalysis::Multipliers&
 /// Of the complex pair nearest to the unit circle: its cosine. Nothing without one.
 std::optional<double> kappa_of(const StabilityAnalysis::Multipliers& multipliers);
 
-/// The test functions of a kind of bifurcation (event_kinds.hpp), for solutions of a problem.
+/// The test functions of a kind of bifurcation, or of phase resonance (event_kinds.hpp), for solutions of a
+/// problem.
 continuation::TestFunctions test_functions(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                            const std::string& kind);
 

@@ -36,8 +36,13 @@ bool is_bifurcation(const std::string& kind) {
          event_kinds::of_curves.end();
 }
 
+bool is_zero_of_function(const std::string& kind) {
+  return is_bifurcation(kind) || kind == event_kinds::phase_resonance;
+}
+
 std::string words_of(const std::string& kind) {
   if (kind == event_kinds::peak) return "resonance peak";
+  if (kind == event_kinds::phase_resonance) return "phase resonance";
   if (kind == event_kinds::period_doubling) return "period doubling";
   if (kind == event_kinds::neimark_sacker) return "Neimark-Sacker point";
   if (kind == event_kinds::symmetry_breaking) return "break of symmetry";
@@ -140,7 +145,7 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
           static_cast<std::size_t>(std::max<std::ptrdiff_t>(beyond - at_points.begin(), 1)) - 1;
     }
     if (is_one_place(part) && curve.points.size() > part.points.size()) continue;
-    if (is_bifurcation(kind_)) add_ends(curve, part);
+    if (is_zero_of_function(kind_)) add_ends(curve, part);
     finish(part, curve, begin == -HUGE_VAL, end == HUGE_VAL);
     parts.push_back(std::move(part));
   }

@@ -15,6 +15,9 @@ namespace arcslip::observables {
 /// Whether a kind of special point is that of a bifurcation with a curve of its own kind.
 bool is_bifurcation(const std::string& kind);
 
+/// Whether it is continued as a zero of a function of the solution: a bifurcation, or phase resonance.
+bool is_zero_of_function(const std::string& kind);
+
 /// "resonance peak", "fold", "period doubling", "Neimark-Sacker point", "break of symmetry".
 std::string words_of(const std::string& kind);
 

@@ -1,6 +1,7 @@
 #include <arcslip/observables/curve_section.hpp>
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/observables/event_kinds.hpp>
 
 #include <cmath>
 #include <utility>
@@ -13,6 +14,12 @@ using continuation::In;
 using continuation::Needs;
 using continuation::Out;
 using continuation::Vector;
+
+namespace {
+
+constexpr double chord = 1e-3;  // relative: between the points of a curve, so that it is smooth to the eye
+
+}  // namespace
 
 CurveSection::CurveSection(std::shared_ptr<const hbm::HbmProblem> problem, int over)
     : problem_(std::move(problem)),
@@ -122,6 +129,17 @@ class AmplitudeGradient {
 };
 
 }  // namespace
+
+std::vector<continuation::Monitor> amplitude_monitors(const std::shared_ptr<CurveSection>& section) {
+  const auto slope = [section](const continuation::Accepted& now) { return section->amplitude_slope(now); };
+  const auto amplitude = [section](const continuation::Accepted&) { return section->last_amplitude(); };
+  std::vector<continuation::Monitor> monitors{
+      {event_kinds::minimum, slope, continuation::Crossing::rising, amplitude},
+      {event_kinds::maximum, slope, continuation::Crossing::falling, amplitude}};
+  monitors.front().chord_tolerance = chord;
+  for (auto& monitor : monitors) monitor.divides_at_kinks = false;  // a curve ends at a kink, see corners
+  return monitors;
+}
 
 continuation::StationaryQuantity amplitude_quantity(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                                     std::shared_ptr<const std::optional<double>> instant) {

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace arcslip::observables {
 
@@ -17,7 +18,7 @@ class CurveSection {
   CurveSection(std::shared_ptr<const hbm::HbmProblem> problem, int over);
 
   /// As Observer.
-  void watch_stability() { observer_.watch_stability(); }
+  void watch_stability(const StabilityRequest& request = true) { observer_.watch_stability(request); }
   std::string unknown_stability() const { return observer_.unknown_stability(); }
 
   /// All observables at a point of the curve, including `over`. truncation_estimate is 0 and flagged if the
@@ -48,6 +49,9 @@ class CurveSection {
   continuation::Borders border_;
   continuation::Vector u_, p_, scales_, tangent_;
 };
+
+/// The extrema of the amplitude along a curve: `minimum` and `maximum`.
+std::vector<continuation::Monitor> amplitude_monitors(const std::shared_ptr<CurveSection>& section);
 
 /// The amplitude as the quantity whose stationary points are continued. instant: if set, the extremum of the
 /// motion nearest to this angle in place of the largest.

@@ -17,7 +17,6 @@ namespace arcslip::observables {
 namespace {
 
 using continuation::Accepted;
-using continuation::Crossing;
 using continuation::Monitor;
 using continuation::StopReason;
 using continuation::Vector;
@@ -28,7 +27,6 @@ constexpr double between_ends[] = {0.5,   0.25,  0.75, 0.125,
 constexpr double least_apart = 1.0 / 64;                  // of responses that are looked at
 constexpr double just_beyond = 1e-3;                      // the end of a curve
 constexpr double meeting = 1e-5;                          // relative: ends of curves that are nearer meet
-constexpr double chord = 1e-3;  // relative: between the points of a curve, so that it is smooth to the eye
 constexpr std::size_t most_responses = 24;
 
 std::string text(double value) {
@@ -216,7 +214,7 @@ class Curves {
   void see_which_meet() {
     std::vector<SpecialCurveEnd*> ends;
     for (Found& found : found_) {
-      if (found.curve.points.empty() || is_bifurcation(found.kind)) continue;
+      if (found.curve.points.empty() || is_zero_of_function(found.kind)) continue;
       if (found.curve.begin) ends.push_back(&*found.curve.begin);
       ends.push_back(&found.curve.end);
     }
@@ -250,9 +248,10 @@ class Curves {
 
   std::unique_ptr<CurveTracer> make_tracer(const SpecialPoint& start) {
     const auto& problem = start.problem;
-    const bool bifurcations = is_bifurcation(start.kind);
+    const bool zeros = is_zero_of_function(start.kind);
     const auto section = std::make_shared<CurveSection>(problem, way_.index);
-    if (stability_ || bifurcations) section->watch_stability();
+    if (stability_ || is_bifurcation(start.kind))
+      section->watch_stability(is_bifurcation(start.kind) ? StabilityRequest(true) : stability_);
     section_ = section;
     const Eigen::Index n = problem->size();
     const auto progress = [this, points = 0L, last = 0.0](double over, double omega) mutable {
@@ -264,23 +263,12 @@ class Curves {
       return go_on();
     };
     const auto ask = [this] { return go_on(); };
-    if (bifurcations)
+    if (zeros)
       return std::make_unique<BifurcationTracer>(problem, start.kind, way_, window_, section, progress, ask);
     return std::make_unique<SpecialCurveTracer>(
         problem, peaks_ ? peak_kind(problem) : fold_kind(), way_, window_,
-        with_folds(peaks_ ? peak_monitors(section) : fold_monitors(n)),
-        peaks_ ? peak_monitors(section) : std::vector{turn_monitor(n)}, section, progress, ask);
-  }
-
-  static std::vector<Monitor> peak_monitors(const std::shared_ptr<CurveSection>& section) {
-    const auto slope = [section](const Accepted& now) { return section->amplitude_slope(now); };
-    const auto amplitude = [section](const Accepted&) { return section->last_amplitude(); };
-    std::vector<Monitor> monitors{{event_kinds::minimum, slope, Crossing::rising, amplitude},
-                                  {event_kinds::maximum, slope, Crossing::falling, amplitude}};
-    monitors.front().chord_tolerance = chord;
-    for (Monitor& monitor : monitors)
-      monitor.divides_at_kinks = false;  // a curve ends at a kink, see corners
-    return monitors;
+        with_folds(peaks_ ? amplitude_monitors(section) : fold_monitors(n)),
+        peaks_ ? amplitude_monitors(section) : std::vector{turn_monitor(n)}, section, progress, ask);
   }
 
   // n: where the frequency stands among the unknowns.
@@ -305,7 +293,7 @@ class Curves {
   Progress progress_;
   std::vector<double> looked_at_, to_look_at_;  // shares of the range
   std::vector<Found> found_;
-  bool stability_;
+  StabilityRequest stability_;
   bool stopped_ = false;  // by the user
   double failed_at_ = 0;
   std::string failure_, unbounded_;
@@ -315,7 +303,8 @@ class Curves {
 
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
                                             const ProgressCallback& progress) {
-  return Curves({event_kinds::peak}, scene, range, progress).run();
+  const bool phase = range.resonance == Resonance::phase;
+  return Curves({phase ? event_kinds::phase_resonance : event_kinds::peak}, scene, range, progress).run();
 }
 
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRange& range,

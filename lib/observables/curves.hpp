@@ -4,6 +4,7 @@
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/response.hpp>
+#include <arcslip/observables/stability_request.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <string>
@@ -15,15 +16,19 @@ namespace arcslip::observables {
 struct ParameterRange {
   std::string over;
   double from = 0, to = 0, frequency = 0;
-  bool stability = false;  // of the points, and their bifurcations
+  StabilityRequest stability{};  // of the points, and their bifurcations
   friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
 };
 
-/// A parameter `over`, its range, and a frequency window in the scene's unit.
+/// Which resonance a curve of peaks is of: the largest amplitude, or phase resonance (phase_resonance.hpp).
+enum class Resonance { amplitude, phase };
+
+/// A parameter `over`, its range, and a frequency window in the scene's unit. resonance: of peaks.
 struct CurveRange {
   std::string over;
   double from = 0, to = 0, frequency_from = 0, frequency_to = 0;
-  bool stability = false;  // of the points
+  StabilityRequest stability{};  // of the points
+  Resonance resonance = Resonance::amplitude;
   friend bool operator==(const CurveRange&, const CurveRange&) = default;
 };
 

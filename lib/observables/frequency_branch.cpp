@@ -2,6 +2,7 @@
 
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/stiffness_apart.hpp>
+#include <arcslip/observables/phase_resonance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -123,9 +124,10 @@ std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Obse
     monitors[1].divides_at_kinks = monitors[0].divides_at_kinks;
   }
   if (watched.stability) {
-    observer->watch_stability();
+    observer->watch_stability(watched.stability);
     for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
   }
+  if (watched.phase) monitors.push_back(phase_resonance_monitor(observer));
   if (watched.branch_points) monitors.push_back(continuation::branch_point_monitor());
   return monitors;
 }

@@ -5,6 +5,7 @@
 #include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/observe.hpp>
+#include <arcslip/observables/stability_request.hpp>
 
 #include <functional>
 #include <memory>
@@ -59,8 +60,9 @@ enum class Steps { curve, events, passage };
 
 /// Which events branches over the frequency have beside folds.
 struct Watched {
-  bool stability = false;      // points have it, and bifurcations are events
-  bool branch_points = false;  // where branches of the same harmonics cross
+  StabilityRequest stability{};  // points have it, and bifurcations are events
+  bool phase = false;            // points of phase resonance
+  bool branch_points = false;    // where branches of the same harmonics cross
 };
 
 /// Options and monitors of branches over the frequency.

@@ -18,6 +18,13 @@ using continuation::Vector;
 
 constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
 
+// Branches that leave others are found by it.
+StabilityRequest stability_of(const FrequencyRange& range) {
+  StabilityRequest request = range.stability;
+  request.wanted = request.wanted || range.branches == Branches::all;
+  return request;
+}
+
 // One branch over the window [from, to], with the data to continue beyond an unbounded peak.
 class Sweep {
  public:
@@ -27,7 +34,7 @@ class Sweep {
         lower_(range.from * unit_),
         upper_(range.to * unit_),
         all_(range.branches == Branches::all),
-        watched_{.stability = range.stability || all_, .branch_points = all_},
+        watched_{.stability = stability_of(range), .branch_points = all_},
         limits_(range.limits),
         progress_(progress),
         model_(std::make_shared<const model::Model>(model::build(scene))) {}

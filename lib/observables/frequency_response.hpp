@@ -4,6 +4,7 @@
 
 #include <arcslip/observables/all_branches.hpp>
 #include <arcslip/observables/response.hpp>
+#include <arcslip/observables/stability_request.hpp>
 #include <arcslip/results/progress.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -20,7 +21,8 @@ enum class Branches { one, all };
 /// Of the excitation, in the scene's unit; from < to.
 struct FrequencyRange {
   double from = 0, to = 0;
-  bool stability = false;  // of the points, and their bifurcations; where all branches are asked for, always
+  StabilityRequest
+      stability{};  // of the points, and their bifurcations; where all branches are asked for, always
   Branches branches = Branches::one;
   BranchLimits limits{};  // of all branches
   friend bool operator==(const FrequencyRange&, const FrequencyRange&) = default;

@@ -6,6 +6,7 @@
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/mechanical_energy.hpp>
 #include <arcslip/observables/observe.hpp>
+#include <arcslip/observables/one_mode_synthesis.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
@@ -29,6 +30,7 @@ constexpr double curve_tolerance = 1e-5;      // as of frequency responses
 constexpr double alone = 1e-3;                // of a harmonic: what the others have
 constexpr double resolvable = 1e8;            // the motion over that of the response
 constexpr const char* outgrown = "outgrown";  // the monitor of that
+constexpr double within = 1e-9;               // the ends of the range: of its logarithm, where a peak may be
 
 std::string metres(double amplitude) {
   std::ostringstream s;
@@ -42,6 +44,13 @@ continuation::Monitor extremum(const char* kind, Crossing crossing, bool divides
   continuation::Monitor monitor{kind, [zeta](const Accepted& now) { return now.tangent[zeta]; }, crossing,
                                 [zeta](const Accepted& now) { return 1 + now.u[zeta]; }};
   monitor.divides_at_kinks = divides;
+  return monitor;
+}
+
+continuation::Monitor amplitude_monitor(double log_amplitude) {
+  continuation::Monitor monitor;
+  monitor.name = event_kinds::peak;
+  monitor.value = [=](const Accepted& now) { return now.parameter - log_amplitude; };
   return monitor;
 }
 
@@ -94,6 +103,7 @@ class Modes {
     observer_ = std::make_unique<Observer>(problem->shared_motions());
     energy_ = std::make_unique<MechanicalEnergy>(problem->shared_motions(), problem->rest(),
                                                  hbm::parameters_at(problem->motions(), problem->omega_0()));
+    synthesis_ = std::make_unique<OneModeSynthesis>(problem->motions(), model_);
     const auto traced = branch(
         problem, u, range_.from, range_.to,
         [&](const Accepted& now, const continuation::Event* event) { return record(*problem, now, event); });
@@ -131,6 +141,11 @@ class Modes {
                   extremum(event_kinds::minimum, Crossing::rising, divides, zeta),
                   continuation::fold_monitor()};
       monitors.back().divides_at_kinks = false;
+      const double width = options.upper - options.lower;
+      for (int k = 0; k < range_.true_peaks; ++k) {
+        const double share = range_.true_peaks > 1 ? static_cast<double>(k) / (range_.true_peaks - 1) : 0.5;
+        monitors.push_back(amplitude_monitor(options.lower + std::clamp(share, within, 1 - within) * width));
+      }
     }
     monitors.push_back(continuation::bound_monitor(outgrown, problem->log_ratio(), std::log(resolvable)));
     auto traced = continuation::trace(problem, {u, Vector::Constant(1, options.lower), 0, 1}, options,
@@ -143,6 +158,10 @@ class Modes {
     if (event && event->monitor == outgrown) return true;
     ResponsePoint point = observe(problem, static_cast<const hbm::ModeEvaluator&>(now.at));
     if (event) {
+      if (event->monitor == event_kinds::peak) {
+        if (!(point.synthesis.level > 0)) return true;
+        add_true_peak(static_cast<const hbm::ModeEvaluator&>(now.at), point);
+      }
       at_.push_back(now.arclength);
       result_.events.push_back(
           {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
@@ -174,7 +193,16 @@ class Modes {
     }
     point.energy_input = 2 * std::numbers::pi * at.damping_ratio() * at.omega() * Z.base_frequency() * work;
     point.energy_viscous += point.energy_input;
+    point.synthesis = synthesis_->of(at.motion(), at.unknowns(), at.omega(), at.damping_ratio());
     return point;
+  }
+
+  void add_true_peak(const hbm::ModeEvaluator& at, ResponsePoint& point) {
+    const auto peak = synthesis_->true_peak(at.motion(), at.unknowns(), at.damping_ratio(), point.synthesis,
+                                            [this] { return go_on(); });
+    if (!peak) return;
+    point.synthesis.true_omega = peak->omega;
+    point.synthesis.true_amplitude = peak->amplitude;
   }
 
   // Reports progress and checks for a stop, also between points.
@@ -246,7 +274,7 @@ class Modes {
   // Extrema of a damping ratio that changes by its rounding only, as while all contacts stick, are none.
   void drop_rounding() {
     for (std::size_t i = at_.size(); i-- > 0;)
-      if (result_.events[i].kind != event_kinds::fold &&
+      if (result_.events[i].kind != event_kinds::fold && result_.events[i].kind != event_kinds::peak &&
           !departs(course_, at_[i], 1 + result_.events[i].point.damping_ratio))
         result_.events.erase(result_.events.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -267,6 +295,7 @@ class Modes {
   std::shared_ptr<const model::Model> model_, free_;
   std::unique_ptr<Observer> observer_;
   std::unique_ptr<MechanicalEnergy> energy_;
+  std::unique_ptr<OneModeSynthesis> synthesis_;
   ResponseBranch result_;
   std::vector<std::pair<double, double>> course_;  // arclength, 1 + zeta
   std::vector<double> at_;                         // arclength of the events

@@ -11,10 +11,12 @@
 namespace arcslip::observables {
 
 /// mode: from 1, by the frequency of the structure at rest. Amplitudes of the response: half the way between
-/// its extremes over the period, m; 0 < from < to.
+/// its extremes over the period, m; 0 < from < to. true_peaks: at how many amplitudes, from the lowest to the
+/// highest in equal ratios, the true peak of the frequency response is found beside that of the mode.
 struct ModeRange {
   int mode = 1;
   double from = 0, to = 0;
+  int true_peaks = 0;
   friend bool operator==(const ModeRange&, const ModeRange&) = default;
 };
 

@@ -104,6 +104,7 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
   if (!found) return;
   Stability& stability = point.stability.emplace();
   stability.multipliers = found->multipliers();
+  stability.kept = kept_multipliers_;
   stability.unstable = count_unstable(stability.multipliers);
   if (truncation_->is_exact()) {
     stability.error = 0;

@@ -7,6 +7,7 @@
 #include <arcslip/observables/force_components.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/observables/stability.hpp>
+#include <arcslip/observables/stability_request.hpp>
 #include <arcslip/observables/stops.hpp>
 #include <arcslip/observables/truncation.hpp>
 
@@ -34,7 +35,10 @@ class Observer {
   ResponsePoint observe(const continuation::Accepted& now, HeldBy held, bool maxima);
 
   /// From now on, points have their stability, where it is known.
-  void watch_stability() { stability_.emplace(); }
+  void watch_stability(const StabilityRequest& request = true) {
+    stability_.emplace(request.by_hill);
+    kept_multipliers_ = request.multipliers;
+  }
   /// The multipliers at a point; null: not watched, or not known there.
   const StabilityAnalysis* stability(const continuation::Accepted& now);
   /// Why none of the points has any (StabilityAnalysis::unknown()).
@@ -76,6 +80,7 @@ class Observer {
   std::optional<StabilityAnalysis> stability_;
   continuation::Vector stable_u_, stable_p_;  // the place of its last call
   bool stability_known_ = false;
+  int kept_multipliers_ = 0;
   continuation::Vector x_, dx_, by_parameter_;
   Extreme last_;
 };

@@ -107,7 +107,7 @@ class Traces {
         extreme_monitor(event_kinds::maximum, Crossing::falling, observer),
         extreme_monitor(event_kinds::minimum, Crossing::rising, observer), continuation::fold_monitor()};
     if (stability_) {
-      observer->watch_stability();
+      observer->watch_stability(stability_);
       for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
     }
     std::vector<std::pair<double, double>> course;  // arclength, amplitude
@@ -171,7 +171,7 @@ class Traces {
   OverParameter way_;
   scene::FrequencyUnit unit_;
   double omega_;
-  bool stability_;
+  StabilityRequest stability_;
   const ProgressCallback& report_;
   Progress progress_;
   bool stopped_ = false;

@@ -25,6 +25,15 @@ double bounded(const Point& point) {
   return point.unbounded ? no_value : point.*member;
 }
 
+template <double Synthesis::*member>
+double synthesis(const Point& point) {
+  return point.synthesis.*member;
+}
+
+bool has_true_peak(const Point& point) {
+  return !std::isnan(point.synthesis.true_omega);
+}
+
 template <double ForceComponents::*member>
 double force(const Point& point) {
   return point.forces.*member;
@@ -248,8 +257,10 @@ constexpr ResponseQuantity of_response[] = {
 
 results::Value multipliers(const Stability& stability) {
   results::Value::List all;
-  for (const auto& each : stability.multipliers)
+  for (const auto& each : stability.multipliers) {
+    if (stability.kept > 0 && all.size() == static_cast<std::size_t>(stability.kept)) break;
     all.emplace_back(results::Value::Numbers{each.real(), each.imag()});
+  }
   return all;
 }
 
@@ -277,6 +288,22 @@ constexpr ResponseQuantity of_mode[] = {
      "kinetic energy and that of springs and elements, from the static displacement, where the kinetic "
      "energy is largest",
      value<&Point::energy>},
+    {"synthesis.level", "-",
+     "the multiple of the excitation whose frequency response has its peak at this amplitude, by one-mode "
+     "synthesis; null where the excitation does not drive the mode",
+     synthesis<&Synthesis::level>},
+    {"synthesis.frequency", frequency_unit, "likewise, where that peak is", synthesis<&Synthesis::omega>},
+    {"synthesis.below", frequency_unit,
+     "likewise, the lower frequency at which the response to the excitation of the scene has this amplitude",
+     synthesis<&Synthesis::below>},
+    {"synthesis.above", frequency_unit, "likewise, the higher one", synthesis<&Synthesis::above>},
+    {"true_peak.frequency", frequency_unit,
+     "at events `peak`: where the frequency response at `synthesis.level` has its peak; missing where none "
+     "was "
+     "found",
+     synthesis<&Synthesis::true_omega>, has_true_peak},
+    {"true_peak.amplitude", "m", "likewise, half the way between the extremes of the response there",
+     synthesis<&Synthesis::true_amplitude>, has_true_peak},
 };
 
 constexpr ElementQuantity of_element[] = {

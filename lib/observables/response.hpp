@@ -97,9 +97,20 @@ struct NamedResponse {
 /// The Floquet multipliers of a response over its period (stability.hpp).
 struct Stability {
   std::vector<std::complex<double>> multipliers;  // by falling modulus; none of sliders that stick throughout
+  int kept = 0;                                   // how many of them results have; 0: all
   int unstable = 0;                               // outside the unit circle
   double error = no_value;     // estimated effect of the neglected harmonics; no_value: not known
   double rotation = no_value;  // at a Neimark-Sacker point: argument of the pair over 2 pi
+};
+
+/// The forced responses beside a mode, by one-mode synthesis (one_mode_synthesis.hpp); no_value: there are
+/// none.
+struct Synthesis {
+  double level = no_value;  // of the excitation whose response has its peak at this amplitude
+  double omega = no_value;  // rad/s, of that peak
+  double below = no_value,
+         above = no_value;  // rad/s, where the response to the excitation has this amplitude
+  double true_omega = no_value, true_amplitude = no_value;  // of the true peak at that level, rad/s, m
 };
 
 /// One periodic response.
@@ -123,6 +134,7 @@ struct ResponsePoint {
   double energy_input = 0;       // work of the excitation, J per period; equals energy_total()
   double damping_ratio = no_value;  // of a mode (hbm/mode.hpp)
   double energy = no_value;         // of a mode, J (mechanical_energy.hpp)
+  Synthesis synthesis{};            // of a mode
   ForceComponents forces{};
   MotionMaxima maxima{};
   std::optional<Stability> stability{};  // if requested and known

@@ -120,7 +120,7 @@ class Points {
   PointResponse at(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u) {
     const auto began = std::chrono::steady_clock::now();
     Observer observer(problem);
-    if (settings_.stability) observer.watch_stability();
+    if (settings_.stability) observer.watch_stability(settings_.stability);
     std::optional<ResponsePoint> point;
     const auto branch = observe_one(problem, u, omega_, observer, point);
     PointResponse result = ended(Status::complete, reasons::solved, "the response was found " + place());

@@ -7,6 +7,7 @@
 #include <arcslip/observables/histories.hpp>
 #include <arcslip/observables/offset_range.hpp>
 #include <arcslip/observables/response.hpp>
+#include <arcslip/observables/stability_request.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <memory>
@@ -48,7 +49,7 @@ struct PointSettings {
   double frequency = 0;  // of the excitation, in the scene's unit
   int steps = 1000;      // of the history, in addition to the onsets and ends of slip
   Offsets offsets = Offsets::chosen;
-  bool stability = false;
+  StabilityRequest stability{};
   friend bool operator==(const PointSettings&, const PointSettings&) = default;
 };
 

@@ -1,5 +1,6 @@
 #include <arcslip/observables/special_curve.hpp>
 
+#include <arcslip/observables/curve_parts.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
@@ -231,12 +232,10 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
     if (unbounded) found.unbounded = growth.message;
     return !unbounded;
   };
-  const bool stability = std::any_of(kinds.begin(), kinds.end(), [](const std::string& kind) {
-    return std::find(event_kinds::of_curves.begin(), event_kinds::of_curves.end(), kind) !=
-           event_kinds::of_curves.end();
-  });
-  const auto swept =
-      frequency_branch(model, window, from, record, 1, Steps::curve, go_on, {.stability = stability});
+  const bool stability = std::any_of(kinds.begin(), kinds.end(), is_bifurcation);
+  const bool phase = std::find(kinds.begin(), kinds.end(), event_kinds::phase_resonance) != kinds.end();
+  const auto swept = frequency_branch(model, window, from, record, 1, Steps::curve, go_on,
+                                      {.stability = stability, .phase = phase});
   found.unknown_stability = swept.unknown_stability;
   for (std::size_t i = before; i < found.points.size(); ++i) found.points[i].problem = swept.problem;
   if (unbounded) return beyond_pole(course, width);

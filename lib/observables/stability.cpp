@@ -38,6 +38,7 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEv
   if (!same_but_frequency(p, p_)) {
     p_ = p;
     floquet_.reset();
+    hill_.reset();
     const int dofs = problem.model().dofs;
     if (dofs > most_dofs) {
       unknown_ = "the structure has " + std::to_string(dofs) + " degrees of freedom, and at most " +
@@ -45,7 +46,11 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEv
       return false;
     }
     try {
-      floquet_.emplace(time::equation_of_motion(problem.model(), p));
+      const auto equation = time::equation_of_motion(problem.model(), p);
+      if (by_hill_)
+        hill_.emplace(equation);
+      else
+        floquet_.emplace(equation);
     } catch (const time::NoVariation& without) {
       unknown_ = without.what();
     } catch (const time::SingularMass& without) {
@@ -54,10 +59,11 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEv
       unknown_ = without.what();
     }
   }
-  if (!floquet_) return false;
+  if (!floquet_ && !hill_) return false;
   time::courses_of(problem, at, courses_);
   const double omega = problem.harmonics().base_frequency(p[model::frequency]);
-  const bool found = floquet_->compute(omega, problem.harmonics(), courses_);
+  const bool found = hill_ ? hill_->compute(omega, problem.harmonics(), courses_)
+                           : floquet_->compute(omega, problem.harmonics(), courses_);
   if (!found)
     unknown_ =
         "at some of its points multipliers were not found, as where a law is very stiff along the motion";

@@ -18,6 +18,7 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/time/floquet.hpp>
+#include <arcslip/time/hill.hpp>
 
 #include <complex>
 #include <memory>
@@ -34,11 +35,16 @@ class StabilityAnalysis {
  public:
   using Multipliers = std::vector<std::complex<double>>;
 
+  /// by_hill: by Hill's method, of laws without memory only.
+  explicit StabilityAnalysis(bool by_hill = false) : by_hill_(by_hill) {}
+
   /// At the last place of an evaluator of `problem`, whose parameters are p. False: unknown().
   bool move_to(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at, const continuation::Vector& p);
 
-  const Multipliers& multipliers() const { return floquet_->multipliers(); }
-  const Multipliers& half_multipliers() const { return floquet_->half_multipliers(); }
+  const Multipliers& multipliers() const { return hill_ ? hill_->multipliers() : floquet_->multipliers(); }
+  const Multipliers& half_multipliers() const {
+    return hill_ ? hill_->half_multipliers() : floquet_->half_multipliers();
+  }
 
   /// Why there are none, or were none at one of the places so far, as the end of a sentence; empty: there
   /// were.
@@ -46,7 +52,9 @@ class StabilityAnalysis {
 
  private:
   continuation::Vector p_;
-  std::optional<time::Floquet> floquet_;
+  bool by_hill_;
+  std::optional<time::Floquet> floquet_;  // one of these
+  std::optional<time::Hill> hill_;
   std::string unknown_;
   std::vector<time::ElementCourse> courses_;
 };

@@ -14,10 +14,6 @@
 
 namespace arcslip::studies {
 
-inline constexpr const char* stability_help =
-    "also the Floquet multipliers of each response, and where it loses its stability";
-inline constexpr const char* stability_of_points_help = "also the Floquet multipliers of each response";
-
 /// follow(scene, range, progress) returns the branches of one combination, over the parameter range.over, or
 /// over the frequency if the Range has none.
 template <auto follow, BranchKind drawn, class Range>

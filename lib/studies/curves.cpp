@@ -4,6 +4,7 @@
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/stability_keys.hpp>
 
 #include <array>
 
@@ -13,6 +14,7 @@ namespace {
 using observables::BifurcationRange;
 using observables::BifurcationsOf;
 using observables::CurveRange;
+using observables::Resonance;
 
 constexpr std::array<scene::file::Word<BifurcationsOf>, 4> bifurcations_of = {
     {{"all", BifurcationsOf::all},
@@ -28,12 +30,22 @@ scene::file::KeysOf<BifurcationRange> keys_of_bifurcations() {
   return keys;
 }
 
+constexpr std::array<scene::file::Word<Resonance>, 2> resonances = {
+    {{"amplitude", Resonance::amplitude}, {"phase", Resonance::phase}}};
+
 scene::file::KeysOf<CurveRange> keys() {
   scene::file::KeysOf<CurveRange> keys;
   keys.add(scene::file::range_over(&CurveRange::over, &CurveRange::from, &CurveRange::to));
   keys.add(scene::file::window(&CurveRange::frequency_from, &CurveRange::frequency_to));
-  keys.add(scene::file::flag("stability", &CurveRange::stability, stability_of_points_help));
+  add_stability_keys(keys, stability_of_points_help);
   return keys;
+}
+
+scene::file::KeysOf<CurveRange> keys_of_peaks() {
+  scene::file::KeysOf<CurveRange> all = keys();
+  all.add(scene::file::word("resonance", &CurveRange::resonance, resonances,
+                            "the largest amplitude, or the excitation a quarter period ahead of the motion"));
+  return all;
 }
 
 }  // namespace
@@ -41,7 +53,7 @@ scene::file::KeysOf<CurveRange> keys() {
 const scene::StudyType& peaks() {
   static const StudyOf<CurveRange, observables::ResponseBranch> type(
       branch_kind<observables::resonance_peaks, BranchKind::peaks>(
-          "peaks", "resonance peaks over a parameter, with their minima and maxima", keys()));
+          "peaks", "resonance peaks over a parameter, with their minima and maxima", keys_of_peaks()));
   return type;
 }
 

@@ -1,6 +1,7 @@
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/stability_keys.hpp>
 
 #include <array>
 #include <utility>
@@ -30,7 +31,7 @@ scene::file::KeyGroup<FrequencyRange> limit(scene::file::KeyGroup<BranchLimits> 
 scene::file::KeysOf<FrequencyRange> keys() {
   scene::file::KeysOf<FrequencyRange> keys;
   keys.add(scene::file::frequency_range(&FrequencyRange::from, &FrequencyRange::to));
-  keys.add(scene::file::flag("stability", &FrequencyRange::stability, stability_help));
+  add_stability_keys(keys, stability_help);
   keys.add(
       scene::file::word("branches", &FrequencyRange::branches, branch_words,
                         "the branch that begins at the first frequency, or also those that leave it at "

@@ -11,6 +11,7 @@ namespace {
 using observables::ModeRange;
 
 constexpr int most_modes = 10'000;
+constexpr int most_true_peaks = 1000;
 constexpr double largest_amplitude = 1e100;
 
 scene::file::KeysOf<ModeRange> keys() {
@@ -21,6 +22,9 @@ scene::file::KeysOf<ModeRange> keys() {
                                   {"amplitude", "m", 0, largest_amplitude, true},
                                   "amplitudes of the response: half the way between its extremes over the "
                                   "period"));
+  keys.add(scene::file::whole("true_peaks", &ModeRange::true_peaks, 0, most_true_peaks,
+                              "at how many amplitudes, in equal ratios, the true peak of the frequency "
+                              "response is found beside the one that the mode predicts"));
   return keys;
 }
 

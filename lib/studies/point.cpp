@@ -8,6 +8,7 @@
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/columns.hpp>
 #include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/stability_keys.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <array>
@@ -34,7 +35,7 @@ scene::file::KeysOf<PointSettings> keys() {
       scene::file::word("offsets", &PointSettings::offsets, offset_words,
                         "of sliders that stick throughout the period: as their elements choose, or also the "
                         "range of the amplitude over all places where they may rest"));
-  keys.add(scene::file::flag("stability", &PointSettings::stability, stability_of_points_help));
+  add_stability_keys(keys, stability_of_points_help);
   return keys;
 }
 

@@ -1,6 +1,7 @@
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/stability_keys.hpp>
 
 namespace arcslip::studies {
 namespace {
@@ -11,7 +12,7 @@ scene::file::KeysOf<ParameterRange> keys() {
   scene::file::KeysOf<ParameterRange> keys;
   keys.add(scene::file::range_over(&ParameterRange::over, &ParameterRange::from, &ParameterRange::to));
   keys.add(scene::file::one_frequency(&ParameterRange::frequency, "the excitation frequency"));
-  keys.add(scene::file::flag("stability", &ParameterRange::stability, stability_help));
+  add_stability_keys(keys, stability_help);
   return keys;
 }
 

@@ -1,0 +1,135 @@
+#include <arcslip/observables/one_mode_synthesis.hpp>
+
+#include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/hbm/mode.hpp>
+#include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/observables/observe.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace arcslip::observables {
+namespace {
+
+using Complex = std::complex<double>;
+using continuation::In;
+using continuation::Vector;
+
+constexpr double half_widths = 20;   // of the window around a peak, in damping ratios,
+constexpr double narrowest = 1e-3;   // but at least this share of the frequency
+constexpr double widest = 0.5;       // and at most this
+constexpr double at_a_node = 1e-12;  // of the work of the forces without their signs
+
+// The same with all periodic excitation times a level.
+std::shared_ptr<const model::Model> at_level(const model::Model& excited, double level) {
+  auto model = std::make_shared<model::Model>(excited);
+  std::vector<int> amplitudes;
+  for (const auto& each : model->excitation)
+    if (each.harmonic != 0) amplitudes.insert(amplitudes.end(), {each.cosine, each.sine});
+  std::sort(amplitudes.begin(), amplitudes.end());
+  amplitudes.erase(std::unique(amplitudes.begin(), amplitudes.end()), amplitudes.end());
+  for (const int k : amplitudes) model->parameters[static_cast<std::size_t>(k)].value *= level;
+  return model;
+}
+
+// x(theta + shift) for all unknowns, theta of the base frequency.
+void shift(const elements::Harmonics& h, double by, Vector& u) {
+  for (Eigen::Index block = 0; block < u.size(); block += h.size())
+    for (int j = 0; j < h.sines(); ++j) {
+      const int n = h.sine_order(j);
+      double &a = u[block + h.cosine_index(n)], &b = u[block + h.sine_index(n)];
+      const Complex turned = Complex(a, -b) * std::polar(1.0, n * by);
+      a = turned.real();
+      b = -turned.imag();
+    }
+}
+
+}  // namespace
+
+OneModeSynthesis::OneModeSynthesis(const hbm::HbmProblem& motions,
+                                   std::shared_ptr<const model::Model> excited)
+    : harmonics_(motions.harmonics()), excited_(std::move(excited)) {
+  const Vector p = model::defaults(*excited_);
+  const Eigen::MatrixXd& P = motions.coordinates().P;
+  for (const model::Excitation& each : excited_->excitation) {
+    if (each.harmonic != 1) continue;
+    shapes_.conservativeResize(shapes_.rows() + 1, P.cols());
+    shapes_.row(shapes_.rows() - 1) = model::shape(*excited_, each, p).transpose() * P;
+    factors_.emplace_back(p[each.cosine], -p[each.sine]);
+    forces_.push_back(each);
+  }
+}
+
+// x^H f of the fundamental.
+Complex OneModeSynthesis::work(const hbm::HbmEvaluator& motion, In u, double omega) const {
+  const int n = harmonics_.excited(1), a = harmonics_.cosine_index(n), b = harmonics_.sine_index(n);
+  const Eigen::MatrixXd along = motion.stiffness().motion(shapes_, u, 0);
+  Complex sum = 0;
+  double size = 0;
+  for (Eigen::Index k = 0; k < along.cols(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Complex each = Complex(along(a, k), along(b, k)) * factors_[i] * forces_[i].factor(omega);
+    sum += each;
+    size += std::abs(each);
+  }
+  return std::abs(sum) > at_a_node * size ? sum : 0;
+}
+
+Synthesis OneModeSynthesis::of(const hbm::HbmEvaluator& motion, In u, double omega, double zeta) const {
+  Synthesis found;
+  if (forces_.empty()) return found;
+  const double P = std::abs(work(motion, u, omega));
+  const double m = motion.stiffness().quadratic_forms(harmonics_.excited(1), u, 0).mass;
+  if (!(P > 0 && m > 0)) return found;
+  const double square = omega * omega, drive = P / m;
+  const double damping = 2 * zeta * std::sqrt(std::max(0.0, 1 - zeta * zeta)) * square;
+  found.level = damping / drive;
+  const double top = square * (1 - 2 * zeta * zeta);
+  if (top > 0) found.omega = std::sqrt(top);
+  const double within = (drive - damping) * (drive + damping);
+  if (!(within >= 0)) return found;
+  const double root = std::sqrt(within);
+  if (top + root > 0) found.above = std::sqrt(top + root);
+  if (top - root > 0) found.below = std::sqrt(top - root);
+  return found;
+}
+
+std::optional<OneModeSynthesis::Peak> OneModeSynthesis::true_peak(const hbm::HbmEvaluator& motion, In u,
+                                                                  double zeta, const Synthesis& beside,
+                                                                  const std::function<bool()>& go_on) const {
+  if (!(beside.level > 0) || !std::isfinite(beside.level) || !(beside.omega > 0)) return {};
+  const double half = std::clamp(half_widths * std::abs(zeta), narrowest, widest) * beside.omega;
+  const FrequencyWindow window{beside.omega - half, beside.omega + half};
+  const auto problem = std::make_shared<const hbm::HbmProblem>(at_level(*excited_, beside.level), harmonics_,
+                                                               u.norm(), 2 * half, beside.omega);
+  if (problem->size() != u.size()) return {};
+  // The excitation a quarter period ahead of the motion.
+  Vector guess = u;
+  const double turn = std::arg(work(motion, u, beside.omega)) - std::numbers::pi / 2;
+  shift(harmonics_, turn / harmonics_.excited(1), guess);
+  const Vector p = hbm::parameters_at(*problem, beside.omega);
+  const auto start = hbm::response_near(*problem, p, guess);
+  if (!start) return {};
+
+  std::optional<Peak> highest;
+  hbm::HalfRange range(harmonics_);
+  Vector x(harmonics_.size());
+  for (const int direction : {1, -1}) {
+    const auto record = [&](const continuation::Accepted& now, const continuation::Event* event) {
+      if (!event || event->monitor != event_kinds::peak) return true;
+      const auto& at = static_cast<const hbm::HbmEvaluator&>(now.at);
+      at.stiffness().response(now.u, at.force_factor(), x);
+      const double amplitude = range.of(x);
+      if (!highest || amplitude > highest->amplitude) highest = {now.p[model::frequency], amplitude};
+      return false;
+    };
+    continuation::trace(problem, {*start, p, model::frequency, direction},
+                        frequency_options(window, Steps::events, go_on),
+                        frequency_monitors(std::make_shared<Observer>(problem), Steps::events, {}), record);
+  }
+  return highest;
+}
+
+}  // namespace arcslip::observables

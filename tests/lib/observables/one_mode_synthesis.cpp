@@ -1,0 +1,138 @@
+// Forced responses beside a nonlinear mode.
+#include "lib/observables/modes.hpp"
+
+#include <arcslip/observables/event_kinds.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace modes;
+
+namespace {
+
+std::vector<observables::ResponseEvent> peaks_of(const ResponseBranch& branch) {
+  std::vector<observables::ResponseEvent> found;
+  std::copy_if(branch.events.begin(), branch.events.end(), std::back_inserter(found),
+               [](const auto& event) { return event.kind == observables::event_kinds::peak; });
+  return found;
+}
+
+// A contact that sticks at all amplitudes below 1e6.
+constexpr const char* stuck =
+    R"({"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.25, "friction_coefficient": 1,
+        "normal_load": 1e6})";
+
+}  // namespace
+
+TEST_CASE(
+    "beside a linear mode the response, its peak and the level of each peak are those of the structure") {
+  const double c = 0.3, k = 1.25, omega = std::sqrt(k), zeta = c / (2 * omega);
+  const ResponseBranch branch =
+      observables::nonlinear_modes(oscillator(stuck, 3, c), {1, 1e-3, 1e2, 7}).front();
+  at_end(branch, 1e2);
+  const auto response = [&](double w) { return 1 / std::hypot(k - w * w, c * w); };
+  const double highest = 1 / (2 * zeta * std::sqrt(1 - zeta * zeta) * k);
+  int within = 0;
+  for (const ResponsePoint& point : branch.points) {
+    const auto& found = point.synthesis;
+    CAPTURE(point.amplitude);
+    CHECK(found.omega == Approx(omega * std::sqrt(1 - 2 * zeta * zeta)).epsilon(1e-12));
+    CHECK(found.level == Approx(point.amplitude / highest).epsilon(1e-12));
+    CHECK(std::isnan(found.above) == (point.amplitude > highest));
+    CHECK(std::isnan(found.below) == (point.amplitude > highest || point.amplitude < 1 / k));
+    for (const double w : {found.below, found.above})
+      if (!std::isnan(w)) {
+        CHECK(response(w) == Approx(point.amplitude).epsilon(1e-10));
+        ++within;
+      }
+    CHECK(std::isnan(found.true_omega));
+  }
+  CHECK(within > 50);
+  const auto peaks = peaks_of(branch);
+  REQUIRE(peaks.size() == 7);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const ResponsePoint& at = peaks[i].point;
+    CHECK(at.amplitude == Approx(1e-3 * std::pow(1e5, static_cast<double>(i) / 6)).epsilon(1e-7));
+    CHECK(at.synthesis.true_omega == Approx(at.synthesis.omega).epsilon(1e-9));
+    CHECK(at.synthesis.true_amplitude == Approx(at.amplitude).epsilon(1e-12));
+  }
+}
+
+TEST_CASE(
+    "with one harmonic the level of a peak is the force that balances the loss, to second order in it") {
+  // m = k = 1, kd = 0.25: at the amplitude 2 the damping ratio is near 0.035 with the limit 0.2, and in
+  // proportion to it with less.
+  double before = 0;
+  for (const double load : {0.4, 0.2, 0.1}) {
+    const std::string damper =
+        R"({"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.25, "friction_coefficient": 0.5,
+            "normal_load": )" +
+        std::to_string(load) + "}";
+    const ResponseBranch branch =
+        observables::nonlinear_modes(oscillator(damper, 1), {1, 1.9, 2.1, 1}).front();
+    const auto peaks = peaks_of(branch);
+    REQUIRE(peaks.size() == 1);
+    const ResponsePoint& at = peaks[0].point;
+    const double zeta = at.damping_ratio, w = at.omega, loss = at.energy_friction;
+    const double quarter = 2 * zeta * w * w * at.amplitude;  // the force of phase resonance
+    CHECK(quarter == Approx(loss / (std::acos(-1.0) * at.amplitude)).epsilon(1e-12));
+    CHECK(at.synthesis.level == Approx(quarter * std::sqrt(1 - zeta * zeta)).epsilon(1e-12));
+    const double apart = std::max(std::abs(at.synthesis.true_amplitude / at.amplitude - 1),
+                                  std::abs(at.synthesis.true_omega / at.synthesis.omega - 1));
+    CAPTURE(load, zeta, apart);
+    CHECK(apart < 10 * zeta * zeta);
+    if (before > 0) CHECK(apart < 0.35 * before);
+    before = apart;
+  }
+}
+
+TEST_CASE("a mode has no forced response beside it where the excitation does not drive its fundamental") {
+  const std::string contact =
+      R"({"name": "d", "type": "jenkins", "between": ["x1", "x2"], "stiffness": 0.25, "friction_coefficient": 1,
+          "normal_load": 1}, {"name": "s", "type": "cubic_spring", "at": "x1", "stiffness": 1e-9},
+         {"name": "t", "type": "cubic_spring", "at": "x2", "stiffness": 1e-9})";
+  std::string even = two_masses(contact, 3, "x1");
+  const std::string one = R"("at": "x1", "cosine")";
+  even.replace(even.find(one), one.size(), R"("direction": {"x1": 1, "x2": 1}, "cosine")");
+  const auto out_of_phase = observables::nonlinear_modes(parse(even), {2, 1e-3, 10, 3}).front();
+  CHECK(out_of_phase.points.size() > 10);
+  CHECK(peaks_of(out_of_phase).empty());
+  for (const auto& point : out_of_phase.points) {
+    CHECK(std::isnan(point.synthesis.level));
+    CHECK(std::isnan(point.synthesis.above));
+  }
+  const auto higher = observables::nonlinear_modes(oscillator(stuck, 3, 0.1, R"("harmonic": 3, "cosine": 1)"),
+                                                   {1, 1e-3, 1, 3})
+                          .front();
+  CHECK(higher.points.size() > 10);
+  CHECK(peaks_of(higher).empty());
+  CHECK(std::isnan(higher.points.front().synthesis.level));
+}
+
+TEST_CASE("beside an undamped mode the level is 0, and the response opens around it") {
+  const ResponseBranch branch = mode(oscillator(cubic, 1), 1, 0.5, 5);
+  for (const ResponsePoint& point : branch.points) {
+    const double A = point.amplitude, square = 1 + 0.75 * A * A;
+    CHECK(std::abs(point.synthesis.level) < 1e-13);
+    // (1 + 3/4 A^2 - W^2) A = +-1, the Duffing equation in one harmonic
+    CHECK(point.synthesis.above == Approx(std::sqrt(square + 1 / A)).epsilon(1e-12));
+    if (square > 1 / A)
+      CHECK(point.synthesis.below == Approx(std::sqrt(square - 1 / A)).epsilon(1e-12));
+    else
+      CHECK(std::isnan(point.synthesis.below));
+  }
+}
+
+TEST_CASE("the peaks of the paper's oscillator lie beside those of its mode") {
+  const scene::Scene s = scenes::paper(15);
+  const double onset = onset_of_slip(s);
+  const ResponseBranch branch = observables::nonlinear_modes(s, {1, 0.5 * onset, 50 * onset, 20}).front();
+  const auto peaks = peaks_of(branch);
+  REQUIRE(peaks.size() == 20);
+  for (const auto& event : peaks) {
+    const auto& found = event.point.synthesis;
+    CAPTURE(event.point.amplitude / onset, event.point.damping_ratio);
+    CHECK(found.true_omega == Approx(found.omega).epsilon(2e-3));
+    CHECK(found.true_amplitude == Approx(event.point.amplitude).epsilon(2e-2));
+  }
+}
