@@ -127,7 +127,6 @@ std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Obse
     observer->watch_stability(watched.stability);
     for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
   }
-  if (watched.phase) monitors.push_back(phase_resonance_monitor(observer));
   if (watched.branch_points) monitors.push_back(continuation::branch_point_monitor());
   return monitors;
 }
@@ -154,10 +153,12 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
     each = [&](const continuation::Accepted& now, const continuation::Event* event) {
       return record(*observer, now, event);
     };
+  auto monitors = frequency_monitors(observer, steps, watched);
+  if (watched.phase) monitors.push_back(phase_resonance_monitor(observer, direction));
   const Vector p = hbm::parameters_at(*problem, from);
   FrequencyBranch traced{problem,
                          continuation::trace(problem, {*first.u, p, model::frequency, direction}, options,
-                                             frequency_monitors(observer, steps, watched), each)};
+                                             std::move(monitors), each)};
   traced.unknown_stability = observer->unknown_stability();
   speak_of_scene(*model, p, traced.branch);
   return traced;

@@ -52,27 +52,29 @@ OneModeSynthesis::OneModeSynthesis(const hbm::HbmProblem& motions,
                                    std::shared_ptr<const model::Model> excited)
     : harmonics_(motions.harmonics()), excited_(std::move(excited)) {
   const Vector p = model::defaults(*excited_);
-  const Eigen::MatrixXd& P = motions.coordinates().P;
-  for (const model::Excitation& each : excited_->excitation) {
-    if (each.harmonic != 1) continue;
-    shapes_.conservativeResize(shapes_.rows() + 1, P.cols());
-    shapes_.row(shapes_.rows() - 1) = model::shape(*excited_, each, p).transpose() * P;
-    factors_.emplace_back(p[each.cosine], -p[each.sine]);
-    forces_.push_back(each);
-  }
+  for (const model::Excitation& each : excited_->excitation)
+    if (each.harmonic == 1)
+      forces_.push_back({each, {p[each.cosine], -p[each.sine]}, model::shape(*excited_, each, p)});
+  std::vector<Eigen::Index> driven;
+  for (Eigen::Index i = 0; i < excited_->dofs; ++i)
+    if (std::any_of(forces_.begin(), forces_.end(), [&](const Force& each) { return each.shape[i] != 0; }))
+      driven.push_back(i);
+  P_ = motions.coordinates().P(driven, Eigen::all);
+  for (Force& each : forces_) each.shape = Vector(each.shape(driven));
 }
 
 // x^H f of the fundamental.
 Complex OneModeSynthesis::work(const hbm::HbmEvaluator& motion, In u, double omega) const {
   const int n = harmonics_.excited(1), a = harmonics_.cosine_index(n), b = harmonics_.sine_index(n);
-  const Eigen::MatrixXd along = motion.stiffness().motion(shapes_, u, 0);
+  const Eigen::MatrixXd x = motion.stiffness().motion(P_, u, 0);
   Complex sum = 0;
   double size = 0;
-  for (Eigen::Index k = 0; k < along.cols(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const Complex each = Complex(along(a, k), along(b, k)) * factors_[i] * forces_[i].factor(omega);
-    sum += each;
-    size += std::abs(each);
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    Complex f = 0;
+    for (const Force& each : forces_) f += each.given * each.of.factor(omega) * each.shape[i];
+    const Complex term = Complex(x(a, i), x(b, i)) * f;
+    sum += term;
+    size += std::abs(term);
   }
   return std::abs(sum) > at_a_node * size ? sum : 0;
 }

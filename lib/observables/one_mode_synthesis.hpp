@@ -46,9 +46,13 @@ class OneModeSynthesis {
 
   elements::Harmonics harmonics_;
   std::shared_ptr<const model::Model> excited_;
-  std::vector<model::Excitation> forces_;      // of the fundamental
-  std::vector<std::complex<double>> factors_;  // a - i b
-  Eigen::MatrixXd shapes_;                     // f^T P of each, in rows
+  struct Force {
+    model::Excitation of;
+    std::complex<double> given;  // a - i b
+    Eigen::VectorXd shape;       // over the degrees of freedom with forces
+  };
+  std::vector<Force> forces_;  // of the fundamental
+  Eigen::MatrixXd P_;          // the rows of those degrees of freedom
 };
 
 }  // namespace arcslip::observables

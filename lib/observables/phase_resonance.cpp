@@ -14,13 +14,13 @@ double cosine_of_phase(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& 
   return work == 0.0 ? 1 : work.real() / std::abs(work);
 }
 
-continuation::Monitor phase_resonance_monitor(const std::shared_ptr<Observer>& observer) {
+continuation::Monitor phase_resonance_monitor(const std::shared_ptr<Observer>& observer, int direction) {
   continuation::Monitor monitor;
   monitor.name = event_kinds::phase_resonance;
   monitor.value = [observer](const continuation::Accepted& now) {
     return cosine_of_phase(observer->problem(), static_cast<const hbm::HbmEvaluator&>(now.at), now.u);
   };
-  monitor.crossing = continuation::Crossing::falling;
+  monitor.crossing = direction > 0 ? continuation::Crossing::falling : continuation::Crossing::rising;
   return monitor;
 }
 

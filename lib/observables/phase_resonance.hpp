@@ -5,7 +5,7 @@
 //   g = Re x^H f / |x^H f| = 0
 //
 // g is the cosine of the phase by which the motion, along the forces, lags behind them: a quarter period at
-// phase resonance, where it falls through zero. Under one force it is that of the degree of freedom that the
+// phase resonance, where it falls through zero; at an antiresonance it rises. Under one force it is that of the degree of freedom that the
 // force acts at; of a moving base the motion relative to it counts. Lightly damped, the resonance peak lies
 // beside it by terms of the order of the damping ratio squared.
 
@@ -18,7 +18,7 @@ namespace arcslip::observables {
 /// g at the last place of an evaluator, u there; 1 without excitation or motion of that harmonic.
 double cosine_of_phase(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at, elements::In u);
 
-/// Of branches over the frequency.
-continuation::Monitor phase_resonance_monitor(const std::shared_ptr<Observer>& observer);
+/// Of branches over the frequency that begin upwards (direction 1) or downwards (-1).
+continuation::Monitor phase_resonance_monitor(const std::shared_ptr<Observer>& observer, int direction);
 
 }  // namespace arcslip::observables

@@ -204,8 +204,9 @@ using continuation::Vector;
 
 constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
 
-// From one pole to the next. Returns where the branch goes on beyond it, or the end of the window.
-double add_points(const std::shared_ptr<const model::Model>& model, double over, double from,
+// From `from` to the next pole, or to the end of the window. Returns where the branch goes on beyond that
+// pole, or the end of the window that it reached.
+double add_points(const std::shared_ptr<const model::Model>& model, double over, double from, int direction,
                   const FrequencyWindow& window, const std::vector<std::string>& kinds, const GoOn& go_on,
                   SpecialPoints& found) {
   const double width = window.upper - window.lower;
@@ -234,12 +235,13 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
   };
   const bool stability = std::any_of(kinds.begin(), kinds.end(), is_bifurcation);
   const bool phase = std::find(kinds.begin(), kinds.end(), event_kinds::phase_resonance) != kinds.end();
-  const auto swept = frequency_branch(model, window, from, record, 1, Steps::curve, go_on,
+  const auto swept = frequency_branch(model, window, from, record, direction, Steps::curve, go_on,
                                       {.stability = stability, .phase = phase});
   found.unknown_stability = swept.unknown_stability;
   for (std::size_t i = before; i < found.points.size(); ++i) found.points[i].problem = swept.problem;
   if (unbounded) return beyond_pole(course, width);
-  if (swept.branch.stop.reason != StopReason::boundary) found.failure = swept.branch.stop.message;
+  if (swept.branch.stop.reason == StopReason::boundary) return swept.branch.stop.value;
+  found.failure = swept.branch.stop.message;
   return window.upper;
 }
 
@@ -250,8 +252,14 @@ SpecialPoints special_points(const OverParameter& way, double over, const Freque
   SpecialPoints found;
   const auto model = way.at(over);
   double from = window.lower;
-  for (int piece = 0; piece <= 2 * model->dofs && from < window.upper; ++piece)
-    from = add_points(model, over, from, window, kinds, go_on, found);
+  bool turned_back = false;
+  for (int piece = 0; piece <= 2 * model->dofs && from < window.upper && !turned_back; ++piece) {
+    const double reached = add_points(model, over, from, 1, window, kinds, go_on, found);
+    turned_back = reached <= from;
+    from = reached;
+  }
+  // Responses above the fold at which it turned back are on another branch, or reached from above.
+  if (turned_back) add_points(model, over, window.upper, -1, window, kinds, go_on, found);
   return found;
 }
 

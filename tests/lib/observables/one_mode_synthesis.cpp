@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 using namespace modes;
 
@@ -58,31 +59,31 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "with one harmonic the level of a peak is the force that balances the loss, to second order in it") {
-  // m = k = 1, kd = 0.25: at the amplitude 2 the damping ratio is near 0.035 with the limit 0.2, and in
-  // proportion to it with less.
-  double before = 0;
+TEST_CASE("with one harmonic the level of a peak and the true peak beside it have closed forms") {
+  // m = k = 1, kd = 0.25. The friction force is a cosine and a sine that depend on the amplitude A alone, so
+  // that the response peaks where the force balances the loss: f = 4 F (1 - a/A)/pi, F the limit, a = F/kd.
   for (const double load : {0.4, 0.2, 0.1}) {
     const std::string damper =
         R"({"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.25, "friction_coefficient": 0.5,
             "normal_load": )" +
         std::to_string(load) + "}";
     const ResponseBranch branch =
-        observables::nonlinear_modes(oscillator(damper, 1), {1, 1.9, 2.1, 1}).front();
+        observables::nonlinear_modes(oscillator(damper, 1), {1, 1.9, 2.1, 3}).front();
     const auto peaks = peaks_of(branch);
-    REQUIRE(peaks.size() == 1);
-    const ResponsePoint& at = peaks[0].point;
-    const double zeta = at.damping_ratio, w = at.omega, loss = at.energy_friction;
-    const double quarter = 2 * zeta * w * w * at.amplitude;  // the force of phase resonance
-    CHECK(quarter == Approx(loss / (std::acos(-1.0) * at.amplitude)).epsilon(1e-12));
-    CHECK(at.synthesis.level == Approx(quarter * std::sqrt(1 - zeta * zeta)).epsilon(1e-12));
-    const double apart = std::max(std::abs(at.synthesis.true_amplitude / at.amplitude - 1),
-                                  std::abs(at.synthesis.true_omega / at.synthesis.omega - 1));
-    CAPTURE(load, zeta, apart);
-    CHECK(apart < 10 * zeta * zeta);
-    if (before > 0) CHECK(apart < 0.35 * before);
-    before = apart;
+    REQUIRE(peaks.size() == 3);
+    for (const auto& event : peaks) {
+      const ResponsePoint& at = event.point;
+      const double limit = 0.5 * load, onset = 4 * limit, share = 4 * limit / std::numbers::pi;
+      const double zeta = at.damping_ratio;
+      CAPTURE(load, at.amplitude, zeta);
+      const double level = share * (1 - onset / at.amplitude) * std::sqrt(1 - zeta * zeta);
+      CHECK(at.synthesis.level == Approx(level).epsilon(1e-11));
+      CHECK(at.synthesis.omega == Approx(at.omega * std::sqrt(1 - 2 * zeta * zeta)).epsilon(1e-12));
+      const double A = onset / (1 - level / share), theta = std::acos(1 - 2 * onset / A);
+      const double stiffness = 0.25 / std::numbers::pi * (theta - 0.5 * std::sin(2 * theta));
+      CHECK(at.synthesis.true_amplitude == Approx(A).epsilon(1e-9));
+      CHECK(at.synthesis.true_omega == Approx(std::sqrt(1 + stiffness)).epsilon(1e-9));
+    }
   }
 }
 

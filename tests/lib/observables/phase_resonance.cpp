@@ -63,7 +63,7 @@ TEST_CASE("with one harmonic the motion of one mass in phase resonance is that o
 TEST_CASE("with all harmonics phase resonance and the mode part with the damping, and meet without it") {
   // At the amplitude 1, of a contact that slips in most of the period.
   double before = 0;
-  for (const double load : {0.2, 0.1, 0.05}) {
+  for (const double load : {0.1, 0.05, 0.025, 0.0125}) {
     scene::Scene s = oscillator(contact, 31, 0);
     scene::set(s, "d.normal_load", load);
     const auto curves = phase_resonances(s, {"f.cosine", load / 10, 4 * load, 0.5, 2});
@@ -77,7 +77,7 @@ TEST_CASE("with all harmonics phase resonance and the mode part with the damping
     CAPTURE(load, free.damping_ratio, apart);
     CHECK(apart > 0);
     CHECK(apart < free.damping_ratio * free.damping_ratio);
-    if (before > 0) CHECK(apart < 0.5 * before);
+    if (before > 0) CHECK(apart < 0.2 * before);  // it falls as the third power of the damping ratio
     before = apart;
   }
 }
