@@ -193,8 +193,27 @@ class Modes {
     }
     point.energy_input = 2 * std::numbers::pi * at.damping_ratio() * at.omega() * Z.base_frequency() * work;
     point.energy_viscous += point.energy_input;
-    point.synthesis = synthesis_->of(at.motion(), at.unknowns(), at.omega(), at.damping_ratio());
+    const double ratio = at.damping_ratio();
+    const double hysteretic =
+        hysteretic_loss(problem, at, point) / (2 * std::numbers::pi * at.omega() * Z.base_frequency() * work);
+    point.synthesis = synthesis_->of(at.motion(), at.unknowns(), at.omega(), ratio - hysteretic, hysteretic);
     return point;
+  }
+
+  // Of a period, by what does not depend on the frequency: J.
+  double hysteretic_loss(const hbm::ModeProblem& problem, const hbm::ModeEvaluator& at,
+                         const ResponsePoint& point) const {
+    double loss = 0;
+    for (std::size_t e = 0; e < point.elements.size(); ++e)
+      if (!free_->elements[e].law->rate_dependent()) loss += point.elements[e].energy;
+    const double factor = free_->damping->loss_factor_at(at.parameters());
+    const auto& h = problem.motions().harmonics();
+    for (int j = 0; factor > 0 && j < h.sines(); ++j) {
+      const int n = h.sine_order(j);
+      loss += std::numbers::pi * n * factor *
+              at.motion().stiffness().quadratic_forms(n, at.unknowns(), 0).stiffness;
+    }
+    return loss;
   }
 
   void add_true_peak(const hbm::ModeEvaluator& at, ResponsePoint& point) {

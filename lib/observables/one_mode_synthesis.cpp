@@ -22,6 +22,44 @@ constexpr double narrowest = 1e-3;   // but at least this share of the frequency
 constexpr double widest = 0.5;       // and at most this
 constexpr double at_a_node = 1e-12;  // of the work of the forces without their signs
 
+// The root of the left side over omega^2, in q = W/omega:
+//   h(q)^2 = (1 - q^2)^2 + 4 (zeta_v q + zeta_i)^2
+struct Balance {
+  double zeta_v, zeta_i;
+
+  double at(double q) const { return std::hypot((1 - q) * (1 + q), 2 * (zeta_v * q + zeta_i)); }
+  // A quarter of dh^2/dq: q^3 - (1 - 2 zeta_v^2) q + 2 zeta_v zeta_i.
+  double slope(double q) const { return q * ((q - 1) * (q + 1) + 2 * zeta_v * zeta_v) + 2 * zeta_v * zeta_i; }
+
+  // Where the slope vanishes above its own least value; 0: nowhere.
+  double lowest() const {
+    const double square = 1 - 2 * zeta_v * zeta_v, least = std::sqrt(std::max(0.0, square / 3));
+    if (slope(least) > 0) return 0;
+    return bisected([this](double q) { return slope(q) > 0; }, 1 + std::abs(zeta_v * zeta_i), least);
+  }
+  // Where it vanishes below, or 0.
+  double highest_below(double lowest) const {
+    const double least = std::sqrt(std::max(0.0, (1 - 2 * zeta_v * zeta_v) / 3));
+    if (!(slope(0) > 0) || !(least < lowest)) return 0;
+    return bisected([this](double q) { return slope(q) > 0; }, 0, least);
+  }
+  // h = level between an argument at which it is less and one at which it is not.
+  double crossing(double level, double less, double more) const {
+    return bisected([&](double q) { return at(q) > level; }, more, less);
+  }
+
+ private:
+  // To the last digit between an argument at which the condition holds and one at which it does not.
+  template <class Condition>
+  static double bisected(const Condition& condition, double holds, double fails) {
+    for (;;) {
+      const double middle = 0.5 * (holds + fails);
+      if (middle == holds || middle == fails) return middle;
+      (condition(middle) ? holds : fails) = middle;
+    }
+  }
+};
+
 // The same with all periodic excitation times a level.
 std::shared_ptr<const model::Model> at_level(const model::Model& excited, double level) {
   auto model = std::make_shared<model::Model>(excited);
@@ -79,22 +117,23 @@ Complex OneModeSynthesis::work(const hbm::HbmEvaluator& motion, In u, double ome
   return std::abs(sum) > at_a_node * size ? sum : 0;
 }
 
-Synthesis OneModeSynthesis::of(const hbm::HbmEvaluator& motion, In u, double omega, double zeta) const {
+Synthesis OneModeSynthesis::of(const hbm::HbmEvaluator& motion, In u, double omega, double zeta_v,
+                               double zeta_i) const {
   Synthesis found;
   if (forces_.empty()) return found;
   const double P = std::abs(work(motion, u, omega));
   const double m = motion.stiffness().quadratic_forms(harmonics_.excited(1), u, 0).mass;
   if (!(P > 0 && m > 0)) return found;
-  const double square = omega * omega, drive = P / m;
-  const double damping = 2 * zeta * std::sqrt(std::max(0.0, 1 - zeta * zeta)) * square;
-  found.level = damping / drive;
-  const double top = square * (1 - 2 * zeta * zeta);
-  if (top > 0) found.omega = std::sqrt(top);
-  const double within = (drive - damping) * (drive + damping);
-  if (!(within >= 0)) return found;
-  const double root = std::sqrt(within);
-  if (top + root > 0) found.above = std::sqrt(top + root);
-  if (top - root > 0) found.below = std::sqrt(top - root);
+  const double drive = P / (m * omega * omega);
+  const Balance balance{zeta_v, zeta_i};
+  const double q = balance.lowest();
+  found.omega = q * omega;
+  found.level = std::copysign(balance.at(q), zeta_v * q + zeta_i) / drive;
+  if (!(balance.at(q) <= drive)) return found;
+  found.above = omega * balance.crossing(drive, q, q + 1 + drive);
+  // From 0 on the left side may rise at first.
+  if (const double rises = balance.highest_below(q); balance.at(rises) >= drive)
+    found.below = omega * balance.crossing(drive, q, rises);
   return found;
 }
 

@@ -1,17 +1,19 @@
 #pragma once
-// Forced responses beside a nonlinear mode (Krack 2015). The motion x at a point of the mode, with frequency
-// omega and damping ratio zeta, takes part in the frequency response under the fundamental f of the
-// excitation times a level L as far as the balance of its own fundamental allows:
+// Forced responses beside a nonlinear mode, after Krack (2015). The motion x at a point of the mode, with the
+// frequency omega, takes part in the frequency response under the fundamental f of the excitation times a
+// level L as far as the balance of its own fundamental allows:
 //
-//   (omega^2 - W^2)^2 + (2 zeta omega W)^2 = (L P/m)^2,      P = |x^H f|,  m = x^H M x
+//   (omega^2 - W^2)^2 + 4 omega^2 (zeta_v W + zeta_i omega)^2 = (L P/m)^2,      P = |x^H f|,  m = x^H M x
 //
-// in the excitation frequency W. The largest amplitude is reached where the two roots W^2 meet:
+// in the excitation frequency W. zeta_v and zeta_i are the parts of the damping ratio by what is in
+// proportion to the velocity, and by what does not depend on the frequency: friction, hysteresis, a loss
+// factor. The largest amplitude at a level is reached where W makes the left side least. Without zeta_i
 //
 //   W^2 = omega^2 (1 - 2 zeta^2),      L = 2 zeta sqrt(1 - zeta^2) omega^2 m/P
 //
 // Exact for a mode of a linear structure with damping in proportion to its masses or stiffnesses, if no other
-// mode is driven; otherwise the other modes, the harmonics that the excitation would add and terms of order
-// zeta^2 are left out. f of a moving base is taken at omega.
+// mode is driven, and for one mass with friction and one harmonic; otherwise the other modes and the
+// harmonics that the excitation would add are left out. f of a moving base is taken at omega.
 
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/response.hpp>
@@ -29,8 +31,10 @@ class OneModeSynthesis {
   /// motions: of the model without its excitation. excited: with it.
   OneModeSynthesis(const hbm::HbmProblem& motions, std::shared_ptr<const model::Model> excited);
 
-  /// At a motion, unknowns u: but for the true peak. Without values where the excitation does not drive it.
-  Synthesis of(const hbm::HbmEvaluator& motion, continuation::In u, double omega, double zeta) const;
+  /// At a motion, unknowns u, of the damping ratio zeta_v + zeta_i: but for the true peak. Without values
+  /// where the excitation does not drive it.
+  Synthesis of(const hbm::HbmEvaluator& motion, continuation::In u, double omega, double zeta_v,
+               double zeta_i) const;
 
   /// The peak of the frequency response under the level of a motion, by harmonic balance: started from the
   /// motion, it is the first one of the branch through it, upwards or downwards, the higher of the two.

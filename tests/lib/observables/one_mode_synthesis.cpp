@@ -59,31 +59,57 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("with one harmonic the level of a peak and the true peak beside it have closed forms") {
-  // m = k = 1, kd = 0.25. The friction force is a cosine and a sine that depend on the amplitude A alone, so
-  // that the response peaks where the force balances the loss: f = 4 F (1 - a/A)/pi, F the limit, a = F/kd.
-  for (const double load : {0.4, 0.2, 0.1}) {
-    const std::string damper =
-        R"({"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.25, "friction_coefficient": 0.5,
+TEST_CASE("with one harmonic the peaks of one mass with friction are those that its mode predicts") {
+  // m = k = 1, kd = 0.25. The friction force is a cosine and a sine that depend on the amplitude A alone.
+  // Without viscous damping the response peaks where the force balances the loss, f = 4 F (1 - a/A)/pi, F the
+  // limit, a = F/kd.
+  for (const double c : {0.0, 0.05, 0.4})
+    for (const double load : {0.4, 0.2, 0.1}) {
+      const std::string damper =
+          R"({"name": "d", "type": "jenkins", "at": "x", "stiffness": 0.25, "friction_coefficient": 0.5,
             "normal_load": )" +
-        std::to_string(load) + "}";
-    const ResponseBranch branch =
-        observables::nonlinear_modes(oscillator(damper, 1), {1, 1.9, 2.1, 3}).front();
-    const auto peaks = peaks_of(branch);
-    REQUIRE(peaks.size() == 3);
-    for (const auto& event : peaks) {
-      const ResponsePoint& at = event.point;
+          std::to_string(load) + "}";
+      const ResponseBranch branch =
+          observables::nonlinear_modes(oscillator(damper, 1, c), {1, 0.1, 2.1, 9}).front();
       const double limit = 0.5 * load, onset = 4 * limit, share = 4 * limit / std::numbers::pi;
-      const double zeta = at.damping_ratio;
-      CAPTURE(load, at.amplitude, zeta);
-      const double level = share * (1 - onset / at.amplitude) * std::sqrt(1 - zeta * zeta);
-      CHECK(at.synthesis.level == Approx(level).epsilon(1e-11));
-      CHECK(at.synthesis.omega == Approx(at.omega * std::sqrt(1 - 2 * zeta * zeta)).epsilon(1e-12));
-      const double A = onset / (1 - level / share), theta = std::acos(1 - 2 * onset / A);
-      const double stiffness = 0.25 / std::numbers::pi * (theta - 0.5 * std::sin(2 * theta));
-      CHECK(at.synthesis.true_amplitude == Approx(A).epsilon(1e-9));
-      CHECK(at.synthesis.true_omega == Approx(std::sqrt(1 + stiffness)).epsilon(1e-9));
+      std::size_t slipping = 0;
+      for (const auto& event : peaks_of(branch)) {
+        const ResponsePoint& at = event.point;
+        CAPTURE(c, load, at.amplitude, at.damping_ratio);
+        CHECK(at.synthesis.true_amplitude == Approx(at.amplitude).epsilon(1e-9));
+        CHECK(at.synthesis.true_omega == Approx(at.synthesis.omega).epsilon(1e-8));
+        if (at.elements[0].stick_percent == 100) continue;
+        ++slipping;
+        if (c > 0) continue;
+        CHECK(at.synthesis.level == Approx(share * (1 - onset / at.amplitude)).epsilon(1e-11));
+        CHECK(at.synthesis.omega == Approx(at.omega).epsilon(1e-14));
+      }
+      CHECK(slipping >= 3);
     }
+}
+
+TEST_CASE("a loss factor and viscous damping move a peak as in the response in closed form") {
+  // |1.25 - W^2 + i (0.1 + c W)| is least where W^3 - (1.25 - c^2/2) W + 0.1 c/2 = 0.
+  for (const double c : {0.0, 0.2}) {
+    scene::Scene s = oscillator(stuck, 1, c);
+    scene::Part steel;
+    steel.name = "steel";
+    steel.type = &scene::loss_factor_type();
+    steel.values = {0.1};
+    s.damping = {steel};
+    const ResponseBranch branch = observables::nonlinear_modes(s, {1, 1e-3, 100, 2}).front();
+    CHECK(branch.points.size() > 20);
+    for (const ResponsePoint& point : branch.points) {
+      const double w = point.synthesis.omega;
+      CHECK(std::abs(w * w * w - (1.25 - c * c / 2) * w + 0.05 * c) < 1e-12);
+      const double highest = 1 / std::hypot(1.25 - w * w, 0.1 + c * w);
+      CHECK(point.synthesis.level == Approx(point.amplitude / highest).epsilon(1e-11));
+      for (const double at : {point.synthesis.below, point.synthesis.above})
+        if (!std::isnan(at))
+          CHECK(std::hypot(1.25 - at * at, 0.1 + c * at) * point.amplitude == Approx(1).epsilon(1e-11));
+    }
+    for (const auto& event : peaks_of(branch))
+      CHECK(event.point.synthesis.true_omega == Approx(event.point.synthesis.omega).epsilon(1e-9));
   }
 }
 
