@@ -27,7 +27,7 @@ using continuation::Vector;
 
 constexpr double points_in_range = 150;       // at least
 constexpr double curve_tolerance = 1e-5;      // as of frequency responses
-constexpr double alone = 1e-3;                // of a harmonic: what the others have
+constexpr double alone = 3e-2;                // of a harmonic: what the others have
 constexpr double resolvable = 1e8;            // the motion over that of the response
 constexpr const char* outgrown = "outgrown";  // the monitor of that
 constexpr double within = 1e-9;               // the ends of the range: of its logarithm, where a peak may be

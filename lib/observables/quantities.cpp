@@ -243,7 +243,7 @@ constexpr ResponseQuantity of_response[] = {
      "out-of-phase part of the excitation; equals `total`", force<&F::excitation, &P::out_of_phase>,
      is_bounded},
     {"maxima.velocity", "m/s",
-     "at events, and on curves of peaks and folds: largest absolute velocity of the response",
+     "at events, and on curves of peaks, folds and bifurcations: largest absolute velocity of the response",
      largest<&MotionMaxima::velocity>, has_maxima},
     {"maxima.acceleration", "m/s²", "likewise, acceleration", largest<&MotionMaxima::acceleration>,
      has_maxima},
@@ -297,12 +297,12 @@ constexpr ResponseQuantity of_mode[] = {
      "likewise, the lower frequency at which the response to the excitation of the scene has this amplitude",
      synthesis<&Synthesis::below>},
     {"synthesis.above", frequency_unit, "likewise, the higher one", synthesis<&Synthesis::above>},
-    {"true_peak.frequency", frequency_unit,
+    {"synthesis.true_frequency", frequency_unit,
      "at events `peak`: where the frequency response at `synthesis.level` has its peak; missing where none "
      "was "
      "found",
      synthesis<&Synthesis::true_omega>, has_true_peak},
-    {"true_peak.amplitude", "m", "likewise, half the way between the extremes of the response there",
+    {"synthesis.true_amplitude", "m", "likewise, half the way between the extremes of the response there",
      synthesis<&Synthesis::true_amplitude>, has_true_peak},
 };
 

@@ -34,12 +34,13 @@ inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 
 /// Names of quantities in results, which the continuation parameter of a study must not have.
-inline constexpr std::array<std::string_view, 37> result_names = {"kind",
+inline constexpr std::array<std::string_view, 38> result_names = {"kind",
                                                                   "stable",
                                                                   "unstable_multipliers",
                                                                   "multipliers",
                                                                   "multiplier_error",
                                                                   "rotation_number",
+                                                                  "synthesis",
                                                                   "nonsmooth",
                                                                   "located",
                                                                   "omega",

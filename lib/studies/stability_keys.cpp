@@ -42,9 +42,13 @@ KeyGroup<StabilityRequest> stability_key(const std::string& help) {
 }  // namespace
 
 std::vector<KeyGroup<StabilityRequest>> stability_keys(const std::string& help) {
-  return {stability_key(help),
-          scene::file::whole("multipliers", &StabilityRequest::multipliers, 0, most_multipliers,
-                             "how many of the multipliers the results have, by falling modulus; 0: all")};
+  auto kept = scene::file::whole("multipliers", &StabilityRequest::multipliers, 0, most_multipliers,
+                                 "how many of the multipliers the results have, by falling modulus; 0: all");
+  kept.write = [write = kept.write](const StabilityRequest& request, const scene::Scene& scene,
+                                    Node::Object& to_file) {
+    if (request.wanted) write(request, scene, to_file);
+  };
+  return {stability_key(help), std::move(kept)};
 }
 
 }  // namespace arcslip::studies

@@ -140,6 +140,26 @@ TEST_CASE("a branch that meets another mode at three times its frequency ends th
   CHECK(last.damping_ratio == Approx(3 * second.damping_ratio).epsilon(1e-6));  // of 2 zeta omega M
 }
 
+TEST_CASE(
+    "the in-phase mode of two masses folds at 1:3 with the other mode, follows the tongue, and ends on that "
+    "mode") {
+  // The tongue of Kerschen et al. (2009), figure 9: from the fold the third harmonic grows, of the
+  // out-of-phase mode.
+  scene::Scene s = parse(two_masses(cubic_at_x1, 25, "x2"));
+  const ResponseBranch branch = mode(s, 1, 0.1, 200);
+  CHECK(branch.stop.reason == observables::reasons::step_too_small);
+  check_contains(branch.stop.message, "the motion came to be one of 3 times the frequency, of another mode");
+  REQUIRE(branch.events.size() == 3);
+  CHECK(branch.events[1].kind == "fold");
+  const ResponsePoint& last = branch.points.back();
+  CHECK(last.energy < 0.1 * branch.events[1].point.energy);
+  const double third = std::hypot(last.coefficients[2], last.coefficients[3]);
+  CHECK(third > 0.9 * last.amplitude);
+  const ResponsePoint other = at_end(mode(s, 2, 0.5 * third, third), third);
+  CHECK(3 * last.omega == Approx(other.omega).epsilon(1e-3));
+  CHECK(last.energy == Approx(other.energy).epsilon(1e-2));
+}
+
 TEST_CASE("random structures: most modes are whole, and what they lose is what the negative damping gives") {
   using random_scenes::Excitation;
   int branches = 0, complete = 0;

@@ -193,8 +193,8 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "\"bifurcations\", "
       "\"optimum\", must be one "
       "of "
-      "\"name\", \"kind\", \"from\", \"to\", \"stability\", \"branches\", \"doublings\", \"most_branches\", "
-      "\"searches\", \"for_each\"");
+      "\"name\", \"kind\", \"from\", \"to\", \"stability\", \"multipliers\", \"branches\", \"doublings\", "
+      "\"most_branches\", \"searches\", \"for_each\"");
   add("misspelt key of a study over a parameter", kind + over + range + window + ", \"frequencies\": 1",
       "frequencies", "did you mean \"frequency\"?");
 
@@ -229,6 +229,17 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
   add("steps in a frequency response", "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"steps\": 100", "steps",
       "found the key \"steps\", which belongs to studies of kind \"time\", \"point\", \"sweep\", must be");
   const std::string mode = "\"kind\": \"modes\", ";
+  const std::string frf = "\"kind\": \"frf\", \"from\": 1, \"to\": 2, ";
+  add("stability by an unknown method", frf + "\"stability\": \"hil\"", "stability",
+      "found \"hil\" (a string), must be true, false or \"hill\"");
+  add("stability that is a number", frf + "\"stability\": 1", "stability",
+      "found 1 (a number), must be true, false or \"hill\"");
+  add("less than no multipliers", frf + "\"stability\": true, \"multipliers\": -1", "multipliers",
+      "found -1, must be an integer from 0 to 10000");
+  add("resonance of an unknown kind", kind + over + range + window + ", \"resonance\": \"phases\"",
+      "resonance", "found \"phases\", must be one of \"amplitude\", \"phase\"; did you mean \"phase\"?");
+  add("less than no true peaks", mode + "\"amplitude\": [1, 2], \"true_peaks\": -1", "true_peaks",
+      "found -1, must be an integer from 0 to 1000");
   add("mode without amplitudes", mode + "\"mode\": 1", "amplitude",
       "found no key \"amplitude\", which is required: must be two values [from, to], each above 0 and at "
       "most "
