@@ -102,6 +102,9 @@ using time::reasons::singular;
 // Sweeps.
 inline constexpr Reason swept{"swept", "the sweep reached its last frequency"};
 
+// Comparisons of methods.
+inline constexpr Reason compared{"compared", "all computations were compared"};
+
 /// The reasons of a branch, or of a curve of peaks or folds.
 inline constexpr std::array of_branches = {
     boundary,        unbounded, closed,        branch_point,   fold,         corner,
@@ -133,6 +136,9 @@ inline constexpr std::array of_motions = {periodic,
 /// The reasons of a sweep.
 inline constexpr std::array of_sweeps = {swept,      user,       no_convergence, singular,
                                          not_finite, set_valued, loss_factor,    event_limit};
+
+/// The reasons of a comparison of methods.
+inline constexpr std::array of_comparisons = {compared, user, start_failed};
 
 }  // namespace reasons
 

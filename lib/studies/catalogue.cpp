@@ -11,7 +11,8 @@ namespace arcslip::studies {
 
 scene::Catalogue catalogue() {
   return {elements::laws(),
-          {&frf(), &trace(), &peaks(), &folds(), &bifurcations(), &time(), &point(), &modes(), &sweep()}};
+          {&frf(), &trace(), &peaks(), &folds(), &bifurcations(), &time(), &point(), &modes(), &sweep(),
+           &accuracy()}};
 }
 
 void run(const scene::Scene& scene, const scene::RunOptions& options, results::Sink& sink) {

@@ -19,6 +19,7 @@ const scene::StudyType& time();          // time integration; observables::TimeS
 const scene::StudyType& point();         // responses at one frequency; observables::PointSettings
 const scene::StudyType& modes();         // nonlinear modes over the amplitude; observables::ModeRange
 const scene::StudyType& sweep();         // a slow sweep of the frequency; observables::SweepSettings
+const scene::StudyType& accuracy();      // time and error of methods; observables::AccuracySettings
 
 /// All of them.
 scene::Catalogue catalogue();

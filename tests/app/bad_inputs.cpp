@@ -57,7 +57,7 @@ std::vector<BadInput> make() {
       line("no verb", {}, "Give a verb and a scene"),
       line("an unknown verb", {"fry", "scene.json"},
            "unknown verb \"fry\", must be run, frf, trace, peaks, folds, bifurcations, time, point, modes, "
-           "sweep, "
+           "sweep, accuracy, "
            "optimize, check "
            "or "
            "schema"),

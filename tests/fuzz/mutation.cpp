@@ -111,15 +111,15 @@ const std::vector<std::string>& strange_strings() {
 }
 
 // What a scene is written with.
-constexpr std::array vocabulary{R"("cubic_spring")", R"("jenkins")",      R"("frf")",       R"("trace")",
-                                R"("peaks")",        R"("folds")",        R"("time")",      R"("optimum")",
-                                R"("sampled")",      R"("exact")",        R"("Hz")",        R"("rad/s")",
-                                R"("at")",           R"("between")",      R"("value")",     R"("harmonic")",
-                                R"("direction")",    R"("sum")",          R"("from")",      R"("to")",
-                                R"("over")",         R"("for_each")",     R"("stiffness")", R"("cosine")",
-                                R"("sine")",         R"("ground")",       R"("shooting")",  R"("newmark")",
-                                R"("worst")",        R"("samples")",      R"("modes")",     R"("amplitude")",
-                                R"("of")",           R"("bifurcations")", R"("sweep")",     R"("start")"};
+constexpr std::array vocabulary{
+    R"("cubic_spring")", R"("jenkins")",   R"("frf")",       R"("trace")",        R"("peaks")",
+    R"("folds")",        R"("time")",      R"("optimum")",   R"("sampled")",      R"("exact")",
+    R"("Hz")",           R"("rad/s")",     R"("at")",        R"("between")",      R"("value")",
+    R"("harmonic")",     R"("direction")", R"("sum")",       R"("from")",         R"("to")",
+    R"("over")",         R"("for_each")",  R"("stiffness")", R"("cosine")",       R"("sine")",
+    R"("ground")",       R"("shooting")",  R"("newmark")",   R"("worst")",        R"("samples")",
+    R"("modes")",        R"("amplitude")", R"("of")",        R"("bifurcations")", R"("sweep")",
+    R"("start")",        R"("accuracy")"};
 
 void collect(Node& node, std::vector<Node*>& all) {
   all.push_back(&node);

@@ -97,7 +97,8 @@ std::string studies_of_all_kinds() {
     {"kind": "point", "frequency": 20},
     {"kind": "modes", "mode": 1, "amplitude": [1e-5, 1e-2]},
     {"kind": "sweep", "from": 18, "to": 22, "direction": "up"},
-    {"kind": "sweep", "from": 18, "to": 22, "spacing": 0.5}])";
+    {"kind": "sweep", "from": 18, "to": 22, "spacing": 0.5},
+    {"kind": "accuracy", "from": 18, "to": 22, "order": 7}])";
 }
 
 scene::Scene scene_with_all_kinds() {

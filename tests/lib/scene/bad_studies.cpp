@@ -16,7 +16,7 @@ void add_studies(std::vector<BadScene>& rows) {
   rows.push_back(
       {"unknown kind of study", with_study("{\"kind\": \"ffr\", \"over\": 1}"), "/studies/0/kind",
        "found \"ffr\", must be one of \"frf\", \"trace\", \"peaks\", \"folds\", \"bifurcations\", \"time\", "
-       "\"point\", \"modes\", \"sweep\", \"optimum\"; did you "
+       "\"point\", \"modes\", \"sweep\", \"accuracy\", \"optimum\"; did you "
        "mean \"frf\"?"});
   rows.push_back({"kind that is no string", with_study("{\"kind\": 1}"), "/studies/0/kind",
                   "found 1 (a number), must be one of \"frf\""});
@@ -225,7 +225,7 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
   add("range in a motion in time", at + "\"from\": 1", "from",
       "found the key \"from\", which belongs to studies of kind \"frf\", \"trace\", \"peaks\", \"folds\", "
       "\"bifurcations\", "
-      "\"sweep\", \"optimum\", must be");
+      "\"sweep\", \"accuracy\", \"optimum\", must be");
   add("steps in a frequency response", "\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"steps\": 100", "steps",
       "found the key \"steps\", which belongs to studies of kind \"time\", \"point\", \"sweep\", must be");
   const std::string mode = "\"kind\": \"modes\", ";
