@@ -27,7 +27,7 @@ using continuation::Vector;
 
 constexpr double points_in_range = 150;       // at least
 constexpr double curve_tolerance = 1e-5;      // as of frequency responses
-constexpr double alone = 3e-2;                // of a harmonic: what the others have
+constexpr double alone = 3e-2;                // of a harmonic and its multiples: what the others have
 constexpr double resolvable = 1e8;            // the motion over that of the response
 constexpr const char* outgrown = "outgrown";  // the monitor of that
 constexpr double within = 1e-9;               // the ends of the range: of its logarithm, where a peak may be
@@ -273,21 +273,25 @@ class Modes {
         "turned back at " + metres(highest) + " and left the range at its start, " + metres(range_.from);
   }
 
-  // The harmonic, in fundamentals, of which nearly all of the response at the last point consists; 0: none.
+  // The harmonic, in fundamentals, of whose multiples nearly all of the response at the last point consists;
+  // 0: none.
   int harmonic_left() const {
     if (result_.points.empty()) return 0;
     const std::vector<double>& c = result_.points.back().coefficients;
-    const int period = free_->harmonics.excited(1);
-    double all = 0, largest = 0;
-    int n = 0;
+    const auto size = [&](std::size_t i) {
+      return result_.harmonics[i] == 0 ? 0 : std::hypot(c[2 * i], c[2 * i + 1]);
+    };
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < result_.harmonics.size(); ++i)
+      if (size(i) > size(largest)) largest = i;
+    const int period = free_->harmonics.excited(1), n = result_.harmonics[largest];
+    if (n == 0 || n % period != 0) return 0;
+    double all = 0, multiples = 0;
     for (std::size_t i = 0; i < result_.harmonics.size(); ++i) {
-      const double size = result_.harmonics[i] == 0 ? 0 : std::hypot(c[2 * i], c[2 * i + 1]);
-      all += size;
-      if (!(size > largest)) continue;
-      largest = size;
-      n = result_.harmonics[i];
+      all += size(i);
+      if (result_.harmonics[i] % n == 0) multiples += size(i);
     }
-    return largest > (1 - alone) * all && n % period == 0 ? n / period : 0;
+    return multiples > (1 - alone) * all ? n / period : 0;
   }
 
   // Extrema of a damping ratio that changes by its rounding only, as while all contacts stick, are none.

@@ -55,7 +55,8 @@ constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
     "pointtype 15 pointsize 0.9",
     "pointtype 14 pointsize 1 linewidth 1.5",
     "pointtype 11 pointsize 0.9",
-    "pointtype 1 pointsize 0.9 linewidth 1.5"};
+    "pointtype 1 pointsize 0.9 linewidth 1.5",
+    "pointtype 7 pointsize 0.7"};
 
 /// Colours of the areas, in the order of area_kinds: alike where two kinds never meet.
 constexpr std::array<const char*, results::area_kinds.size()> area_colours = {

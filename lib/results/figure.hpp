@@ -26,7 +26,7 @@ struct FigureColumn {
 using Record = std::vector<double>;  // a value for each column, NaN if missing
 
 /// The kinds of events that are drawn, in the order of the data.
-inline constexpr std::array<std::string_view, 15> mark_kinds = {"peak",
+inline constexpr std::array<std::string_view, 16> mark_kinds = {"peak",
                                                                 "fold",
                                                                 "maximum",
                                                                 "minimum",
@@ -40,7 +40,8 @@ inline constexpr std::array<std::string_view, 15> mark_kinds = {"peak",
                                                                 "resonance_1_1",
                                                                 "resonance_1_2",
                                                                 "resonance_1_3",
-                                                                "resonance_1_4"};
+                                                                "resonance_1_4",
+                                                                "best"};
 
 struct FigureMark {
   std::string kind;

@@ -104,28 +104,45 @@ Described<Accuracy> described(const scene::Scene& scene, const AccuracySettings&
 
 using results::Record;
 
-// A line for each method, through its trials in the order of their times.
+// Trials of one line: of a method, and of one density of samples.
+std::string series(const Trial& trial) {
+  std::string text(name(trial.way));
+  if (trial.way == Way::sampled) text += trial.samples < 32 * trial.order ? ", coarse" : ", fine";
+  return text;
+}
+
+// A line for each method, through its trials in the order of their times; the best ones are marked.
 std::vector<results::FigureData> figures(const scene::Scene& scene, std::span<const Accuracy> all) {
   results::FigureData data;
   data.title = scene.title;
   data.columns = {{"time for a point (s)", results::Scale::logarithmic},
                   {"relative error of the highest peak", results::Scale::logarithmic}};
-  for (const Accuracy& found : all)
-    for (const Way way : {Way::exact, Way::sampled, Way::newmark, Way::shooting}) {
-      std::vector<Record> points;
-      for (const Trial& trial : found.trials)
-        if (trial.way == way) points.push_back({trial.seconds_per_point(), std::max(trial.error, rounding)});
-      if (points.empty()) continue;
+  for (const Accuracy& found : all) {
+    std::vector<std::pair<std::string, std::vector<Record>>> lines;
+    std::vector<std::vector<results::FigureMark>> marks;
+    for (const Trial& trial : found.trials) {
+      const Record record{trial.seconds_per_point(), std::max(trial.error, rounding)};
+      if (lines.empty() || lines.back().first != series(trial)) {
+        lines.push_back({series(trial), {}});
+        marks.emplace_back();
+      }
+      lines.back().second.push_back(record);
+      if (trial.best) marks.back().push_back({"best", record});
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      auto& [label, points] = lines[i];
       std::sort(points.begin(), points.end());
       if (data.parameters.empty()) {
         for (const auto& [name, value] : found.set) data.parameters.push_back(label_of(scene, name));
         data.parameters.emplace_back("method");
       }
       results::FigureLine line = line_of(scene, found.set);
-      line.label += (line.label.empty() ? "" : ", ") + std::string(name(way));
+      line.label += (line.label.empty() ? "" : ", ") + label;
       line.parts.push_back(std::move(points));
+      line.marks = std::move(marks[i]);
       data.lines.push_back(std::move(line));
     }
+  }
   for (std::size_t i = 0; i < data.columns.size(); ++i) data.columns[i].range = results::range_of(data, i, 0);
   data.figures = {{"accuracy", 0, 1, data.columns[0].label, data.columns[1].label}};
   return {data};
