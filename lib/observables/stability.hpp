@@ -2,8 +2,9 @@
 // Stability of the solutions of harmonic balance: Floquet multipliers along them (time/floquet.hpp), their
 // error, and where they leave the unit circle.
 //
-// The error is that of the neglected harmonics: the largest difference of a multiplier from those along the
-// refined motion of the truncation estimate (truncation.hpp). It is an estimate of first order, not a bound.
+// The error is that of the neglected harmonics: the largest change of a multiplier by those of the refined
+// motion of the truncation estimate (truncation.hpp), plus that by the upper half of them, since the first
+// alone may vanish by chance. It is an estimate of first order, not a bound.
 //
 // Bifurcations are zeros along the branch of functions of all multipliers (multipliers.hpp):
 //   period_doubling     a multiplier -1
