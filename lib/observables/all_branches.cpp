@@ -228,6 +228,7 @@ class AllBranches {
     run.course.points.emplace_back(
         -entry->step, run.observer->observe({u, p, ways_[k].half_branch.direction, 0, with.evaluator(),
                                              with.factors(), omega, with.scratch()}));
+    set_apart(event_kinds::branch_point, run.course.points.front().second);
     continuation::Start start{entry->v.head(n), hbm::parameters_at(*problem, entry->v[n]), model::frequency,
                               1, entry->tangent};
     trace(start, entry->step, run);
@@ -270,7 +271,7 @@ class AllBranches {
         run.course.events.emplace_back(event->point.arclength,
                                        ResponseEvent{event->monitor, event->nonsmooth, event->located,
                                                      run.observer->observe(now, held_by(*event), true), 0});
-        set_rotation(run.course.events.back().second);
+        set_apart(event->monitor, run.course.events.back().second.point);
         return true;
       }
       run.course.points.emplace_back(now.arclength, run.observer->observe(now));
@@ -305,7 +306,6 @@ class AllBranches {
     run.course.move_to(response);
     finish(run, from, response);
     response.unknown_stability = run.observer->unknown_stability();
-    drop_told_losses(response.events);
     const auto& points = response.points;
     if (!points.empty()) {
       response.events.insert(response.events.begin(),

@@ -156,7 +156,7 @@ std::vector<Monitor> BifurcationTracer::monitors() const {
   // Where a second multiplier is -1, too: their sum is smooth there.
   const auto nearest = [this](const Accepted& now) {
     const StabilityAnalysis* found = section_->stability(now);
-    return nearest_two(found ? of_map(*found, *problem_) : StabilityAnalysis::Multipliers{}, -1);
+    return nearest_two(found ? of_map(*found, *problem_) : Multipliers{}, -1);
   };
   Monitor both;
   both.name = event_kinds::resonance_1_2;
@@ -193,7 +193,7 @@ std::optional<double> BifurcationTracer::jump_beyond(const continuation::Point& 
   StabilityAnalysis stability;
   struct Side {
     std::uint64_t piece;
-    StabilityAnalysis::Multipliers multipliers;
+    Multipliers multipliers;
   };
   const auto look = [&](double reach) -> std::optional<Side> {
     const Vector x = last.u.head(n + 1) + reach * last.tangent.head(n + 1);

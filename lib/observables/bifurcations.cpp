@@ -13,7 +13,6 @@ namespace arcslip::observables {
 namespace {
 
 using Complex = std::complex<double>;
-using Multipliers = StabilityAnalysis::Multipliers;
 using continuation::In;
 using continuation::Out;
 
@@ -46,35 +45,6 @@ double miss(const Complex& a, const Complex& b, const std::pair<Complex, Complex
 
 }  // namespace
 
-const Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem& problem) {
-  return problem.harmonics().odd ? found.half_multipliers() : found.multipliers();
-}
-
-std::array<Complex, 2> nearest_two(const Multipliers& multipliers, double value) {
-  std::array<Complex, 2> nearest{value + 1, value + 1};
-  std::array<double, 2> distances{HUGE_VAL, HUGE_VAL};
-  for (const Complex& each : multipliers) {
-    const double distance = std::abs(each - value);
-    if (!(distance < distances[1])) continue;
-    const std::size_t i = distance < distances[0] ? 0 : 1;
-    if (i == 0) {
-      nearest[1] = nearest[0];
-      distances[1] = distances[0];
-    }
-    nearest[i] = each;
-    distances[i] = distance;
-  }
-  return nearest;
-}
-
-double at_minus_one(const Multipliers& multipliers) {
-  const auto nearest = nearest_two(multipliers, -1);
-  const auto beyond = std::count_if(multipliers.begin(), multipliers.end(),
-                                    [](const Complex& each) { return each.imag() == 0 && each.real() < -1; });
-  const double size = std::abs(1.0 + nearest[0]) * std::abs(1.0 + nearest[1]);
-  return beyond % 2 == 0 ? size : -size;
-}
-
 std::optional<PairOfMultipliers> pair_near(const Multipliers& multipliers, double kappa) {
   const auto sought = roots(kappa);
   std::optional<PairOfMultipliers> found;
@@ -89,15 +59,9 @@ std::optional<PairOfMultipliers> pair_near(const Multipliers& multipliers, doubl
 }
 
 std::optional<double> kappa_of(const Multipliers& multipliers) {
-  std::optional<double> kappa;
-  double nearest = HUGE_VAL;
-  for (const Complex& each : multipliers) {
-    const double distance = std::abs(1 - std::abs(each));
-    if (each.imag() == 0 || !(distance < nearest)) continue;
-    nearest = distance;
-    kappa = std::cos(std::arg(each));
-  }
-  return kappa;
+  const Complex pair = pair_nearest_circle(multipliers);
+  if (pair == 0.0) return {};
+  return std::cos(std::arg(pair));
 }
 
 continuation::TestFunctions test_functions(const std::shared_ptr<const hbm::HbmProblem>& problem,
@@ -132,7 +96,7 @@ continuation::TestFunctions test_functions(const std::shared_ptr<const hbm::HbmP
 }
 
 void set_apart(const std::string& kind, bool half, double kappa, Stability& stability) {
-  std::vector<Complex> own;
+  Multipliers own;
   if (is_neimark_sacker(kind)) {
     const auto [first, second] = roots(kappa);
     own = {half ? first * first : first, half ? second * second : second};
@@ -141,14 +105,7 @@ void set_apart(const std::string& kind, bool half, double kappa, Stability& stab
   } else {
     own.emplace_back(half ? 1.0 : -1.0);
   }
-  Multipliers others = stability.multipliers;
-  for (const Complex& value : own) {
-    if (others.empty()) break;
-    others.erase(std::min_element(others.begin(), others.end(), [&](const Complex& a, const Complex& b) {
-      return std::abs(a - value) < std::abs(b - value);
-    }));
-  }
-  stability.unstable = count_unstable(others);
+  stability.unstable = count_unstable(without(stability.multipliers, own));
 }
 
 }  // namespace arcslip::observables

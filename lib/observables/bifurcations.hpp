@@ -3,13 +3,11 @@
 // (continuation/special_points/test_functions.hpp). mu: the multipliers of the map over the period, or, where
 // the motion is antisymmetric, lambda of the map over half a period and the reflection:
 //
-//   period_doubling     mu = -1       g = s |1 + mu_1| |1 + mu_2|
+//   period_doubling     mu = -1       g = s |1 + mu_1| |1 + mu_2|, at_minus_one() of multipliers.hpp
 //   symmetry_breaking   lambda = -1   the same with lambda
 //   neimark_sacker      mu = exp(+- i phi)       g_1 = mu_1 + mu_2 - 2 kappa,  g_2 = mu_1 mu_2 - 1
 //
-// The first g is the determinant of 1 + map without the moduli of the factors other than the two nearest to
-// 0; s is its sign. So it neither overflows nor vanishes with the number of multipliers, and it is smooth
-// where a second one passes -1. kappa = cos phi is an unknown, which tells apart the pairs: mu_1 and mu_2 are
+// kappa = cos phi is an unknown, which tells apart the pairs: mu_1 and mu_2 are
 // the pair nearest to those with this kappa. Their sum and product are smooth also where the two meet and
 // become real, kappa = 1 and -1, beyond which there is no Neimark-Sacker point.
 //
@@ -19,33 +17,21 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/stability.hpp>
 
-#include <array>
-#include <complex>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace arcslip::observables {
 
-/// The multipliers that bifurcations belong to: of half a period, where there are such.
-const StabilityAnalysis::Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem& problem);
-
-/// The two multipliers nearest to a value, the nearest first; of no others the value itself, plus 1.
-std::array<std::complex<double>, 2> nearest_two(const StabilityAnalysis::Multipliers& multipliers,
-                                                double value);
-
-/// g of a period doubling or a symmetry breaking; positive for multipliers within the unit circle.
-double at_minus_one(const StabilityAnalysis::Multipliers& multipliers);
-
 /// The sum and the product of the pair nearest to exp(+- i arccos(kappa)); of real ones for |kappa| > 1.
 /// Nothing without a pair.
 struct PairOfMultipliers {
   double sum, product;
 };
-std::optional<PairOfMultipliers> pair_near(const StabilityAnalysis::Multipliers& multipliers, double kappa);
+std::optional<PairOfMultipliers> pair_near(const Multipliers& multipliers, double kappa);
 
 /// Of the complex pair nearest to the unit circle: its cosine. Nothing without one.
-std::optional<double> kappa_of(const StabilityAnalysis::Multipliers& multipliers);
+std::optional<double> kappa_of(const Multipliers& multipliers);
 
 /// The test functions of a kind of bifurcation, or of phase resonance (event_kinds.hpp), for solutions of a
 /// problem.

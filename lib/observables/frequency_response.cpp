@@ -82,7 +82,7 @@ class Sweep {
       if (event) {
         result.events.push_back({event->monitor, event->nonsmooth, event->located,
                                  observer.observe(now, held_by(*event), true), event->after});
-        set_rotation(result.events.back());
+        set_apart(event->monitor, result.events.back().point);
         return true;
       }
       const double omega = now.p[model::frequency];
@@ -108,7 +108,6 @@ class Sweep {
     auto traced = frequency_branch(
         model_, {lower_, upper_}, from, record, 1, Steps::curve, [this] { return go_on(); }, watched_);
     result.unknown_stability = traced.unknown_stability;
-    drop_told_losses(result.events);
     result.solver.unknowns = traced.problem->size();
     finish(result, traced, from, growth, course);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

@@ -110,11 +110,18 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
     stability.error = 0;
     return;
   }
-  const auto refined = truncation_->refined(now);
-  if (!refined) return;
   stable_u_.resize(0);
-  if (stability_->move_to(refined->problem, refined->at, refined->p))
-    stability.error = distance(stability.multipliers, stability_->multipliers());
+  const auto refined = [&](Truncation::Reach reach) -> const Multipliers* {
+    const auto motion = truncation_->refined(now, reach);
+    const bool known = motion && stability_->move_to(motion->problem, motion->at, motion->p);
+    return known ? &stability_->multipliers() : nullptr;
+  };
+  const Multipliers* all = refined(Truncation::Reach::all);
+  if (!all) return;
+  const Multipliers by_all = *all;
+  stability.error = distance(stability.multipliers, by_all);
+  if (const Multipliers* by_half = refined(Truncation::Reach::half))
+    stability.error += distance(by_all, *by_half);
 }
 
 ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {

@@ -120,7 +120,7 @@ class Traces {
         at.push_back(now.arclength);
         result.events.push_back(
             {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
-        set_rotation(result.events.back());
+        set_apart(event->monitor, result.events.back().point);
         return true;
       }
       course.emplace_back(now.arclength, point.amplitude);
@@ -134,7 +134,6 @@ class Traces {
     options.go_on = [this] { return go_on(); };
     auto branch = continuation::trace(problem, {u, p, way_.index, way_.direction()}, options,
                                       std::move(monitors), record);
-    drop_told_losses(result.events);
     result.unknown_stability = observer->unknown_stability();
     for (std::size_t i = at.size(); i-- > 0;)
       if ((result.events[i].kind == event_kinds::maximum || result.events[i].kind == event_kinds::minimum) &&

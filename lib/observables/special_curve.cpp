@@ -145,6 +145,11 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
   const auto second = continuation::cusp_monitor().value;
   const double begin = arclength_;
   const HeldBy held = corner ? HeldBy::corner : kind_.maximum ? HeldBy::extremum : HeldBy::fold;
+  const auto observe = [&](const Accepted& now, HeldBy by) {
+    ResponsePoint point = section_->observe(now, by);
+    set_apart(kind_.event, point);
+    return point;
+  };
   bool first = begin > 0;  // of a further part: its first point is where the part before ended
   const auto record = [&](const Accepted& now, const continuation::Event* event) {
     const double arclength = begin + now.arclength;
@@ -153,12 +158,11 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
                   event->monitor == above_event || (corner && event->monitor == event_kinds::fold));
     if (event && (!terminal || event->monitor == event_kinds::fold)) {
       result_.events.push_back(
-          {arclength, {event->monitor, event->nonsmooth, event->located, section_->observe(now, held)}});
+          {arclength, {event->monitor, event->nonsmooth, event->located, observe(now, held)}});
       return true;
     }
     if (std::exchange(first, false)) return true;
-    result_.points.push_back(
-        {arclength, corner ? 0 : second(now), section_->observe(now, held), from.corner});
+    result_.points.push_back({arclength, corner ? 0 : second(now), observe(now, held), from.corner});
     if (corner) result_.points.back().corner = hbm::at_angles(*from.corner, now.u);
     if (terminal) return true;
     const double omega = now.u[n];

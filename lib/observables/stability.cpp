@@ -7,22 +7,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iterator>
+#include <map>
 
 namespace arcslip::observables {
 namespace {
 
 using Complex = std::complex<double>;
-using Multipliers = StabilityAnalysis::Multipliers;
 using continuation::Accepted;
 
 constexpr int most_dofs = 100;
-constexpr double neutral = 1e-10;   // |mu| above 1 by less is rounding
-constexpr double rounding = 1e-11;  // of the products, where the structure is undamped
-constexpr double on_circle = 1e-4;  // at a zero; otherwise the product jumps
-constexpr double real = 1e-9;       // |imaginary part| of a real multiplier
-constexpr double jump = 1e-5;       // of the largest modulus across 1
-constexpr double same = 1e-7;       // place of two events, relative
+constexpr double rounding = 1e-11;       // of functions of multipliers, where the structure is undamped
+constexpr double on_circle = 1e-4;       // at a zero; otherwise the multipliers jump
+constexpr double jump = 1e-5;            // of the largest modulus across 1
+constexpr std::size_t most_kept = 1000;  // places
 
 bool same_but_frequency(const continuation::Vector& a, const continuation::Vector& b) {
   if (a.size() != b.size()) return false;
@@ -70,19 +68,8 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEv
   return found;
 }
 
-int count_unstable(const Multipliers& multipliers) {
-  return static_cast<int>(std::count_if(multipliers.begin(), multipliers.end(),
-                                        [](const Complex& each) { return std::abs(each) > 1 + neutral; }));
-}
-
-double distance(const Multipliers& multipliers, const Multipliers& others) {
-  double largest = 0;
-  for (const Complex& each : multipliers) {
-    double nearest = std::abs(each);  // of those that the others lack, 0
-    for (const Complex& other : others) nearest = std::min(nearest, std::abs(each - other));
-    largest = std::max(largest, nearest);
-  }
-  return largest;
+const Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem& problem) {
+  return problem.harmonics().odd ? found.half_multipliers() : found.multipliers();
 }
 
 namespace {
@@ -92,17 +79,8 @@ double beyond_rounding(double value) {
   return std::abs(value) < rounding ? rounding : value;
 }
 
-double one_plus(const Multipliers& multipliers) {
-  Complex product = 1;
-  for (const Complex& each : multipliers) product *= 1.0 + each;
-  return beyond_rounding(product.real());
-}
-
-double one_minus_pairs(const Multipliers& multipliers) {
-  Complex product = 1;
-  for (std::size_t i = 0; i < multipliers.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) product *= 1.0 - multipliers[i] * multipliers[j];
-  return beyond_rounding(product.real());
+double beside_minus_one(const Multipliers& multipliers) {
+  return beyond_rounding(at_minus_one(multipliers));
 }
 
 bool has_minus_one(const Multipliers& multipliers) {
@@ -110,71 +88,114 @@ bool has_minus_one(const Multipliers& multipliers) {
                      [](const Complex& each) { return std::abs(1.0 + each) < on_circle; });
 }
 
-bool is_complex(const Complex& multiplier) {
-  return std::abs(multiplier.imag()) > real * std::abs(multiplier);
+bool has_pair_on_circle(const Multipliers& multipliers) {
+  return std::abs(1 - std::abs(pair_nearest_circle(multipliers))) < on_circle;
 }
 
-bool has_pair_on_circle(const Multipliers& multipliers) {
-  return std::any_of(multipliers.begin(), multipliers.end(), [](const Complex& each) {
-    return is_complex(each) && std::abs(1 - std::abs(each)) < on_circle;
-  });
+// Positive: stable, as where there are none.
+double margin(const Multipliers& multipliers) {
+  return multipliers.empty() ? 1 : beyond_rounding(1 - std::abs(multipliers.front()));
 }
+
+// The places of a trace that were looked at for a loss of stability.
+class Places {
+ public:
+  void add(const Accepted& now, const Multipliers& multipliers) {
+    if (all_.size() > most_kept) all_.erase(all_.begin());
+    all_[now.arclength] = {margin(multipliers) > 0, now.tangent[now.u.size()] > 0,
+                           count_unstable(multipliers)};
+  }
+
+  // Whether the change from stable to unstable, or back, next to a place is one that a fold and the
+  // multipliers on the circle there explain.
+  bool is_explained(double arclength, const Multipliers& multipliers) const {
+    const auto here = all_.find(arclength);
+    if (here == all_.end()) return false;
+    auto before = here, beyond = std::next(here);
+    while (before != all_.begin() && before->second.stable == here->second.stable) --before;
+    while (beyond != all_.end() && beyond->second.stable == here->second.stable) ++beyond;
+    const bool is_beyond = beyond != all_.end() && (before->second.stable == here->second.stable ||
+                                                    beyond->first - arclength < arclength - before->first);
+    const Place& other = is_beyond ? beyond->second : before->second;
+    const int change = std::abs(here->second.unstable - other.unstable);
+    const bool fold = here->second.forward != other.forward;
+    return (change == 1 && (fold || has_minus_one(multipliers))) ||
+           (change == 2 && has_pair_on_circle(multipliers));
+  }
+
+ private:
+  struct Place {
+    bool stable, forward;  // forward: in the free parameter
+    int unstable;
+  };
+  std::map<double, Place> all_;  // by arclength
+};
 
 }  // namespace
 
 std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer) {
-  const auto monitor = [&](const char* kind, auto of, auto value, auto is_event) {
+  const auto monitor = [&](const char* kind, auto value, auto is_event) {
     continuation::Monitor each;
     each.name = kind;
     // 1 where the multipliers are not known.
     each.value = [=](const Accepted& now) {
       const StabilityAnalysis* found = observer->stability(now);
-      return found ? value((found->*of)()) : 1.0;
+      return found ? value(now, *found) : 1.0;
     };
     each.is_event = [=](const Accepted& now) {
       const StabilityAnalysis* found = observer->stability(now);
-      return found && is_event((found->*of)());
+      return found && is_event(now, *found);
     };
     return each;
   };
-  const auto of_period = &StabilityAnalysis::multipliers;
-  std::vector<continuation::Monitor> monitors{
-      monitor(event_kinds::neimark_sacker, of_period, one_minus_pairs, has_pair_on_circle),
-      monitor(
-          event_kinds::stability_lost, of_period,
-          [](const Multipliers& all) { return all.empty() ? 1 : beyond_rounding(1 - std::abs(all.front())); },
-          [](const Multipliers& all) { return !all.empty() && std::abs(1 - std::abs(all.front())) > jump; })};
-  if (observer->problem().harmonics().odd)
-    monitors.push_back(monitor(event_kinds::symmetry_breaking, &StabilityAnalysis::half_multipliers, one_plus,
-                               has_minus_one));
-  else
-    monitors.push_back(monitor(event_kinds::period_doubling, of_period, one_plus, has_minus_one));
-  return monitors;
+  const auto of_all = [&](const char* kind, auto value, auto is_event) {
+    return monitor(
+        kind,
+        [=](const Accepted&, const StabilityAnalysis& found) {
+          return value(of_map(found, observer->problem()));
+        },
+        [=](const Accepted&, const StabilityAnalysis& found) {
+          return is_event(of_map(found, observer->problem()));
+        });
+  };
+  const bool odd = observer->problem().harmonics().odd;
+  return {of_all(event_kinds::neimark_sacker, at_unit_modulus, has_pair_on_circle),
+          monitor(
+              event_kinds::stability_lost,
+              [](const Accepted& now, const StabilityAnalysis& found) {
+                now.scratch.get<Places>().add(now, found.multipliers());
+                return margin(found.multipliers());
+              },
+              [observer](const Accepted& now, const StabilityAnalysis& found) {
+                const Multipliers& all = found.multipliers();
+                return !all.empty() && std::abs(1 - std::abs(all.front())) > jump &&
+                       !now.scratch.get<Places>().is_explained(now.arclength,
+                                                               of_map(found, observer->problem()));
+              }),
+          of_all(odd ? event_kinds::symmetry_breaking : event_kinds::period_doubling, beside_minus_one,
+                 has_minus_one)};
 }
 
-double rotation_number(const Multipliers& multipliers) {
-  const Complex* nearest = nullptr;
-  for (const Complex& each : multipliers)
-    if (is_complex(each) && (!nearest || std::abs(1 - std::abs(each)) < std::abs(1 - std::abs(*nearest))))
-      nearest = &each;
-  return nearest ? std::abs(std::arg(*nearest)) / (2 * std::numbers::pi) : no_value;
-}
-
-void set_rotation(ResponseEvent& event) {
-  if (event.kind == event_kinds::neimark_sacker && event.point.stability)
-    event.point.stability->rotation = rotation_number(event.point.stability->multipliers);
-}
-
-void drop_told_losses(std::vector<ResponseEvent>& events) {
-  const auto near = [](double a, double b) { return std::abs(a - b) <= same * std::abs(a); };
-  std::erase_if(events, [&](const ResponseEvent& lost) {
-    return lost.kind == event_kinds::stability_lost &&
-           std::any_of(events.begin(), events.end(), [&](const ResponseEvent& other) {
-             return other.kind != event_kinds::stability_lost && other.kind != event_kinds::peak &&
-                    near(lost.point.omega, other.point.omega) && near(lost.point.over, other.point.over) &&
-                    near(lost.point.amplitude, other.point.amplitude);
-           });
-  });
+void set_apart(const std::string& kind, ResponsePoint& point) {
+  if (!point.stability) return;
+  Stability& stability = *point.stability;
+  Multipliers own;
+  if (kind == event_kinds::neimark_sacker) {
+    const Complex pair = pair_nearest_circle(stability.multipliers);
+    stability.rotation = rotation_number(stability.multipliers);
+    own = {pair, std::conj(pair)};
+  } else if (kind == event_kinds::period_doubling) {
+    own = {-1.0};
+  } else if (kind == event_kinds::fold || kind == event_kinds::branch_point ||
+             kind == event_kinds::symmetry_breaking) {
+    own = {1.0};
+  }
+  const double apart = std::isnan(stability.error) ? on_circle : std::max(on_circle, stability.error);
+  const auto near = [&](const Complex& value) {
+    return std::abs(nearest_two(stability.multipliers, value)[0] - value) < apart;
+  };
+  if (std::all_of(own.begin(), own.end(), near))
+    stability.unstable = count_unstable(without(stability.multipliers, own));
 }
 
 }  // namespace arcslip::observables

@@ -2,25 +2,26 @@
 // Stability of the solutions of harmonic balance: Floquet multipliers along them (time/floquet.hpp), their
 // error, and where they leave the unit circle.
 //
-// The error is that of the neglected harmonics: the largest difference of a multiplier from those along the
-// refined motion of the truncation estimate (truncation.hpp). It is an estimate of first order, not a bound.
+// The error is that of the neglected harmonics: the largest change of a multiplier by those of the refined
+// motion of the truncation estimate (truncation.hpp), plus that by the upper half of them, since the first
+// alone may vanish by chance. It is an estimate of first order, not a bound.
 //
-// Bifurcations are zeros along the branch of
-//   period_doubling     prod (1 + mu_i)
-//   neimark_sacker      prod_{i < j} (1 - mu_i mu_j), at a complex pair
-//   symmetry_breaking   prod (1 + lambda_i), with the multipliers lambda of the map over half a period, where
-//   the
-//                       harmonics are odd only
+// Bifurcations are zeros along the branch of functions of all multipliers (multipliers.hpp):
+//   period_doubling     a multiplier -1
+//   neimark_sacker      a complex pair on the unit circle
+//   symmetry_breaking   a multiplier -1 of the map over half a period, where the harmonics are odd only
 // A multiplier 1 is a fold, or a branch point (continuation/events/monitor.hpp). Where a phase of contact is
-// born or vanishes, multipliers may jump: stability_lost is a jump of the largest modulus across 1.
+// born or vanishes, multipliers may jump: stability_lost is a jump of the largest modulus across 1 that no
+// other event there explains, by how many multipliers are unstable on both sides: a fold and a multiplier -1
+// explain a change by 1, a pair on the circle one by 2.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/multipliers.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/time/floquet.hpp>
 #include <arcslip/time/hill.hpp>
 
-#include <complex>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,8 +34,6 @@ class Observer;
 /// For solutions of one model, of any harmonics. Owns its buffers; one for each thread.
 class StabilityAnalysis {
  public:
-  using Multipliers = std::vector<std::complex<double>>;
-
   /// by_hill: by Hill's method, of laws without memory only.
   explicit StabilityAnalysis(bool by_hill = false) : by_hill_(by_hill) {}
 
@@ -59,21 +58,12 @@ class StabilityAnalysis {
   std::vector<time::ElementCourse> courses_;
 };
 
-/// How many lie outside the unit circle, by more than rounding.
-int count_unstable(const std::vector<std::complex<double>>& multipliers);
+/// The multipliers that bifurcations belong to: of half a period, where there are such.
+const Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem& problem);
 
-/// The largest distance of one of the multipliers from the nearest of the others.
-double distance(const std::vector<std::complex<double>>& multipliers,
-                const std::vector<std::complex<double>>& others);
-
-/// Of the complex pair nearest to the unit circle: its argument over 2 pi, in (0, 1/2). no_value: none.
-double rotation_number(const std::vector<std::complex<double>>& multipliers);
-
-/// Of an event at which a pair crosses the unit circle: its rotation number.
-void set_rotation(ResponseEvent& event);
-
-/// Without losses of stability at nonsmooth folds, and where another event tells them.
-void drop_told_losses(std::vector<ResponseEvent>& events);
+/// At an event of a branch: `unstable` without the multipliers that make it one, which are outside the circle
+/// or not by rounding, and the rotation number of a Neimark-Sacker point.
+void set_apart(const std::string& kind, ResponsePoint& point);
 
 /// Those of the branches that an observer watches (Observer::watch_stability()).
 std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer);

@@ -145,10 +145,20 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   return {change, flagged || signs || size > small_change * extreme.amplitude};
 }
 
-std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now) {
+std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now, Reach reach) {
   if (change_.u.size() == 0 || !change_.u.allFinite() || !std::isfinite(change_.parameter)) return {};
   wide_.embed(now.u, base_);
   base_ += change_.u;
+  if (reach == Reach::half) {
+    const elements::Harmonics& all = wide_.problem().harmonics();
+    const int highest = (problem_.harmonics().order + all.order) / 2;
+    for (Eigen::Index block = 0; block < base_.size(); block += all.size())
+      for (int j = 0; j < all.cosines(); ++j) {
+        const int n = all.cosine_order(j);
+        if (n <= highest) continue;
+        base_[block + all.cosine_index(n)] = base_[block + all.sine_index(n)] = 0;
+      }
+  }
   Vector p = now.p;
   p[free_] += change_.parameter;
   const hbm::HbmEvaluator* at = wide_.look_at(base_, p);

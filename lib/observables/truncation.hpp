@@ -53,7 +53,8 @@ class Truncation {
     const hbm::HbmEvaluator& at;  // until the next call of estimate()
     continuation::Vector p;
   };
-  std::optional<Refined> refined(const continuation::Accepted& now);
+  enum class Reach { all, half };  // of the harmonics above N
+  std::optional<Refined> refined(const continuation::Accepted& now, Reach reach = Reach::all);
 
  private:
   struct Step {

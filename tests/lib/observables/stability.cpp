@@ -13,6 +13,7 @@
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/stability.hpp>
 #include <arcslip/studies/columns.hpp>
+#include <arcslip/time/from_harmonics.hpp>
 
 #include <Eigen/LU>
 
@@ -130,6 +131,7 @@ TEST_CASE("the small orbit of the double well doubles its period at the force kn
   REQUIRE(found.size() == 1);
   CHECK(std::abs(found[0].point.over - 0.265581786056) < 1e-12);
   CHECK(nearest_to(-1, found[0].point.stability->multipliers) < 1e-9);
+  CHECK(found[0].point.stability->unstable == 0);
   for (const auto& point : branches[0].points) {
     REQUIRE(point.stability);
     CHECK((point.stability->unstable == 1) == (point.over > found[0].point.over));
@@ -139,13 +141,29 @@ TEST_CASE("the small orbit of the double well doubles its period at the force kn
   }
 }
 
+TEST_CASE("branches that begin at a period doubling are stable up to their own one") {
+  const auto s = scenes::example("double_well");
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(branches.size() == 3);
+  for (std::size_t k = 1; k < 3; ++k) {
+    const auto doublings = events(branches[k], "period_doubling");
+    REQUIRE(doublings.size() == 1);
+    CHECK(nearest_to(1, branches[k].points.front().stability->multipliers) < 1e-8);
+    for (std::size_t i = 0; i < branches[k].points.size(); ++i)
+      CHECK(branches[k].points[i].stability->unstable == (i > doublings[0].after ? 1 : 0));
+  }
+}
+
 TEST_CASE("a Duffing oscillator is unstable between its folds alone, where a multiplier is 1") {
   const auto s = duffing("cubic_spring", R"("stiffness": 0.1)", 1, 0.05, 0.18, 15);
   const auto branch = response(s, 0.5, 1.6);
   const auto folds = events(branch, "fold");
   REQUIRE(folds.size() == 2);
   CHECK(branch.events.size() == 3);  // and the peak
-  for (const auto& fold : folds) CHECK(nearest_to(1, fold.point.stability->multipliers) < 1e-7);
+  for (const auto& fold : folds) {
+    CHECK(nearest_to(1, fold.point.stability->multipliers) < 1e-7);
+    CHECK(fold.point.stability->unstable == 0);
+  }
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
     const bool between = i > folds[0].after && i <= folds[1].after;
     CHECK(branch.points[i].stability->unstable == (between ? 1 : 0));
@@ -265,7 +283,10 @@ TEST_CASE("curves of peaks and folds have the stability of their points") {
   const observables::CurveRange range{"f.cosine", 0.15, 0.25, 0.5, 1.8, true};
   for (const auto& branch : observables::fold_curves(s, range)) {
     CHECK(branch.points.size() > 10);
-    for (const auto& point : branch.points) CHECK(nearest_to(1, point.stability->multipliers) < 1e-6);
+    for (const auto& point : branch.points) {
+      CHECK(nearest_to(1, point.stability->multipliers) < 1e-6);
+      CHECK(point.stability->unstable == 0);  // the other one is within the circle
+    }
   }
   for (const auto& branch : observables::resonance_peaks(s, range))
     for (const auto& point : branch.points) CHECK(point.stability->unstable == 0);
@@ -273,6 +294,114 @@ TEST_CASE("curves of peaks and folds have the stability of their points") {
   without.stability = false;
   for (const auto& branch : observables::resonance_peaks(s, without))
     for (const auto& point : branch.points) CHECK_FALSE(point.stability);
+}
+
+TEST_CASE(
+    "a pair on the circle is found beside many lightly damped modes, where its damping changes its sign") {
+  // van der Pol's force along the first mode q of a chain of equal masses, which leaves the other five
+  // linear, with products 1 - |mu|^2 of a few percent. By Liouville's formula the pair of q is on the circle
+  // where the mean of coefficient (q^2/a^2 - 1) is minus the viscous damping of q.
+  const int n = 6;
+  const double damping = 1e-3, feed = 0.05;
+  std::vector<scenes::Oscillator> masses;
+  for (const char* dof : {"x0", "x1", "x2", "x3", "x4", "x5"}) masses.push_back({dof, 1, 1, damping});
+  auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", )" +
+                         scenes::uncoupled(masses) + R"(,
+    "elements": [{"name": "feed", "type": "van_der_pol", "at": "x0", "coefficient": 0.05, "amplitude": 1}],
+    "excitation": [{"name": "force", "at": "x0", "cosine": 1}], "response": {"at": "x0"},
+    "harmonics": {"order": 9}})");
+  for (int i = 0; i <= n; ++i) {
+    scene::Direction spring;
+    if (i < n) spring.push_back({i, 1.0});
+    if (i > 0) spring.push_back({i - 1, -1.0});
+    s.springs.push_back({"link" + std::to_string(i), &scene::spring_type(), {spring}, {1.0}});
+  }
+  auto& mode = s.elements[0].directions[0];
+  mode.clear();
+  for (int i = 0; i < n; ++i)
+    mode.push_back({i, std::sqrt(2.0 / (n + 1)) * std::sin(std::acos(-1.0) * (i + 1) / (n + 1))});
+  const auto branches = observables::parameter_response(s, {"force.cosine", 0.5, 8, 0.5, true});
+  REQUIRE(branches.size() == 1);
+  const auto& branch = branches[0];
+  const auto found = events(branch, "neimark_sacker");
+  REQUIRE(found.size() == 1);
+  CHECK(events(branch, "stability_lost").empty());
+  for (const auto& point : branch.points)
+    CHECK(point.stability->unstable == (point.over < found[0].point.over ? 2 : 0));
+  CHECK(found[0].point.stability->unstable == 0);
+  // The motion of q at the event.
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  auto p = hbm::parameters_at(problem, found[0].point.omega);
+  for (std::size_t k = 0; k < model->parameters.size(); ++k)
+    if (model->parameters[k].name == "force.cosine") p[static_cast<Eigen::Index>(k)] = found[0].point.over;
+  const Eigen::Map<const continuation::Vector> u(found[0].point.unknowns.data(), problem.size());
+  const Eigen::MatrixXd x = time::dof_coefficients(problem, u, p);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(x.rows());
+  for (const auto& [dof, weight] : mode) q += weight * x.col(dof);
+  const double mean_square = 0.5 * q.squaredNorm();  // its mean is zero
+  CHECK(std::abs(feed * (mean_square - 1) + damping) < 1e-9);
+}
+
+TEST_CASE("a loss of stability next to a fold that does not explain it is told") {
+  // Two oscillators that nothing couples: a Duffing oscillator, and one that is self-excited in stick and
+  // stable in slip, whose slip is born 1e-9 above the force of the second fold.
+  const auto two = [&](double limit) {
+    auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", )" +
+                           scenes::uncoupled({{"a", 1, 5, 0}, {"b", 1, 1, 0.1}}) + R"(,
+      "elements": [{"name": "feed", "type": "van_der_pol", "at": "a", "coefficient": 0.02, "amplitude": 1e6},
+        {"name": "damper", "type": "jenkins", "at": "a", "stiffness": 1, "friction_coefficient": 1,
+         "normal_load": 1},
+        {"name": "cubic", "type": "cubic_spring", "at": "b", "stiffness": 0.1}],
+      "excitation": [{"name": "force", "at": "b", "cosine": 1}], "response": {"at": "a"},
+      "harmonics": {"order": 9}})");
+    s.excitation[0].directions = {{{0, 1.0}, {1, 1.0}}};
+    scene::set(s, "damper.normal_load", limit);
+    return observables::parameter_response(s, {"force.cosine", 0.2, 3, 1.4, true}).at(0);
+  };
+  const double stuck = std::hypot(5 + 1 - 1.4 * 1.4, 0.02 * 1.4);
+  const auto folds = events(two(1e3), "fold");
+  REQUIRE(folds.size() == 2);
+  const double force = folds[1].point.over * (1 + 1e-9);
+  const auto branch = two(force / stuck);
+  const auto lost = events(branch, "stability_lost");
+  REQUIRE(lost.size() == 2);  // and once before, far from the folds
+  for (const auto& event : lost) CHECK(reference::error(event.point.over, force) < 1e-7);
+  CHECK(events(branch, "fold").size() == 2);
+}
+
+TEST_CASE("where the birth of slip is a fold, the fold tells the multiplier that becomes unstable") {
+  // Two masses, the first one fed, the second one damped, stable in stick. The force at the first one is |D|
+  // A with its dynamic stiffness D of the stuck structure; slip adds 4i/pi k_t (A - A_0), which makes that
+  // fall: |D|^2 + 4/pi k_t Im D < 0.
+  const double w = 3.1, kt = 6;
+  const std::complex<double> second(7.5 - w * w, 0.5 * w);
+  const std::complex<double> D = std::complex<double>(8.5 - w * w, -0.2 * w) - 1.5 * 1.5 / second;
+  REQUIRE(std::norm(D) + 4 / std::acos(-1.0) * kt * D.imag() < 0);
+  const auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["a", "b"],
+      "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1}],
+      "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kb", "at": "b", "value": 6},
+                  {"name": "kab", "between": ["a", "b"], "value": 1.5}],
+      "dampers": [{"name": "cb", "at": "b", "value": 0.5}]},
+    "elements": [{"name": "feed", "type": "van_der_pol", "at": "a", "coefficient": 0.2, "amplitude": 1e5},
+      {"name": "damper", "type": "jenkins", "at": "a", "stiffness": 6, "friction_coefficient": 0.5,
+       "normal_load": 12}],
+    "excitation": [{"name": "force", "at": "a", "cosine": 1}], "response": {"at": "a"},
+    "harmonics": {"order": 9}})");
+  const auto branches = observables::parameter_response(s, {"force.cosine", 0.05, 2, w, true});
+  REQUIRE(branches.size() == 1);
+  const auto& branch = branches[0];
+  const auto folds = events(branch, "fold");
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0].nonsmooth);
+  CHECK(reference::error(folds[0].point.over, std::abs(D)) < 1e-9);  // A_0 = 1 m
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const bool between = i > folds[0].after && i <= folds[1].after;
+    CHECK(branch.points[i].stability->unstable == (between ? 1 : 0));
+  }
+  CHECK(std::abs(branch.points[folds[0].after + 1].stability->multipliers.front()) > 1.01);
+  CHECK(events(branch, "stability_lost").empty());
 }
 
 TEST_CASE("a branch whose stability is not known says why") {

@@ -1,15 +1,22 @@
 // Disturbed motions in time beside the multipliers of harmonic balance. ARCSLIP_SCENES is the number of
 // random structures; by default 12.
+//
+// The motion disturbed is the exact one next to the response: by shooting from the motion of 61 harmonics,
+// since next to a fold shooting from that of 15 may lead to the motion on its other side.
 #include "catch.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
+#include "lib/observables/refined.hpp"
 #include "lib/time/random_contacts.hpp"
 
 #include <arcslip/observables/departure.hpp>
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/integrator.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/time/event_driven.hpp>
+#include <arcslip/time/from_harmonics.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -66,43 +73,46 @@ TEST_CASE("disturbances of random motions grow and decay at the rate of their la
     const auto& among = of_interest.empty() || seed % 8 >= 4 ? all : of_interest;
     REQUIRE_FALSE(among.empty());
     const auto& point = *among[static_cast<std::size_t>(random.count(0, static_cast<int>(among.size()) - 1))];
-    const double frequency = point.omega / scene::to_rad_per_s(s.frequency_unit);
-    const Motion motion =
-        motion_in_time(s, {.frequency = frequency,
-                           .method = seed % 4 == 3 ? TimeMethod::newmark : TimeMethod::event_driven,
-                           .steps = 4000,
-                           .periods = 400,
-                           .start_amplitude = point.amplitude,
-                           .perturbation = 1e-5});
     const double largest = std::abs(point.stability->multipliers.front()), error = point.stability->error;
-    CAPTURE(seed, frequency, point.amplitude, point.stability->multipliers, error, motion.stop.message);
-    if (!motion.departure) {  // shooting finds no motion beside a response with too few harmonics
-      CHECK(motion.stop.reason == observables::reasons::no_periodic_motion);
+    CAPTURE(seed, point.omega, point.amplitude, point.stability->multipliers, error);
+    const auto model = std::make_shared<const model::Model>(model::build(s));
+    const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+    const auto p = hbm::parameters_at(problem, point.omega);
+    const auto exact = refined::motion(problem, refined::solution_of(point), p, refined::orders);
+    if (!exact) {
+      ++unknown;
+      continue;
+    }
+    const auto start = time::state_of(*exact->problem, exact->u, p);
+    const auto equation = time::equation_of_motion(*model, p);
+    const bool in_steps = seed % 4 == 3;
+    const auto integrator = in_steps ? observables::in_steps(equation, start, 8000, {})
+                                     : observables::between_events(equation, start, 100, {});
+    const auto found = observables::departure(integrator, integrator.start, point.omega, 1e-5,
+                                              {.periods = 400, .longest = 8, .tolerance = 1e-9});
+    CAPTURE(found.failure, found.growth, found.returned, found.distance, found.end.message);
+    if (!found.failure.empty()) {
       ++unknown;
       continue;
     }
     ++compared;
     unstable += largest > 1;
-    const auto& found = *motion.departure;
-    CAPTURE(found.growth, found.returned, found.distance, found.motion_period);
-    const double tolerance = 5 * error + 3e-4;
-    CHECK(std::abs(found.growth - largest) < tolerance);
-    worst = std::max(worst, std::abs(found.growth - largest) / tolerance);
-    if (std::abs(largest - 1) > error) {
+    const double witness = in_steps ? 3e-4 : 1e-5;  // error of the growth
+    CHECK(std::abs(found.growth - largest) < 5 * error + witness);
+    worst = std::max(worst, std::abs(found.growth - largest) / (5 * error + witness));
+    if (std::abs(largest - 1) > error + witness) {
       ++verdicts;
-      // The error is an estimate: beyond five of it verdicts are right, and nearly all beyond one.
       const bool right = (found.growth > 1) == (point.stability->unstable > 0) &&
                          !(point.stability->unstable > 0 && found.returned) &&
                          !(largest < 0.95 && !found.returned);
+      CHECK(right);
       wrong += !right;
-      if (std::abs(largest - 1) > 5 * error) CHECK(right);
       returned += found.returned;
     }
   }
   INFO(compared << " compared, " << unstable << " unstable, " << verdicts << " verdicts, " << wrong
                 << " wrong, " << returned << " returned, " << unknown << " without an exact motion, worst "
                 << worst);
-  CHECK(wrong <= verdicts / 50);
   CHECK(unknown <= static_cast<int>(scene_count()) / 20);
   CHECK(unstable > compared / 10);
 }

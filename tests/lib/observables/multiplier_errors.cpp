@@ -1,0 +1,188 @@
+// The multipliers along harmonic balance with 15 harmonics, at random points of the branches of random
+// structures with friction, stops, contacts and cubic springs, beside those of the exact motion there: by
+// shooting or, with cubic springs, of a motion of 121 harmonics. ARCSLIP_SCENES is the number of structures,
+// 10 points each; by default 10.
+#include "catch.hpp"
+
+#include "lib/hbm/random_scenes.hpp"
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/refined.hpp"
+#include "lib/time/random_contacts.hpp"
+
+#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/stability.hpp>
+#include <arcslip/time/from_harmonics.hpp>
+#include <arcslip/time/shooting.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+using namespace arcslip;
+using observables::Multipliers;
+
+namespace {
+
+constexpr int points_each = 10;
+constexpr double sharp_error = 0.1, rounding = 1e-8;
+constexpr double another = 0.03;  // motion: relative distance
+
+std::uint64_t scene_count() {
+  if (const char* count = std::getenv("ARCSLIP_SCENES")) return std::strtoull(count, nullptr, 10);
+  return 10;
+}
+
+enum Kind { friction, stops, contacts, cubic, light, kinds };
+
+// 1 to 6 masses.
+scene::Scene random_scene(std::uint64_t seed) {
+  using random_scenes::Excitation;
+  const auto kind = static_cast<Kind>(seed % kinds);
+  scene::Scene s = kind == cubic   ? random_scenes::make_hardening(seed)
+                   : kind == light ? random_scenes::hard(seed)
+                                   : random_scenes::make(seed, static_cast<Excitation>(seed / kinds % 3));
+  s.harmonics.order = 15;
+  const double middle = 0.5 * (scenes::window(s).from + scenes::window(s).to);
+  if (kind == stops) s = random_contacts::with_stops(s, seed, middle);
+  if (kind == contacts) s = random_contacts::with_contacts(s, seed, middle);
+  return s;
+}
+
+struct Exact {
+  Multipliers multipliers;
+  double error = 0;
+};
+
+// By shooting; nothing where it finds no motion next to this one.
+std::optional<Exact> by_shooting(const hbm::HbmProblem& problem, const continuation::Vector& u,
+                                 const continuation::Vector& p) {
+  const auto equation = time::equation_of_motion(problem.model(), p);
+  time::EventDriven integrator(equation);
+  const auto start = time::state_of(problem, u, p);
+  time::ShootingOptions options;
+  options.transients = 0;
+  const auto found = time::periodic_motion(integrator, start, options);
+  if (!found.converged()) return {};
+  const auto size = [&](const time::Vector& x, const time::Vector& v) {
+    return std::hypot(x.norm(), v.norm() / p[model::frequency]);
+  };
+  const auto& there = found.shooting.start;
+  if (size(there.x - start.x, there.v - start.v) > another * size(there.x, there.v)) return {};
+  return Exact{found.shooting.multipliers};
+}
+
+// Those along the motions of 61 and 121 harmonics: their difference is the error of the second.
+std::optional<Exact> by_more_harmonics(const hbm::HbmProblem& problem, const continuation::Vector& u,
+                                       const continuation::Vector& p) {
+  std::optional<Exact> exact;
+  for (const auto orders : {refined::orders, {21, 31, 61, 121}}) {
+    const auto wide = refined::motion(problem, u, p, orders);
+    if (!wide) return {};
+    const auto at = wide->problem->hbm_evaluator();
+    observables::StabilityAnalysis stability;
+    if (at->move_to(wide->u, p, continuation::Needs::jacobian) != continuation::Evaluated::ok ||
+        !stability.move_to(*wide->problem, *at, p))
+      return {};
+    const Multipliers& all = stability.multipliers();
+    exact = Exact{all, exact ? observables::distance(all, exact->multipliers) : 0};
+  }
+  return exact;
+}
+
+double difference(const Multipliers& a, const Multipliers& b) {
+  return std::max(observables::distance(a, b), observables::distance(b, a));
+}
+
+struct Count {
+  int points = 0, missing = 0;  // missing: no exact motion was found
+  int unstable = 0;             // exact ones
+  int sharp = 0, within = 0;    // with an error below 0.1; of these, those within five times of it
+  int verdicts = 0, wrong = 0;  // where the largest modulus is further from 1 than its error
+
+  void add(const observables::Stability& found, const std::optional<Exact>& exact) {
+    ++points;
+    if (!exact) {
+      ++missing;
+      return;
+    }
+    const double largest = std::abs(exact->multipliers.front());
+    unstable += largest > 1;
+    sharp += found.error < sharp_error;
+    within += found.error < sharp_error && is_within(found, *exact);
+    verdicts += has_verdict(found, *exact);
+    wrong += is_wrong(found, *exact);
+  }
+
+  static bool is_within(const observables::Stability& found, const Exact& exact) {
+    return difference(found.multipliers, exact.multipliers) <= 5 * found.error + exact.error + rounding;
+  }
+  static bool has_verdict(const observables::Stability& found, const Exact& exact) {
+    return std::abs(std::abs(found.multipliers.front()) - 1) > found.error + exact.error + rounding;
+  }
+  static bool is_wrong(const observables::Stability& found, const Exact& exact) {
+    return has_verdict(found, exact) && (found.unstable > 0) != (std::abs(exact.multipliers.front()) > 1);
+  }
+};
+
+// A motion next to the point, from that of 15 harmonics. Where its multipliers are others, that may be one on
+// the other side of a fold: then from the motion of 61 harmonics.
+std::optional<Exact> exact_beside(Kind kind, const hbm::HbmProblem& problem,
+                                  const observables::ResponsePoint& point) {
+  const auto p = hbm::parameters_at(problem, point.omega);
+  const auto u = refined::solution_of(point);
+  if (kind == cubic) return by_more_harmonics(problem, u, p);
+  const auto exact = by_shooting(problem, u, p);
+  const auto& found = *point.stability;
+  if (exact && Count::is_within(found, *exact) && !Count::is_wrong(found, *exact)) return exact;
+  const auto wide = refined::motion(problem, u, p, refined::orders);
+  return wide ? by_shooting(*wide->problem, wide->u, p) : std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("multipliers with 15 harmonics are as near to the exact ones as their error says", "[numbers]") {
+  std::map<Kind, Count> counts;
+  std::ostringstream beyond;
+  for (std::uint64_t seed = 0; seed < scene_count(); ++seed) {
+    const auto kind = static_cast<Kind>(seed % kinds);
+    const scene::Scene s = random_scene(seed);
+    auto window = scenes::window(s);
+    window.stability = true;
+    const auto branch = observables::frequency_response(s, window).front();
+    const auto model = std::make_shared<const model::Model>(model::build(s));
+    const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+    test_random::Random random(seed);
+    // Every other one unstable, where there are any.
+    std::vector<const observables::ResponsePoint*> known, unstable;
+    for (const auto& point : branch.points) {
+      if (!point.stability || !(point.stability->error < HUGE_VAL)) continue;
+      known.push_back(&point);
+      if (point.stability->unstable > 0) unstable.push_back(&point);
+    }
+    for (int i = 0; i < points_each && !known.empty(); ++i) {
+      const auto& point = *random.of(i % 2 == 1 && !unstable.empty() ? unstable : known);
+      const auto exact = exact_beside(kind, problem, point);
+      const auto& found = *point.stability;
+      for (const Kind sum : {kind, kinds}) counts[sum].add(found, exact);
+      if (!exact || (Count::is_within(found, *exact) && !Count::is_wrong(found, *exact))) continue;
+      beyond << "seed " << seed << ", " << point.omega << " rad/s: error "
+             << difference(found.multipliers, exact->multipliers) << " beside " << found.error << ", modulus "
+             << std::abs(found.multipliers.front()) << " beside " << std::abs(exact->multipliers.front())
+             << (point.truncation_flagged ? ", flagged" : "")
+             << (Count::is_wrong(found, *exact) ? ", WRONG\n" : "\n");
+    }
+  }
+  for (const auto& [kind, c] : counts)
+    beyond << "kind " << kind << ": " << c.points << " points, " << c.missing << " missing, " << c.unstable
+           << " unstable, " << c.sharp << " sharp, " << c.within << " within, " << c.verdicts << " verdicts, "
+           << c.wrong << " wrong\n";
+  INFO(beyond.str());
+  const Count& all = counts[kinds];
+  CHECK(all.points == points_each * static_cast<int>(scene_count()));
+  CHECK(all.unstable > all.points / 10);
+  CHECK(all.missing <= all.points / 50);
+  CHECK(all.sharp - all.within <= all.sharp / 500);
+  CHECK(all.wrong <= all.verdicts / 1000);
+}
