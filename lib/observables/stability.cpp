@@ -122,34 +122,46 @@ bool has_pair_on_circle(const Multipliers& multipliers) {
 
 }  // namespace
 
-std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer) {
-  const auto monitor = [&](const char* kind, auto of, auto value, auto is_event) {
+std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_period,
+                                                      const MultipliersAt& of_half_period) {
+  const auto monitor = [](const char* kind, const MultipliersAt& at, auto value, auto is_event) {
     continuation::Monitor each;
     each.name = kind;
     // 1 where the multipliers are not known.
     each.value = [=](const Accepted& now) {
-      const StabilityAnalysis* found = observer->stability(now);
-      return found ? value((found->*of)()) : 1.0;
+      const Multipliers* found = at(now);
+      return found ? value(*found) : 1.0;
     };
     each.is_event = [=](const Accepted& now) {
-      const StabilityAnalysis* found = observer->stability(now);
-      return found && is_event((found->*of)());
+      const Multipliers* found = at(now);
+      return found && is_event(*found);
     };
     return each;
   };
-  const auto of_period = &StabilityAnalysis::multipliers;
   std::vector<continuation::Monitor> monitors{
       monitor(event_kinds::neimark_sacker, of_period, one_minus_pairs, has_pair_on_circle),
       monitor(
           event_kinds::stability_lost, of_period,
           [](const Multipliers& all) { return all.empty() ? 1 : beyond_rounding(1 - std::abs(all.front())); },
           [](const Multipliers& all) { return !all.empty() && std::abs(1 - std::abs(all.front())) > jump; })};
-  if (observer->problem().harmonics().odd)
-    monitors.push_back(monitor(event_kinds::symmetry_breaking, &StabilityAnalysis::half_multipliers, one_plus,
-                               has_minus_one));
+  if (of_half_period)
+    monitors.push_back(monitor(event_kinds::symmetry_breaking, of_half_period, one_plus, has_minus_one));
   else
     monitors.push_back(monitor(event_kinds::period_doubling, of_period, one_plus, has_minus_one));
   return monitors;
+}
+
+std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer) {
+  const auto multipliers = [&](auto of) -> MultipliersAt {
+    return [=](const Accepted& now) {
+      const StabilityAnalysis* found = observer->stability(now);
+      return found ? &(found->*of)() : nullptr;
+    };
+  };
+  if (!observer->problem().harmonics().odd)
+    return stability_monitors(multipliers(&StabilityAnalysis::multipliers));
+  return stability_monitors(multipliers(&StabilityAnalysis::multipliers),
+                            multipliers(&StabilityAnalysis::half_multipliers));
 }
 
 double rotation_number(const Multipliers& multipliers) {

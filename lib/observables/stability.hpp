@@ -21,6 +21,7 @@
 #include <arcslip/time/hill.hpp>
 
 #include <complex>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -74,6 +75,15 @@ void set_rotation(ResponseEvent& event);
 
 /// Without losses of stability at nonsmooth folds, and where another event tells them.
 void drop_told_losses(std::vector<ResponseEvent>& events);
+
+/// The multipliers at a point; null: not known there.
+using MultipliersAt = std::function<const std::vector<std::complex<double>>*(const continuation::Accepted&)>;
+
+/// Losses of stability of a branch: Neimark-Sacker points, jumps of the largest multiplier across the circle,
+/// and, by the multipliers over half a period where motions are antisymmetric, breaks of symmetry, otherwise
+/// period doublings.
+std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_period,
+                                                      const MultipliersAt& of_half_period = {});
 
 /// Those of the branches that an observer watches (Observer::watch_stability()).
 std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer);
