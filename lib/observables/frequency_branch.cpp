@@ -90,9 +90,8 @@ void tell_end(const continuation::BranchStop& stop, double from, double upper, s
     double highest = from;
     for (const auto& point : result.points) highest = std::max(highest, point.omega);
     for (const auto& event : result.events) highest = std::max(highest, event.point.omega);
-    result.stop.message = "turned back at " + with_unit(highest) +
-                          " and left the window at its lower end, " + with_unit(stop.value) +
-                          ": no response above that frequency was traced";
+    result.stop.message = "turned back at " + with_unit(highest) + " and left the window at its lower end, " +
+                          with_unit(stop.value) + ": no response above that frequency was traced";
   }
 }
 

@@ -130,8 +130,7 @@ class Sweep {
       end_unbounded(result, growth, course);
       return;
     }
-    const bool is_through =
-        branch.stop.reason == StopReason::boundary && branch.stop.value == upper_;
+    const bool is_through = branch.stop.reason == StopReason::boundary && branch.stop.value == upper_;
     if (is_through)
       result.doubt = doubt_of_rounding(*model_, hbm::parameters_at(*traced.problem, from), branch.counts);
     tell_end(branch.stop, from, upper_, frequency_unit_, result);

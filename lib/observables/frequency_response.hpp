@@ -25,11 +25,11 @@ enum class ResponseMethod { harmonic_balance, shooting };
 /// Of the excitation, in the scene's unit; from < to.
 struct FrequencyRange {
   double from = 0, to = 0;
-  ResponseMethod method = ResponseMethod::harmonic_balance;  // shooting: of one branch
   StabilityRequest
       stability{};  // of the points, and their bifurcations; where all branches are asked for, always
   Branches branches = Branches::one;
-  BranchLimits limits{};  // of all branches
+  BranchLimits limits{};                                     // of all branches
+  ResponseMethod method = ResponseMethod::harmonic_balance;  // shooting: for one branch only
   friend bool operator==(const FrequencyRange&, const FrequencyRange&) = default;
 };
 

@@ -116,7 +116,8 @@ std::vector<continuation::Monitor> shooting_monitors(const std::shared_ptr<Shoot
       continuation::fold_monitor()};
   if (!watched) return monitors;
   observer->watch_stability(watched);
-  for (auto& monitor : stability_monitors([observer](const Accepted& now) { return &observer->multipliers(now); }))
+  for (auto& monitor :
+       stability_monitors([observer](const Accepted& now) { return &observer->multipliers(now); }))
     monitors.push_back(std::move(monitor));
   monitors.push_back(continuation::branch_point_monitor());
   return monitors;

@@ -1,6 +1,6 @@
 #pragma once
-// The observables of an accepted periodic motion of shooting. Exact: nothing is truncated, so that estimates of
-// truncation are 0; what belongs to Fourier series alone is absent (no_value).
+// The observables of an accepted periodic motion of shooting. Exact: nothing is truncated, so that estimates
+// of truncation are 0; what belongs to Fourier series alone is absent (no_value).
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/observables/response.hpp>

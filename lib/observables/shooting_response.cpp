@@ -64,14 +64,16 @@ class Shooting {
     const time::ShootingProblem unscaled(model_, 1, omega, width, limits);
     result_.solver.unknowns = unscaled.size();
     if (const auto growth = unbounded_resonance(model_, from); growth.unbounded)
-      return tell_end({StopReason::start_failed, from, 0, growth.message}, from, window_.upper, unit_, result_);
+      return tell_end({StopReason::start_failed, from, 0, growth.message}, from, window_.upper, unit_,
+                      result_);
     continuation::Vector p = continuation::parameter_values(unscaled);
     p[model::frequency] = from;
     const time::ShootingResult first = first_motion(p, limits);
     if (stopped_)
       return tell_end({StopReason::user, 1, 1, "stopped by the caller"}, from, window_.upper, unit_, result_);
     if (!first.converged())
-      return tell_end({StopReason::start_failed, from, 0, first.message}, from, window_.upper, unit_, result_);
+      return tell_end({StopReason::start_failed, from, 0, first.message}, from, window_.upper, unit_,
+                      result_);
     const double displacement = first.map.size > 0 ? first.map.size : 1;
     const auto problem =
         std::make_shared<const time::ShootingProblem>(model_, displacement, omega, width, limits);
@@ -93,10 +95,10 @@ class Shooting {
       last = now.parameter;
       return go_on();
     };
-    continuation::Branch branch = continuation::trace(
-        problem, {time::stacked(first.start), p, model::frequency, 1},
-        frequency_options(window_, Steps::curve, [this] { return go_on(); }),
-        shooting_monitors(observer, stability_), record);
+    continuation::Branch branch =
+        continuation::trace(problem, {time::stacked(first.start), p, model::frequency, 1},
+                            frequency_options(window_, Steps::curve, [this] { return go_on(); }),
+                            shooting_monitors(observer, stability_), record);
     drop_told_losses(result_.events);
     add(branch.counts, result_.solver);
     tell_end(branch.stop, from, window_.upper, unit_, result_);

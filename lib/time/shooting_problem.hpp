@@ -39,6 +39,8 @@ class ShootingEvaluator final : public continuation::Evaluator {
 
   /// At the last place, with derivatives.
   const Orbit& orbit();
+  /// Largest |response| there, m.
+  double amplitude() const { return orbit_.amplitude; }
   /// From there over the period, with events, energies and shares of stick.
   EventDrivenMotion motion() { return integrator_->integrate(unstacked_start(), 0, equation().period()); }
   const EquationOfMotion& equation() const { return integrator_->equation(); }
