@@ -3,6 +3,8 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/stiffness_apart.hpp>
 #include <arcslip/observables/phase_resonance.hpp>
+#include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/study_branches.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +66,33 @@ void speak_of_scene(const model::Model& model, const Vector& p, continuation::Br
   if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
   branch.stop.message += causes(model, p);
   branch.stop.message += held_by_friction(model, p);
+}
+
+void tell_end(const continuation::BranchStop& stop, double from, double upper, scene::FrequencyUnit unit,
+              ResponseBranch& result) {
+  using continuation::StopReason;
+  const auto with_unit = [&](double omega) { return frequency_text(omega, unit); };
+  const double per_unit = scene::to_rad_per_s(unit);
+  result.status = status_of(stop.reason);
+  result.stop = {reason_of(stop.reason), stop.value, stop.limit, stop.message};
+  if (stop.reason == StopReason::start_failed) {
+    result.stop.value = from / per_unit;
+    result.stop.limit = 0;
+    result.stop.message = "no periodic response was found at " + with_unit(from) + ": " + stop.message;
+  } else if (stop.reason == StopReason::boundary) {
+    result.stop.value = stop.value / per_unit;
+    result.stop.limit = upper / per_unit;
+    if (stop.value == upper) {
+      result.stop.message = "reached the end of the window at " + with_unit(upper);
+      return;
+    }
+    result.status = Status::stopped;
+    double highest = from;
+    for (const auto& point : result.points) highest = std::max(highest, point.omega);
+    for (const auto& event : result.events) highest = std::max(highest, event.point.omega);
+    result.stop.message = "turned back at " + with_unit(highest) + " and left the window at its lower end, " +
+                          with_unit(stop.value) + ": no response above that frequency was traced";
+  }
 }
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,

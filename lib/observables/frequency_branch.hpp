@@ -50,6 +50,11 @@ std::string doubt_of_rounding(const model::Model& model, const continuation::Vec
 /// scenes.
 void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Branch& branch);
 
+/// The status and stop of a branch over the frequency from omega = `from` on, in the unit of the scene, once
+/// its points and events are there. upper: of the window, rad/s.
+void tell_end(const continuation::BranchStop& stop, double from, double upper, scene::FrequencyUnit unit,
+              ResponseBranch& result);
+
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
 

@@ -3,6 +3,7 @@
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/shooting_response.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
@@ -128,32 +129,14 @@ class Sweep {
       end_unbounded(result, growth, course);
       return;
     }
-    result.status = status_of(branch.stop.reason);
-    result.stop = {reason_of(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
-    if (branch.stop.reason == StopReason::start_failed) {
-      result.stop.value = from / unit_;
-      result.stop.limit = 0;
-      result.stop.message =
-          "no periodic response was found at " + with_unit(from) + ": " + branch.stop.message;
-    } else if (branch.stop.reason == StopReason::boundary) {
-      result.stop.value = branch.stop.value / unit_;
-      result.stop.limit = upper_ / unit_;
-      if (branch.stop.value == upper_) {
-        result.doubt = doubt_of_rounding(*model_, hbm::parameters_at(*traced.problem, from), branch.counts);
-        result.stop.message = "reached the end of the window at " + with_unit(upper_) +
-                              (result.doubt.empty() ? "" : "; " + result.doubt);
-      } else {
-        result.status = Status::stopped;
-        double highest = from;
-        for (const auto& point : result.points) highest = std::max(highest, point.omega);
-        for (const auto& event : result.events) highest = std::max(highest, event.point.omega);
-        result.stop.message = "turned back at " + with_unit(highest) +
-                              " and left the window at its lower end, " + with_unit(branch.stop.value) +
-                              ": no response above that frequency was traced";
-      }
-    } else if (!growth.message.empty()) {
+    const bool is_through = branch.stop.reason == StopReason::boundary && branch.stop.value == upper_;
+    if (is_through)
+      result.doubt = doubt_of_rounding(*model_, hbm::parameters_at(*traced.problem, from), branch.counts);
+    tell_end(branch.stop, from, upper_, frequency_unit_, result);
+    if (is_through && !result.doubt.empty()) result.stop.message += "; " + result.doubt;
+    if (result.stop.reason != reasons::boundary && branch.stop.reason != StopReason::start_failed &&
+        !growth.message.empty())
       result.stop.message += "; " + growth.message;
-    }
   }
 
   // The peak at infinity, and the frequency at which the branch is resumed beyond the pole.
@@ -191,6 +174,7 @@ class Sweep {
 
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
                                                const ProgressCallback& progress) {
+  if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, progress)};
   return Sweep(scene, range, progress).run();
 }
 

@@ -18,13 +18,18 @@ using results::ProgressCallback;
 /// one: the branch from the lower end on; all: also those that leave it, and so on (all_branches.hpp).
 enum class Branches { one, all };
 
+/// harmonic_balance: the harmonics of the scene; shooting: exact motions in time, of piecewise linear scenes
+/// (time/shooting_problem.hpp).
+enum class ResponseMethod { harmonic_balance, shooting };
+
 /// Of the excitation, in the scene's unit; from < to.
 struct FrequencyRange {
   double from = 0, to = 0;
   StabilityRequest
       stability{};  // of the points, and their bifurcations; where all branches are asked for, always
   Branches branches = Branches::one;
-  BranchLimits limits{};  // of all branches
+  BranchLimits limits{};                                     // of all branches
+  ResponseMethod method = ResponseMethod::harmonic_balance;  // shooting: for one branch only
   friend bool operator==(const FrequencyRange&, const FrequencyRange&) = default;
 };
 

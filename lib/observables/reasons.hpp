@@ -107,9 +107,10 @@ inline constexpr Reason compared{"compared", "all computations were compared"};
 
 /// The reasons of a branch, or of a curve of peaks or folds.
 inline constexpr std::array of_branches = {
-    boundary,        unbounded, closed,        branch_point,   fold,         corner,
-    resonance,       jump,      point_limit,   user,           start_failed, step_too_small,
-    state_too_large, event,     not_evaluated, monitor_failed, no_mode};
+    boundary,        unbounded,  closed,        branch_point,   fold,         corner,
+    resonance,       jump,       point_limit,   user,           start_failed, step_too_small,
+    state_too_large, event,      not_evaluated, monitor_failed, no_mode,      not_piecewise_linear,
+    massless,        set_valued, loss_factor};
 
 /// The reasons of a response at one frequency.
 inline constexpr std::array of_responses = {solved, unbounded, user, start_failed, not_evaluated};

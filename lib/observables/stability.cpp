@@ -133,47 +133,56 @@ class Places {
 
 }  // namespace
 
-std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer) {
-  const auto monitor = [&](const char* kind, auto value, auto is_event) {
+std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_period,
+                                                      const MultipliersAt& of_half_period) {
+  const auto monitor = [](const char* kind, const MultipliersAt& at, auto value, auto is_event) {
     continuation::Monitor each;
     each.name = kind;
     // 1 where the multipliers are not known.
     each.value = [=](const Accepted& now) {
-      const StabilityAnalysis* found = observer->stability(now);
+      const Multipliers* found = at(now);
       return found ? value(now, *found) : 1.0;
     };
     each.is_event = [=](const Accepted& now) {
-      const StabilityAnalysis* found = observer->stability(now);
+      const Multipliers* found = at(now);
       return found && is_event(now, *found);
     };
     return each;
   };
-  const auto of_all = [&](const char* kind, auto value, auto is_event) {
+  const MultipliersAt of_map = of_half_period ? of_half_period : of_period;
+  const auto of_all = [&](const char* kind, double (*value)(const Multipliers&),
+                          bool (*is_event)(const Multipliers&)) {
     return monitor(
-        kind,
-        [=](const Accepted&, const StabilityAnalysis& found) {
-          return value(of_map(found, observer->problem()));
-        },
-        [=](const Accepted&, const StabilityAnalysis& found) {
-          return is_event(of_map(found, observer->problem()));
-        });
+        kind, of_map, [=](const Accepted&, const Multipliers& all) { return value(all); },
+        [=](const Accepted&, const Multipliers& all) { return is_event(all); });
   };
-  const bool odd = observer->problem().harmonics().odd;
   return {of_all(event_kinds::neimark_sacker, at_unit_modulus, has_pair_on_circle),
           monitor(
-              event_kinds::stability_lost,
-              [](const Accepted& now, const StabilityAnalysis& found) {
-                now.scratch.get<Places>().add(now, found.multipliers());
-                return margin(found.multipliers());
+              event_kinds::stability_lost, of_period,
+              [](const Accepted& now, const Multipliers& all) {
+                now.scratch.get<Places>().add(now, all);
+                return margin(all);
               },
-              [observer](const Accepted& now, const StabilityAnalysis& found) {
-                const Multipliers& all = found.multipliers();
-                return !all.empty() && std::abs(1 - std::abs(all.front())) > jump &&
-                       !now.scratch.get<Places>().is_explained(now.arclength,
-                                                               of_map(found, observer->problem()));
+              [of_map](const Accepted& now, const Multipliers& all) {
+                if (all.empty() || !(std::abs(1 - std::abs(all.front())) > jump)) return false;
+                const Multipliers* map = of_map(now);
+                return !(map && now.scratch.get<Places>().is_explained(now.arclength, *map));
               }),
-          of_all(odd ? event_kinds::symmetry_breaking : event_kinds::period_doubling, beside_minus_one,
-                 has_minus_one)};
+          of_all(of_half_period ? event_kinds::symmetry_breaking : event_kinds::period_doubling,
+                 beside_minus_one, has_minus_one)};
+}
+
+std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer) {
+  const auto multipliers = [&](auto of) -> MultipliersAt {
+    return [=](const Accepted& now) {
+      const StabilityAnalysis* found = observer->stability(now);
+      return found ? &(found->*of)() : nullptr;
+    };
+  };
+  if (!observer->problem().harmonics().odd)
+    return stability_monitors(multipliers(&StabilityAnalysis::multipliers));
+  return stability_monitors(multipliers(&StabilityAnalysis::multipliers),
+                            multipliers(&StabilityAnalysis::half_multipliers));
 }
 
 void set_apart(const std::string& kind, ResponsePoint& point) {

@@ -22,6 +22,7 @@
 #include <arcslip/time/floquet.hpp>
 #include <arcslip/time/hill.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +65,15 @@ const Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem&
 /// At an event of a branch: `unstable` without the multipliers that make it one, which are outside the circle
 /// or not by rounding, and the rotation number of a Neimark-Sacker point.
 void set_apart(const std::string& kind, ResponsePoint& point);
+
+/// The multipliers at a point; null: not known there.
+using MultipliersAt = std::function<const Multipliers*(const continuation::Accepted&)>;
+
+/// Losses of stability of a branch: Neimark-Sacker points, jumps of the largest multiplier across the circle,
+/// and, by the multipliers over half a period where motions are antisymmetric, breaks of symmetry, otherwise
+/// period doublings.
+std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_period,
+                                                      const MultipliersAt& of_half_period = {});
 
 /// Those of the branches that an observer watches (Observer::watch_stability()).
 std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer);

@@ -12,11 +12,27 @@ namespace {
 using observables::Branches;
 using observables::BranchLimits;
 using observables::FrequencyRange;
+using observables::ResponseMethod;
 
 constexpr int most_doublings = 6, most_branches = 10'000, most_searches = 1000;
 
 constexpr std::array<scene::file::Word<Branches>, 2> branch_words = {
     {{"one", Branches::one}, {"all", Branches::all}}};
+
+constexpr std::array<scene::file::Word<ResponseMethod>, 2> method_words = {
+    {{"harmonic_balance", ResponseMethod::harmonic_balance}, {"shooting", ResponseMethod::shooting}}};
+
+// Shooting follows one branch, and its multipliers are those of its own map.
+void check_shooting(const scene::file::Reading& reading, FrequencyRange& range) {
+  if (range.method != ResponseMethod::shooting) return;
+  if (range.branches == Branches::all)
+    reading.faults.add(reading.keys.find("branches").pointer,
+                       "found \"all\" beside the method \"shooting\", which follows one branch");
+  if (range.stability.by_hill)
+    reading.faults.add(reading.keys.find("stability").pointer,
+                       "found \"hill\" beside the method \"shooting\", whose multipliers are exact: must be "
+                       "true or false");
+}
 
 /// A limit of all branches; without them it is not written.
 scene::file::KeyGroup<FrequencyRange> limit(scene::file::KeyGroup<BranchLimits> of) {
@@ -31,6 +47,9 @@ scene::file::KeyGroup<FrequencyRange> limit(scene::file::KeyGroup<BranchLimits> 
 scene::file::KeysOf<FrequencyRange> keys() {
   scene::file::KeysOf<FrequencyRange> keys;
   keys.add(scene::file::frequency_range(&FrequencyRange::from, &FrequencyRange::to));
+  keys.add(scene::file::word("method", &FrequencyRange::method, method_words,
+                             "harmonic balance, or the exact motions in time by shooting, of scenes that are "
+                             "piecewise linear and have no degree of freedom without mass"));
   add_stability_keys(keys, stability_help);
   keys.add(
       scene::file::word("branches", &FrequencyRange::branches, branch_words,
@@ -44,6 +63,7 @@ scene::file::KeysOf<FrequencyRange> keys() {
   keys.add(limit(scene::file::whole("searches", &BranchLimits::searches, 0, most_searches,
                                     "with all branches: at how many frequencies between the first and the "
                                     "last one branches that no other reaches are looked for")));
+  keys.check(check_shooting);
   return keys;
 }
 

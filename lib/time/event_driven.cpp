@@ -1,7 +1,7 @@
 #include <arcslip/time/event_driven.hpp>
 
+#include <arcslip/time/extremes.hpp>
 #include <arcslip/time/march.hpp>
-#include <arcslip/time/polynomial.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,57 +17,6 @@ double elastic_and_kinetic(const EquationOfMotion& equation, const MotionState& 
                                   state.z.segment(element.memory, element.law->memory()));
   return energy;
 }
-
-double sum(Coefficients c) {
-  double sum = 0;
-  for (double term : c) sum += std::abs(term);
-  return sum;
-}
-
-// Visits the extremes of d . x on the piece, its ends included, unless none of them can leave [lower, upper].
-class Extremes {
- public:
-  template <class Visit>
-  void visit(const LinearMotion& piece, const Vector& d, double s_end, double lower, double upper,
-             Visit&& visit_extreme) {
-    piece.displacement(d, series_);
-    visit_series(s_end, lower, upper, visit_extreme);
-  }
-  // Those of the observed displacement.
-  template <class Visit>
-  void visit_observed(const LinearMotion& piece, double s_end, double lower, double upper,
-                      Visit&& visit_extreme) {
-    piece.observed(series_, velocity_);
-    visit_series(s_end, lower, upper, visit_extreme);
-  }
-
- private:
-  template <class Visit>
-  void visit_series(double s_end, double lower, double upper, Visit&& visit) {
-    const double swing = sum(Coefficients(series_).subspan(1));
-    if (series_[0] - swing > lower && series_[0] + swing < upper) return;
-    visit(0.0, series_[0]);
-    slope_.resize(series_.size() - 1);
-    for (std::size_t k = 1; k < series_.size(); ++k) slope_[k - 1] = static_cast<double>(k) * series_[k];
-    sign_changes(slope_, roots_);
-    for (double s : roots_)
-      if (s < s_end) visit(s, value(series_, s));
-    visit(s_end, value(series_, s_end));
-  }
-
-  LinearMotion::Series series_{}, velocity_{};
-  std::vector<double> slope_, roots_;
-};
-
-// The bounds of a slider over the period, and where it went.
-struct Range {
-  bool up = false, down = false;
-  double high = -INFINITY, low = INFINITY;  // of the lower and of the upper bound
-  Eigen::RowVectorXd dhigh, dlow;
-
-  // A slipping slider must slip back in a periodic motion: one that does not counts as sticking for shooting.
-  bool resting() const { return !(up && down); }
-};
 
 class Recorder {
  public:
@@ -227,52 +176,13 @@ EventDriven::~EventDriven() = default;
 
 EventDrivenMotion EventDriven::integrate(const MotionState& start, double from, double to,
                                          std::span<const double> instants) {
-  march_->begin(start, from, false);
+  march_->begin(start, from, Columns::motion);
   Recorder recorder(equation_, *march_, instants);
   while (march_->find(to)) {
     recorder.piece();
     march_->finish();
   }
   return recorder.finish();
-}
-
-PeriodMap EventDriven::map(const MotionState& start, double to) {
-  march_->begin(start, 0, true);
-  const auto& contacts = march_->contacts();
-  std::vector<Range> ranges(contacts.size());
-  Extremes extremes;
-  PeriodMap map;
-  while (march_->find(to)) {
-    map.size = std::max(map.size, march_->size());
-    const LinearMotion& piece = march_->piece();
-    for (std::size_t i = 0; i < contacts.size() && march_->s() > 0; ++i) {
-      if (contacts[i].slider < 0) continue;
-      Range& range = ranges[i];
-      if (contacts[i].follows()) {
-        range.up = range.up || contacts[i].mode().way >= 0;
-        range.down = range.down || contacts[i].mode().way <= 0;
-      }
-      if (!range.resting()) continue;
-      const Vector &lower = contacts[i].lower, &upper = contacts[i].upper;
-      extremes.visit(piece, lower, march_->s(), -INFINITY, range.high, [&](double s, double bound) {
-        if (bound > range.high) range.high = bound, range.dhigh = piece.along(lower, s);
-      });
-      extremes.visit(piece, upper, march_->s(), range.low, INFINITY, [&](double s, double bound) {
-        if (bound < range.low) range.low = bound, range.dlow = piece.along(upper, s);
-      });
-    }
-    march_->finish();
-  }
-  map.done = march_->reason() == EndReason::reached;
-  if (!map.done) map.message = march_->message();
-  map.end = march_->state();
-  map.monodromy = march_->monodromy();
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (ranges[i].resting() && ranges[i].dhigh.size() > 0)
-      map.resting.push_back(resting_slider(contacts[i].memory, contacts[i].room, ranges[i].high,
-                                           ranges[i].dhigh.tail(map.monodromy.cols()), ranges[i].low,
-                                           ranges[i].dlow.tail(map.monodromy.cols())));
-  return map;
 }
 
 }  // namespace arcslip::time

@@ -23,6 +23,7 @@
 #include <arcslip/time/period_map.hpp>
 #include <arcslip/time/time_history.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -87,6 +88,15 @@ struct EventDrivenMotion {
   TimeHistory history;        // at the requested instants
 };
 
+/// One period of the motion from a state at t = 0, for branches over omega.
+struct Orbit {
+  PeriodMap map;
+  Vector by_omega;           // d end/domega, of resting sliders that of the offset; empty if not requested
+  std::uint64_t phases = 0;  // of contact: equal numbers where each contact goes through the same ones
+  double amplitude = 0;      // max |response|, m
+  Eigen::RowVectorXd amplitude_by;  // its derivative by (x, x', z) of the start and by omega, if requested
+};
+
 class March;
 
 /// For one equation of motion; keeps its factors and buffers.
@@ -105,6 +115,9 @@ class EventDriven {
 
   /// From 0 to `to`, with derivatives, for shooting.
   PeriodMap map(const MotionState& start, double to);
+
+  /// Over equation().period(), which moves with omega. derivatives: with those, and the monodromy matrix.
+  Orbit orbit(const MotionState& start, bool derivatives);
 
  private:
   const EquationOfMotion equation_;

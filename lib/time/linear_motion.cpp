@@ -96,6 +96,7 @@ LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> p
   V_.resize(order + 1);
   force_.setZero(n, order + 1);
   acceleration_.setZero(n, order + 1);
+  by_omega_.setZero(n, order + 1);
   hilbert_ = Matrix::NullaryExpr(order + 1, order + 1, [](Eigen::Index i, Eigen::Index j) {
     return 1.0 / static_cast<double>(i + j + 1);
   });
@@ -124,10 +125,28 @@ void LinearMotion::expand_force(double t, double h) {
   mass_.solve_in_place(acceleration_);
 }
 
-void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g) {
+void LinearMotion::expand_force_by_omega(double t, double h) {
+  by_omega_.setZero();
+  for (const HarmonicForce& part : equation_.forces) {
+    const double rate = part.harmonic * equation_.omega;
+    std::complex<double> before,
+        c = std::complex<double>(part.cosine, -part.sine) * std::polar(1.0, rate * t);
+    for (int k = 0; k <= order; ++k) {
+      by_omega_.col(k) -= part.harmonic * (t * c.imag() + h * before.imag()) * part.direction;
+      if (part.by_omega.size() > 0) by_omega_.col(k) += c.real() * part.by_omega;
+      before = c;
+      c *= std::complex<double>(0, rate * h / (k + 1));
+    }
+  }
+  mass_.solve_in_place(by_omega_);
+}
+
+void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g,
+                          bool by_omega) {
   t_ = t;
   h_ = h;
   expand_force(t, h);
+  if (by_omega) expand_force_by_omega(t, h);
   X_[0] = X;
   V_[0] = V;
   for (std::size_t k = 0; k < order; ++k) {
@@ -137,6 +156,7 @@ void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, 
     next.noalias() = -stiffness_ * X_[k];
     next.noalias() -= damping_ * V_[k];
     next.col(0) += acceleration_.col(static_cast<Eigen::Index>(k));
+    if (by_omega) next.rightCols(1) += by_omega_.col(static_cast<Eigen::Index>(k));
     if (k == 0) {
       Eigen::Index row = 0;
       for (const Matrix& D : over_mass_) {
@@ -155,6 +175,12 @@ void LinearMotion::at(double s, Matrix& X, Matrix& V) const {
     X = s * X + X_[k];
     V = s * V + V_[k];
   }
+}
+
+Vector LinearMotion::acceleration(double s) const {
+  Vector a = order * V_[order].col(0);
+  for (std::size_t k = order - 1; k > 0; --k) a = s * a + static_cast<double>(k) * V_[k].col(0);
+  return a / h_;
 }
 
 Eigen::RowVectorXd LinearMotion::along(const Vector& d, double s) const {

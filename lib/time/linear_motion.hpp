@@ -10,7 +10,10 @@
 // least like 1/k!, so that `order` of them leave less than 1e-18 of the motion, whether it is damped,
 // undamped, free of springs or in resonance: there is neither a particular solution nor a matrix exponential.
 //
-// Several columns run together: the first is the motion, the others, without the force, its variations.
+// Several columns run together: the first is the motion, the others, without the force, its variations. The
+// last one may be that with omega, at a fixed t, which the derivative of the force drives:
+//
+//   d/domega (c cos n omega t + s sin n omega t) = n t (s cos n omega t - c sin n omega t)
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
@@ -41,11 +44,13 @@ class LinearMotion {
   void set_stiffness(std::size_t a, const Matrix& stiffness);
 
   /// The series from t over h <= longest(). X, V: dofs x columns; g: a row for each direction of each
-  /// automaton, N.
-  void expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g);
+  /// automaton, N. by_omega: the last column is the variation with omega.
+  void expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g, bool by_omega = false);
 
   /// X and V at s.
   void at(double s, Matrix& X, Matrix& V) const;
+  /// x'' of the motion at s.
+  Vector acceleration(double s) const;
   /// d . x in all columns at s.
   Eigen::RowVectorXd along(const Vector& d, double s) const;
 
@@ -65,6 +70,7 @@ class LinearMotion {
 
  private:
   void expand_force(double t, double h);
+  void expand_force_by_omega(double t, double h);
 
   const EquationOfMotion& equation_;
   continuation::Cholesky mass_;
@@ -75,6 +81,7 @@ class LinearMotion {
   double longest_ = 0, t_ = 0, h_ = 0;
   std::vector<Matrix> X_, V_;    // order + 1
   Matrix force_, acceleration_;  // dofs x (order + 1): f_k, M^-1 f_k
+  Matrix by_omega_;              // the same: M^-1 df_k/domega
   Matrix hilbert_;               // 1/(i + j + 1)
 };
 

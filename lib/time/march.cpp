@@ -64,9 +64,11 @@ March::March(const EquationOfMotion& equation, const EventLimits& limits)
   velocity_.resize(most);
 }
 
-void March::begin(const MotionState& start, double time, bool derivatives) {
+void March::begin(const MotionState& start, double time, Columns carried) {
   const Eigen::Index n = equation_.dofs(), memory = equation_.memory;
-  const Eigen::Index columns = derivatives ? 1 + 2 * n + memory : 1;
+  const bool derivatives = carried != Columns::motion;
+  with_omega_ = carried == Columns::start_and_omega;
+  const Eigen::Index columns = derivatives ? 1 + 2 * n + memory + (with_omega_ ? 1 : 0) : 1;
   X_.setZero(n, columns);
   V_.setZero(n, columns);
   Z_.setZero(memory, columns);
@@ -76,7 +78,7 @@ void March::begin(const MotionState& start, double time, bool derivatives) {
   if (derivatives) {
     X_.middleCols(1, n).setIdentity();
     V_.middleCols(1 + n, n).setIdentity();
-    Z_.rightCols(memory).setIdentity();
+    Z_.middleCols(1 + 2 * n, memory).setIdentity();
   }
   for (const TimeElement& element : equation_.elements) {
     const int own = element.law->memory();
@@ -116,7 +118,7 @@ bool March::find(double to) {
   if (reason_ != EndReason::reached) return false;
   end_ = std::min(t_ + linear_.longest(), to);
   h_ = end_ - t_;  // of the rounded time, or the force would lead or lag by more with every piece
-  linear_.expand(t_, h_, X_, V_, g_);
+  linear_.expand(t_, h_, X_, V_, g_, with_omega_);
   locate();
   return true;
 }
@@ -226,14 +228,26 @@ double March::size() const {
 Matrix March::monodromy() const {
   const Eigen::Index n = X_.rows(), memory = Z_.rows();
   Matrix M(2 * n + memory, 2 * n + memory);
-  M.topRows(n) = X_.rightCols(M.cols());
-  M.middleRows(n, n) = V_.rightCols(M.cols());
-  M.bottomRows(memory) = Z_.rightCols(M.cols());
+  M.topRows(n) = X_.middleCols(1, M.cols());
+  M.middleRows(n, n) = V_.middleCols(1, M.cols());
+  M.bottomRows(memory) = Z_.middleCols(1, M.cols());
   for (const Contact& contact : contacts_)
     if (contact.follows())
       M.row(2 * n + contact.memory) =
-          contact.mode().z_q * (contact.directions.transpose() * X_.rightCols(M.cols()));
+          contact.mode().z_q * (contact.directions.transpose() * X_.middleCols(1, M.cols()));
   return M;
+}
+
+Vector March::by_omega(double rate) const {
+  const Eigen::Index n = X_.rows(), memory = Z_.rows(), last = X_.cols() - 1;
+  Vector end(2 * n + memory);
+  end.head(n) = X_.col(last) + rate * V_.col(0);
+  end.segment(n, n) = V_.col(last) + rate * linear_.acceleration(s_);
+  end.tail(memory) = Z_.col(last);
+  for (const Contact& contact : contacts_)
+    if (contact.follows())
+      end[2 * n + contact.memory] = contact.mode().z_q.dot(contact.directions.transpose() * end.head(n));
+  return end;
 }
 
 std::string March::message() const {

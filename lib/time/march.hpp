@@ -27,12 +27,14 @@ struct Contact {
   bool follows() const { return memory >= 0 && !mode().rests; }
 };
 
+/// What a march carries: the motion; its change with x, x' and z of the start; and that with omega.
+enum class Columns { motion, start, start_and_omega };
+
 class March {
  public:
   March(const EquationOfMotion& equation, const EventLimits& limits);
 
-  /// derivatives: columns for the change with x, x' and z of the start as well.
-  void begin(const MotionState& start, double time, bool derivatives);
+  void begin(const MotionState& start, double time, Columns columns);
 
   /// Finds the next piece, from time() over s() * h(), at most to `to`. False where the march has to end:
   /// reason().
@@ -48,10 +50,15 @@ class March {
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// The event at the end of the piece; none: nullptr. Modes found at the start are no event.
   const ContactEvent* event() const { return event_ && recorded_ ? &*event_ : nullptr; }
+  /// Of this event: the index of the contact, and that of the mode which it goes to.
+  std::size_t switching() const { return switching_; }
+  int next_mode() const { return leaving_->to; }
 
   MotionState state() const;
   double size() const;       // |(x, x'/omega)|
   Matrix monodromy() const;  // 2 dofs + memory
+  /// d(x, x', z)/d omega where the march ended, at an instant that moves by `rate` with omega.
+  Vector by_omega(double rate) const;
   /// z, and f along the first direction, where the element is at q.
   double memory(const Contact& contact, const Vector& q) const;
   double force(const Contact& contact, const Vector& q) const;
@@ -70,6 +77,7 @@ class March {
   LinearMotion linear_;
   Matrix X_, V_, Z_, g_;  // dofs, dofs, memory, directions; times columns
   Eigen::RowVectorXd change_;
+  bool with_omega_ = false;
   double t_ = 0, from_ = 0, h_ = 0, s_ = 0, end_ = 0;
   std::optional<ContactEvent> event_;
   std::size_t switching_ = 0;

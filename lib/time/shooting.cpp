@@ -1,6 +1,7 @@
 #include <arcslip/time/shooting.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/time/periodicity.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +15,6 @@ constexpr double neutral = 1e-10;  // |multiplier| above 1 by less is rounding
 constexpr double at_rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double singular = 64 * std::numeric_limits<double>::epsilon();
 constexpr double least_step = 1.0 / 32;
-
-Vector stacked(const MotionState& state) {
-  Vector y(state.x.size() + state.v.size() + state.z.size());
-  y << state.x, state.v, state.z;
-  return y;
-}
-
-MotionState unstacked(const Vector& y, Eigen::Index n) {
-  return {y.head(n), y.segment(n, n), y.tail(y.size() - 2 * n)};
-}
 
 class Shooting {
  public:
@@ -68,9 +59,7 @@ class Shooting {
       result_.map = map;
       return false;
     }
-    defect = stacked(map.end) - y;
-    for (const RestingSlider& slider : map.resting)
-      defect[2 * n_ + slider.slider] = slider.offset - y[2 * n_ + slider.slider];
+    defect_of(map, y, defect);
     return true;
   }
 
@@ -85,11 +74,9 @@ class Shooting {
   // The minimum-norm solution if I - M is singular to rounding of M: an unsupported structure has a motion at
   // every position, an undamped one in resonance has none, and part of the defect remains.
   Vector newton_step() {
-    Matrix J = -result_.map.monodromy;
-    for (const RestingSlider& slider : result_.map.resting)
-      J.row(2 * n_ + slider.slider) = -slider.derivative;
-    J.diagonal().array() += 1;
-    J = scale_.cwiseInverse().asDiagonal() * J * scale_.asDiagonal();
+    Matrix J;
+    defect_by_start(result_.map, J);
+    J = -(scale_.cwiseInverse().asDiagonal() * J * scale_.asDiagonal());
     const Vector defect = defect_.cwiseQuotient(scale_);
     const double smallest = singular * std::max(1.0, (Matrix::Identity(J.rows(), J.cols()) - J).norm());
     const double largest = J.colwise().norm().maxCoeff();
@@ -143,16 +130,7 @@ class Shooting {
   }
 
   void multipliers() {
-    const Matrix& M = result_.map.monodromy;
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index i = 0; i < M.rows(); ++i)
-      if (std::none_of(result_.map.resting.begin(), result_.map.resting.end(),
-                       [&](const RestingSlider& slider) { return 2 * n_ + slider.slider == i; }))
-        kept.push_back(i);
-    const Eigen::VectorXcd values = continuation::eigenvalues(M(kept, kept));
-    result_.multipliers.assign(values.begin(), values.end());
-    std::sort(result_.multipliers.begin(), result_.multipliers.end(),
-              [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+    result_.multipliers = multipliers_of(result_.map);
     result_.stable = result_.multipliers.empty() || std::abs(result_.multipliers.front()) < 1 - neutral;
   }
 

@@ -37,6 +37,19 @@ void add_studies(std::vector<BadScene>& rows) {
                   "/studies/1/name", "found the name \"x\" again, which is also at /studies/0/name"});
   rows.push_back({"no from", with_study("{\"kind\": \"frf\", \"to\": 2}"), "/studies/0/from",
                   "found no key \"from\", which is required: must be above 0 Hz"});
+  rows.push_back({"method of a frequency response that there is not",
+                  with_study("{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"method\": \"shoot\"}"),
+                  "/studies/0/method", "must be one of \"harmonic_balance\", \"shooting\""});
+  rows.push_back({"all branches by shooting",
+                  with_study("{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"method\": \"shooting\", "
+                             "\"branches\": \"all\"}"),
+                  "/studies/0/branches",
+                  "found \"all\" beside the method \"shooting\", which follows one branch"});
+  rows.push_back({"Hill's method by shooting",
+                  with_study("{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"method\": \"shooting\", "
+                             "\"stability\": \"hill\"}"),
+                  "/studies/0/stability",
+                  "found \"hill\" beside the method \"shooting\", whose multipliers are exact"});
   rows.push_back(
       {"no to", with_study("{\"kind\": \"frf\", \"from\": 2}"), "/studies/0/to", "found no key \"to\""});
   rows.push_back({"from of zero", with_study("{\"kind\": \"frf\", \"from\": 0, \"to\": 2}"),
@@ -193,8 +206,8 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "\"bifurcations\", "
       "\"optimum\", must be one "
       "of "
-      "\"name\", \"kind\", \"from\", \"to\", \"stability\", \"multipliers\", \"branches\", \"doublings\", "
-      "\"most_branches\", \"searches\", \"for_each\"");
+      "\"name\", \"kind\", \"from\", \"to\", \"method\", \"stability\", \"multipliers\", \"branches\", "
+      "\"doublings\", \"most_branches\", \"searches\", \"for_each\"");
   add("misspelt key of a study over a parameter", kind + over + range + window + ", \"frequencies\": 1",
       "frequencies", "did you mean \"frequency\"?");
 

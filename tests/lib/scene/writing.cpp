@@ -125,7 +125,8 @@ TEST_CASE("a scene is written with every default, in the order of the format") {
   "harmonics": {"order": 7, "period": 1, "friction": "exact", "samples": 512},
   "response": {"at": "a", "frame": "relative"},
   "studies": [
-    {"name": "frf", "kind": "frf", "from": 1, "to": 2, "stability": false, "branches": "one",
+    {"name": "frf", "kind": "frf", "from": 1, "to": 2, "method": "harmonic_balance",
+     "stability": false, "branches": "one",
      "for_each": {"d.normal_load": [1, 2]}}
   ]
 }

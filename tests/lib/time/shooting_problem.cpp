@@ -1,0 +1,109 @@
+// Derivatives of the equations of shooting, by differences.
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/continuation/problem/jacobian_check.hpp>
+#include <arcslip/time/from_harmonics.hpp>
+#include <arcslip/time/periodicity.hpp>
+#include <arcslip/time/shooting_problem.hpp>
+
+#include <memory>
+
+using namespace arcslip;
+using continuation::Needs;
+using continuation::Vector;
+
+namespace {
+
+// Beside a periodic motion, so that no term of the residual vanishes.
+struct Place {
+  std::shared_ptr<const time::ShootingProblem> problem;
+  Vector X, p;
+};
+
+Place place(const scene::Scene& s, double omega, double beside = 1e-3) {
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const hbm::HbmProblem unscaled(model, model->harmonics, 1, omega);
+  const Vector of_series = hbm::parameters_at(unscaled, omega);
+  const auto series =
+      std::make_shared<const hbm::HbmProblem>(unscaled, hbm::linear_response(unscaled, of_series).norm());
+  const auto u = hbm::steady_state(series, of_series);
+  REQUIRE(u);
+  Place found;
+  found.X = time::stacked(time::state_of(*series, *u, of_series));
+  found.p = of_series.head(of_series.size() - 1);
+  const double size = found.X.head(model->dofs).norm();
+  found.problem = std::make_shared<const time::ShootingProblem>(model, size, omega, omega);
+  const Vector scales = found.problem->scales();
+  for (Eigen::Index i = 0; i < found.X.size(); ++i)
+    found.X[i] += beside * scales[i] * std::cos(1.0 + static_cast<double>(i));
+  return found;
+}
+
+void check_derivatives(const scene::Scene& s, double omega) {
+  const Place at = place(s, omega);
+  const auto wrong = continuation::check_jacobian(*at.problem, at.X, at.p);
+  CAPTURE(wrong.message, wrong.row, wrong.column, wrong.given, wrong.difference);
+  CHECK(wrong.relative < 1e-6);  // of differences; columns have entries in m and in m/s
+
+  // Of the amplitude.
+  time::ShootingEvaluator here(*at.problem), beside(*at.problem);
+  REQUIRE(here.move_to(at.X, at.p, Needs::jacobian) == continuation::Evaluated::ok);
+  const Eigen::RowVectorXd by = here.orbit().amplitude_by;
+  const Vector scales = at.problem->scales();
+  const double base = here.equation().omega / at.p[model::frequency];
+  for (Eigen::Index i = 0; i <= at.X.size(); ++i) {
+    const bool is_omega = i == at.X.size();
+    const double scale = is_omega ? omega : scales[i], h = 1e-5 * scale;
+    double A[2];
+    for (const int side : {0, 1}) {
+      Vector X = at.X, p = at.p;
+      (is_omega ? p[model::frequency] : X[i]) += side == 0 ? -h : h;
+      REQUIRE(beside.move_to(X, p, Needs::residual) == continuation::Evaluated::ok);
+      A[side] = beside.amplitude();
+    }
+    const double given = is_omega ? base * by[i] : by[i];
+    CAPTURE(i);
+    CHECK(std::abs(given - (A[1] - A[0]) / (2 * h)) < 1e-7 * at.problem->displacement() / scale);
+  }
+}
+
+std::string two_dampers(const std::string& excitation) {
+  return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["a", "b"],
+      "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 0.6}],
+      "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 0.8}],
+      "dampers": [{"name": "ca", "at": "a", "value": 0.05}, {"name": "cab", "between": ["a", "b"], "value": 0.02}]},
+    "elements": [
+      {"name": "d1", "type": "jenkins", "at": "a", "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": 0.9},
+      {"name": "d2", "type": "jenkins", "between": ["a", "b"], "stiffness": 0.3, "friction_coefficient": 0.5,
+       "normal_load": 0.5},
+      {"name": "stop", "type": "gap_spring", "at": "b", "stiffness": 3, "gap": 0.8}],
+    "excitation": [)" +
+         excitation + R"(], "harmonics": {"order": 15}, "response": {"at": "b"}})";
+}
+
+}  // namespace
+
+TEST_CASE("derivatives of shooting are those of differences, by the state and by every parameter") {
+  check_derivatives(scenes::paper(15), 20 * scenes::hertz);       // slips
+  check_derivatives(scenes::paper(15, 300), 20 * scenes::hertz);  // sticks throughout
+  const auto s = scenes::parse(two_dampers(
+      R"({"name": "f", "at": "b", "cosine": 1, "sine": 0.3}, {"name": "g", "at": "a", "harmonic": 2,
+                      "cosine": 0.2, "sine": 0.1})"));
+  for (const double omega : {0.5, 0.9, 1.6}) check_derivatives(s, omega);
+}
+
+TEST_CASE("derivatives of shooting with a period of two of the excitation") {
+  auto s = scenes::parse(two_dampers(R"({"name": "f", "at": "b", "cosine": 1, "sine": 0.3})"));
+  s.harmonics.period = 2;
+  check_derivatives(s, 1.1);
+}
+
+TEST_CASE("derivatives of shooting where the ground moves, whose forces depend on the frequency") {
+  const auto s = scenes::parse(two_dampers(
+      R"({"name": "u", "type": "base_displacement", "cosine": 0.8, "sine": 0.4},
+         {"name": "g", "type": "base_acceleration", "harmonic": 2, "cosine": 0.2, "sine": 0.1})"));
+  for (const double omega : {0.6, 1.3}) check_derivatives(s, omega);
+}
