@@ -75,6 +75,7 @@ class Phases {
     if (!march_.event()) return;
     Course& course = courses_[march_.switching()];
     const int mode = march_.next_mode();
+    course.whole = joined(course.whole, mode);
     if (course.first < 0)
       course.first = mode;
     else
@@ -87,8 +88,7 @@ class Phases {
       const Course& course = courses_[i];
       const int last = march_.contacts()[i].now;
       all = joined(all, last);
-      if (course.first >= 0 && course.first != last) all = joined(all, course.first);
-      all = joined(all, course.rest);
+      all = joined(all, course.first == last ? course.rest : course.whole);
     }
     for (const RestingSlider& slider : resting) all = joined(joined(all, slider.slider), way(slider));
     return all;
@@ -110,8 +110,9 @@ class Phases {
   }
 
   struct Course {
-    int first = -1;              // mode after the first event; -1: none
-    std::uint64_t rest = basis;  // those after it
+    int first = -1;               // mode after the first event; -1: none
+    std::uint64_t whole = basis;  // of all of them
+    std::uint64_t rest = basis;   // those without it
   };
   const March& march_;
   std::vector<Course> courses_;

@@ -6,6 +6,7 @@
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/time/from_harmonics.hpp>
 #include <arcslip/time/periodicity.hpp>
+#include <arcslip/time/shooting.hpp>
 #include <arcslip/time/shooting_problem.hpp>
 
 #include <memory>
@@ -69,7 +70,7 @@ void check_derivatives(const scene::Scene& s, double omega) {
   }
 }
 
-std::string two_dampers(const std::string& excitation) {
+std::string two_dampers(const std::string& excitation, const std::string& frame = "relative") {
   return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["a", "b"],
       "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 0.6}],
@@ -81,7 +82,8 @@ std::string two_dampers(const std::string& excitation) {
        "normal_load": 0.5},
       {"name": "stop", "type": "gap_spring", "at": "b", "stiffness": 3, "gap": 0.8}],
     "excitation": [)" +
-         excitation + R"(], "harmonics": {"order": 15}, "response": {"at": "b"}})";
+         excitation + R"(], "harmonics": {"order": 15}, "response": {"at": "b", "frame": ")" + frame +
+         R"("}})";
 }
 
 }  // namespace
@@ -102,8 +104,34 @@ TEST_CASE("derivatives of shooting with a period of two of the excitation") {
 }
 
 TEST_CASE("derivatives of shooting where the ground moves, whose forces depend on the frequency") {
-  const auto s = scenes::parse(two_dampers(
-      R"({"name": "u", "type": "base_displacement", "cosine": 0.8, "sine": 0.4},
-         {"name": "g", "type": "base_acceleration", "harmonic": 2, "cosine": 0.2, "sine": 0.1})"));
+  const auto s =
+      scenes::parse(two_dampers(R"({"name": "u", "type": "base_displacement", "cosine": 0.8, "sine": 0.4},
+                     {"name": "g", "type": "base_acceleration", "harmonic": 2, "cosine": 0.2, "sine": 0.1})",
+                                "absolute"));
   for (const double omega : {0.6, 1.3}) check_derivatives(s, omega);
+}
+
+TEST_CASE("a slider at its limit to rounding where the period begins leaves the piece as it is") {
+  const double omega = 20 * scenes::hertz;
+  const auto s = scenes::paper(15);
+  const Place at = place(s, omega, 0);
+  time::EventDriven integrator(time::equation_of_motion(at.problem->model(), at.p));
+  const auto motion = time::periodic_motion(integrator, time::unstacked(at.X, 1), {.transients = 0});
+  REQUIRE(motion.converged());
+  REQUIRE(motion.period.events.front().from.starts_with("slip"));
+  time::ShootingEvaluator evaluator(*at.problem);
+  const auto piece = [&](double share, const Vector& p) {
+    Vector X = time::stacked(motion.shooting.start);
+    X[2] += share * at.problem->displacement();
+    REQUIRE(evaluator.move_to(X, p, Needs::residual) == continuation::Evaluated::ok);
+    return evaluator.piece();
+  };
+  const auto here = piece(0, at.p);
+  for (const double share : {1e-8, -1e-8, 1e-12, -1e-12}) CHECK(piece(share, at.p) == here);
+  REQUIRE(evaluator.move_to(time::stacked(motion.shooting.start), at.p, Needs::jacobian) ==
+          continuation::Evaluated::ok);
+  CHECK(evaluator.piece() == here);
+  Vector stuck = at.p;
+  stuck[model::parameter_index(at.problem->model(), "damper.normal_load")] = 3000;
+  CHECK(piece(0, stuck) != here);
 }
