@@ -206,7 +206,8 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "\"bifurcations\", "
       "\"optimum\", must be one "
       "of "
-      "\"name\", \"kind\", \"from\", \"to\", \"method\", \"stability\", \"branches\", \"doublings\", "
+      "\"name\", \"kind\", \"from\", \"to\", \"method\", \"stability\", \"multipliers\", \"branches\", "
+      "\"doublings\", "
       "\"most_branches\", "
       "\"searches\", \"for_each\"");
   add("misspelt key of a study over a parameter", kind + over + range + window + ", \"frequencies\": 1",
