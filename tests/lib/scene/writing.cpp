@@ -139,7 +139,7 @@ TEST_CASE("a study over a parameter is written with its parameter and its freque
       {R"({"name": "trace", "kind": "trace", "over": "n.stiffness", "from": -2, "to": 3, "frequency": 0.1,)",
        R"("for_each": {"load": [1, 2]}})",
        R"({"name": "peaks", "kind": "peaks", "over": "load", "from": 0, "to": 1e+300,)",
-       R"("frequency": [0.1, 0.3333333333333333], "stability": false, "multipliers": 0, "for_each": {}})",
+       R"("frequency": [0.1, 0.3333333333333333], "stability": false, "multipliers": 0, "resonance": "amplitude",)",
        R"({"name": "turns", "kind": "folds", "over": "d1.friction_coefficient", "from": 0.1, "to": 0.5,)",
        R"("frequency": [1e-300, 3], "stability": false, "multipliers": 0, "for_each": {}})",
        R"({"name": "time", "kind": "time", "frequency": 0.7, "method": "newmark", "steps": 1000, "periods": 10000,)",
