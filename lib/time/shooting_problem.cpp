@@ -58,7 +58,7 @@ Evaluated ShootingEvaluator::move_to(In X, In p, Needs needs) {
   set_parameters(p);
   X_ = X;
   orbit_ = integrator_->orbit(unstacked_start(), needs == Needs::jacobian);
-  if (!orbit_.map.done) return Evaluated::failed;
+  if (!orbit_.map.done) throw std::runtime_error(orbit_.map.message);
   defect_of(orbit_.map, X, F_);
   if (needs == Needs::residual) return Evaluated::ok;
   defect_by_start(orbit_.map, std::get<Matrix>(J_));

@@ -31,6 +31,8 @@ class ShootingEvaluator final : public continuation::Evaluator {
  public:
   explicit ShootingEvaluator(const ShootingProblem& problem);
 
+  /// Throws std::runtime_error where the period is not integrated to its end, with the reason, which the
+  /// engine quotes.
   continuation::Evaluated move_to(continuation::In X, continuation::In p, continuation::Needs needs) override;
   const Vector& residual() const override { return F_; }
   const continuation::Jacobian& jacobian() const override { return J_; }

@@ -4,6 +4,7 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/continuation/problem/jacobian_check.hpp>
+#include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/time/from_harmonics.hpp>
 #include <arcslip/time/periodicity.hpp>
 #include <arcslip/time/shooting.hpp>
@@ -134,4 +135,18 @@ TEST_CASE("a slider at its limit to rounding where the period begins leaves the 
   Vector stuck = at.p;
   stuck[model::parameter_index(at.problem->model(), "damper.normal_load")] = 3000;
   CHECK(piece(0, stuck) != here);
+}
+
+TEST_CASE("a branch by shooting with too many events ends with their number") {
+  const Place at = place(scenes::paper(15), 20 * scenes::hertz, 0);
+  const double omega = at.p[model::frequency];
+  const auto model = std::make_shared<const model::Model>(at.problem->model());
+  const auto limited = std::make_shared<const time::ShootingProblem>(model, at.problem->displacement(), omega,
+                                                                     omega, time::EventLimits{.events = 2});
+  const auto branch = continuation::trace(limited, {at.X, at.p, model::frequency, 1},
+                                          {.lower = 0.9 * omega, .upper = 1.1 * omega});
+  CHECK(branch.points.empty());
+  CAPTURE(branch.stop.message);
+  CHECK(branch.stop.reason == continuation::StopReason::not_evaluated);
+  CHECK(branch.stop.message.find("2 events (the limit)") != std::string::npos);
 }
