@@ -200,12 +200,15 @@ TEST_CASE("the JSON Schema has the keys of every kind, and those that are requir
     CHECK(found == known);
     CHECK(kinds[i]["required"].get<std::set<std::string>>() == required);
   }
-  const Json& steps = kinds[4]["properties"]["steps"];
+  const Json& time = *std::find_if(kinds.begin(), kinds.end(), [](const Json& kind) {
+    return kind["properties"]["kind"]["const"] == "time";
+  });
+  const Json& steps = time["properties"]["steps"];
   CHECK(steps["type"] == "integer");
   CHECK(steps["minimum"] == 1);
   CHECK(steps["default"] == 1000);
-  CHECK(kinds[4]["properties"]["method"]["enum"].size() == 4);
-  CHECK(kinds[4]["properties"]["tolerance"]["maximum"] == 1);
+  CHECK(time["properties"]["method"]["enum"].size() == 4);
+  CHECK(time["properties"]["tolerance"]["maximum"] == 1);
   CHECK(kinds.back()["dependentRequired"] ==
         Json{{"along", {"from", "to"}}, {"from", {"along"}}, {"to", {"along"}}});
 }

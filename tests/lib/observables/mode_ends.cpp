@@ -154,8 +154,9 @@ TEST_CASE(
   const ResponsePoint& last = branch.points.back();
   CHECK(last.energy < 0.1 * branch.events[1].point.energy);
   const ResponsePoint other = at_end(mode(s, 2, 0.5 * last.amplitude, last.amplitude), last.amplitude);
-  CHECK(3 * last.omega == Approx(other.omega).epsilon(1e-6));
-  CHECK(last.energy == Approx(other.energy).epsilon(1e-6));
+  // Up to what is left of the fundamental: a hundredth of the motion of x2.
+  CHECK(3 * last.omega == Approx(other.omega).epsilon(1e-4));
+  CHECK(last.energy == Approx(other.energy).epsilon(1e-3));
 }
 
 TEST_CASE("random structures: most modes are whole, and what they lose is what the negative damping gives") {
