@@ -1,5 +1,8 @@
 #include "option_values.hpp"
 
+#include <arcslip/results/text.hpp>
+#include <arcslip/scene/scene.hpp>
+
 #include <charconv>
 #include <cmath>
 
@@ -44,6 +47,16 @@ std::optional<double> frequency(const std::string& option, const std::string& te
   const auto value = number(text);
   if (!value || *value <= 0)
     throw UsageError(option + " " + text + ": must be a frequency above 0, a finite number");
+  return value;
+}
+
+std::optional<double> accuracy(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto value = number(text);
+  if (!value || !(*value >= scene::finest_accuracy && *value <= scene::coarsest_accuracy))
+    throw UsageError("--accuracy " + text + ": must be a number from " +
+                     results::shortest(scene::finest_accuracy) + " to " +
+                     results::shortest(scene::coarsest_accuracy));
   return value;
 }
 

@@ -20,6 +20,8 @@ std::vector<double> numbers(const std::string& option, const std::vector<std::st
                             const std::string& what);
 std::optional<int> whole_number(const std::string& option, const std::string& text, const std::string& what);
 std::optional<double> frequency(const std::string& option, const std::string& text);
+/// --accuracy
+std::optional<double> accuracy(const std::string& text);
 /// --frequency: one frequency, or a window.
 std::vector<double> frequencies(const std::vector<std::string>& texts);
 /// name.field, or name.field=lower:upper.

@@ -60,7 +60,7 @@ std::string names_of(const std::vector<Verb>& verbs) {
 /// Option values kept as text until parsing is complete.
 struct Texts {
   std::vector<std::string> set;
-  std::string harmonics, combinations;
+  std::string harmonics, accuracy, combinations;
 };
 
 /// The options of every verb that takes a scene.
@@ -76,6 +76,9 @@ void add_scene_options(CLI::App* verb, CommandOptions& options, Texts& texts) {
       ->type_name("NAME.FIELD=VALUE");
   verb->add_option("--harmonics", texts.harmonics, "highest harmonic of the harmonic balance")
       ->type_name("N");
+  verb->add_option("--accuracy", texts.accuracy,
+                   "relative accuracy of amplitudes, by which studies choose the highest harmonic")
+      ->type_name("E");
 }
 
 /// Keeps a reference to `of`, which must stay valid.
@@ -199,6 +202,7 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
   options.type = chosen.type;
   for (const std::string& text : texts.set) options.set.push_back(assignment(text));
   options.harmonics = whole_number("--harmonics", texts.harmonics, "a whole number, the highest harmonic");
+  options.accuracy = accuracy(texts.accuracy);
   options.combinations =
       whole_number("--combinations", texts.combinations, "a whole number, the combinations at most");
   for (const KeyOption& option : chosen.keys)

@@ -35,6 +35,7 @@ struct CommandOptions {
   std::string scene;                                // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
+  std::optional<double> accuracy;
   std::vector<GivenKey> keys;       // of the study; run: of its frequency responses
   std::string out, json, csv;       // paths, "-" for standard output (json, csv), "" for none
   std::optional<int> combinations;  // of for_each, maximum

@@ -42,6 +42,7 @@ std::string progress_text(const results::Progress& progress, const std::string& 
     line += text.data();
   };
   add("%s %d/%d", progress.item, std::min(progress.branch + 1, branches), branches);
+  if (progress.order > 0) add("  order %d", progress.order);
   if (*progress.phase != '\0') add("  %s", progress.phase);
   add("  %ld %s", progress.points, progress.counted);
   if (progress.frequency > 0) add("  %.6g %s", progress.frequency, unit.c_str());
@@ -54,7 +55,7 @@ std::string progress_text(const results::Progress& progress, const std::string& 
   }
   const double share = std::clamp((progress.branch + progress.share_done) / branches, 0.0, 1.0);
   add("  %.0f %%", 100 * share);
-  return line + time_left(share, seconds);
+  return progress.order > 0 ? line : line + time_left(share, seconds);
 }
 
 ProgressLine::ProgressLine(bool quiet, std::string unit)

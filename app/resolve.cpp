@@ -25,8 +25,11 @@ void apply(scene::Scene& scene, const CommandOptions& options) {
       throw UsageError("--set " + name + "=" + results::shortest(value) + ": " + error.what());
     }
   }
-  scene.harmonics.order = options.harmonics.value_or(scene.harmonics.order);
-  if (options.set.empty() && !options.harmonics) return;
+  if (options.harmonics || options.accuracy) {
+    scene.harmonics.accuracy = options.accuracy.value_or(0);
+    scene.harmonics.order = options.harmonics.value_or(scene::largest_chosen_order);
+  }
+  if (options.set.empty() && !options.harmonics && !options.accuracy) return;
   try {
     scene::check(scene);
   } catch (const scene::SceneError& error) {

@@ -222,6 +222,24 @@ KeysOf<OptimumSettings> keys() {
   return keys;
 }
 
+studies::Truncation truncation_of(std::span<const OptimumCurveResult> curves) {
+  studies::Truncation found;
+  for (const OptimumCurveResult& each : curves) {
+    studies::add(each.curve.status, each.curve.stop, found);
+    for (const OptimumPoint& point : each.curve.points) studies::add(point.response, found);
+  }
+  return found;
+}
+
+studies::Truncation truncation_of(std::span<const OptimumResult> optima) {
+  studies::Truncation found;
+  for (const OptimumResult& each : optima) {
+    studies::add(each.status, each.stop, found);
+    studies::add(each.optimum.point, found);
+  }
+  return found;
+}
+
 class OptimumStudy : public KeyedStudy<OptimumSettings> {
  public:
   using KeyedStudy::KeyedStudy;
@@ -249,12 +267,14 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
           [&](const studies::Case& at, const results::ProgressCallback& progress) {
             return std::vector{optimum_curve_study(at.scene, settings, progress)};
           },
+          [](std::span<const OptimumCurveResult> curves) { return std::optional(truncation_of(curves)); },
           [&](std::span<const OptimumCurveResult> curves) { return std::vector{figures_of(scene, curves)}; });
     return studies::run_items(
         scene, study, options, described_optima(scene, settings.problem), schema, sink,
         [&](const studies::Case& at, const results::ProgressCallback& progress) {
           return std::vector{optimum_study(at.scene, settings, progress, at.alone)};
         },
+        [](std::span<const OptimumResult> optima) { return std::optional(truncation_of(optima)); },
         [&](std::span<const OptimumResult> optima) { return figures_of(scene, optima); });
   }
 };

@@ -24,7 +24,7 @@ void mark(const std::vector<Part>& parts, bool even_zero, std::vector<bool>& act
 void check_samples(const Scene& scene, Faults& faults) {
   const Harmonics& harmonics = scene.harmonics;
   const int least = 4 * harmonics.order + 4;
-  if (harmonics.friction == Friction::sampled && harmonics.samples < least) {
+  if (harmonics.friction == Friction::sampled && harmonics.samples < least && harmonics.accuracy == 0) {
     faults.add("/harmonics/samples", "found " + std::to_string(harmonics.samples) +
                                          (harmonics.samples == Harmonics{}.samples ? " (the default)" : "") +
                                          ", must be an integer from " + std::to_string(least) +

@@ -30,7 +30,8 @@ double highest_frequency(const Scene& scene, const Study& study) {
 }  // namespace
 
 std::string beyond_reduction(const Scene& scene, const Study& study) {
-  if (!scene.matrices || scene.matrices->highest_frequency == 0) return {};
+  const bool known = scene.harmonics.accuracy == 0;
+  if (!known || !scene.matrices || scene.matrices->highest_frequency == 0) return {};
   const double order = static_cast<double>(scene.harmonics.order) / scene.harmonics.period,
                frequency = highest_frequency(scene, study), limit = scene.matrices->highest_frequency;
   if (!(order * frequency > limit)) return {};

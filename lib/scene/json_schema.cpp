@@ -341,6 +341,8 @@ Node schema_of(const Catalogue& catalogue) {
   add_bounds(1, false, largest_order, order);
   Object period{{"type", node("integer")}, {"default", node(Harmonics{}.period)}};
   add_bounds(1, false, largest_period, period);
+  Object accuracy{{"type", node("number")}};
+  add_bounds(finest_accuracy, false, coarsest_accuracy, accuracy);
   Object root = object_of(
       {{"$schema", of_type("string")},
        {"format", of({{"const", node(format_name)}})},
@@ -353,6 +355,7 @@ Node schema_of(const Catalogue& catalogue) {
        {"ties", map_of(list_of(word(), 1))},
        {"labels", map_of(of_type("string"))},
        {"harmonics", of(object_of({{"order", of(std::move(order))},
+                                   {"accuracy", of(std::move(accuracy))},
                                    {"period", of(std::move(period))},
                                    {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
                                    {"samples", of(std::move(samples))}},

@@ -62,6 +62,9 @@ struct Harmonics {
   int period = 1;  // of the motion, in periods of the excitation; base frequency = its frequency/period
   Friction friction = Friction::exact;
   int samples = 512;  // samples per period where friction is sampled
+  /// If not 0, studies choose the order by it, up to `order`: of amplitudes, relative to the largest one
+  /// (studies/order_selection.hpp). Functions that run no study use `order`.
+  double accuracy = 0;
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
 };
 
@@ -155,11 +158,13 @@ class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-inline constexpr int largest_depth = 64;                // of nested JSON
-inline constexpr std::size_t largest_size = 64u << 20;  // bytes
-inline constexpr int largest_order = 2000;              // of the harmonics
-inline constexpr int largest_period = 100;              // of a motion, in periods of the excitation
-inline constexpr int largest_samples = 1'000'000;       // per period
+inline constexpr int largest_depth = 64;                                   // of nested JSON
+inline constexpr std::size_t largest_size = 64u << 20;                     // bytes
+inline constexpr int largest_order = 2000;                                 // of the harmonics
+inline constexpr double finest_accuracy = 1e-10, coarsest_accuracy = 0.1;  // of the harmonics
+inline constexpr int largest_chosen_order = 499;   // by an accuracy, unless the scene gives another one
+inline constexpr int largest_period = 100;         // of a motion, in periods of the excitation
+inline constexpr int largest_samples = 1'000'000;  // per period
 inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 

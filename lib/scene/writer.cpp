@@ -146,10 +146,12 @@ Node labels_node(const Scene& scene) {
 }
 
 Node harmonics_node(const Harmonics& harmonics) {
-  return {Node::Object{{"order", node(harmonics.order)},
-                       {"period", node(harmonics.period)},
-                       {"friction", node(word_of(friction_methods, harmonics.friction))},
-                       {"samples", node(harmonics.samples)}}};
+  Node::Object object{{"order", node(harmonics.order)},
+                      {"period", node(harmonics.period)},
+                      {"friction", node(word_of(friction_methods, harmonics.friction))},
+                      {"samples", node(harmonics.samples)}};
+  if (harmonics.accuracy > 0) object.push_back({"accuracy", node(harmonics.accuracy)});
+  return {std::move(object)};
 }
 
 Node for_each_node(const Study& study) {

@@ -6,6 +6,7 @@
 #include <arcslip/studies/figures.hpp>
 #include <arcslip/studies/study_of.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,7 +43,12 @@ KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, st
             return branches(scene, asked, options);
           },
       .figures = [](const scene::Scene& scene,
-                    Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; }};
+                    Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; },
+      .truncation = [](const Range& range, Branches branches) -> std::optional<Truncation> {
+        if constexpr (requires { range.method; })
+          if (range.method == decltype(range.method)::shooting) return std::nullopt;
+        return truncation_of(branches, drawn != BranchKind::modes);
+      }};
 }
 
 }  // namespace arcslip::studies

@@ -194,7 +194,13 @@ const scene::StudyType& point() {
              for (const PointResponse& each : all) motions.push_back(motion_of(scene, each));
              return std::vector{figures_of(scene, motions)};
            },
-       .coefficients = false});
+       .coefficients = false,
+       .truncation = [](const PointSettings& /*settings*/,
+                        std::span<const PointResponse> all) -> std::optional<Truncation> {
+         Truncation found;
+         for (const PointResponse& each : all) add(each.status, each.stop, found), add(each.point, found);
+         return found;
+       }});
   return type;
 }
 

@@ -10,12 +10,15 @@
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/studies/columns.hpp>
 #include <arcslip/studies/described.hpp>
+#include <arcslip/studies/order_selection.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -74,19 +77,48 @@ inline results::Schema with_set(const scene::Scene& scene, const scene::Study& s
   return schema;
 }
 
-/// StudyType::run() by functions: compute() as for for_each(), figures(items). Items are kept only if figures
-/// are requested.
+/// What harmonics left out do to the items of a combination. Nothing, also without items, where the accuracy
+/// of the results does not depend on the harmonics.
+template <class Item>
+using TruncationOf = std::function<std::optional<Truncation>(std::span<const Item> items)>;
+
+/// StudyType::run() by functions: compute() as for for_each(), truncation_of(items) where the scene asks for
+/// an accuracy, figures(items). Items are kept only if figures are requested.
 template <class Item, class Compute, class FiguresOf>
 std::vector<results::FigureData> run_items(const scene::Scene& scene, const scene::Study& study,
                                            const scene::RunOptions& options, const Described<Item>& described,
                                            std::size_t schema, results::Sink& sink, const Compute& compute,
+                                           const std::type_identity_t<TruncationOf<Item>>& truncation_of,
                                            const FiguresOf& figures_of) {
   std::vector<Item> kept;
-  const std::string beyond = scene::beyond_reduction(scene, study);
-  for_each(scene, scene::Combinations(study), compute, options.progress, [&](Item&& item) {
+  std::optional<OrderSelection> selection;  // of the present combination
+  scene::Scene with_order = scene;
+  const bool depends = truncation_of && truncation_of(std::span<const Item>());
+  const auto compute_accurately = [&](const Case& at, const results::ProgressCallback& progress) {
+    if (at.scene.harmonics.accuracy == 0) return compute(at, progress);
+    scene::Scene with = at.scene;
+    if (!depends) {
+      set_order_of_starts(with);
+      return compute(Case{with, at.alone}, progress);
+    }
+    selection.emplace(at.scene);
+    for (;;) {
+      selection->set_order(with);
+      auto items = compute(Case{with, at.alone}, [&](results::Progress now) {
+        now.order = with.harmonics.order;
+        return !progress || progress(now);
+      });
+      if (selection->rises(truncation_of(items).value())) continue;
+      with_order.harmonics = with.harmonics;
+      return items;
+    }
+  };
+  for_each(scene, scene::Combinations(study), compute_accurately, options.progress, [&](Item&& item) {
     item.study = study.name;
     item.kind = study.type->name();
     results::Result result = described.result(item);
+    if (selection) selection->tell(result.end);
+    const std::string beyond = scene::beyond_reduction(with_order, study);
     if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
     results::hand(result, schema, sink);
     if (options.figures) kept.push_back(std::move(item));
@@ -103,6 +135,7 @@ struct KindOf {
   Described<Item> (*results)(const scene::Scene& scene, const S& settings, const scene::RunOptions& options);
   std::vector<results::FigureData> (*figures)(const scene::Scene& scene, std::span<const Item> items);
   bool coefficients = true;  // whether the option of that name changes the results
+  std::optional<Truncation> (*truncation)(const S& settings, std::span<const Item> items) = nullptr;
 };
 
 template <class S, class Item>
@@ -125,6 +158,9 @@ class StudyOf : public scene::file::KeyedStudy<S> {
         [&](const Case& at, const results::ProgressCallback& progress) {
           return kind_.compute(at, settings, progress);
         },
+        kind_.truncation == nullptr
+            ? TruncationOf<Item>()
+            : [&](std::span<const Item> items) { return kind_.truncation(settings, items); },
         [&](std::span<const Item> items) { return kind_.figures(scene, items); });
   }
 

@@ -48,6 +48,26 @@ TEST_CASE("frf --json - prints one object and nothing else") {
   CHECK(place.files() == std::vector<std::string>{"scene.json"});
 }
 
+TEST_CASE("--accuracy chooses the harmonics, and the order is told") {
+  const Workplace place;
+  const std::vector<std::string> accurate{"frf",        "scene.json", "--set", "damper.normal_load=3",
+                                          "--accuracy", "1e-6"};
+  const Ended text = run(place, accurate);
+  CHECK(text.exit_code == 0);
+  CHECK(text.err.find("with harmonics up to ") != std::string::npos);
+  std::vector<std::string> to_json = accurate;
+  to_json.insert(to_json.end(), {"--json", "-"});
+  const Json branch = Json::parse(run(place, to_json).out)["branches"][0];
+  CHECK(branch["accuracy"]["error"] <= 1e-6);
+  CHECK(std::abs(branch["events"][0]["amplitude"].get<double>() / 8.84970009333055e-4 - 1) <= 1e-6);
+  // The highest order that may be taken.
+  std::vector<std::string> few = accurate;
+  few.insert(few.end(), {"--harmonics", "9"});
+  const Ended missed = run(place, few);
+  CHECK(missed.exit_code == 0);
+  CHECK(missed.err.find("the accuracy 1e-06 is not reached: ") != std::string::npos);
+}
+
 TEST_CASE("frf --csv - prints the table and nothing else") {
   const Workplace place;
   const Ended ended = run(place, {"frf", "scene.json", "--harmonics", "1", "--csv", "-"});

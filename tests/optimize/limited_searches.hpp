@@ -5,7 +5,7 @@
 
 namespace limited_searches {
 
-inline constexpr Volume number{"ARCSLIP_SEARCHES", 12, 1000};
+inline constexpr Volume number{"ARCSLIP_SEARCHES", 6, 1000};
 
 /// Their seeds, from ARCSLIP_FIRST_SEARCH or 0 on: with ARCSLIP_SEARCHES=1 a single one.
 struct Seeds {

@@ -80,8 +80,8 @@ void add_rest(std::vector<BadScene>& rows) {
   rows.push_back({"label of an unknown parameter", with_labels("{\"d.load\": \"load\"}"), "/labels/d.load",
                   "found the unknown parameter \"d.load\", must be one of"});
   rows.push_back({"harmonics that are no object", with_harmonics("7"), "/harmonics",
-                  "found 7 (a number), must be an object with the keys \"order\", \"period\", \"friction\", "
-                  "\"samples\""});
+                  "found 7 (a number), must be an object with the keys \"order\", \"accuracy\", \"period\", "
+                  "\"friction\", \"samples\""});
   rows.push_back({"order of zero", with_harmonics("{\"order\": 0}"), "/harmonics/order",
                   "found 0, must be an integer from 1 to 2000"});
   rows.push_back({"order of 2001", with_harmonics("{\"order\": 2001}"), "/harmonics/order",
@@ -90,6 +90,9 @@ void add_rest(std::vector<BadScene>& rows) {
                   "found 2.5, must be an integer from 1 to 2000"});
   rows.push_back({"order of 1e300", with_harmonics("{\"order\": 1e300}"), "/harmonics/order",
                   "found 1e+300, must be an integer from 1 to 2000"});
+  for (const std::string value : {"0", "0.2", "-0.001", "1e-11"})
+    rows.push_back({"accuracy of " + value, with_harmonics("{\"accuracy\": " + value + "}"),
+                    "/harmonics/accuracy", "found " + value + ", must be"});
   rows.push_back({"period of zero", with_harmonics("{\"period\": 0}"), "/harmonics/period",
                   "found 0, must be an integer from 1 to 100"});
   rows.push_back({"period of 101", with_harmonics("{\"period\": 101}"), "/harmonics/period",

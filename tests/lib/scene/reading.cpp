@@ -102,6 +102,19 @@ TEST_CASE("samples are held against the order only where friction is sampled") {
   CHECK(with("{\"order\": 100, \"samples\": 404, \"friction\": \"sampled\"}").friction == Friction::sampled);
 }
 
+TEST_CASE("with an accuracy the order is the highest one, and samples are not held against it") {
+  const auto with = [](const std::string& harmonics) {
+    return read_text(good_scene_with("\"response\"", "\"harmonics\": " + harmonics + ", \"response\""));
+  };
+  CHECK(with("{}").harmonics.accuracy == 0);
+  const Scene alone = with("{\"accuracy\": 1e-6}");
+  CHECK(alone.harmonics.accuracy == 1e-6);
+  CHECK(alone.harmonics.order == largest_chosen_order);
+  const Scene limited = with("{\"accuracy\": 0.1, \"order\": 9, \"friction\": \"sampled\", \"samples\": 8}");
+  CHECK(limited.harmonics.order == 9);
+  for (const Scene& scene : {alone, limited}) CHECK(read_text(write(scene)) == scene);
+}
+
 TEST_CASE("decimal numbers are rounded once, to the nearest double") {
   // the first two are rounded wrongly where the digits pass through a long double of 64 bits
   for (const std::string digits :

@@ -1,0 +1,336 @@
+// The order of the harmonics by an accuracy: what is reached beside exact numbers, and what is told where it
+// is not.
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+#include "lib/observables/reference.hpp"
+
+#include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/nonlinear_modes.hpp>
+#include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/responses_at.hpp>
+#include <arcslip/observables/time_study.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
+#include <arcslip/results/json_writer.hpp>
+#include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/order_selection.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+using namespace arcslip;
+using observables::no_value;
+using studies::OrderSelection;
+using studies::Truncation;
+using Json = nlohmann::json;
+
+namespace {
+
+/// The results of all studies.
+Json run(const scene::Scene& s, const results::ProgressCallback& progress = {}) {
+  std::ostringstream text;
+  results::write_json(text, studies::run(s, {.progress = progress}));
+  return Json::parse(text.str());
+}
+
+template <class S>
+scene::Scene with_study(scene::Scene s, const scene::StudyType& type, S settings) {
+  s.studies = {{"study", &type, scene::Settings::of(std::move(settings)), {}}};
+  return s;
+}
+
+scene::Scene accurate(scene::Scene s, double accuracy, int highest = scene::largest_chosen_order) {
+  s.harmonics.accuracy = accuracy;
+  s.harmonics.order = highest;
+  return s;
+}
+
+Json peak(const Json& branch) {
+  Json highest;
+  for (const Json& event : branch["events"])
+    if (event["kind"] == "peak" && (highest.is_null() || event["amplitude"] > highest["amplitude"]))
+      highest = event;
+  return highest;
+}
+
+/// A scene with a period, and forces in these harmonics.
+scene::Scene settings(double accuracy, int highest, int period = 1, std::vector<int> forces = {1}) {
+  scene::Scene s = accurate(scenes::paper(7), accuracy, highest);
+  s.harmonics.period = period;
+  const scene::Part force = s.excitation.front();
+  s.excitation.clear();
+  for (const int n : forces) s.excitation.push_back(force), s.excitation.back().harmonic = n;
+  return s;
+}
+
+/// The orders that a selection takes if the results have this error.
+template <class Error>
+std::vector<int> orders(const scene::Scene& s, const Error& error) {
+  OrderSelection selection(s);
+  std::vector<int> all;
+  do {
+    scene::Scene with = s;
+    selection.set_order(with);
+    CHECK(with.harmonics.accuracy == 0);
+    all.push_back(with.harmonics.order);
+  } while (selection.rises(error(all.back())));
+  CHECK(selection.order() == all.back());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("orders rise by the rate of the error, and not beyond what an accuracy requires") {
+  for (const double rate : {1.0, 2.0, 3.0, 5.0})
+    for (const double accuracy : {1e-2, 1e-4, 1e-6}) {
+      CAPTURE(rate, accuracy);
+      const double exact = std::pow(accuracy, -1 / rate);  // the real order that has it
+      const auto taken = orders(settings(accuracy, scene::largest_order), [&](int n) {
+        return Truncation{.amplitude = 2, .estimate = 2 * std::pow(n, -rate)};
+      });
+      CAPTURE(taken);
+      if (exact > scene::largest_order) {
+        CHECK(taken.back() == scene::largest_order);
+      } else {
+        CHECK(taken.back() >= exact);
+        CHECK(taken.back() <= std::max(2.2 * exact + 2, 3.0));
+        CHECK(taken.size() <= 9);
+      }
+      for (std::size_t i = 0; i + 1 < taken.size(); ++i) {
+        CHECK(taken[i] < taken[i + 1]);
+        CHECK(taken[i] % 2 == 1);
+      }
+    }
+}
+
+TEST_CASE("orders begin with the harmonics of the excitation, in periods of the motion") {
+  const auto exact = [](int) { return Truncation{.amplitude = 1, .estimate = 0}; };
+  CHECK(orders(settings(1e-3, 99), exact) == std::vector{3});
+  CHECK(orders(settings(1e-3, 99, 1, {1, 7, 4}), exact) == std::vector{7});
+  CHECK(orders(settings(1e-3, 99, 3), exact) == std::vector{9});
+  CHECK(orders(settings(1e-3, 99, 2, {4}), exact) == std::vector{10});
+  CHECK(orders(settings(1e-3, 2), exact) == std::vector{2});
+  const auto rising =
+      orders(settings(1e-6, 99, 2), [](int n) { return Truncation{.amplitude = 1, .estimate = 1. / n}; });
+  for (std::size_t i = 0; i + 1 < rising.size(); ++i) CHECK(rising[i] % 2 == 0);
+  CHECK(rising.back() == 99);
+}
+
+TEST_CASE("without estimates, or where one is flagged, the orders before decide, too") {
+  for (const double estimate : {no_value, 1e-9})
+    for (const double rate : {2.0, 3.0, 6.0}) {
+      CAPTURE(estimate, rate);
+      const auto taken = orders(settings(1e-4, 999), [&](int n) {
+        return Truncation{.amplitude = 1 + std::pow(n, -rate), .estimate = estimate, .flagged = true};
+      });
+      CAPTURE(taken);
+      CHECK(taken.size() >= 2);
+      CHECK(std::pow(taken.back(), -rate) <= 1e-4);
+      CHECK(taken.back() <= 3 * std::pow(1e-4, -1 / rate) + 2);
+    }
+  // A landmark counts by its own size.
+  const auto taken = orders(settings(1e-3, 999), [](int n) {
+    return Truncation{.amplitude = 1, .landmarks = {{1e-5 * (1 + std::pow(n, -2)), 1e-5}}};
+  });
+  CHECK(std::pow(taken.back(), -2) <= 1e-3);
+  CHECK(taken.size() > 2);
+  // Results of different structure do not agree.
+  const auto never = orders(settings(1e-2, 99), [](int n) {
+    return Truncation{.amplitude = 1,
+                      .landmarks = std::vector<studies::Landmark>(static_cast<std::size_t>(n))};
+  });
+  CHECK(never.back() == 99);
+}
+
+TEST_CASE("what fails twice, and what the user ends, is not computed again") {
+  CHECK(orders(settings(1e-4, 99), [](int) { return Truncation{.failed = true}; }).size() == 2);
+  CHECK(orders(settings(1e-4, 99), [](int) {
+          return Truncation{.ended = true, .amplitude = 1, .estimate = 1};
+        }).size() == 1);
+}
+
+TEST_CASE("peaks of the paper's oscillator are as accurate as was asked for, beside the exact ones") {
+  const auto exact = reference::exact("resonance_peaks");
+  for (const auto& each : exact) {
+    const double load = each["normal_load"], amplitude = each["amplitude"];
+    if (load < 1 || load > 20) continue;
+    int before = 0;
+    for (const double accuracy : {1e-2, 1e-4, 1e-6}) {
+      CAPTURE(load, accuracy);
+      const Json all = run(accurate(
+          with_study(scenes::paper(7, load), studies::frf(), observables::FrequencyRange{17, 28}), accuracy));
+      const Json& branch = all["branches"][0];
+      const Json& told = branch["accuracy"];
+      CAPTURE(told.dump());
+      CHECK(told["wanted"] == accuracy);
+      CHECK(told["error"] <= accuracy);
+      CHECK(std::abs(peak(branch)["amplitude"].get<double>() / amplitude - 1) <= accuracy);
+      CHECK(told["order"] >= before);
+      CHECK(told["orders"].back() == told["order"]);
+      CHECK(!branch.contains("doubt"));
+      before = told["order"];
+      // The same as with that order given.
+      scene::Scene given =
+          with_study(scenes::paper(before, load), studies::frf(), observables::FrequencyRange{17, 28});
+      CHECK(peak(run(given)["branches"][0]) == peak(branch));
+    }
+    CHECK(before > 9);
+  }
+}
+
+TEST_CASE("a curve is as accurate as was asked for, beside exact motions in time") {
+  const observables::FrequencyRange range{18, 24};
+  const double accuracy = 1e-5;
+  scene::Scene s = accurate(with_study(scenes::paper(7, 3), studies::frf(), range), accuracy);
+  const Json branch = run(s)["branches"][0];
+  const double most = peak(branch)["amplitude"];
+  int compared = 0;
+  for (std::size_t i = 0; i < branch["points"].size(); i += 12) {
+    const Json& point = branch["points"][i];
+    const double frequency = point["frequency"];
+    CAPTURE(frequency);
+    const Json motion = run(
+        with_study(scenes::paper(7, 3), studies::time(), observables::TimeSettings{frequency}))["motions"][0];
+    CHECK(std::abs(point["amplitude"].get<double>() - motion["amplitude"].get<double>()) <= accuracy * most);
+    ++compared;
+  }
+  CHECK(compared > 5);
+}
+
+TEST_CASE("a linear structure takes the lowest order, and a smooth spring few more") {
+  const std::string duffing = R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 0.5}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.5}], "response": {"at": "x"},
+    "harmonics": {"accuracy": 1e-8}})";
+  scene::Scene s = with_study(scenes::parse(duffing), studies::frf(), observables::FrequencyRange{0.7, 2.5});
+  CHECK(s.harmonics.order == scene::largest_chosen_order);
+  const Json smooth = run(s)["branches"][0];
+  CHECK(smooth["accuracy"]["error"] <= 1e-8);
+  CHECK(smooth["accuracy"]["order"] <= 31);
+  s.harmonics.accuracy = 0;
+  s.harmonics.order = 61;
+  CHECK(std::abs(peak(smooth)["amplitude"].get<double>() /
+                     peak(run(s)["branches"][0])["amplitude"].get<double>() -
+                 1) <= 1e-8);
+
+  s = accurate(s, 1e-8);
+  s.elements.clear();
+  const Json linear = run(s)["branches"][0];
+  CHECK(linear["accuracy"]["orders"] == Json{3});
+  CHECK(linear["accuracy"]["error"] < 1e-14);
+}
+
+TEST_CASE("sampled friction has samples for the accuracy") {
+  scene::Scene s =
+      accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{18, 24}), 1e-4);
+  s.harmonics.friction = scene::Friction::sampled;
+  const Json sampled = run(s)["branches"][0];
+  CHECK(sampled["accuracy"]["error"] <= 1e-4);
+  scene::Scene exact = with_study(scenes::paper(101, 3), studies::frf(), observables::FrequencyRange{18, 24});
+  CHECK(std::abs(peak(sampled)["amplitude"].get<double>() /
+                     peak(run(exact)["branches"][0])["amplitude"].get<double>() -
+                 1) <= 1e-4);
+}
+
+TEST_CASE("an accuracy that is not reached is told") {
+  const Json all = run(accurate(
+      with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-9, 15));
+  const Json& branch = all["branches"][0];
+  CHECK(branch["status"] == "complete");
+  CHECK(branch["accuracy"]["order"] == 15);
+  CHECK(branch["accuracy"]["error"] > 1e-9);
+  const std::string doubt = branch["doubt"];
+  CHECK(doubt.starts_with("the accuracy 1e-09 is not reached: "));
+  CHECK(doubt.ends_with(" with harmonics up to 15"));
+}
+
+TEST_CASE("a study that the user ends has the order that it had") {
+  long calls = 0;
+  const Json all = run(
+      accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-6),
+      [&](const results::Progress& now) {
+        CHECK(now.order == 3);
+        return ++calls < 40;
+      });
+  const Json& branch = all["branches"][0];
+  CHECK(branch["stop"]["reason"] == observables::reasons::user.code);
+  CHECK(branch["accuracy"]["orders"].size() == 1);
+  CHECK(!branch.contains("doubt"));
+}
+
+TEST_CASE("a failing study is tried with two orders") {
+  scene::Scene s =
+      accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-6);
+  scene::set(s, "damper.normal_load", 1e6);  // stuck
+  scene::set(s, "c.value", 0);
+  const Json all = run(s);
+  CAPTURE(all.dump());
+  CHECK(all["branches"][0]["accuracy"]["orders"].size() <= 2);
+}
+
+TEST_CASE("every kind of study by harmonic balance takes an accuracy, and others have no order to choose") {
+  const scene::Scene paper = accurate(scenes::paper(7, 3), 1e-4);
+  const Json trace = run(with_study(
+      paper, studies::trace(), observables::ParameterRange{"damper.normal_load", 1, 20, 20}))["branches"][0];
+  CHECK(trace["accuracy"]["error"] <= 1e-4);
+  const Json peaks = run(with_study(
+      paper, studies::peaks(), observables::CurveRange{"damper.normal_load", 1, 20, 17, 28}))["branches"][0];
+  CHECK(peaks["accuracy"]["error"] <= 1e-4);
+  const Json point =
+      run(with_study(paper, studies::point(), observables::PointSettings{.frequency = 20}))["responses"][0];
+  CHECK(point["accuracy"]["error"] <= 1e-4);
+  const Json motion = run(with_study(paper, studies::time(), observables::TimeSettings{20}))["motions"][0];
+  CHECK(!motion.contains("accuracy"));
+  CHECK(std::abs(point["amplitude"].get<double>() / motion["amplitude"].get<double>() - 1) <= 1e-4);
+  const Json shooting = run(
+      with_study(paper, studies::frf(),
+                 observables::FrequencyRange{
+                     .from = 19, .to = 21, .method = observables::ResponseMethod::shooting}))["branches"][0];
+  CHECK(!shooting.contains("accuracy"));
+}
+
+TEST_CASE("optima and curves of optima take an accuracy") {
+  scene::Scene s = scenes::example("al_sayed_2011");
+  std::erase_if(s.studies, [](const scene::Study& study) { return study.type->name() != "optimum"; });
+  REQUIRE(s.studies.size() == 1);
+  auto& settings = s.studies[0].settings.as<optimize::OptimumSettings>();
+  REQUIRE(settings.problem.over.size() == 1);
+  for (const bool along : {false, true}) {
+    CAPTURE(along);
+    if (along) settings.along = optimize::DesignVariable{"force.cosine", 90, 110};
+    const char* list = along ? "optimum_curves" : "optima";
+    const auto amplitude = [&](const Json& all) {
+      const Json& result = all[list][0];
+      return (along ? result["points"].back()["amplitude"] : result["optimum"]["amplitude"]).get<double>();
+    };
+    const Json all = run(accurate(s, 1e-6));
+    const Json& told = all[list][0]["accuracy"];
+    CAPTURE(told.dump());
+    CHECK(told["error"] <= 1e-6);
+    CHECK(told["order"] > 3);
+    scene::Scene finer = s;
+    finer.harmonics.order = 99;
+    CHECK(std::abs(amplitude(all) / amplitude(run(finer)) - 1) <= 1e-6);
+  }
+}
+
+TEST_CASE("modes have no estimates: two orders agree") {
+  const scene::Scene s = accurate(
+      with_study(scenes::paper(7, 3), studies::modes(), observables::ModeRange{1, 1e-4, 1e-2}), 1e-5);
+  const Json mode = run(s)["branches"][0];
+  CAPTURE(mode["stop"].dump());
+  CHECK(mode["accuracy"]["orders"].size() >= 2);
+  CHECK(mode["accuracy"]["error"] <= 1e-5);
+  scene::Scene finer = s;
+  finer.harmonics.accuracy = 0;
+  finer.harmonics.order = 151;
+  const Json exact = run(finer)["branches"][0];
+  const Json &a = mode["points"].back(), &b = exact["points"].back();
+  CHECK(std::abs(a["frequency"].get<double>() / b["frequency"].get<double>() - 1) <= 1e-5);
+  CHECK(std::abs(a["damping_ratio"].get<double>() / b["damping_ratio"].get<double>() - 1) <= 1e-5);
+}
