@@ -48,7 +48,7 @@ TEST_CASE("frf --json - prints one object and nothing else") {
   CHECK(place.files() == std::vector<std::string>{"scene.json"});
 }
 
-TEST_CASE("--accuracy chooses the harmonics, and the order is told") {
+TEST_CASE("an accuracy chooses the harmonics, and the order is told") {
   const Workplace place;
   const std::vector<std::string> accurate{"frf",        "scene.json", "--set", "damper.normal_load=3",
                                           "--accuracy", "1e-6"};
