@@ -31,15 +31,16 @@ function(arcslip_common_headers target)
     <functional> <limits> <memory> <optional> <span> <sstream> <stdexcept> <string> <utility> <variant> <vector> ${ARGN})
 endfunction()
 
-# arcslip_library(NAME [HEADERS_FROM other] ROOMS room... [LIGHT room or file...] FILES file...)
+# arcslip_library(NAME [HEADERS_FROM other] [COMMON header...] ROOMS room... [LIGHT room or file...] FILES file...)
 # makes arcslip_NAME (arcslip::NAME). ROOMS are pairs "link=folder": the folder is seen as <arcslip/link/...>.
 # FILES begin with the link. The headers among them are public and get installed, as is NAME.hpp beside the CMakeLists.txt,
 # the library's umbrella <arcslip/NAME.hpp>; a header that is not listed is private.
-# LIGHT is what computes nothing in loops, which is compiled with -O1 in a third of the time; HEADERS_FROM the library whose
-# precompiled headers serve this one, too.
+# LIGHT is what computes nothing in loops, which is compiled with -O1 in a third of the time. COMMON are headers of its own to
+# compile once for all files; HEADERS_FROM is the library whose precompiled headers serve this one, too.
+# A precompiled header is cheap where it only declares: each file compiles again what inline functions in it instantiate.
 # Each library has a root of links of its own, so that an include of a library that is not linked does not compile.
 function(arcslip_library name)
-  cmake_parse_arguments(arg "" "HEADERS_FROM" "ROOMS;LIGHT;FILES" ${ARGN})
+  cmake_parse_arguments(arg "" "HEADERS_FROM" "COMMON;ROOMS;LIGHT;FILES" ${ARGN})
   set(target arcslip_${name})
   set(root ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${root}/arcslip)
@@ -83,14 +84,14 @@ function(arcslip_library name)
       set(from_light FROM arcslip_${arg_HEADERS_FROM}_light)
     endif()
   endif()
-  arcslip_common_headers(${target} ${from_heavy})
+  arcslip_common_headers(${target} ${from_heavy} ${arg_COMMON})
   if(light)
     add_library(${target}_light OBJECT ${light})
     set_target_properties(${target}_light PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_include_directories(${target}_light PRIVATE ${root})
     arcslip_compile_options(${target}_light)
     target_compile_options(${target}_light PRIVATE $<$<CONFIG:Release>:-O1>)
-    arcslip_common_headers(${target}_light ${from_light})
+    arcslip_common_headers(${target}_light ${from_light} ${arg_COMMON})
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_light>)
   endif()
   install(TARGETS ${target} EXPORT arcslip

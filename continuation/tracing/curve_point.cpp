@@ -17,6 +17,11 @@ constexpr int most_bisections = 20;  // where no prediction leaves the piece
 
 }  // namespace
 
+void CurvePoint::reverse() {
+  tangent = -tangent;
+  orientation = -orientation;
+}
+
 bool settle(Corrector& at, CurvePoint& place) {
   if (!at.tangent(place.tangent)) return false;
   place.orientation = at.factors().determinant_sign().value_or(0);

@@ -24,10 +24,7 @@ struct CurvePoint {
   std::vector<double> monitors, quantities;  // as many as monitors
   std::uint64_t part = 0;                    // combined Monitor::part of the quantities
 
-  void reverse() {
-    tangent = -tangent;
-    orientation = -orientation;
-  }
+  void reverse();
 };
 
 /// A kink, seen from both sides: the end of the piece before it, and the start of the piece beyond.

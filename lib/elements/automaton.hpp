@@ -36,17 +36,8 @@ struct Mode {
   std::vector<Guard> leaves;
 
   // Of laws with one direction.
-  Mode& follows(double by_q, double z_at_0, int sign) {
-    rests = false;
-    z_q = Eigen::RowVectorXd::Constant(1, by_q);
-    z_0 = z_at_0;
-    way = sign;
-    return *this;
-  }
-  Mode& leaves_where(double q, double v, double z, double c, int to) {
-    leaves.push_back({Eigen::RowVectorXd::Constant(1, q), Eigen::RowVectorXd::Constant(1, v), z, c, to});
-    return *this;
-  }
+  Mode& follows(double by_q, double z_at_0, int sign);
+  Mode& leaves_where(double q, double v, double z, double c, int to);
 };
 
 /// One of the automata of a law, which act in parallel.
@@ -54,15 +45,7 @@ struct Automaton {
   explicit Automaton(int memory_index) : memory(memory_index) {}
 
   /// f = f_q q + f_z z + f_0 with one direction. The reference holds until the next.
-  Mode& add(std::string_view name, double f_q, double f_z, double f_0) {
-    modes.emplace_back();
-    Mode& mode = modes.back();
-    mode.name = name;
-    mode.f_q = Eigen::MatrixXd::Constant(1, 1, f_q);
-    mode.f_z = Eigen::VectorXd::Constant(1, f_z);
-    mode.f_0 = Eigen::VectorXd::Constant(1, f_0);
-    return mode;
-  }
+  Mode& add(std::string_view name, double f_q, double f_z, double f_0);
 
   int memory;         // index in the law's memory; -1: none
   double weight = 1;  // in the stick share of the law

@@ -46,7 +46,7 @@ class Element {
   virtual void field_derivative(int field, Out dF) const = 0;  // dF/d(fields[field]) at the last place
 
   /// dF/d(base frequency) at the last place.
-  virtual void frequency_derivative(Out dF) const { dF.setZero(); }
+  virtual void frequency_derivative(Out dF) const;
 
   /// The smooth piece of F at the last point.
   virtual std::uint64_t piece() const { return 0; }

@@ -21,6 +21,32 @@
 
 namespace arcslip::elements {
 
+SampledForce::SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields)
+    : f(Eigen::MatrixXd::Zero(rows, directions)),
+      f_q(Eigen::MatrixXd::Zero(rows, directions * directions)),
+      f_v(f_q),
+      f_field(Eigen::MatrixXd::Zero(rows, directions * fields)) {}
+
+StepEnd::StepEnd(int directions, int memory)
+    : f(Eigen::VectorXd::Zero(directions)),
+      dz(Eigen::VectorXd::Zero(memory)),
+      v(f),
+      f_q(Eigen::MatrixXd::Zero(directions, directions)),
+      f_z(Eigen::MatrixXd::Zero(directions, memory)),
+      f_start(f_q),
+      f_v(f_q),
+      z_q(Eigen::MatrixXd::Zero(memory, directions)),
+      z_z(Eigen::MatrixXd::Identity(memory, memory)),
+      z_start(z_q) {}
+
+Eigen::RowVectorXd Law::slider_bound(Fields, int k, int) const {
+  return Eigen::RowVectorXd::Unit(directions(), slider_direction(k));
+}
+
+std::optional<std::vector<Automaton>> Law::automata(Fields) const {
+  return {};
+}
+
 bool LawType::wears(const scene::Settings& options) const {
   return law(options)->dissipative();
 }

@@ -55,11 +55,7 @@ struct Traits {
 /// differ from its previous values here.
 struct SampledForce {
   SampledForce() = default;
-  SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields)
-      : f(Eigen::MatrixXd::Zero(rows, directions)),
-        f_q(Eigen::MatrixXd::Zero(rows, directions * directions)),
-        f_v(f_q),
-        f_field(Eigen::MatrixXd::Zero(rows, directions * fields)) {}
+  SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields);
 
   Eigen::MatrixXd f;        // a column for each direction, N
   Eigen::MatrixXd f_q;      // df_i/dq_j in column j * directions + i
@@ -74,17 +70,7 @@ struct StepStart {
 };
 /// The end of the step, or a state. A law sets everything that may differ from its previous values here.
 struct StepEnd {
-  StepEnd(int directions, int memory)
-      : f(Eigen::VectorXd::Zero(directions)),
-        dz(Eigen::VectorXd::Zero(memory)),
-        v(f),
-        f_q(Eigen::MatrixXd::Zero(directions, directions)),
-        f_z(Eigen::MatrixXd::Zero(directions, memory)),
-        f_start(f_q),
-        f_v(f_q),
-        z_q(Eigen::MatrixXd::Zero(memory, directions)),
-        z_z(Eigen::MatrixXd::Identity(memory, memory)),
-        z_start(z_q) {}
+  StepEnd(int directions, int memory);
 
   Eigen::VectorXd f, dz;  // the force, N, and the change of the memory
   Eigen::VectorXd v;      // the velocities there, m/s: given to laws that are rate-dependent
@@ -184,10 +170,7 @@ class Law {
   }
   /// Memory k, a slider in the one direction of all, rests between two bounds that move: the derivative by q
   /// of the lower one (side -1) or of the upper one (1). Their centre at q = 0 is 0.
-  virtual Eigen::RowVectorXd slider_bound(Fields fields, int k, int side) const {
-    static_cast<void>(fields), static_cast<void>(side);
-    return Eigen::RowVectorXd::Unit(directions(), slider_direction(k));
-  }
+  virtual Eigen::RowVectorXd slider_bound(Fields fields, int k, int side) const;
   /// Half the distance of these bounds at q = 0, of a slider with a static offset (slider_offset.hpp); none:
   /// it is centred.
   virtual std::optional<double> slider_room(Fields fields, int k) const {
@@ -207,10 +190,7 @@ class Law {
   /// Elastic energy at q and z, J.
   virtual double stored(Fields fields, In q, In z) const = 0;
   /// The law as automata, if it is piecewise linear. Several act in parallel.
-  virtual std::optional<std::vector<Automaton>> automata(Fields fields) const {
-    static_cast<void>(fields);
-    return {};
-  }
+  virtual std::optional<std::vector<Automaton>> automata(Fields fields) const;
 };
 
 /// A law without options is its own type, and so is one whose options have their defaults. It must outlive

@@ -13,6 +13,8 @@ namespace arcslip::hbm {
 using continuation::Evaluated;
 using continuation::Needs;
 
+HbmEvaluator::~HbmEvaluator() = default;
+
 HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
     : model_(problem.shared_model()),
       displacements_(problem.coordinates().unknowns * problem.harmonics().size()),
@@ -140,6 +142,14 @@ HbmProblem::HbmProblem(const HbmProblem& other, const Harmonics& harmonics,
     : HbmProblem(other) {
   harmonics_ = harmonics;
   sampling_ = sampling;
+}
+
+std::unique_ptr<HbmEvaluator> HbmProblem::hbm_evaluator() const {
+  return std::make_unique<HbmEvaluator>(*this);
+}
+
+std::unique_ptr<continuation::Evaluator> HbmProblem::evaluator() const {
+  return hbm_evaluator();
 }
 
 Vector HbmProblem::scales() const {

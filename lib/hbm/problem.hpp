@@ -21,6 +21,7 @@ namespace arcslip::hbm {
 class HbmEvaluator final : public continuation::Evaluator {
  public:
   explicit HbmEvaluator(const class HbmProblem& problem);
+  ~HbmEvaluator() override;
 
   continuation::Evaluated move_to(continuation::In u, continuation::In p, continuation::Needs needs) override;
   const Vector& residual() const override { return R_; }
@@ -83,8 +84,8 @@ class HbmProblem final : public continuation::Problem {
   int size() const override { return blocks() * harmonics_.size(); }
   std::span<const continuation::Parameter> parameters() const override { return parameters_; }
   Vector scales() const override;
-  std::unique_ptr<continuation::Evaluator> evaluator() const override { return hbm_evaluator(); }
-  std::unique_ptr<HbmEvaluator> hbm_evaluator() const { return std::make_unique<HbmEvaluator>(*this); }
+  std::unique_ptr<continuation::Evaluator> evaluator() const override;
+  std::unique_ptr<HbmEvaluator> hbm_evaluator() const;
 
   const model::Model& model() const { return *model_; }
   std::shared_ptr<const model::Model> shared_model() const { return model_; }

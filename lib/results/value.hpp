@@ -21,24 +21,32 @@ class Value {
   using List = std::vector<Value>;
   using Object = std::vector<Member>;
 
-  Value() = default;
-  Value(bool flag) : is_(flag) {}
+  Value();
+  Value(bool flag);
   template <class Whole, std::enable_if_t<std::is_integral_v<Whole> && !std::is_same_v<Whole, bool>, int> = 0>
-  Value(Whole number) : is_(static_cast<long>(number)) {}
-  Value(double number) : is_(number) {}
-  Value(const char* text) : is_(std::string(text)) {}
-  Value(std::string_view text) : is_(std::string(text)) {}
-  Value(std::string text) : is_(std::move(text)) {}
-  Value(Numbers numbers) : is_(std::move(numbers)) {}
-  Value(List list) : is_(std::move(list)) {}
-  Value(Object object) : is_(std::move(object)) {}
+  Value(Whole number) : Value(static_cast<long>(number), OneType{}) {}
+  Value(double number);
+  Value(const char* text);
+  Value(std::string_view text);
+  Value(std::string text);
+  Value(Numbers numbers);
+  Value(List list);
+  Value(Object object);
+  Value(const Value& other);
+  Value(Value&& other) noexcept;
+  Value& operator=(const Value& other);
+  Value& operator=(Value&& other) noexcept;
+  ~Value();
 
   const auto& get() const { return is_; }
   /// Of an object.
-  Object& members() { return std::get<Object>(is_); }
+  Object& members();
 
  private:
-  std::variant<std::nullptr_t, bool, long, double, std::string, Numbers, List, Object> is_ = nullptr;
+  struct OneType {};
+  Value(long number, OneType);
+
+  std::variant<std::nullptr_t, bool, long, double, std::string, Numbers, List, Object> is_;
 };
 
 struct Member {

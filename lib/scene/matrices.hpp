@@ -20,13 +20,15 @@ namespace arcslip::scene {
 struct MatrixFile {
   NamedFile file{};
   std::shared_ptr<const SparseMatrix> matrix{};
-  friend bool operator==(const MatrixFile& a, const MatrixFile& b) { return a.file == b.file; }
+  friend bool operator==(const MatrixFile& a, const MatrixFile& b);
 };
 
 /// What has been computed from the matrices of a scene, kept for all copies of it: a reduction may take far
 /// longer than a study with one set of values.
 class Derived {
  public:
+  static std::shared_ptr<Derived> none();
+
   template <class T, class Make>
   std::shared_ptr<const T> get(const std::string& key, const Make& make) {
     const std::lock_guard lock(mutex_);
@@ -46,14 +48,11 @@ struct Matrices {
   std::vector<int> rows{};       // from 0, of the first of Scene::dofs
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not
   std::optional<Bar> bar{};      // of which they are, in place of files
-  std::shared_ptr<Derived> derived = std::make_shared<Derived>();
+  std::shared_ptr<Derived> derived = Derived::none();
 
   int size() const { return stiffness.matrix ? stiffness.matrix->rows : 0; }
   bool has_damping() const { return !damping.file.path.empty(); }
-  friend bool operator==(const Matrices& a, const Matrices& b) {
-    return a.mass == b.mass && a.stiffness == b.stiffness && a.damping == b.damping && a.names == b.names &&
-           a.rows == b.rows && a.highest_frequency == b.highest_frequency && a.bar == b.bar;
-  }
+  friend bool operator==(const Matrices& a, const Matrices& b);
 };
 
 }  // namespace arcslip::scene

@@ -8,6 +8,19 @@
 
 namespace arcslip::scene {
 
+std::shared_ptr<Derived> Derived::none() {
+  return std::make_shared<Derived>();
+}
+
+bool operator==(const MatrixFile& a, const MatrixFile& b) {
+  return a.file == b.file;
+}
+
+bool operator==(const Matrices& a, const Matrices& b) {
+  return a.mass == b.mass && a.stiffness == b.stiffness && a.damping == b.damping && a.names == b.names &&
+         a.rows == b.rows && a.highest_frequency == b.highest_frequency && a.bar == b.bar;
+}
+
 std::vector<NamedFile*> files(Scene& scene) {
   std::vector<NamedFile*> all;
   const auto add = [&](const auto* type, Settings& settings) {

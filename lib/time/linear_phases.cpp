@@ -272,7 +272,7 @@ bool LinearPhases::find_planes(Phase& phase, const Matrix& U, const Vector& squa
     add((v * std::polar(1.0, -0.5 * std::arg(square))).real(), -value.real(), std::norm(value));
   }
   std::sort(real.begin(), real.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return values[a].real() < values[b].real(); });
+            [&values = values](Eigen::Index a, Eigen::Index b) { return values[a].real() < values[b].real(); });
   if (2 * planes + static_cast<Eigen::Index>(real.size()) != 2 * n) return false;
   for (std::size_t i = 0; i < real.size() / 2; ++i) {
     const Eigen::Index a = real[i], b = real[i + real.size() / 2];

@@ -7,6 +7,8 @@
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <random>
 #include <sstream>

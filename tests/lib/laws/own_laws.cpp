@@ -16,6 +16,8 @@
 #include <arcslip/scene/json_schema.hpp>
 #include <arcslip/time/newmark_periods.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <filesystem>
 
