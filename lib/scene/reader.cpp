@@ -31,12 +31,15 @@ void read_format(const Keys& keys, Faults& faults) {
 
 Harmonics read_harmonics(const Location& place, Faults& faults) {
   Harmonics harmonics;
+  harmonics.accuracy = default_accuracy;
+  harmonics.order = largest_chosen_order;
   if (place.node != nullptr) {
     const Keys keys(place, {"order", "accuracy", "period", "friction", "samples"}, faults);
     const Field accuracy{"accuracy", "-", finest_accuracy, coarsest_accuracy};
-    harmonics.accuracy = read_number(keys.find("accuracy"), accuracy, faults).value_or(0);
-    harmonics.order = read_integer(keys.find("order"), 1, largest_order, faults)
-                          .value_or(harmonics.accuracy > 0 ? largest_chosen_order : harmonics.order);
+    const Location order = keys.find("order");
+    harmonics.accuracy = read_number(keys.find("accuracy"), accuracy, faults)
+                             .value_or(order.node != nullptr ? 0 : default_accuracy);
+    harmonics.order = read_integer(order, 1, largest_order, faults).value_or(largest_chosen_order);
     harmonics.period =
         read_integer(keys.find("period"), 1, largest_period, faults).value_or(harmonics.period);
     harmonics.friction = read_choice(keys.find("friction"), friction_methods, harmonics.friction, faults);

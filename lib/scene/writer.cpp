@@ -146,11 +146,12 @@ Node labels_node(const Scene& scene) {
 }
 
 Node harmonics_node(const Harmonics& harmonics) {
-  Node::Object object{{"order", node(harmonics.order)},
-                      {"period", node(harmonics.period)},
-                      {"friction", node(word_of(friction_methods, harmonics.friction))},
-                      {"samples", node(harmonics.samples)}};
+  Node::Object object;
   if (harmonics.accuracy > 0) object.push_back({"accuracy", node(harmonics.accuracy)});
+  object.push_back({"order", node(harmonics.order)});
+  object.push_back({"period", node(harmonics.period)});
+  object.push_back({"friction", node(word_of(friction_methods, harmonics.friction))});
+  object.push_back({"samples", node(harmonics.samples)});
   return {std::move(object)};
 }
 

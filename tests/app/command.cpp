@@ -68,6 +68,21 @@ TEST_CASE("an accuracy chooses the harmonics, and the order is told") {
   CHECK(missed.err.find("the accuracy 1e-06 is not reached: ") != std::string::npos);
 }
 
+TEST_CASE("without harmonics in the scene an accuracy of 1e-4 chooses them") {
+  const Workplace place;
+  Json scene = Json::parse(place.read("scene.json"));
+  scene.erase("harmonics");
+  place.write("silent.json", scene.dump());
+  const Ended ended =
+      run(place, {"frf", "silent.json", "--set", "damper.normal_load=3", "--json", "-"});
+  CHECK(ended.exit_code == 0);
+  const Json branch = Json::parse(ended.out)["branches"][0];
+  CHECK(branch["accuracy"]["wanted"] == 1e-4);
+  CHECK(branch["accuracy"]["error"] <= 1e-4);
+  CHECK(branch["accuracy"]["order"] < 20);
+  CHECK(std::abs(branch["events"][0]["amplitude"].get<double>() / 8.84970009333055e-4 - 1) <= 1e-4);
+}
+
 TEST_CASE("frf --csv - prints the table and nothing else") {
   const Workplace place;
   const Ended ended = run(place, {"frf", "scene.json", "--harmonics", "1", "--csv", "-"});

@@ -63,7 +63,8 @@ void add_rest(std::vector<BadScene>& rows) {
                                   "\"cosine\": 1}, {\"name\": \"load\", \"at\": \"a\", "
                                   "\"harmonic\": 0, \"sine\": 2}"),
                   "/excitation/1/sine", "found 2, must be 0 where the harmonic is 0: the force is constant"});
-  rows.push_back({"harmonic above the order", good_scene_with("\"cosine\": 1", "\"harmonic\": 9"),
+  rows.push_back({"harmonic above the order",
+                  good_scene_with("\"cosine\": 1}],", "\"harmonic\": 9}], \"harmonics\": {\"order\": 7},"),
                   "/excitation/0/harmonic", "found 9, must be at most harmonics.order, which is 7"});
   const auto with_labels = [](const std::string& text) {
     return good_scene_with("\"response\"", "\"labels\": " + text + ", \"response\"");

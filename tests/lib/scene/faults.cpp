@@ -62,7 +62,7 @@ TEST_CASE("a file with seven faults gives these seven in one go") {
       "masses": [{"name": "m", "at": "a", "value": -1}, {"name": "m", "at": "b", "value": 1}],
       "springs": [{"name": "k", "at": "a", "value": "stiff"}]
     },
-    "excitation": [{"name": "f", "at": "a", "harmonic": 9}],
+    "excitation": [{"name": "f", "at": "a", "harmonic": 9}], "harmonics": {"order": 7},
     "studies": [{"kind": "frf", "from": 2, "to": 1}]
   })");
   std::vector<std::string> pointers;

@@ -54,7 +54,8 @@ TEST_CASE("what a scene leaves out has the default of the format") {
   CHECK(scene.dampers.empty());
   CHECK(scene.elements.empty());
   CHECK(scene.ties.empty());
-  CHECK(scene.harmonics.order == 7);
+  CHECK(scene.harmonics.accuracy == 1e-4);
+  CHECK(scene.harmonics.order == 499);
   CHECK(scene.harmonics.friction == Friction::exact);
   CHECK(scene.harmonics.samples == 512);
   CHECK(scene.excitation[0].harmonic == 1);
@@ -106,13 +107,24 @@ TEST_CASE("with an accuracy the order is the highest one, and samples are not he
   const auto with = [](const std::string& harmonics) {
     return read_text(good_scene_with("\"response\"", "\"harmonics\": " + harmonics + ", \"response\""));
   };
-  CHECK(with("{}").harmonics.accuracy == 0);
+  CHECK(with("{\"order\": 9}").harmonics.accuracy == 0);
   const Scene alone = with("{\"accuracy\": 1e-6}");
   CHECK(alone.harmonics.accuracy == 1e-6);
   CHECK(alone.harmonics.order == largest_chosen_order);
   const Scene limited = with("{\"accuracy\": 0.1, \"order\": 9, \"friction\": \"sampled\", \"samples\": 8}");
   CHECK(limited.harmonics.order == 9);
   for (const Scene& scene : {alone, limited}) CHECK(read_text(write(scene)) == scene);
+}
+
+TEST_CASE("a scene without an order is computed to the default accuracy") {
+  const Scene silent = read_text(good_scene_with("\"response\"", "\"response\""));
+  const Scene empty = read_text(
+      good_scene_with("\"response\"", "\"harmonics\": {\"samples\": 8, \"friction\": \"sampled\"}, \"response\""));
+  for (const Scene& scene : {silent, empty}) {
+    CHECK(scene.harmonics.accuracy == default_accuracy);
+    CHECK(scene.harmonics.order == largest_chosen_order);
+    CHECK(read_text(write(scene)) == scene);
+  }
 }
 
 TEST_CASE("decimal numbers are rounded once, to the nearest double") {
