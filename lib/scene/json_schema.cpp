@@ -337,7 +337,7 @@ Node schema_of(const Catalogue& catalogue) {
   for (const StudyType* type : catalogue.studies) studies.push_back(study_of(*type));
   Object samples{{"type", node("integer")}, {"default", node(Harmonics{}.samples)}};
   add_bounds(1, false, largest_samples, samples);
-  Object order{{"type", node("integer")}, {"default", node(largest_chosen_order)}};
+  Object order{{"type", node("integer")}};
   add_bounds(1, false, largest_order, order);
   Object period{{"type", node("integer")}, {"default", node(Harmonics{}.period)}};
   add_bounds(1, false, largest_period, period);

@@ -29,19 +29,24 @@ void read_format(const Keys& keys, Faults& faults) {
     faults.add(place.pointer, "found " + shown(*text) + ", must be " + wanted);
 }
 
+// By the default accuracy, for each period of the excitation: no minutes that nobody has asked for.
+constexpr int default_highest = 55;
+
 Harmonics read_harmonics(const Location& place, Faults& faults) {
   Harmonics harmonics;
   harmonics.accuracy = default_accuracy;
-  harmonics.order = largest_chosen_order;
+  harmonics.order = default_highest;
   if (place.node != nullptr) {
     const Keys keys(place, {"order", "accuracy", "period", "friction", "samples"}, faults);
     const Field accuracy{"accuracy", "-", finest_accuracy, coarsest_accuracy};
-    const Location order = keys.find("order");
-    harmonics.accuracy = read_number(keys.find("accuracy"), accuracy, faults)
-                             .value_or(order.node != nullptr ? 0 : default_accuracy);
-    harmonics.order = read_integer(order, 1, largest_order, faults).value_or(largest_chosen_order);
+    const Location order = keys.find("order"), wanted = keys.find("accuracy");
     harmonics.period =
         read_integer(keys.find("period"), 1, largest_period, faults).value_or(harmonics.period);
+    harmonics.accuracy =
+        read_number(wanted, accuracy, faults).value_or(order.node != nullptr ? 0 : default_accuracy);
+    const int highest =
+        wanted.node != nullptr ? largest_chosen_order : std::min(default_highest * harmonics.period, largest_order);
+    harmonics.order = read_integer(order, 1, largest_order, faults).value_or(highest);
     harmonics.friction = read_choice(keys.find("friction"), friction_methods, harmonics.friction, faults);
     harmonics.samples = read_integer(keys.find("samples"), 1, largest_samples, faults,
                                      ", and at least 4*order + 4 where it is used")

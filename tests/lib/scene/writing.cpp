@@ -122,7 +122,7 @@ TEST_CASE("a scene is written with every default, in the order of the format") {
   ],
   "excitation": [{"name": "f", "type": "force", "at": "a", "harmonic": 1, "cosine": 1, "sine": 0}],
   "ties": {},
-  "harmonics": {"accuracy": 1e-04, "order": 499, "period": 1, "friction": "exact", "samples": 512},
+  "harmonics": {"accuracy": 1e-04, "order": 55, "period": 1, "friction": "exact", "samples": 512},
   "response": {"at": "a", "frame": "relative"},
   "studies": [
     {"name": "frf", "kind": "frf", "from": 1, "to": 2, "method": "harmonic_balance", "stability": false,
@@ -164,14 +164,14 @@ TEST_CASE("no line of a long scene is wider than 110 columns where it can be bro
 
 TEST_CASE("the hash is FNV-1a of the resolved scene") {
   // computed apart, by the definition of Fowler, Noll and Vo, of the text in the test above
-  CHECK(hash(read_text(good_scene())) == "2e1061c9360cebae");
+  CHECK(hash(read_text(good_scene())) == "58a39deb818c2a18");
 }
 
 TEST_CASE("the hash does not see how a file is laid out, and sees each value") {
   Scene scene = read_text(good_scene());
   const std::string before = hash(scene);
   CHECK(hash(read_text(write(scene))) == before);
-  CHECK(hash(read_text(good_scene_with("\"response\"", "\"harmonics\": {\"accuracy\": 1e-4},\n\n\"response\""))) ==
+  CHECK(hash(read_text(good_scene_with("\"response\"", "\"harmonics\": {\"accuracy\": 1e-4, \"order\": 55},\n\n\"response\""))) ==
         before);
   scene.masses[0].values[0] = std::nextafter(1.0, 2.0);
   CHECK(hash(scene) != before);
