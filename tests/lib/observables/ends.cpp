@@ -50,6 +50,22 @@ scene::Scene softening() {
 
 }  // namespace
 
+// A window that ends before the corner at which a step was to go on once left a corner without a tangent.
+TEST_CASE("a mass that next to nothing holds has no response, or one that is a solution") {
+  const auto branches = branches_of(scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x1", "x2"],
+      "masses": [{"name": "m1", "at": "x1", "value": 1}, {"name": "m2", "at": "x2", "value": 1}],
+      "springs": [{"name": "k12", "between": ["x2", "x1"], "value": -1e-12}, {"name": "k2", "at": "x2", "value": 1}],
+      "dampers": [{"name": "c12", "between": ["x2", "x1"], "value": 0.03},
+                  {"name": "c2", "at": "x2", "value": 0.03}]},
+    "elements": [{"name": "stop", "type": "gap_spring", "at": "x1", "two_sided": false, "stiffness": 100, "gap": 1}],
+    "excitation": [{"name": "force", "at": "x2", "cosine": -100}], "harmonics": {"order": 7},
+    "response": {"at": "x1"}, "studies": [{"kind": "frf", "from": 0.3, "to": 1}]})"));
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].points.empty() == (branches[0].status == observables::Status::failed));
+  CHECK(branches[0].stop.reason == observables::reasons::start_failed);
+}
+
 TEST_CASE("a mass whose mean only friction would hold is named, and what would hold it") {
   const auto branches = branches_of(held_by_friction());
   REQUIRE(branches.size() == 1);
