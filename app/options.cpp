@@ -20,6 +20,7 @@ constexpr std::string_view exit_codes =
     "Exit codes: 0 done, 1 usage or file, 2 invalid scene, 3 stopped early with partial results written.";
 
 constexpr const char *run = "run", *check = "check";
+constexpr int most_threads = 1024;
 
 struct Verb {
   std::string name, help;
@@ -60,7 +61,7 @@ std::string names_of(const std::vector<Verb>& verbs) {
 /// Option values kept as text until parsing is complete.
 struct Texts {
   std::vector<std::string> set;
-  std::string harmonics, accuracy, combinations;
+  std::string harmonics, accuracy, combinations, threads;
 };
 
 /// The options of every verb that takes a scene.
@@ -112,6 +113,9 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
   verb.add_option("--combinations", texts.combinations,
                   "maximum number of combinations of the values in for_each (default: " +
                       std::to_string(scene::usual_combinations) + ")")
+      ->type_name("N");
+  verb.add_option("--threads", texts.threads,
+                  "combinations computed at the same time (default: as many as there are processors)")
       ->type_name("N");
   verb.add_flag("--quiet", options.quiet, "print only errors, no progress and no notes");
 }
@@ -205,6 +209,10 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
   options.accuracy = accuracy(texts.accuracy);
   options.combinations =
       whole_number("--combinations", texts.combinations, "a whole number, the combinations at most");
+  options.threads = whole_number("--threads", texts.threads, "a whole number, the threads");
+  if (options.threads && (*options.threads < 1 || *options.threads > most_threads))
+    throw UsageError("--threads " + texts.threads + ": must be an integer from 1 to " +
+                     std::to_string(most_threads));
   for (const KeyOption& option : chosen.keys)
     if (given(*verb, option.name())) options.keys.push_back(option.given());
   check_consistent(options, given(*verb, "--json"), given(*verb, "--csv"), given(*verb, "--out"));

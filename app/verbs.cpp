@@ -27,6 +27,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -154,7 +155,9 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   const std::optional<ResultsFolder> held = prepare_places(options, studies, files);
 
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
-  const scene::RunOptions how{has_files, options.coefficients, !options.out.empty(), {}};
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const scene::RunOptions how{has_files, options.coefficients, !options.out.empty(), {},
+                              options.threads.value_or(processors)};
   const results::Header header = studies::header(scene);
   std::vector<results::Schema> schemas;
   for (const scene::Study& study : studies) schemas.push_back(study.type->schema(scene, study, how));

@@ -161,7 +161,8 @@ const scene::StudyType& accuracy() {
            },
        .results = described,
        .figures = figures,
-       .coefficients = false});
+       .coefficients = false,
+       .timed = true});
   return type;
 }
 

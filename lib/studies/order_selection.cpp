@@ -122,6 +122,11 @@ bool OrderSelection::rises(const Truncation& found) {
   return true;
 }
 
+void OrderSelection::give_up() {
+  order_ = orders_.back();
+  given_up_ = true;
+}
+
 int OrderSelection::next() const {
   double growth = growth_where_unknown;
   if (std::isfinite(error_)) {
@@ -149,7 +154,8 @@ void OrderSelection::tell(results::End& end) const {
     append(end.remark, "accuracy " + to_two_digits(error_) + with);
   else if (!ended_ && end.status == results::Status::complete)
     append(end.doubt, "the accuracy " + results::shortest(wanted_) + " is not reached: " +
-                          (std::isfinite(error_) ? to_two_digits(error_) : "the error is not known") + with);
+                          (std::isfinite(error_) ? to_two_digits(error_) : "the error is not known") + with +
+                          (given_up_ ? ", since a higher order was interrupted" : ""));
 }
 
 }  // namespace arcslip::studies

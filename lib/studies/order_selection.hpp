@@ -61,6 +61,9 @@ class OrderSelection {
   /// Takes the results of that order. True: a higher order is to be computed.
   bool rises(const Truncation& found);
 
+  /// The order that rises() asked for is not computed to its end: the results are those of the one before.
+  void give_up();
+
   int order() const { return order_; }     // the last one
   double error() const { return error_; }  // relative; no_value: not known
   bool is_reached() const { return error_ <= wanted_; }
@@ -74,7 +77,7 @@ class OrderSelection {
 
   double wanted_;
   int highest_, period_, order_, samples_;
-  bool ended_ = false;
+  bool ended_ = false, given_up_ = false;
   double error_ = observables::no_value;
   std::vector<int> orders_{};  // computed, with their errors
   std::vector<double> errors_{};

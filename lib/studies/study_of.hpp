@@ -10,11 +10,15 @@
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/studies/columns.hpp>
 #include <arcslip/studies/described.hpp>
+#include <arcslip/studies/in_order.hpp>
 #include <arcslip/studies/order_selection.hpp>
 #include <arcslip/studies/units.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,41 +34,65 @@ struct Case {
   bool alone = true;          // it is the only one
 };
 
-/// Calls each(item) with the items of compute(Case, progress) for each of the combinations, each item
-/// with its set parameters. After a stop by the callback no further combination is started.
-template <class Compute, class Each>
-void for_each(const scene::Scene& scene, const scene::Combinations& all, const Compute& compute,
-              const results::ProgressCallback& progress, const Each& each) {
-  bool go_on = true;
-  for (std::size_t k = 0; k < all.size() && go_on; ++k) {
-    const scene::Setting set = all[k];
+/// Calls take(computed, set) with the result of compute(Case, progress) for each of the combinations, in their
+/// order and in this thread, with the parameters set; up to `threads` of them are computed at the same time.
+/// After a stop by the callback no further combination is started. progress is called by one thread at a time,
+/// and told of the first combination that is being computed.
+template <class Compute, class Take>
+void for_each(const scene::Scene& scene, const scene::Combinations& all, int threads, const Compute& compute,
+              const results::ProgressCallback& progress, const Take& take) {
+  std::atomic<bool> goes_on = true;
+  std::mutex telling;
+  std::map<std::size_t, results::Progress> computed_now;  // with the last report of each
+  const auto make = [&](std::size_t k) {
+    results::Progress begun;
+    begun.branch = static_cast<int>(k);
+    begun.branches = static_cast<int>(all.size());
+    {
+      const std::lock_guard lock(telling);
+      computed_now.emplace(k, begun);
+    }
+    scene::Setting set = all[k];
     scene::Scene with = scene;
     for (const auto& [name, value] : set) scene::set(with, name, value);
-    const results::ProgressCallback tell = [&](results::Progress now) {
-      now.branch = static_cast<int>(k);
-      now.branches = static_cast<int>(all.size());
-      go_on = go_on && (!progress || progress(now));
-      return go_on;
-    };
-    auto found = compute(Case{with, all.size() == 1}, tell);
-    for (auto& item : found) {
-      item.set = set;
-      if constexpr (requires { item.parameters; })
-        std::erase_if(item.parameters, [&](const auto& parameter) {
-          return std::any_of(set.begin(), set.end(),
-                             [&](const auto& value) { return value.first == parameter.first; });
-        });
-      each(std::move(item));
-    }
-  }
+    auto computed = compute(Case{with, all.size() == 1}, [&](results::Progress now) {
+      now.branch = begun.branch;
+      now.branches = begun.branches;
+      const std::lock_guard lock(telling);
+      computed_now[k] = now;
+      if (progress && !progress(computed_now.begin()->second)) goes_on = false;
+      return goes_on.load();
+    });
+    const std::lock_guard lock(telling);
+    computed_now.erase(k);
+    return std::pair(std::move(computed), std::move(set));
+  };
+  in_order(all.size(), threads, goes_on, make,
+           [&](auto&& made) { take(std::move(made.first), made.second); });
 }
 
-/// All items together.
+/// Tells the item which parameters are set, which it then does not list among its own.
+template <class Item>
+void put_set(const scene::Setting& set, Item& item) {
+  item.set = set;
+  if constexpr (requires { item.parameters; })
+    std::erase_if(item.parameters, [&](const auto& parameter) {
+      return std::any_of(set.begin(), set.end(),
+                         [&](const auto& value) { return value.first == parameter.first; });
+    });
+}
+
+/// All items together, in one thread; compute() gives those of a combination.
 template <class Item, class Compute>
 std::vector<Item> for_each(const scene::Scene& scene, const scene::Combinations& all, const Compute& compute,
                            const results::ProgressCallback& progress = {}) {
   std::vector<Item> items;
-  for_each(scene, all, compute, progress, [&](Item&& item) { items.push_back(std::move(item)); });
+  for_each(scene, all, 1, compute, progress, [&](auto&& computed, const scene::Setting& set) {
+    for (Item& item : computed) {
+      put_set(set, item);
+      items.push_back(std::move(item));
+    }
+  });
   return items;
 }
 
@@ -82,47 +110,63 @@ inline results::Schema with_set(const scene::Scene& scene, const scene::Study& s
 template <class Item>
 using TruncationOf = std::function<std::optional<Truncation>(std::span<const Item> items)>;
 
-/// StudyType::run() by functions: compute() as for for_each(), truncation_of(items) where the scene asks for
-/// an accuracy, figures(items). Items are kept only if figures are requested.
+/// StudyType::run() by functions: compute() of one combination, which other threads may call as well,
+/// truncation_of(items) where the scene asks for an accuracy, figures(items). Items are kept only if figures
+/// are requested.
 template <class Item, class Compute, class FiguresOf>
 std::vector<results::FigureData> run_items(const scene::Scene& scene, const scene::Study& study,
                                            const scene::RunOptions& options, const Described<Item>& described,
                                            std::size_t schema, results::Sink& sink, const Compute& compute,
                                            const std::type_identity_t<TruncationOf<Item>>& truncation_of,
                                            const FiguresOf& figures_of) {
-  std::vector<Item> kept;
-  std::optional<OrderSelection> selection;  // of the present combination
-  scene::Scene with_order = scene;
+  struct Computed {
+    std::vector<Item> items;
+    std::optional<OrderSelection> selection;
+    scene::Harmonics harmonics;
+  };
   const bool depends = truncation_of && truncation_of(std::span<const Item>());
-  const auto compute_accurately = [&](const Case& at, const results::ProgressCallback& progress) {
-    if (at.scene.harmonics.accuracy == 0) return compute(at, progress);
+  const auto compute_accurately = [&](const Case& at, const results::ProgressCallback& progress) -> Computed {
+    if (at.scene.harmonics.accuracy == 0) return {compute(at, progress), {}, at.scene.harmonics};
     scene::Scene with = at.scene;
     if (!depends) {
       set_order_of_starts(with);
-      return compute(Case{with, at.alone}, progress);
+      return {compute(Case{with, at.alone}, progress), {}, at.scene.harmonics};
     }
-    selection.emplace(at.scene);
-    for (;;) {
-      selection->set_order(with);
-      auto items = compute(Case{with, at.alone}, [&](results::Progress now) {
+    Computed found{{}, OrderSelection(at.scene), {}};
+    for (bool first = true;; first = false) {
+      found.selection->set_order(with);
+      bool goes_on = true;
+      std::vector<Item> items = compute(Case{with, at.alone}, [&](results::Progress now) {
         now.order = with.harmonics.order;
-        return !progress || progress(now);
+        goes_on = !progress || progress(now);
+        return goes_on;
       });
-      if (selection->rises(truncation_of(items).value())) continue;
-      with_order.harmonics = with.harmonics;
-      return items;
+      if (!goes_on && !first) {
+        found.selection->give_up();
+        return found;
+      }
+      found.items = std::move(items);
+      found.harmonics = with.harmonics;
+      if (!found.selection->rises(truncation_of(found.items).value())) return found;
     }
   };
-  for_each(scene, scene::Combinations(study), compute_accurately, options.progress, [&](Item&& item) {
-    item.study = study.name;
-    item.kind = study.type->name();
-    results::Result result = described.result(item);
-    if (selection) selection->tell(result.end);
-    const std::string beyond = scene::beyond_reduction(with_order, study);
-    if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
-    results::hand(result, schema, sink);
-    if (options.figures) kept.push_back(std::move(item));
-  });
+  std::vector<Item> kept;
+  scene::Scene with_order = scene;
+  for_each(scene, scene::Combinations(study), options.threads, compute_accurately, options.progress,
+           [&](Computed&& computed, const scene::Setting& set) {
+             with_order.harmonics = computed.harmonics;
+             const std::string beyond = scene::beyond_reduction(with_order, study);
+             for (Item& item : computed.items) {
+               put_set(set, item);
+               item.study = study.name;
+               item.kind = study.type->name();
+               results::Result result = described.result(item);
+               if (computed.selection) computed.selection->tell(result.end);
+               if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
+               results::hand(result, schema, sink);
+               if (options.figures) kept.push_back(std::move(item));
+             }
+           });
   return options.figures ? figures_of(std::span<const Item>(kept)) : std::vector<results::FigureData>();
 }
 
@@ -135,6 +179,7 @@ struct KindOf {
   Described<Item> (*results)(const scene::Scene& scene, const S& settings, const scene::RunOptions& options);
   std::vector<results::FigureData> (*figures)(const scene::Scene& scene, std::span<const Item> items);
   bool coefficients = true;  // whether the option of that name changes the results
+  bool timed = false;        // its results are times: one combination after the other
   std::optional<Truncation> (*truncation)(const S& settings, std::span<const Item> items) = nullptr;
 };
 
@@ -153,8 +198,10 @@ class StudyOf : public scene::file::KeyedStudy<S> {
                                        const scene::RunOptions& options, std::size_t schema,
                                        results::Sink& sink) const override {
     const S& settings = study.settings.as<S>();
+    scene::RunOptions how = options;
+    if (kind_.timed) how.threads = 1;
     return run_items(
-        scene, study, options, kind_.results(scene, settings, options), schema, sink,
+        scene, study, how, kind_.results(scene, settings, options), schema, sink,
         [&](const Case& at, const results::ProgressCallback& progress) {
           return kind_.compute(at, settings, progress);
         },

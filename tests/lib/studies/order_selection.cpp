@@ -263,6 +263,28 @@ TEST_CASE("a study that the user ends has the order that it had") {
   CHECK(!branch.contains("doubt"));
 }
 
+TEST_CASE("a study that the user ends in a higher order has the whole results of the order before") {
+  const scene::Scene s =
+      accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-6);
+  for (const int after : {0, 10, 60}) {  // calls of the second order
+    CAPTURE(after);
+    int calls = 0;
+    const Json branch = run(s, [&](const results::Progress& now) {
+      return now.order == 3 || ++calls <= after;
+    })["branches"][0];
+    CHECK(calls == after + 1);
+    CHECK(branch["status"] == "complete");
+    CHECK(branch["accuracy"]["orders"] == Json{3});
+    const std::string doubt = branch["doubt"];
+    CHECK(doubt.starts_with("the accuracy 1e-06 is not reached: "));
+    CHECK(doubt.ends_with(" with harmonics up to 3, since a higher order was interrupted"));
+    scene::Scene given = s;
+    given.harmonics.accuracy = 0;
+    given.harmonics.order = 3;
+    CHECK(run(given)["branches"][0]["points"] == branch["points"]);
+  }
+}
+
 TEST_CASE("a failing study is tried with two orders") {
   scene::Scene s =
       accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-6);

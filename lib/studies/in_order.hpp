@@ -1,0 +1,90 @@
+#pragma once
+// Computations that do not depend on each other, in several threads, with their results in order.
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace arcslip::studies {
+
+/// take(make(k)) for k = 0 ... count - 1, in this order and in the calling thread, with make() in up to
+/// `threads` threads: the results are those of one thread. None is begun that far ahead of take() that more
+/// than twice as many results as threads wait for it. No k is begun after goes_on is false. An exception of
+/// make(k) is thrown after the results before k are taken; it and one of take() set goes_on to false and wait
+/// for what is begun.
+template <class Make, class Take>
+void in_order(std::size_t count, int threads, std::atomic<bool>& goes_on, const Make& make,
+              const Take& take) {
+  using Result = std::invoke_result_t<const Make&, std::size_t>;
+  if (threads <= 1 || count <= 1) {
+    for (std::size_t k = 0; k < count && goes_on; ++k) take(make(k));
+    return;
+  }
+  struct Made {
+    std::optional<Result> result;
+    std::exception_ptr failure;
+  };
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::map<std::size_t, Made> waiting;
+  std::size_t begun = 0, taken = 0;
+  const std::size_t ahead = 2 * static_cast<std::size_t>(threads);
+  const auto work = [&] {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      changed.wait(lock, [&] { return !goes_on || begun == count || begun < taken + ahead; });
+      if (!goes_on || begun == count) return;
+      const std::size_t k = begun++;
+      lock.unlock();
+      Made made;
+      try {
+        made.result.emplace(make(k));
+      } catch (...) {
+        made.failure = std::current_exception();
+      }
+      lock.lock();
+      waiting.emplace(k, std::move(made));
+      changed.notify_all();
+    }
+  };
+  struct Ending {  // of the threads, before what they use is gone
+    std::atomic<bool>& goes_on;
+    std::mutex& mutex;
+    std::condition_variable& changed;
+    std::vector<std::jthread> workers{};
+    bool whole = false;
+    ~Ending() {
+      if (!whole) {
+        const std::lock_guard lock(mutex);
+        goes_on = false;
+      }
+      changed.notify_all();
+    }
+  } ending{goes_on, mutex, changed};
+  const auto workers = std::min(static_cast<std::size_t>(threads), count);
+  for (std::size_t i = 0; i < workers; ++i) ending.workers.emplace_back(work);
+  for (;;) {
+    std::unique_lock lock(mutex);
+    // What is begun is taken, also after a stop.
+    changed.wait(lock, [&] { return waiting.contains(taken) || taken == count || (!goes_on && taken == begun); });
+    const auto next = waiting.extract(taken);
+    if (next.empty()) break;
+    ++taken;
+    changed.notify_all();
+    lock.unlock();
+    if (next.mapped().failure) std::rethrow_exception(next.mapped().failure);
+    take(std::move(*next.mapped().result));
+  }
+  ending.whole = true;
+}
+
+}  // namespace arcslip::studies
