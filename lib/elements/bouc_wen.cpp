@@ -1,6 +1,7 @@
 #include <arcslip/elements/bouc_wen.hpp>
 
 #include <arcslip/elements/bouc_wen_element.hpp>
+#include <arcslip/elements/hysteresis.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -70,7 +71,7 @@ struct Midpoint {
   double middle, dz, z_q, z_z;
 };
 
-class BoucWen final : public PlainLaw {
+class BoucWen final : public PlainLaw, public Hysteresis {
  public:
   std::string_view name() const override { return "bouc_wen"; }
   std::string_view help() const override { return "smooth hysteresis"; }
@@ -148,6 +149,12 @@ class BoucWen final : public PlainLaw {
   double stored(Fields fields, In q, In z) const override {
     const BoucWenFields at(fields);
     return 0.5 * at.k * (at.a * q[0] * q[0] + (1 - at.a) * z[0] * z[0]);
+  }
+
+  double bound(Fields fields) const override { return BoucWenFields(fields).z_y; }
+  double rate(Fields fields, double x) const override {
+    const BoucWenFields at(fields);
+    return BoucWenRate(at, x * at.z_y, 1).rate;
   }
 };
 

@@ -16,7 +16,7 @@
 // estimate includes this error, since it looks at the equations with more harmonics and samples. A motion of
 // no size leaves the mean of z open: 1e-12 of it in its own equation holds it at 0 there.
 //
-// In time: the implicit midpoint rule in q, in steps of at most z_y/n.
+// In time: the implicit midpoint rule in q, in steps of at most z_y/n. Multipliers: as a Hysteresis.
 //
 // Fields: stiffness k (N/m), elastic_share a, yield_displacement z_y (m), exponent n, shape s.
 // Sources: Bouc 1967; Wen 1976; Ismail, Ikhouane & Rodellar 2009.

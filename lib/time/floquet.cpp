@@ -2,12 +2,9 @@
 
 #include <arcslip/time/linear_motion.hpp>
 #include <arcslip/time/linear_phases.hpp>
-#include <arcslip/time/variation.hpp>
-
-#include <Eigen/LU>
+#include <arcslip/time/varying_coefficients.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,29 +14,12 @@ namespace arcslip::time {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr int nodes = 4;             // of Gauss, in a piece with coefficients that change
 constexpr int pieces_at_least = 64;  // of such ones in a period
 constexpr double most_pieces = 200;  // into which one is divided further
 constexpr double fastest_turns =
     1e12;  // of the fastest motion in a period: beyond, nothing is left of its phase
 constexpr double pieces_per_order = 2;  // of the motion's harmonics
 constexpr double long_enough = 0.05;    // of the longest interval without a change, to begin in it
-
-// Gauss-Legendre nodes on [0, 1].
-std::array<double, nodes> gauss_nodes() {
-  const double a = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(6.0 / 5)),
-               b = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(6.0 / 5));
-  return {0.5 * (1 - b), 0.5 * (1 - a), 0.5 * (1 + a), 0.5 * (1 + b)};
-}
-
-// Row j: the coefficients of s^j by the values at the nodes.
-Eigen::Matrix4d interpolation() {
-  const auto at = gauss_nodes();
-  Eigen::Matrix4d powers;
-  for (int i = 0; i < nodes; ++i)
-    for (int j = 0; j < nodes; ++j) powers(i, j) = std::pow(at[static_cast<std::size_t>(i)], j);
-  return powers.inverse();
-}
 
 // An automaton, where it acts, and what it does along the motion.
 struct Part {
@@ -54,17 +34,11 @@ struct Part {
   bool rests() const { return memory >= 0 && mode().rests; }
 };
 
-// A law without memory that is not piecewise linear.
-struct Smooth {
-  int element;
-  bool moving;  // its force depends on velocities
-  elements::StepEnd at;
-  std::array<Matrix, nodes> T, B;  // at the nodes
-};
-
+// Of the mode of parts[of], or a reversal of hysteretic law `of`.
 struct Change {
   double theta;  // from the start
-  std::size_t part, index;
+  std::size_t of, index;
+  bool reversal = false;
 };
 
 bool falling(const std::complex<double>& a, const std::complex<double>& b) {
@@ -75,10 +49,10 @@ bool falling(const std::complex<double>& a, const std::complex<double>& b) {
 
 struct Floquet::Impl {
   Impl(const EquationOfMotion& of, double highest_natural, Impl* before)
-      : equation(of), highest(highest_natural), along(interpolation()) {
-    const bool all_linear =
-        std::none_of(equation.elements.begin(), equation.elements.end(),
-                     [](const auto& e) { return e.law->memory() == 0 && !e.law->automata(e.fields); });
+      : equation(of), highest(highest_natural) {
+    const bool all_linear = std::none_of(
+        equation.elements.begin(), equation.elements.end(),
+        [](const auto& e) { return VaryingCoefficients::takes(*e.law) && !e.law->automata(e.fields); });
     if (!all_linear) mass.factorize(equation.M);
     for (std::size_t e = 0; e < equation.elements.size(); ++e) add(static_cast<int>(e));
     if (all_linear) {
@@ -122,29 +96,27 @@ struct Floquet::Impl {
       }
       return;
     }
-    if (element.law->memory() > 0)
+    if (!VaryingCoefficients::takes(*element.law))
       throw NoVariation("the memory of \"" + element.name + "\" is not piecewise linear");
-    smooth.push_back({e, element.law->rate_dependent(), {element.law->directions(), 0}, {}, {}});
-    variables.emplace_back(mass.solve(element.directions), element.directions, nodes, smooth.back().moving);
+    varying.add(element, e, mass.solve(element.directions));
   }
 
   bool compute(double base_frequency, const elements::Harmonics& harmonics,
                const std::vector<ElementCourse>& elements, const GoOn& go_on) {
     omega = base_frequency;
     span = harmonics.span();
-    if (!follow(harmonics, elements)) return false;
+    if (!varying.follow(omega, harmonics, elements) || !follow(harmonics, elements)) return false;
     begin();
     if (phases)
       phases->begin(modes_now(), kept);
-    else if (!begin_with_smooth(harmonics))
+    else if (!begin_varying(harmonics))
       return false;
     std::size_t next = 0;
     double theta = 0;
     while (true) {
       if (go_on && !go_on()) return false;
       const double end = next < changes.size() ? changes[next].theta : span;
-      const bool moved =
-          phases ? phases->move((end - theta) / omega) : move_with_smooth(theta, end, harmonics, elements);
+      const bool moved = phases ? phases->move((end - theta) / omega) : move_varying(theta, end);
       if (!moved) return false;
       theta = end;
       if (next == changes.size()) break;
@@ -176,6 +148,10 @@ struct Floquet::Impl {
       for (std::size_t k = 0; k < part.course.changes.size(); ++k)
         changes.push_back({part.course.changes[k].theta, i, k});
     }
+    for (std::size_t i = 0; i < varying.hystereses(); ++i)
+      for (std::size_t k = 0; k < varying.course(i).turns().size(); ++k)
+        for (double theta = varying.course(i).turns()[k].theta; theta < turn; theta += span)
+          changes.push_back({theta, i, k, true});
     std::stable_sort(changes.begin(), changes.end(),
                      [](const Change& a, const Change& b) { return a.theta < b.theta; });
     const auto length = [&](std::size_t k) {
@@ -193,10 +169,12 @@ struct Floquet::Impl {
     int fewest = std::numeric_limits<int>::max();
     double its_length = 0;
     for (std::size_t k = 0; k < changes.size(); ++k) {
-      Part& part = parts[changes[k].part];
-      resting -= part.rests() ? 1 : 0;
-      part.now = part.course.changes[changes[k].index].to;
-      resting += part.rests() ? 1 : 0;
+      if (!changes[k].reversal) {
+        Part& part = parts[changes[k].of];
+        resting -= part.rests() ? 1 : 0;
+        part.now = part.course.changes[changes[k].index].to;
+        resting += part.rests() ? 1 : 0;
+      }
       const double is_long = length(k);
       if (is_long < long_enough * longest || std::pair(resting, -is_long) >= std::pair(fewest, -its_length))
         continue;
@@ -211,6 +189,13 @@ struct Floquet::Impl {
     std::stable_sort(changes.begin(), changes.end(),
                      [](const Change& a, const Change& b) { return a.theta < b.theta; });
     while (!changes.empty() && changes.back().theta >= span) changes.pop_back();
+    breaks.clear();
+    for (std::size_t i = 0; i < varying.hystereses(); ++i)
+      for (const double theta : varying.course(i).breaks()) {
+        const double from_start = std::fmod(theta - start, span);
+        breaks.push_back(from_start < 0 ? from_start + span : from_start);
+      }
+    std::sort(breaks.begin(), breaks.end());
     return true;
   }
 
@@ -229,15 +214,18 @@ struct Floquet::Impl {
   }
 
   // False: too fast.
-  bool begin_with_smooth(const elements::Harmonics& harmonics) {
+  bool begin_varying(const elements::Harmonics& harmonics) {
     const Eigen::Index n = equation.dofs();
-    const auto starts = 2 * n + static_cast<Eigen::Index>(kept.size());
+    const auto memories = 2 * n + static_cast<Eigen::Index>(kept.size());
+    const auto starts = memories + static_cast<Eigen::Index>(varying.hystereses());
     W.setZero(starts, n);
     V.setZero(starts, n);
     Z.setZero(starts, equation.memory);
     W.topRows(n).setIdentity();
     V.middleRows(n, n).setIdentity();
     for (std::size_t k = 0; k < kept.size(); ++k) Z(2 * n + static_cast<Eigen::Index>(k), kept[k]) = 1;
+    for (std::size_t i = 0; i < varying.hystereses(); ++i)
+      varying.memory(i) = Vector::Unit(starts, memories + static_cast<Eigen::Index>(i));
     C = over_mass_C / omega;
     rate = fastest_mode / omega;
     piece = turn / std::max<double>(pieces_at_least, pieces_per_order * harmonics.order);
@@ -263,83 +251,49 @@ struct Floquet::Impl {
   }
 
   // False: too many pieces.
-  bool move_with_smooth(double theta, double end, const elements::Harmonics& harmonics,
-                        const std::vector<ElementCourse>& elements) {
+  bool move_varying(double theta, double end) {
     set_modes();
-    const double length = end - theta;
-    const int coarse = static_cast<int>(std::ceil(length / piece));
-    for (int i = 0; i < coarse; ++i) {
-      const double from = theta + length * i / coarse, h = length / coarse;
-      const double stiffest = interpolate(from, h, harmonics, elements);
-      // With the largest coefficients at the nodes.
-      const double needed = std::ceil(h * stiffest / 2);
-      if (!(needed <= most_pieces)) return false;
-      const int fine = std::max(1, static_cast<int>(needed));
-      if (fine == 1) {
-        variation.move(h, stiffest, K, C, G, variables, W, V);
-        continue;
-      }
-      for (int j = 0; j < fine; ++j) {
-        const double finest = interpolate(from + h * j / fine, h / fine, harmonics, elements);
-        variation.move(h / fine, finest, K, C, G, variables, W, V);
-      }
+    auto next = std::upper_bound(breaks.begin(), breaks.end(), theta);
+    while (theta < end) {
+      const double to = next != breaks.end() && *next < end ? *next++ : end;
+      const int coarse = static_cast<int>(std::ceil((to - theta) / piece));
+      for (int i = 0; i < coarse; ++i)
+        if (!move_piece(theta + (to - theta) * i / coarse, (to - theta) / coarse)) return false;
+      theta = to;
+    }
+    return true;
+  }
+
+  bool move_piece(double from, double h) {
+    const double stiffest = interpolate(from, h);
+    // With the largest coefficients at the nodes.
+    const double needed = std::ceil(h * stiffest / 2);
+    if (!(needed <= most_pieces)) return false;
+    const int fine = std::max(1, static_cast<int>(needed));
+    for (int j = 0; j < fine; ++j) {
+      const double finest = fine == 1 ? stiffest : interpolate(from + h * j / fine, h / fine);
+      variation.move(h / fine, finest, K, C, G, varying.variables(), W, V);
     }
     return true;
   }
 
   // Returns the rate of the fastest motion, from above, in rad/rad.
-  double interpolate(double from, double h, const elements::Harmonics& harmonics,
-                     const std::vector<ElementCourse>& elements) {
-    static const auto at = gauss_nodes();
-    double stiffness = 0, damping = 0;
-    for (std::size_t s = 0; s < smooth.size(); ++s) {
-      Smooth& law = smooth[s];
-      const TimeElement& element = equation.elements[static_cast<std::size_t>(law.element)];
-      const Matrix& motion = elements[static_cast<std::size_t>(law.element)].q;
-      q.resize(motion.cols());
-      double most_T = 0, most_B = 0;
-      for (std::size_t i = 0; i < nodes; ++i) {
-        const double theta = start + from + h * at[i];
-        const double c = std::cos(theta), sine = std::sin(theta);
-        for (Eigen::Index k = 0; k < motion.cols(); ++k) {
-          const auto values = elements::series_values(harmonics, motion.col(k), c, sine);
-          q[k] = values.x;
-          law.at.v[k] = omega * values.d1;
-        }
-        none.resize(0);
-        element.law->begin(element.fields, q, none, law.at);
-        law.T[i] = law.at.f_q;
-        most_T = std::max(most_T, law.T[i].cwiseAbs().sum());
-        if (!law.moving) continue;
-        law.B[i] = law.at.f_v;
-        most_B = std::max(most_B, law.B[i].cwiseAbs().sum());
-      }
-      Variable& variable = variables[s];
-      for (std::size_t j = 0; j < nodes; ++j) {
-        variable.T[j].setZero(q.size(), q.size());
-        if (law.moving) variable.B[j].setZero(q.size(), q.size());
-        for (std::size_t i = 0; i < nodes; ++i) {
-          const double weight = along(static_cast<int>(j), static_cast<int>(i));
-          variable.T[j] += weight / (omega * omega) * law.T[i];
-          if (law.moving) variable.B[j] += weight / omega * law.B[i];
-        }
-      }
-      stiffness += variable.size * most_T / (omega * omega);
-      damping += variable.size * most_B / omega;
-    }
+  double interpolate(double from, double h) {
+    const auto [stiffness, damping] = varying.interpolate(start + from, h);
     return std::sqrt(rate * rate + stiffness) + damping;
   }
 
   void pass(const Change& at, const elements::Harmonics& harmonics,
             const std::vector<ElementCourse>& elements) {
-    Part& part = parts[at.part];
+    if (at.reversal) return varying.pass(at.of, at.index, W);
+    Part& part = parts[at.of];
     const ModeChange& change = part.course.changes[at.index];
     const elements::Mode& left = part.mode();
     const elements::Mode& next = part.automaton.modes[static_cast<std::size_t>(change.to)];
     if (part.memory >= 0 && !left.rests && next.rests)
-      settle(at.part, *change.by, change.theta, harmonics, elements);
+      settle(at.of, *change.by, change.theta, harmonics, elements);
     part.now = change.to;
-    if (phases) phases->change(at.part, change.to);
+    if (phases) phases->change(at.of, change.to);
   }
 
   // The memory that followed comes to rest: where the instant moves, by -dg/g', dz moves along.
@@ -368,12 +322,14 @@ struct Floquet::Impl {
       map = phases->map();
     } else {
       const Eigen::Index n = equation.dofs();
-      const auto size = 2 * n + static_cast<Eigen::Index>(kept.size());
-      map.resize(size, size);
+      const auto memories = 2 * n + static_cast<Eigen::Index>(kept.size());
+      map.resize(W.rows(), W.rows());
       map.topRows(n) = W.transpose();
       map.middleRows(n, n) = V.transpose();
       for (std::size_t k = 0; k < kept.size(); ++k)
         map.row(2 * n + static_cast<Eigen::Index>(k)) = Z.col(kept[k]);
+      for (std::size_t i = 0; i < varying.hystereses(); ++i)
+        map.row(memories + static_cast<Eigen::Index>(i)) = varying.memory(i);
     }
     if (half) map = -map;
     if (!map.allFinite() || !set_eigenvalues()) return false;
@@ -402,12 +358,10 @@ struct Floquet::Impl {
 
   const EquationOfMotion equation;
   const double highest;
-  const Eigen::Matrix4d along;
-  std::optional<LinearPhases> phases;  // of a structure without smooth laws; then no W, V and Z
+  std::optional<LinearPhases> phases;  // of a structure without varying laws; then no W, V and Z
   continuation::Cholesky mass;
   std::vector<Part> parts;
-  std::vector<Smooth> smooth;
-  std::vector<Variable> variables;  // of smooth
+  VaryingCoefficients varying;
   Matrix over_mass_K, over_mass_C;
   double fastest_mode = 0;  // rad/s, of the automata's stiffest modes
 
@@ -415,11 +369,11 @@ struct Floquet::Impl {
   MotionSeries series;
   double omega = 0, span = 0, start = 0, rate = 0, piece = 0;
   std::vector<Change> changes;  // in [0, span)
+  std::vector<double> breaks;   // ends of pieces, in [0, span)
   std::vector<int> kept;        // memories with a column
   int zeros = 0;
   Matrix K, C, G, map;
   Matrix W, V, Z;  // a row for each start: dw, dw', dz
-  Vector q, none;
   Eigen::RowVectorXd by_q;
   Variation variation;
   continuation::Eigenvalues eigenvalues;

@@ -8,14 +8,15 @@
 // whose angles the element tells (automaton_course.hpp). A slider that rests keeps its variation dz; one that
 // follows has dz = z_q D^T w, and at the instant theta_e where it comes to rest by a guard g of displacements
 // the variation of this instant, -dg/g', moves it too. Other laws without memory have T = df/dq and
-// B = df/dv along the motion.
+// B = df/dv along the motion, and hysteretic ones a forcing by the disturbance of their memory, too
+// (hysteresis_course.hpp).
 //
 // Propagation: where all laws are piecewise linear, in the oscillators of the structure in each set of modes,
 // kept from motion to motion (linear_phases.hpp). Otherwise by power series of w over pieces of the period: T
 // and B of other laws are replaced by polynomials through their values at four Gauss nodes of each piece,
-// which leaves an error of order 8. Long pieces of constant coefficients are halved and squared. An
-// antisymmetric motion is followed over half a period: its multipliers are the squares of those of the map
-// w(theta) -> -w(theta + pi).
+// which leaves an error of order 8 (varying_coefficients.hpp). Long pieces of constant coefficients are
+// halved and squared. An antisymmetric motion is followed over half a period: its multipliers are the squares
+// of those of the map w(theta) -> -w(theta + pi).
 //
 // Where all laws are piecewise linear, degrees of freedom may have no mass, and natural modes above a limit
 // may be left out, whose flexibility remains: they have no multipliers.
@@ -39,7 +40,7 @@ namespace arcslip::time {
 
 using GoOn = std::function<bool()>;
 
-/// A law with a memory that is not piecewise linear.
+/// A law with a memory that is neither piecewise linear nor hysteretic (elements/hysteresis.hpp).
 class NoVariation : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -79,8 +80,9 @@ class Floquet {
   const std::vector<std::complex<double>>& multipliers() const;
   /// Of the map over half a period, where the motion is antisymmetric: -1 where the symmetry breaks.
   const std::vector<std::complex<double>>& half_multipliers() const;
-  /// The map of the variation and its velocity, in coordinates of its own, and of dz of the sliders that rest
-  /// at the first instant and slip later, over harmonics.span(), from an instant between two changes.
+  /// The map of the variation and its velocity, in coordinates of its own, of dz of the sliders that rest at
+  /// the first instant and slip later, and of y of hysteretic laws at their last reversal before, over
+  /// harmonics.span(), from an instant between two changes.
   const Matrix& map() const;
 
  private:

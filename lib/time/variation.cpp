@@ -132,6 +132,8 @@ void Variation::add_variable(const Variable& variable, std::size_t k, Matrix& al
     project(variable, v_, offset, along_v);
     convolve(variable.B, k, along_v, sum_);
   }
+  if (const auto j = static_cast<Eigen::Index>(k); j < variable.by_memory.cols())
+    sum_.noalias() += variable.memory * variable.by_memory.col(j).transpose();
   for (const Variable::Entry& entry : variable.onto) {
     const double* const from = sum_.col(entry.direction).data();
     double* const to = next_v_.col(entry.dof).data();

@@ -1,10 +1,10 @@
 #pragma once
 // Pieces of the variational equation by power series (floquet.hpp). Private.
 //
-//   w'' = -C w' - K w + G - sum_j s^j D (T_j D^T w + B_j D^T w'),     0 <= s <= 1
+//   w'' = -C w' - K w + G - sum_j s^j D (T_j D^T w + B_j D^T w' + p_j y),     0 <= s <= 1
 //
-// over an angle h; C, K, D: with M^-1 and the powers of omega in them. Several w run together: a row for
-// each, a column for each degree of freedom, so that a sparse K costs its nonzeros.
+// over an angle h, with a constant y; C, K, D: with M^-1 and the powers of omega in them. Several w run
+// together: a row for each, a column for each degree of freedom, so that a sparse K costs its nonzeros.
 
 #include <arcslip/time/equation_of_motion.hpp>
 
@@ -23,6 +23,8 @@ struct Variable {
   };
   std::vector<Entry> onto, from;  // of M^-1 D and D, without zeros
   std::vector<Matrix> T, B;       // of s^j, directions x directions
+  Matrix by_memory;               // p_j in column j, directions x powers; empty: 0
+  Vector memory;                  // y, a number for each w
   double size;                    // |M^-1 D| |D|
 };
 

@@ -1,7 +1,7 @@
 // The multipliers along harmonic balance with 15 harmonics, at random points of the branches of random
-// structures with friction, stops, contacts and cubic springs, beside those of the exact motion there: by
-// shooting or, with cubic springs, of a motion of 121 harmonics. ARCSLIP_SCENES is the number of structures,
-// 10 points each; by default 10.
+// structures with friction, stops, contacts, cubic springs and hysteresis, beside those of the exact motion
+// there: by shooting or, with cubic springs or hysteresis, of a motion of 121 harmonics. ARCSLIP_SCENES is
+// the number of structures, 10 points each; by default 10.
 #include "catch.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
@@ -185,4 +185,86 @@ TEST_CASE("multipliers with 15 harmonics are as near to the exact ones as their 
   CHECK(all.missing <= all.points / 50);
   CHECK(all.sharp - all.within <= all.sharp / 500);
   CHECK(all.wrong <= all.verdicts / 1000);
+}
+
+namespace {
+
+// A chain of 1 to 3 masses with a wire at the first one, and by chance another one, a damper and a cubic
+// spring.
+scene::Scene hysteretic_scene(std::uint64_t seed) {
+  test_random::Random random(seed);
+  const char* const names[] = {"x", "y", "z"};
+  const int n = 1 + static_cast<int>(seed % 3);
+  std::ostringstream dofs, masses, springs, dampers, elements;
+  for (std::ostringstream* text : {&dofs, &masses, &springs, &dampers, &elements}) text->precision(17);
+  const auto value = [](std::ostringstream& into, const std::string& name, const std::string& place,
+                        double number) {
+    into << (into.str().empty() ? "" : ", ") << R"({"name": ")" << name << R"(", )" << place
+         << R"(, "value": )" << number << "}";
+  };
+  for (int i = 0; i < n; ++i) {
+    const std::string name = names[i], at = R"("at": ")" + name + R"(")";
+    dofs << (i > 0 ? ", " : "") << '"' << name << '"';
+    value(masses, "m" + name, at, random.between(0.5, 1.5));
+    value(springs, "k" + name, at, random.between(0.2, 1.2));
+    value(dampers, "c" + name, at, random.logarithmic(0.01, 0.1));
+    if (i > 0)
+      value(springs, "l" + name, R"("between": [")" + std::string(names[i - 1]) + R"(", ")" + name + R"("])",
+            random.between(0.3, 1));
+    if (i == 0 || random.one_in(2))
+      elements << (i > 0 ? ", " : "") << R"({"name": "w)" << name << R"(", "type": "bouc_wen", )" << at
+               << R"(, "stiffness": )" << random.logarithmic(0.2, 1) << R"(, "elastic_share": )"
+               << random.between(0, 0.5) << R"(, "yield_displacement": )" << random.logarithmic(0.1, 1)
+               << R"(, "exponent": )" << random.between(1, 4) << R"(, "shape": )" << random.between(0.5, 1)
+               << "}";
+  }
+  if (random.one_in(2))
+    elements << R"(, {"name": "cubic", "type": "cubic_spring", "at": "x", "stiffness": )"
+             << random.logarithmic(0.05, 0.5) << "}";
+  if (random.one_in(3))
+    elements << R"(, {"name": "damper", "type": "jenkins", "at": "x", "stiffness": )"
+             << random.between(0.1, 0.6) << R"(, "friction_coefficient": 1, "normal_load": )"
+             << random.between(0.05, 0.3) << "}";
+  auto s =
+      scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"dofs": [)" +
+                    dofs.str() + R"(], "masses": [)" + masses.str() + R"(], "springs": [)" + springs.str() +
+                    R"(], "dampers": [)" + dampers.str() + R"(]}, "elements": [)" + elements.str() +
+                    R"(], "excitation": [{"name": "f", "at": "x", "cosine": 0.3}], "response": {"at": "x"},
+                         "studies": [{"name": "frf", "kind": "frf", "from": 0.6, "to": 1.8, "stability": true}]})");
+  s.harmonics.order = 15;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("with hysteresis, too, multipliers are as near to the exact ones as their error says",
+          "[numbers]") {
+  Count count;
+  std::ostringstream beyond;
+  for (std::uint64_t seed = 0; seed < scene_count(); ++seed) {
+    const scene::Scene s = hysteretic_scene(seed);
+    const auto branch = observables::frequency_response(s, scenes::window(s)).front();
+    CHECK(branch.unknown_stability.empty());
+    const auto model = std::make_shared<const model::Model>(model::build(s));
+    const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+    test_random::Random random(seed);
+    std::vector<const observables::ResponsePoint*> known;
+    for (const auto& point : branch.points)
+      if (point.stability && point.stability->error < HUGE_VAL) known.push_back(&point);
+    REQUIRE(!known.empty());
+    for (int i = 0; i < 4; ++i) {
+      const auto& point = *random.of(known);
+      const auto exact = exact_beside(cubic, problem, point);
+      const auto& found = *point.stability;
+      count.add(found, exact);
+      if (!exact || (Count::is_within(found, *exact) && !Count::is_wrong(found, *exact))) continue;
+      beyond << "seed " << seed << ", " << point.omega << " rad/s: error "
+             << difference(found.multipliers, exact->multipliers) << " beside " << found.error << "\n";
+    }
+  }
+  INFO(beyond.str());
+  CHECK(count.missing <= count.points / 50);
+  CHECK(count.sharp == count.within);
+  CHECK(count.sharp > count.points / 2);
+  CHECK(count.wrong == 0);
 }

@@ -2,6 +2,7 @@
 // ARCSLIP_SCENES is the number of random structures; by default 30.
 #include "catch.hpp"
 
+#include "lib/elements/contacts.hpp"
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
@@ -405,14 +406,46 @@ TEST_CASE("where the birth of slip is a fold, the fold tells the multiplier that
 }
 
 TEST_CASE("a branch whose stability is not known says why") {
-  const auto s = duffing("bouc_wen", R"("stiffness": 1, "elastic_share": 0.2, "yield_displacement": 1,
-    "exponent": 1, "shape": 0.6)",
-                         1, 0.05, 0.1, 5);
-  const auto branch = response(s, 0.5, 1.6);
-  CHECK(branch.unknown_stability == "the memory of \"s\" is not piecewise linear");
-  CHECK(studies::doubt_of(branch) == "without its stability: the memory of \"s\" is not piecewise linear");
+  const auto s = contacts::plane_pad(5, 25, 8);
+  const auto branch = response(s, 60, 75);
+  CHECK(branch.unknown_stability == "the memory of \"pad\" is not piecewise linear");
+  CHECK(studies::doubt_of(branch) == "without its stability: the memory of \"pad\" is not piecewise linear");
   for (const auto& point : branch.points) CHECK_FALSE(point.stability);
   CHECK(studies::unstable_ranges(s, branch).empty());
+}
+
+TEST_CASE("with hysteresis one multiplier is unstable between two folds, and is 1 at them to its error") {
+  // The folds are singular Jacobians of harmonic balance, the multipliers those of the motion in time.
+  for (const int order : {9, 31}) {
+    auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+        "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
+      "elements": [{"name": "cubic", "type": "cubic_spring", "at": "x", "stiffness": 0.5},
+        {"name": "wire", "type": "bouc_wen", "at": "x", "stiffness": 0.3, "elastic_share": 0.1,
+         "yield_displacement": 0.1, "exponent": 1.5, "shape": 0.7}],
+      "excitation": [{"name": "f", "at": "x", "cosine": 0.15}], "response": {"at": "x"}})");
+    s.harmonics.order = order;
+    CAPTURE(order);
+    const auto branch = response(s, 0.8, 2);
+    CHECK(branch.unknown_stability.empty());
+    const auto folds = events(branch, "fold");
+    REQUIRE(folds.size() == 2);
+    for (const auto& fold : folds) {
+      const auto& stability = *fold.point.stability;
+      const double from_1 = nearest_to(1, stability.multipliers);
+      CAPTURE(from_1, stability.error);
+      CHECK(from_1 < 5 * stability.error + 1e-8);
+      CHECK(from_1 < 0.4 / (order * order));
+    }
+    for (std::size_t i = 0; i < branch.points.size(); ++i) {
+      const auto& stability = branch.points[i].stability;
+      REQUIRE(stability);
+      CHECK(stability->multipliers.size() == 3);
+      const bool between = i > folds[0].after && i <= folds[1].after;
+      if (std::abs(std::abs(stability->multipliers.front()) - 1) > stability->error)
+        CHECK(stability->unstable == (between ? 1 : 0));
+    }
+  }
 }
 
 TEST_CASE("where slip is born, a self-excited structure that is unstable in stick becomes stable at once") {

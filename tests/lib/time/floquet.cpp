@@ -9,7 +9,7 @@
 #include "lib/time/random_contacts.hpp"
 #include "lib/time/systems.hpp"
 
-#include <arcslip/elements/bouc_wen.hpp>
+#include <arcslip/elements/contact_3d.hpp>
 #include <arcslip/elements/polynomial_spring.hpp>
 #include <arcslip/elements/van_der_pol.hpp>
 #include <arcslip/time/floquet.hpp>
@@ -303,10 +303,9 @@ TEST_CASE("modes found by the guards give the multipliers of those that the elem
 }
 
 TEST_CASE("a memory that is not piecewise linear is named, and so is a missing mass") {
-  auto equation = systems::oscillator(1, 0.1, 1);
-  equation.add("wire", elements::bouc_wen().law({}),
-               std::vector<double>(elements::bouc_wen().fields({}).size(), 1.0), Matrix::Ones(1, 1));
-  CHECK_THROWS_WITH(Floquet(equation), "the memory of \"wire\" is not piecewise linear");
+  auto equation = systems::masses(Vector::Ones(3));
+  equation.add("pad", elements::contact_3d().law({}), {1.0, 1.0, 0.5, 1.0}, Matrix::Identity(3, 3));
+  CHECK_THROWS_WITH(Floquet(equation), "the memory of \"pad\" is not piecewise linear");
   auto massless = systems::oscillator(0, 0.1, 1);
   massless.dof_names = {"tip"};
   CHECK_THROWS_AS(Floquet(massless), SingularMass);
