@@ -1,118 +1,156 @@
-// How the error falls with the harmonics, and what it costs: friction integrated exactly and sampled in time.
+// Speed for accuracy: one frequency response of the paper's oscillator, 18 to 22 Hz, in the ways there are.
 //
-//   peak_error/exact/H:N/load:L             resonance peak of the paper's oscillator at Fn = L N
-//   peak_error/sampled/H:N/load:L/samples:S
-//   by_accuracy/digits:K/load:L             the response of a study whose order an accuracy of 10^-K chooses
+//   accuracy/exact/H:N               harmonic balance with exact integrals
+//   accuracy/sampled/H:N/samples:S   with friction sampled in time
+//   accuracy/chosen/digits:K         with the order that a study chooses by an accuracy of 10^-K
+//   accuracy/newmark/steps:S         periodic motions by shooting in so many steps a period, at every tenth
+//                                    of 150 frequencies, each from the one before
+//   accuracy/event_driven            the same, exact in time
 //
-// Counters: amplitude_error and frequency_error, relative to the closed-form solution (tests/reference), and
-// estimated_error, the truncation estimate at the peak. The time is that of the whole branch, 18 to 22 Hz.
+// Harmonic balance has all observables at each point; in time there is nothing but the motion. Counters:
+// points; error, of the amplitude at the resonance peak, relative to the closed-form solution
+// (tests/reference/exact_1dof.json); estimate, the program's own of that error; order.
 
-#include "examples.hpp"
+#include "measure.hpp"
+#include "scenes.hpp"
 
-#include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/scene/scene.hpp>
-#include <arcslip/studies/order_selection.hpp>
+#include <arcslip/observables/integrator.hpp>
+#include <arcslip/observables/time_study.hpp>
+#include <arcslip/results/json_writer.hpp>
+#include <arcslip/time/shooting.hpp>
 
-#include <benchmark/benchmark.h>
+#include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <sstream>
 #include <vector>
 
 namespace {
 
 using namespace arcslip;
 
-struct Peak {
-  double amplitude, hertz;
-};
+constexpr double exact_amplitude = 0.000884970009333055, exact_hertz = 19.9952846841786;
+const observables::FrequencyRange range{18, 22};
 
-// tests/reference/exact_1dof.json
-Peak exact_peak(std::int64_t load) {
-  return load == 1 ? Peak{0.022821958614055, 19.1183216190022} : Peak{0.000884970009333055, 19.9952846841786};
+double error_of(double amplitude) {
+  return std::abs(amplitude / exact_amplitude - 1);
 }
 
-void peak_error(benchmark::State& state, bool sampled) {
-  scene::Scene scene = bench::example("al_sayed_2011");
-  scene.harmonics.order = static_cast<int>(state.range(0));
-  scene::set(scene, "damper.normal_load", static_cast<double>(state.range(1)));
-  if (sampled) {
-    scene.harmonics.friction = scene::Friction::sampled;
-    scene.harmonics.samples = static_cast<int>(state.range(2));
-  }
-  const auto model = std::make_shared<const model::Model>(model::build(scene));
-  const double hertz = 2 * std::numbers::pi;
-  const Peak exact = exact_peak(state.range(1));
-  double amplitude_error = 1, frequency_error = 1, estimate = 0;
-  for (auto _ : state) {
-    amplitude_error = frequency_error = 1;
-    observables::frequency_branch(model, {18 * hertz, 22 * hertz}, 18 * hertz,
-                                  [&](observables::Observer& observer, const continuation::Accepted& now,
-                                      const continuation::Event* event) {
-                                    if (!event || event->monitor != "peak") return true;
-                                    const auto point = observer.observe(now);
-                                    const double error = std::abs(point.amplitude / exact.amplitude - 1);
-                                    if (error < amplitude_error) {
-                                      amplitude_error = error;
-                                      frequency_error = std::abs(point.omega / hertz / exact.hertz - 1);
-                                      estimate = point.truncation_estimate / point.amplitude;
-                                    }
-                                    return true;
-                                  });
-  }
-  state.counters["amplitude_error"] = amplitude_error;
-  state.counters["frequency_error"] = frequency_error;
-  state.counters["estimated_error"] = estimate;
-}
-
-void by_accuracy(benchmark::State& state) {
-  scene::Scene scene = bench::example("al_sayed_2011");
-  scene::set(scene, "damper.normal_load", static_cast<double>(state.range(1)));
-  scene.harmonics.order = scene::largest_chosen_order;
-  const Peak exact = exact_peak(state.range(1));
+// Of the peaks of a sampled curve, which is slightly ragged, the nearest one counts.
+void response(benchmark::State& state, const scene::Scene& scene) {
   std::vector<observables::ResponseBranch> branches;
-  double order = 0, highest = 0;
-  for (auto _ : state) {
-    scene.harmonics.accuracy = std::pow(10, -static_cast<double>(state.range(0)));
-    studies::OrderSelection selection(scene);
-    scene::Scene with = scene;
-    do {
-      selection.set_order(with);
-      branches = observables::frequency_response(with, {18, 22});
-    } while (selection.rises(studies::truncation_of(branches)));
-    order = selection.order();
-  }
-  for (const auto& event : branches.front().events) highest = std::max(highest, event.point.amplitude);
-  state.counters["amplitude_error"] = std::abs(highest / exact.amplitude - 1);
-  state.counters["order"] = order;
+  bench::measure(state, [&] { branches = observables::frequency_response(scene, range); });
+  double error = 1, estimate = 1;
+  for (const auto& event : branches.front().events)
+    if (error_of(event.point.amplitude) < error) {
+      error = error_of(event.point.amplitude);
+      estimate = event.point.truncation_estimate / event.point.amplitude;
+    }
   state.counters["points"] = static_cast<double>(branches.front().points.size());
+  state.counters["error"] = error;
+  state.counters["estimate"] = estimate;
 }
 
-void orders(benchmark::internal::Benchmark* b) {
-  for (std::int64_t load : {1, 3})
-    for (std::int64_t order : {1, 3, 7, 15, 27, 55, 101, 201}) b->Args({order, load});
+void exact(benchmark::State& state) {
+  response(state, bench::paper(static_cast<int>(state.range(0))));
 }
 
-void orders_and_samples(benchmark::internal::Benchmark* b) {
-  for (std::int64_t load : {1, 3})
-    for (std::int64_t samples : {512, 4096})
-      for (std::int64_t order : {1, 3, 7, 15, 27, 55, 101}) b->Args({order, load, samples});
+void sampled(benchmark::State& state) {
+  scene::Scene scene = bench::paper(static_cast<int>(state.range(0)));
+  scene.harmonics.friction = scene::Friction::sampled;
+  scene.harmonics.samples = static_cast<int>(state.range(1));
+  response(state, scene);
 }
 
-BENCHMARK(by_accuracy)
-    ->ArgNames({"digits", "load"})
-    ->ArgsProduct({{2, 3, 4, 5, 6, 7, 8, 9}, {1, 3}})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(peak_error, exact, false)
-    ->ArgNames({"H", "load"})
-    ->Apply(orders)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(peak_error, sampled, true)
-    ->ArgNames({"H", "load", "samples"})
-    ->Apply(orders_and_samples)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(1);
+void chosen(benchmark::State& state) {
+  scene::Scene scene = bench::paper(scene::largest_chosen_order);
+  scene.harmonics.accuracy = std::pow(10, -static_cast<double>(state.range(0)));
+  scene.studies = {{"response", &studies::frf(), scene::Settings::of(range), {}}};
+  results::Results results;
+  bench::measure(state, [&] { results = studies::run(scene); });
+  std::stringstream text;
+  results::write_json(text, results);
+  const nlohmann::json branch = nlohmann::json::parse(text)["branches"][0];
+  double error = 1;
+  for (const auto& event : branch["events"]) error = std::min(error, error_of(event["amplitude"]));
+  state.counters["points"] = static_cast<double>(branch["points"].size());
+  state.counters["error"] = error;
+  state.counters["estimate"] = branch["accuracy"]["error"].get<double>();
+  state.counters["order"] = branch["accuracy"]["order"].get<double>();
+}
+
+using Begin = std::function<observables::Integrator(const time::EquationOfMotion&)>;
+
+// Of every tenth frequency, from the motion at the one before it, which is not timed: Newmark's method takes
+// minutes for all of them.
+void motions(benchmark::State& state, const Begin& begin, const observables::TimeSettings& at_peak) {
+  constexpr int points = 150, every = 10;
+  const scene::Scene scene = bench::paper(1);
+  const model::Model model = model::build(scene);
+  continuation::Vector p = model::defaults(model);
+  const auto motion_at = [&](int i, const time::MotionState* start) {
+    p[model::frequency] = 2 * std::numbers::pi * (range.from + (range.to - range.from) * i / (points - 1));
+    const auto integrator = begin(time::equation_of_motion(model, p));
+    return time::shoot(integrator.flow, start ? *start : integrator.start, p[model::frequency],
+                       {.transients = start ? 0 : 3});
+  };
+  bool converged = true;
+  std::vector<time::ShootingResult> before;
+  for (int i = every / 2; i < points; i += every) {
+    before.push_back(motion_at(i - 1, nullptr));
+    converged = converged && before.back().converged();
+  }
+  bench::measure(state, [&] {
+    for (std::size_t k = 0; k < before.size(); ++k)
+      converged =
+          motion_at(static_cast<int>(k) * every + every / 2, &before[k].start).converged() && converged;
+  });
+  if (!converged) return state.SkipWithError("a motion was not found");
+  state.counters["points"] = static_cast<double>(before.size());
+  state.counters["error"] = error_of(observables::motion_in_time(scene, at_peak).amplitude);
+}
+
+void newmark(benchmark::State& state) {
+  const int steps = static_cast<int>(state.range(0));
+  motions(state,
+          [=](const time::EquationOfMotion& equation) {
+            return observables::in_steps(equation, time::at_rest(equation), steps, {});
+          },
+          {.frequency = exact_hertz, .method = observables::TimeMethod::newmark_shooting, .steps = steps});
+}
+
+void event_driven(benchmark::State& state) {
+  motions(state,
+          [](const time::EquationOfMotion& equation) {
+            return observables::between_events(equation, time::at_rest(equation), 1, {});
+          },
+          {.frequency = exact_hertz, .method = observables::TimeMethod::shooting});
+}
+
+BENCHMARK(exact)->Name("accuracy/exact")->ArgName("H")->ArgsProduct({{1, 3, 7, 15, 27, 55, 101, 201}});
+BENCHMARK(chosen)->Name("accuracy/chosen")->ArgName("digits")->DenseRange(2, 9);
+BENCHMARK(sampled)
+    ->Name("accuracy/sampled")
+    ->ArgNames({"H", "samples"})
+    ->ArgsProduct({{3, 7, 15, 27, 55}, {64, 256, 1024, 4096}});
+BENCHMARK(newmark)->Name("accuracy/newmark")->ArgName("steps")->ArgsProduct({{50, 200, 800, 3200}});
+BENCHMARK(event_driven)->Name("accuracy/event_driven");
+// Of seconds and more, once.
+BENCHMARK(sampled)
+    ->Name("accuracy/sampled")
+    ->ArgNames({"H", "samples"})
+    ->ArgsProduct({{55, 101}, {16384, 65536}})
+    ->Iterations(1)
+    ->Repetitions(1);
+BENCHMARK(newmark)
+    ->Name("accuracy/newmark")
+    ->ArgName("steps")
+    ->Arg(12800)
+    ->Arg(51200)
+    ->Iterations(1)
+    ->Repetitions(1);
 
 }  // namespace

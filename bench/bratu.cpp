@@ -1,30 +1,31 @@
-// Time over the number of unknowns: Bratu's problem (examples/bratu) through its fold to lambda = 1, and
-// where the time goes. Prints a table for gnuplot.
+// Time over the number of unknowns: Bratu's problem (examples/bratu) through its fold, which is located, to
+// lambda = 1 on the upper branch.
 //
-//   arcslip_bench_bratu [largest n = 1000000]
+//   bratu/n:N
+//
+// Counters: points, factorizations and solves; the seconds of each part; error of the fold.
+
+#include "measure.hpp"
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/problem/functions.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
 
-#include <sys/resource.h>
-
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <memory>
+#include <optional>
 
 using namespace arcslip::continuation;
 
 namespace {
 
+constexpr double exact_fold = 3.513830719125161;
+
 struct Stopwatch {
   double seconds = 0;
   template <class Work>
   void time(const Work& work) {
-    const auto begin = std::chrono::steady_clock::now();
-    work();
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    seconds += arcslip::bench::seconds(1, work);
   }
 };
 
@@ -63,7 +64,8 @@ SparseMatrix second_difference(int n) {
   return J;
 }
 
-void measure(int n) {
+void to_the_upper_branch(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
   const double h = 1.0 / (n + 1);
   Times times;
   Functions bratu;
@@ -91,33 +93,25 @@ void measure(int n) {
   bratu.linear_solver = [&] { return std::make_unique<Timed>(times); };
   const auto problem = from_functions(std::move(bratu));
 
-  Stopwatch all;
   Branch branch;
-  all.time([&] {
+  arcslip::bench::measure(state, [&] {
+    times = {};
     branch = trace(problem, {.u = Vector::Zero(n), .p = parameter_values(*problem)},
                    {.lower = 0, .upper = 4, .keep_points = false}, {fold_monitor()},
                    [](const Accepted& at, const Event*) {
                      return at.u.maxCoeff() < 2 || at.p[0] > 1;  // to lambda = 1 on the upper branch
                    });
   });
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  const Counts& counts = branch.counts;
-  std::printf("%8d %8.3f %6ld %6ld %6ld %12.3f %8.3f %12.3f %8.3f %10.1f %12.3e\n", n, all.seconds,
-              counts.points, counts.factorizations, counts.solves, times.factorizations.seconds,
-              times.solves.seconds, times.evaluations.seconds,
-              all.seconds - times.factorizations.seconds - times.solves.seconds - times.evaluations.seconds,
-              static_cast<double>(usage.ru_maxrss) / 1024,
-              branch.events.empty() ? NAN : branch.events.front().point.parameter - 3.513830719125161);
-  std::fflush(stdout);
+  if (branch.events.size() != 1) return state.SkipWithError("not one fold");
+  state.counters["points"] = static_cast<double>(branch.counts.points);
+  state.counters["factorizations"] = static_cast<double>(branch.counts.factorizations);
+  state.counters["solves"] = static_cast<double>(branch.counts.solves);
+  state.counters["factorizations_seconds"] = times.factorizations.seconds;
+  state.counters["solves_seconds"] = times.solves.seconds;
+  state.counters["evaluations_seconds"] = times.evaluations.seconds;
+  state.counters["error"] = branch.events.front().point.parameter - exact_fold;
 }
+BENCHMARK(to_the_upper_branch)->Name("bratu")->ArgName("n")->RangeMultiplier(10)->Range(1'000, 100'000);
+BENCHMARK(to_the_upper_branch)->Name("bratu")->ArgName("n")->Arg(1'000'000)->Iterations(1)->Repetitions(1);
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  const int largest = argc > 1 ? std::atoi(argv[1]) : 1000000;
-  std::printf(
-      "#      n  total s points factor solves    factors s  solves s  evaluate s   rest s  memory MB  "
-      "error of fold\n");
-  for (int n = 1000; n <= largest; n *= 10) measure(n);
-}

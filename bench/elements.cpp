@@ -1,11 +1,12 @@
 // One evaluation of an element with its Jacobian, all harmonics and the mean, of motions that slip.
 //
-//   element/LAW/H:N               exact
-//   sampled_element/LAW/H:N       the force alone of as many steps in two periods as bring its coefficients
-//                                 to 1e-6 of the largest, and their projection; no Jacobian
+//   element/LAW/H:N   exact
+//   sampled/LAW/H:N   the force alone of as many steps in two periods as bring its coefficients to 1e-6
+//                     of the largest, and their projection; no Jacobian
 //
 // The counter `samples` is that number of steps in a period.
 
+#include "measure.hpp"
 #include "sampled.hpp"
 
 #include <arcslip/elements/contact_2d.hpp>
@@ -16,11 +17,8 @@
 #include <arcslip/elements/masing_element.hpp>
 #include <arcslip/scene/part_type.hpp>
 
-#include <benchmark/benchmark.h>
-
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 
 namespace {
@@ -71,15 +69,20 @@ Eigen::VectorXd motion(const elements::Harmonics& h, int directions) {
   return u;
 }
 
+template <class Work>
+void measure(benchmark::State& state, const Work& work) {
+  bench::measure(state, work, bench::calls_to_time(work));
+}
+
 void element(benchmark::State& state, Example (*make)()) {
   const auto [law, fields] = make();
   const elements::Harmonics h{static_cast<int>(state.range(0)), false};
   const auto element = law->element(h, {});
   const Eigen::VectorXd u = motion(h, law->directions());
-  for (auto _ : state) {
+  measure(state, [&] {
     element->move_to(u, fields, true);
     benchmark::DoNotOptimize(element->jacobian().data());
-  }
+  });
 }
 
 // Of 100 sliders in a table.
@@ -90,10 +93,10 @@ void iwan_table(benchmark::State& state) {
   const auto element = elements::make_iwan_table(h, sliders);
   const Eigen::VectorXd u = motion(h, 1);
   const std::vector<double> factors = {1, 1};
-  for (auto _ : state) {
+  measure(state, [&] {
     element->move_to(u, factors, true);
     benchmark::DoNotOptimize(element->jacobian().data());
-  }
+  });
 }
 
 void sampled_element(benchmark::State& state, Example (*make)()) {
@@ -110,12 +113,12 @@ void sampled_element(benchmark::State& state, Example (*make)()) {
     const Eigen::MatrixXd& F = sampled->coefficients(u);
     if ((F.reshaped() - exact->force()).cwiseAbs().maxCoeff() < 1e-6 * most) break;
   }
-  for (auto _ : state) benchmark::DoNotOptimize(sampled->coefficients(u).data());
+  measure(state, [&] { benchmark::DoNotOptimize(sampled->coefficients(u).data()); });
   state.counters["samples"] = samples;
 }
 
 void orders(benchmark::internal::Benchmark* b) {
-  b->ArgName("H")->Arg(3)->Arg(7)->Arg(27)->Arg(55)->Unit(benchmark::kMicrosecond);
+  b->ArgName("H")->ArgsProduct({{3, 7, 27, 55}});
 }
 
 BENCHMARK_CAPTURE(element, jenkins, jenkins)->Apply(orders);
@@ -126,10 +129,14 @@ BENCHMARK_CAPTURE(element, contact_3d, contact_3d)->Apply(orders);
 BENCHMARK_CAPTURE(element, separating_contact_3d, separating_contact_3d)->Apply(orders);
 BENCHMARK_CAPTURE(element, iwan, iwan)->Apply(orders);
 BENCHMARK(iwan_table)->Name("element/iwan_table_100")->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, jenkins, jenkins)->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, gap_spring, gap_spring)->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, contact_2d, contact_2d)->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, separating_contact_2d, separating_contact_2d)->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, separating_contact_3d, separating_contact_3d)->Apply(orders);
+BENCHMARK_CAPTURE(sampled_element, jenkins, jenkins)->Name("sampled/jenkins")->Apply(orders);
+BENCHMARK_CAPTURE(sampled_element, gap_spring, gap_spring)->Name("sampled/gap_spring")->Apply(orders);
+BENCHMARK_CAPTURE(sampled_element, contact_2d, contact_2d)->Name("sampled/contact_2d")->Apply(orders);
+BENCHMARK_CAPTURE(sampled_element, separating_contact_2d, separating_contact_2d)
+    ->Name("sampled/separating_contact_2d")
+    ->Apply(orders);
+BENCHMARK_CAPTURE(sampled_element, separating_contact_3d, separating_contact_3d)
+    ->Name("sampled/separating_contact_3d")
+    ->Apply(orders);
 
 }  // namespace

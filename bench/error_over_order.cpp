@@ -5,8 +5,8 @@
 //   build/release/bench/arcslip_error_over_order > error_over_order.csv
 //   gnuplot -c bench/error_over_order.gp error_over_order.csv docs/figures/error_over_order.png
 
-#include "examples.hpp"
 #include "sampled.hpp"
+#include "scenes.hpp"
 
 #include <arcslip/elements/largest_value.hpp>
 #include <arcslip/hbm/problem.hpp>

@@ -1,162 +1,191 @@
-// Time of a whole frequency response: from the model to the last point, peaks and folds located.
+// Frequency responses from the model to the last point, with start, peaks and folds.
 //
-//   paper_frf/H:N     paper's oscillator, Fn = 3 N, 18 to 22 Hz, N harmonics
-//   duffing_frf/H:7   Duffing oscillator, 0.5 to 1.6 rad/s
-//   damped_chain_frf  six masses and six friction dampers, 7 harmonics, with and without stability
+//   frf/paper/H:N            the paper's oscillator, N harmonics
+//   frf/paper_points/finer:R the same with N = 7 and steps an R-th as long
+//   frf/paper_threads        the same with N = 7 in several threads, each with a response of its own
+//   frf/duffing, frf/damped_chain
+//   frf/chain/masses:n, frf/beam/elements:n, frf/contacts/of_20_masses:n, frf/ring/blades:n
+//   observed/SCENE           as the command does it: all quantities and the estimate of truncation
+//   stability/SCENE          likewise with Floquet multipliers
 //
-// Counters: points and events of the branch; factorizations and solves of it; linear_share, the share of the
-// time that so many bare factorizations and solves of that size take; over_lu, the time over that of the
-// factorizations alone. Bare costs are measured in the same run.
+// Counters: points, events, unknowns, factorizations, residuals and solves of a branch; lu_seconds and
+// lu_profile, of one bare factorization of that size (Eigen's PartialPivLU), and solve_seconds, of one bare
+// solve; start_seconds, of the problem and the first response.
 
-#include "examples.hpp"
+#include "measure.hpp"
+#include "scenes.hpp"
 
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/scene/scene.hpp>
-#include <arcslip/studies/catalogue.hpp>
-
-#include <benchmark/benchmark.h>
 
 #include <Eigen/LU>
 
-#include <chrono>
-#include <sstream>
-#include <stdexcept>
+#include <memory>
 #include <string>
 
 namespace {
 
 using namespace arcslip;
+using observables::FrequencyRange;
+using observables::Steps;
 
-scene::Scene example(const std::string& name, int order) {
-  scene::Scene scene = bench::example(name);
-  scene.harmonics.order = order;
-  return scene;
+constexpr int points_asked_for = 150;
+
+// Of the first study.
+FrequencyRange range_of(const scene::Scene& scene) {
+  return scene.studies.front().settings.as<FrequencyRange>();
 }
 
-// Seconds of one call of f, the least of several batches.
-template <class Function>
-double seconds(Function&& f) {
-  using clock = std::chrono::steady_clock;
-  double least = 1e9;
-  for (int batch = 0; batch < 5; ++batch) {
-    const int calls = 200;
-    const auto begin = clock::now();
-    for (int k = 0; k < calls; ++k) f();
-    least = std::min(least, std::chrono::duration<double>(clock::now() - begin).count() / calls);
-  }
-  return least;
+observables::FrequencyWindow in_rad_per_s(const FrequencyRange& range, const scene::Scene& scene) {
+  const double unit = scene::to_rad_per_s(scene.frequency_unit);
+  return {range.from * unit, range.to * unit};
 }
 
-struct LinearCosts {
-  double factorization, solve;
-};
+void count(benchmark::State& state, const continuation::Branch& branch, int unknowns) {
+  if (branch.stop.reason != continuation::StopReason::boundary || branch.points.size() < points_asked_for)
+    return state.SkipWithError(
+        (std::to_string(branch.points.size()) + " points: " + branch.stop.message).c_str());
+  const auto counter = [&](const char* name, auto value) {
+    state.counters[name] = {static_cast<double>(value), benchmark::Counter::kAvgThreads};
+  };
+  counter("unknowns", unknowns);
+  counter("points", branch.points.size());
+  counter("events", branch.events.size());
+  counter("factorizations", branch.counts.factorizations);
+  counter("residuals", branch.counts.residuals);
+  counter("solves", branch.counts.solves);
+}
 
-LinearCosts linear_costs(int n) {
+// Bordered by the tangent.
+void count_lu(benchmark::State& state, int unknowns) {
+  const int n = unknowns + 1;
   const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n) + n * Eigen::MatrixXd::Identity(n, n);
   Eigen::PartialPivLU<Eigen::MatrixXd> lu(n);
   Eigen::VectorXd b = Eigen::VectorXd::Random(n), x(n);
-  return {seconds([&] { lu.compute(A); }), seconds([&] {
-            x.noalias() = lu.permutationP() * b;
-            lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(x);
-            lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(x);
-            benchmark::DoNotOptimize(x.data());
-          })};
+  const auto factorize = [&] { lu.compute(A); };
+  state.counters["lu_seconds"] = bench::least_seconds(factorize);
+  if (const int number = bench::profile(factorize)) state.counters["lu_profile"] = number;
+  state.counters["solve_seconds"] = bench::least_seconds([&] {
+    x.noalias() = lu.permutationP() * b;
+    lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(x);
+    lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(x);
+    benchmark::DoNotOptimize(x.data());
+  });
 }
 
-void trace_whole(benchmark::State& state, const scene::Scene& scene,
-                 const observables::FrequencyWindow& window, std::size_t events) {
+void response(benchmark::State& state, const scene::Scene& scene, const FrequencyRange& range) {
   const auto model = std::make_shared<const model::Model>(model::build(scene));
+  const auto window = in_rad_per_s(range, scene);
   observables::FrequencyBranch last;
-  double total = 0;
-  for (auto _ : state) {
-    const auto begin = std::chrono::steady_clock::now();
-    last = observables::frequency_branch(model, window, window.lower);
-    total += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
-  const auto& branch = last.branch;
-  if (branch.stop.reason != continuation::StopReason::boundary || branch.events.size() != events ||
-      branch.points.size() < 150) {
-    state.SkipWithError(("not the whole branch: " + std::to_string(branch.points.size()) + " points, " +
-                         std::to_string(branch.events.size()) + " events, " + branch.stop.message)
-                            .c_str());
-    return;
-  }
-  const LinearCosts cost = linear_costs(last.problem->size() + 1);
-  const double time = total / static_cast<double>(state.iterations());
-  const double factorizations = static_cast<double>(branch.counts.factorizations);
-  const double solves = static_cast<double>(branch.counts.solves);
-  state.counters["points"] = static_cast<double>(branch.points.size());
-  state.counters["factorizations"] = factorizations;
-  state.counters["residuals"] = static_cast<double>(branch.counts.residuals);
-  state.counters["solves"] = solves;
-  state.counters["linear_share"] = (factorizations * cost.factorization + solves * cost.solve) / time;
-  state.counters["over_lu"] = time / (factorizations * cost.factorization);
+  bench::measure(state, [&] { last = observables::frequency_branch(model, window, window.lower); });
+  count(state, last.branch, last.problem->size());
+  if (state.threads() > 1) return;
+  count_lu(state, last.problem->size());
+  state.counters["start_seconds"] = bench::least_seconds(
+      [&] { observables::first_response(model, window.lower, window.upper - window.lower); });
 }
 
-void paper_frf(benchmark::State& state) {
-  scene::Scene scene = example("al_sayed_2011", static_cast<int>(state.range(0)));
-  scene::set(scene, "damper.normal_load", 3);
-  const double hertz = scene::to_rad_per_s(scene::FrequencyUnit::hertz);
-  trace_whole(state, scene, {18 * hertz, 22 * hertz}, 1);
-}
-BENCHMARK(paper_frf)->ArgName("H")->Arg(1)->Arg(7)->Arg(27)->Arg(55)->Unit(benchmark::kMillisecond);
-
-void duffing_frf(benchmark::State& state) {
-  trace_whole(state, example("duffing", static_cast<int>(state.range(0))), {0.5, 1.6},
-              3);  // a peak and two folds
-}
-BENCHMARK(duffing_frf)->ArgName("H")->Arg(7)->Unit(benchmark::kMillisecond);
-
-// The study as the command runs it, with all observables and the estimate of truncation at each point; and
-// with its stability.
-void observed(benchmark::State& state, const scene::Scene& scene, observables::FrequencyRange window,
-              bool stability) {
-  window.stability = stability;
-  for (auto _ : state) benchmark::DoNotOptimize(observables::frequency_response(scene, window));
+void response(benchmark::State& state, const scene::Scene& scene) {
+  response(state, scene, range_of(scene));
 }
 
-void paper_frf_observed(benchmark::State& state, bool stability) {
-  scene::Scene scene = example("al_sayed_2011", static_cast<int>(state.range(0)));
-  scene::set(scene, "damper.normal_load", 3);
-  observed(state, scene, scene.studies.front().settings.as<observables::FrequencyRange>(), stability);
+int argument(const benchmark::State& state) {
+  return static_cast<int>(state.range(0));
 }
-BENCHMARK_CAPTURE(paper_frf_observed, without_stability, false)
+
+void paper(benchmark::State& state) {
+  response(state, bench::paper(argument(state)));
+}
+
+void paper_points(benchmark::State& state) {
+  const double finer = argument(state);
+  const scene::Scene scene = bench::paper(7);
+  const auto model = std::make_shared<const model::Model>(model::build(scene));
+  const auto window = in_rad_per_s(range_of(scene), scene);
+  auto options = observables::frequency_options(window, Steps::curve, {});
+  options.points = 1'000'000;
+  options.step.largest_parameter /= finer;
+  options.step.angle /= finer;
+  options.step.relative_state /= finer;
+  options.step.curve_tolerance /= finer * finer;
+  continuation::Branch branch;
+  int unknowns = 0;
+  bench::measure(state, [&] {
+    const auto first = observables::first_response(model, window.lower, window.upper - window.lower);
+    const auto observer = std::make_shared<observables::Observer>(first.problem);
+    branch = continuation::trace(
+        first.problem,
+        {first.u.value(), hbm::parameters_at(*first.problem, window.lower), model::frequency, 1}, options,
+        observables::frequency_monitors(observer, Steps::curve, {}));
+    unknowns = first.problem->size();
+  });
+  count(state, branch, unknowns);
+}
+
+void paper_threads(benchmark::State& state) {
+  response(state, bench::paper(7));
+}
+
+void duffing(benchmark::State& state) {
+  scene::Scene scene = bench::example("duffing");
+  scene.harmonics.order = 7;
+  response(state, scene, {0.5, 1.6});
+}
+
+void damped_chain(benchmark::State& state) {
+  response(state, bench::damped_chain(), {0.15, 0.9});
+}
+
+void chain(benchmark::State& state) {
+  response(state, bench::chain(argument(state), 1), {0.7, 1.5});
+}
+
+void contacts(benchmark::State& state) {
+  response(state, bench::chain(20, argument(state)), {0.7, 1.5});
+}
+
+void beam(benchmark::State& state) {
+  response(state, bench::beam(argument(state)));
+}
+
+void ring(benchmark::State& state) {
+  response(state, bench::ring(argument(state)));
+}
+
+BENCHMARK(paper)->Name("frf/paper")->ArgName("H")->ArgsProduct({{1, 3, 7, 15, 27, 55, 101}});
+BENCHMARK(paper_points)->Name("frf/paper_points")->ArgName("finer")->ArgsProduct({{1, 2, 4, 8, 16}});
+BENCHMARK(paper_threads)->Name("frf/paper_threads")->ThreadRange(1, 4);
+BENCHMARK(duffing)->Name("frf/duffing");
+BENCHMARK(damped_chain)->Name("frf/damped_chain");
+BENCHMARK(chain)->Name("frf/chain")->ArgName("masses")->ArgsProduct({{2, 10, 20, 50, 100, 200, 400}});
+BENCHMARK(contacts)->Name("frf/contacts")->ArgName("of_20_masses")->ArgsProduct({{1, 2, 5, 10, 20}});
+BENCHMARK(beam)->Name("frf/beam")->ArgName("elements")->ArgsProduct({{10, 20, 40, 80, 160}});
+BENCHMARK(ring)->Name("frf/ring")->ArgName("blades")->ArgsProduct({{6, 12, 24, 48}});
+
+void observed(benchmark::State& state, const scene::Scene& scene, FrequencyRange range, bool stability) {
+  range.stability = stability;
+  bench::measure(state,
+                 [&] { benchmark::DoNotOptimize(observables::frequency_response(scene, range).data()); });
+}
+
+void observed_paper(benchmark::State& state, bool stability) {
+  const scene::Scene scene = bench::paper(argument(state));
+  observed(state, scene, range_of(scene), stability);
+}
+
+void observed_damped_chain(benchmark::State& state, bool stability) {
+  observed(state, bench::damped_chain(), {0.15, 0.9}, stability);
+}
+
+BENCHMARK_CAPTURE(observed_paper, , false)
+    ->Name("observed/paper")
     ->ArgName("H")
-    ->Arg(1)
-    ->Arg(7)
-    ->Arg(27)
-    ->Arg(55)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(paper_frf_observed, stability, true)
+    ->ArgsProduct({{1, 7, 27, 55}});
+BENCHMARK_CAPTURE(observed_paper, , true)
+    ->Name("stability/paper")
     ->ArgName("H")
-    ->Arg(1)
-    ->Arg(7)
-    ->Arg(27)
-    ->Arg(55)
-    ->Unit(benchmark::kMillisecond);
-
-// A chain of six masses with a friction damper between all neighbours, through its first two resonances.
-scene::Scene chain() {
-  std::istringstream text(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": [{"repeat": 6, "name": "x{i}"}],
-      "masses": [{"repeat": 6, "name": "m{i}", "at": "x{i}", "value": 1}],
-      "springs": [{"name": "k0", "at": "x1", "value": 1},
-                  {"repeat": 5, "name": "k{i}", "between": ["x{i}", "x{i+1}"], "value": 1}],
-      "dampers": [{"repeat": 6, "name": "c{i}", "at": "x{i}", "value": 0.01}]},
-    "elements": [
-      {"name": "d0", "type": "jenkins", "at": "x1", "stiffness": 0.5, "friction_coefficient": 0.5, "normal_load": 0.2},
-      {"repeat": 5, "name": "d{i}", "type": "jenkins", "between": ["x{i}", "x{i+1}"],
-       "stiffness": 0.5, "friction_coefficient": 0.5, "normal_load": 0.2}],
-    "excitation": [{"name": "force", "at": "x6", "cosine": 0.1}], "response": {"at": "x6"},
-    "harmonics": {"order": 7}})");
-  return scene::read(text, studies::catalogue());
-}
-
-void damped_chain_frf(benchmark::State& state, bool stability) {
-  observed(state, chain(), {0.15, 0.9}, stability);
-}
-BENCHMARK_CAPTURE(damped_chain_frf, without_stability, false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(damped_chain_frf, stability, true)->Unit(benchmark::kMillisecond);
+    ->ArgsProduct({{1, 7, 27, 55}});
+BENCHMARK_CAPTURE(observed_damped_chain, , false)->Name("observed/damped_chain");
+BENCHMARK_CAPTURE(observed_damped_chain, , true)->Name("stability/damped_chain");
 
 }  // namespace

@@ -1,19 +1,19 @@
 // The optimal normal load, three ways to the same digits.
 //
-//   optimum/H:N       by gradients of followed peaks (LD_SLSQP), with its certificate
-//   search/H:N        the same without the certificate
-//   derivative_free   LN_BOBYQA on followed peaks, without certificate
-//   response_grid     frequency responses, each traced from nothing: golden section over the load until its
-//                     bracket is as narrow as the error that the first leaves in the load, 1e-7 relative
+//   optimum/certified/H:N         by gradients of followed peaks (LD_SLSQP), with its certificate
+//   optimum/gradients/H:N         the same without the certificate
+//   optimum/derivative_free/H:N   LN_BOBYQA on followed peaks, without certificate
+//   optimum/responses/H:N         frequency responses, each traced from nothing: golden section over the
+//                                 load until its bracket is as narrow as the error that the first leaves
+//                                 in the load, 1e-7 relative
 //
-// Counters: evaluations, responses traced, load (N). The ratios are those of the times of one run.
+// Counters: evaluations, responses traced, load (N).
 
-#include "examples.hpp"
+#include "measure.hpp"
+#include "scenes.hpp"
 
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
-
-#include <benchmark/benchmark.h>
 
 #include <cmath>
 
@@ -21,19 +21,12 @@ namespace {
 
 using namespace arcslip;
 
-scene::Scene paper(int order) {
-  scene::Scene scene = bench::example("al_sayed_2011");
-  scene.harmonics.order = order;
-  scene::set(scene, "damper.normal_load", 3);
-  return scene;
-}
-
 const optimize::OptimumProblem over_load{{{"damper.normal_load", 0.1, 100}}, 18, 22};
 
 void search_with(benchmark::State& state, const optimize::OptimumOptions& options) {
-  const scene::Scene scene = paper(static_cast<int>(state.range(0)));
+  const scene::Scene scene = bench::paper(static_cast<int>(state.range(0)));
   optimize::Optimum found;
-  for (auto _ : state) found = optimize::optimum(scene, over_load, options);
+  bench::measure(state, [&] { found = optimize::optimum(scene, over_load, options); });
   if (found.status != observables::Status::complete) {
     state.SkipWithError(found.stop.message.c_str());
     return;
@@ -46,17 +39,17 @@ void search_with(benchmark::State& state, const optimize::OptimumOptions& option
 void optimum(benchmark::State& state) {
   search_with(state, {});
 }
-BENCHMARK(optimum)->ArgName("H")->Arg(1)->Arg(7)->Arg(55)->Unit(benchmark::kMillisecond);
+BENCHMARK(optimum)->Name("optimum/certified")->ArgName("H")->ArgsProduct({{1, 7, 55}});
 
 void search(benchmark::State& state) {
   search_with(state, {.certificate = false});
 }
-BENCHMARK(search)->ArgName("H")->Arg(1)->Arg(7)->Arg(55)->Unit(benchmark::kMillisecond);
+BENCHMARK(search)->Name("optimum/gradients")->ArgName("H")->ArgsProduct({{1, 7, 55}});
 
 void derivative_free(benchmark::State& state) {
   search_with(state, {.algorithm = "LN_BOBYQA", .certificate = false});
 }
-BENCHMARK(derivative_free)->ArgName("H")->Arg(1)->Arg(7)->Arg(55)->Unit(benchmark::kMillisecond);
+BENCHMARK(derivative_free)->Name("optimum/derivative_free")->ArgName("H")->ArgsProduct({{1, 7, 55}});
 
 double peak_at(const scene::Scene& scene, double load) {
   scene::Scene at = scene;
@@ -76,11 +69,11 @@ double peak_at(const scene::Scene& scene, double load) {
 }
 
 void response_grid(benchmark::State& state) {
-  const scene::Scene scene = paper(static_cast<int>(state.range(0)));
+  const scene::Scene scene = bench::paper(static_cast<int>(state.range(0)));
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double a = 0, b = 0;
   long responses = 0;
-  for (auto _ : state) {
+  bench::measure(state, [&] {
     responses = 0;
     const auto f = [&](double y) {
       ++responses;
@@ -93,10 +86,10 @@ void response_grid(benchmark::State& state) {
         b = d, d = c, fd = fc, c = b - golden * (b - a), fc = f(c);
       else
         a = c, c = d, fc = fd, d = a + golden * (b - a), fd = f(d);
-  }
+  });
   state.counters["responses"] = static_cast<double>(responses);
   state.counters["load"] = std::exp((a + b) / 2);
 }
-BENCHMARK(response_grid)->ArgName("H")->Arg(1)->Arg(7)->Arg(55)->Unit(benchmark::kMillisecond);
+BENCHMARK(response_grid)->Name("optimum/responses")->ArgName("H")->ArgsProduct({{1, 7, 55}});
 
 }  // namespace
