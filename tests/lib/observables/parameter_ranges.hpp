@@ -1,6 +1,5 @@
 #pragma once
-// Three scenes with each parameter over many decades: alone, in pairs, and all at random. Also in
-// docs/robustness.md.
+// Three scenes with each parameter over many decades: alone, in pairs, and all at random.
 
 #include "volume.hpp"
 
