@@ -1,5 +1,7 @@
 #include <arcslip/hbm/condensation.hpp>
 
+#include <arcslip/hbm/sparse_links.hpp>
+
 #include <array>
 #include <cmath>
 #include <tuple>
@@ -10,7 +12,6 @@ namespace {
 constexpr double pole = 1e-14;        // pivot of Z_ll, relative to the largest entry of its column
 constexpr double modal_pole = 1e-14;  // D, relative to the sum of its terms
 constexpr Eigen::Index few = 16;  // unknowns, up to which blocks of a factorization cost more than they save
-constexpr double sparse_share = 0.1;  // of the multiplications of dense factors, each of which costs less
 
 using Sparse = continuation::ComplexSparseLU::Matrix;
 
@@ -175,28 +176,16 @@ Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, cons
 
 // Each degree of freedom of a large structure is linked to few others, and so is each coordinate in y.
 void Condensation::choose_sparse(const std::vector<PartInY>& parts) {
-  const auto n = static_cast<double>(l_);
-  std::vector<bool> is_linked(static_cast<std::size_t>(l_ * l_), false);
-  std::vector<Eigen::Triplet<Complex>> linked;
-  const auto link = [&](Eigen::Index i, Eigen::Index j) {
-    std::vector<bool>::reference known = is_linked[static_cast<std::size_t>(i + j * l_)];
-    if (!known) linked.emplace_back(i, j, 1);
-    known = true;
-  };
-  for (Eigen::Index i = 0; i < l_; ++i) link(i, i);
+  std::vector<Links> links;
   for (const PartInY& part : parts) {
-    const auto& entries = part.direction.entries();
-    const auto links = static_cast<double>(entries.size());
-    if (links * links > sparse_share * n * n) return;
-    for (const auto& [j, at_j] : entries)
-      for (const auto& [i, at_i] : entries)
-        if (i >= r_ && j >= r_) link(i - r_, j - r_);
+    Links& linked = links.emplace_back();
+    for (const auto& [i, at_i] : part.direction.entries())
+      if (i >= r_) linked.push_back(i - r_);
   }
-  sparse_Zll_.resize(l_, l_);
-  sparse_Zll_.setFromTriplets(linked.begin(), linked.end());
-  if (static_cast<double>(sparse_Zll_.nonZeros()) > sparse_share * n * n) return;
-  sparse_lu_.emplace(sparse_Zll_);
-  if (sparse_lu_->multiplications() > sparse_share * n * n * n / 3) sparse_lu_.reset();
+  if (const auto pattern = sparse_pattern(l_, links)) {
+    sparse_Zll_ = *pattern;
+    sparse_lu_.emplace(sparse_Zll_);
+  }
 }
 
 // W = Z_ll^-1 rhs_

@@ -20,6 +20,7 @@ class Independent {
   explicit Independent(int dofs) : chosen_(dofs, 0), orthonormal_(dofs, 0) {}
 
   bool add(const Eigen::VectorXd& d) {
+    if (chosen_.cols() == chosen_.rows()) return false;
     const Eigen::VectorXd rest = outside(d);
     if (rest.norm() < independent) return false;
     const Eigen::Index r = chosen_.cols();
@@ -46,10 +47,10 @@ class Independent {
 
 // Directions of the parts that are much stiffer than the softest, stiffest first.
 Directions stiff_directions(const model::Model& model) {
-  std::vector<std::pair<double, Eigen::VectorXd>> all;
+  std::vector<std::pair<double, const model::Direction*>> all;
   const auto add = [&](double stiffness, const model::Direction& d) {
     const double k = std::abs(stiffness) * d.squaredNorm();
-    if (k > 0 && std::isfinite(stiffness)) all.emplace_back(k, d);
+    if (k > 0 && std::isfinite(stiffness)) all.emplace_back(k, &d);
   };
   const continuation::Vector p = model::defaults(model);
   for (const auto& spring : model.springs) add(p[spring.parameter], spring.direction);
@@ -59,7 +60,7 @@ Directions stiff_directions(const model::Model& model) {
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   Directions stiff;
   for (const auto& [k, d] : all)
-    if (k > much_stiffer * all.back().first) stiff.push_back(d);
+    if (k > much_stiffer * all.back().first) stiff.emplace_back(*d);
   return stiff;
 }
 

@@ -1,6 +1,7 @@
 #include <arcslip/hbm/fixed_interface.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/hbm/sparse_links.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,8 @@
 namespace arcslip::hbm {
 namespace {
 
-constexpr Eigen::Index few = 1, many = 500;  // linear coordinates
+constexpr Eigen::Index few = 1;              // linear coordinates
+constexpr Eigen::Index many = 500;           // of them: sparse factors cost less than modes, where there are any
 constexpr double proportional = 1e-12;       // entries of C beside its diagonal
 constexpr double indefinite = 1e-9;          // a negative eigenvalue of M or K, relative to the largest
 
@@ -24,6 +26,18 @@ Blocks blocks(const Eigen::MatrixXd& A, const Eigen::MatrixXd& P, Eigen::Index r
               Pl.transpose() * AP.rightCols(P.cols() - r)};
   in_y.ll = 0.5 * (in_y.ll + in_y.ll.transpose()).eval();
   return in_y;
+}
+
+// Whether the dynamic stiffness has factors that cost far less than those of a dense matrix.
+bool is_sparse(const model::Model& model) {
+  if (!model.matrices.empty()) return false;
+  std::vector<Links> links;
+  for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
+    for (const model::LinearPart& part : *parts) {
+      Links& linked = links.emplace_back();
+      for (model::Direction::InnerIterator x(part.direction); x; ++x) linked.push_back(x.index());
+    }
+  return sparse_pattern(model.dofs, links).has_value();
 }
 
 }  // namespace
@@ -62,7 +76,7 @@ std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Mo
                                                                  const Eigen::MatrixXd& P, int unknowns,
                                                                  double frequency) {
   const Eigen::Index r = unknowns, l = P.cols() - r;
-  if (l <= few || l > many) return {};
+  if (l <= few || (l > many && is_sparse(model))) return {};
   auto modes = std::make_shared<FixedInterfaceModes>();
   modes->p = model::defaults(model);
   const auto& p = modes->p;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 
 namespace arcslip::model {
 namespace {
@@ -26,6 +27,9 @@ class Builder {
  public:
   Builder(const scene::Scene& scene, const scene::StopRequest& stop) : scene_(scene) {
     set_dofs(stop);
+    for (const scene::Tie& tie : scene.ties)
+      for (const std::string& member : tie.members) tie_of_[member] = tie.name;
+    parameter_of_["frequency"] = 0;
     model_.parameters.push_back({"frequency", "rad/s", 0, 1, 0, 1e300});
   }
 
@@ -236,24 +240,25 @@ class Builder {
   // The parameter of one field: a new one, or that of the tie which the field belongs to.
   int parameter(const scene::Part& part, std::size_t field) {
     const scene::Field& f = part.fields()[field];
-    const std::string own = part.name + "." + std::string(f.name);
-    std::string name = own;
-    for (const auto& tie : scene_.ties)
-      if (std::find(tie.members.begin(), tie.members.end(), own) != tie.members.end()) name = tie.name;
+    std::string name = part.name + "." + std::string(f.name);
+    if (const auto tie = tie_of_.find(name); tie != tie_of_.end()) name = tie->second;
     auto& all = model_.parameters;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if (all[k].name != name) continue;
-      all[k].lower = std::max(all[k].lower, f.lower);
-      all[k].upper = std::min(all[k].upper, f.upper);
-      return static_cast<int>(k);
+    const auto [known, is_new] = parameter_of_.emplace(name, static_cast<int>(all.size()));
+    if (is_new) {
+      const double value = part.values[field];
+      all.push_back({name, std::string(f.unit), value, std::max(std::abs(value), 1e-300), f.lower, f.upper});
+    } else {
+      continuation::Parameter& tied = all[static_cast<std::size_t>(known->second)];
+      tied.lower = std::max(tied.lower, f.lower);
+      tied.upper = std::min(tied.upper, f.upper);
     }
-    const double value = part.values[field];
-    all.push_back({name, std::string(f.unit), value, std::max(std::abs(value), 1e-300), f.lower, f.upper});
-    return static_cast<int>(all.size()) - 1;
+    return known->second;
   }
 
   const scene::Scene& scene_;
   std::vector<int> dof_of_;  // in the model, of those of a scene with matrices
+  std::unordered_map<std::string, std::string> tie_of_;     // names of ties, by their members
+  std::unordered_map<std::string, int> parameter_of_;       // indices, by their names
   Model model_;
 };
 
