@@ -22,9 +22,10 @@ constexpr double near_a_fold = 1e-4;     // a step along the branch, relative to
 constexpr double at_corner = 1e-6;       // |h| over its size
 constexpr double resolved = 0.02;        // change of the harmonics kept with samples, over those left out
 constexpr double converging = 0.3;       // second sweep over the first
-constexpr double small_change = 0.1;     // of the response, over its amplitude
 constexpr double cancelled = 0.02;       // |dA| over the change of the response
-constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 2e-8 of it
+constexpr double uncancelled = 0.05;     // of the change of the response: what remains where |dA| cancels
+constexpr double small_change = 0.1;     // of the response, over its amplitude
+constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 5e-8 of it
 
 elements::Harmonics widened(const elements::Harmonics& h) {
   return {2 * h.order + least_tail * h.period, h.odd, h.period};
@@ -141,8 +142,8 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   const double change = std::abs(amplitude_change(wide_.problem().harmonics(), extreme, response_));
   const double size = response_.norm();
   if (!std::isfinite(change)) return {0, true};
-  const bool signs = change < cancelled * size && size > tolerance * extreme.amplitude;
-  return {change, flagged || signs || size > small_change * extreme.amplitude};
+  const bool cancels = change < cancelled * size && size > tolerance * extreme.amplitude;
+  return {cancels ? uncancelled * size : change, flagged || size > small_change * extreme.amplitude};
 }
 
 std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now, Reach reach) {

@@ -12,10 +12,11 @@
 //   a fold             it moves along the branch to where dq/ds is zero again, c = -d_q' / q''
 //   a corner           h = 0 (hbm/corner.hpp) holds for d + c t
 //
-// Derivatives with respect to s are differences along t. The estimate is |dA|, not a bound. It is flagged if
-// it may be far too low: N omega is below the highest natural frequency with all elements at maximum
-// stiffness, so that a resonance is neglected; the sweeps do not converge; the change of the response is not
-// small; samples do not resolve a force of the velocity; dA changes sign, so that higher orders dominate; the
+// Derivatives with respect to s are differences along t. The estimate is |dA|, not a bound; where dA all but
+// vanishes, as where it changes sign, |dx|/20 with the change dx of the response, since the harmonics beyond
+// add a few percent of that. It is flagged if it may be far too low: N omega is below the highest natural
+// frequency with all elements at maximum stiffness, so that a resonance is neglected; the sweeps do not
+// converge; the change of the response is not small; samples do not resolve a force of the velocity; the
 // branch of more harmonics has no point at this q; or the condition of the point cannot be differentiated.
 
 #include <arcslip/continuation/events/monitor.hpp>
