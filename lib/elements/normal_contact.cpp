@@ -36,8 +36,9 @@ void NormalContact::move_to(In u_n, double k_n, double N_0) {
   F_.setZero();
   by_stiffness_.setZero();
   by_load_.setZero();
-  if (!opens_) {
-    F_ = n_;
+  if (!opens_) {  // without the preload, whose digits would be those of the force
+    F_ = k_n * u_n;
+    F_[0] += std::min(N_0, 0.0);
     by_stiffness_ = u_n;
     by_load_[0] = 1;
   } else {
@@ -54,8 +55,8 @@ void NormalContact::move_to(In u_n, double k_n, double N_0) {
     by_stiffness_[0] *= 0.5;
     by_load_[0] *= 0.5;
     F_ = k_n * by_stiffness_ + N_0 * by_load_;
+    F_[0] -= std::max(N_0, 0.0);
   }
-  F_[0] -= std::max(N_0, 0.0);
   if (N_0 > 0) by_load_[0] -= 1;
 }
 
