@@ -110,14 +110,29 @@ class Contact2dElement final : public Element {
     return at;
   }
 
+  // u_0 - w. Where the shares of w add up to 1 neither the mean of x_t nor, in the middle, the load is in it,
+  // nor their rounding: with a~, b~ the extremes of the bounds less their means x_t0 -+ d,
+  //   u_0 - w = (lower - upper) d - lower a~ - upper b~,   d = mu (N_0 + k_n x_n0)/k_t
+  double mean_elongation(In u_t, In u_n, const StuckSlider& held) {
+    const double a = phases_.largest_lower().x, b = phases_.smallest_upper().x;
+    if (held.lower + held.upper != 1) return u_t[0] - held.lower * a - held.upper * b;
+    const double ratio = law_.mu * law_.k_n / law_.k_t, d = ratio * u_n[0] + law_.mu * law_.N_0 / law_.k_t;
+    const Eigen::Index rest = h_.size() - 1;
+    const auto along = [&](double theta, double normal) {
+      series_basis(h_, theta, phi_);
+      return phi_.tail(rest).dot(u_t.tail(rest)) + normal * phi_.tail(rest).dot(u_n.tail(rest));
+    };
+    return (held.lower - held.upper) * d - held.lower * along(phases_.largest_lower().theta, -ratio) -
+           held.upper * along(phases_.smallest_upper().theta, ratio);
+  }
+
   void full_stick(In u_t, In u_n, bool jacobian) {
     const Eigen::Index c = h_.size();
     const StuckSlider held = phases_.held();
-    const double k = law_.k_t,
-                 w = held.lower * phases_.largest_lower().x + held.upper * phases_.smallest_upper().x;
+    const double k = law_.k_t;
     auto F = F_.head(c);
     F = u_t;
-    F[0] -= w;
+    F[0] = mean_elongation(u_t, u_n, held);
     tangential_rows(tangential_stiffness) = F;
     F *= k;
     if (jacobian) J_.topLeftCorner(c, c).diagonal().setConstant(k);

@@ -41,6 +41,26 @@ TEST_CASE("under a constant load a contact is a Jenkins element and a linear spr
   }
 }
 
+TEST_CASE("the force of a contact that sticks and never opens loses no digits to its preload or to the mean") {
+  const elements::Harmonics h{7, false};
+  const Eigen::Index c = h.size();
+  for (unsigned seed = 1; seed < 30; ++seed) {
+    const Vector u = contacts::random_line(h, 1, 1, seed);
+    Vector away = u;
+    away[0] = 1e6;
+    const Force light = evaluate(elements::contact_2d(), h, u, {2, 3, 0.5, 1e3});
+    const double digits = 1e-13 * light.F.norm();
+    REQUIRE(light.friction.stick_share == 1);
+    for (const double load : {1e3, 1e6, 1e10, 1e14}) {
+      CAPTURE(seed, load);
+      const Force heavy = evaluate(elements::contact_2d(), h, u, {2, 3, 0.5, load});
+      CHECK((heavy.F - light.F).cwiseAbs().maxCoeff() < digits);
+      const Force far = evaluate(elements::contact_2d(), h, away, {2, 3, 0.5, load});
+      CHECK((far.F - light.F).head(c).cwiseAbs().maxCoeff() < digits);
+    }
+  }
+}
+
 TEST_CASE("without friction a contact is a gap spring along its normal, for any load") {
   const elements::Harmonics h{7, false};
   const Eigen::Index c = h.size();
