@@ -235,7 +235,8 @@ TEST_CASE("the product of the multipliers is what damping and the wires' yield l
   }
 }
 
-TEST_CASE("given the same orbit, the multipliers are those of differences of an independent march") {
+TEST_CASE("given the same orbit, the multipliers are those of differences of an independent march",
+          "[numbers]") {
   const Vector one = Vector::Ones(1);
   // With so many harmonics of the orbit that its series leaves less.
   constexpr int steps = 8000, order = 799;
