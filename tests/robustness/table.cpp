@@ -6,6 +6,7 @@
 #include "app/output_paths.hpp"
 #include "fuzz/mutation.hpp"
 #include "lib/observables/extremes.hpp"
+#include "lib/observables/parameter_ranges.hpp"
 #include "lib/observables/structures.hpp"
 #include "lib/scene/bad_scenes.hpp"
 #include "optimize/limited_searches.hpp"
@@ -246,6 +247,15 @@ Random cases, the same on every machine but for the moments of signals. The test
       "seeds 500 to 1999 and 0 to 107, those from 1604 on since the last changes: with exact friction the "
       "same events in all but one, which has a peak that is said not to be located. Of 1600 with exact "
       "friction 8 had a peak more in steps a tenth as long; these have the same ones now");
+  row("an oscillator with a slider, two masses with a stop, and a contact with separation, all parameters "
+      "between 1e-30 and 1e30 times what is usual, 0 and negative, each point beside equations in extended "
+      "precision",
+      parameter_ranges::random_scenes, 1, "all parameters at random",
+      "1500: 242 967 points of 1503 branches, none wrong without a flag. 1490 points are farther than 1e-9 from "
+      "the branch, all within the rounding of an ill-conditioned equation, and 77 183 have a flagged "
+      "truncation estimate. 1386 branches reach the end of the window; 97 find no first response, 7 grow "
+      "until rounding destroys them, 6 end with steps too small, 3 at an unbounded resonance; 4 were cut "
+      "after 20 s");
   std::cout << R"(
 With sampled friction a response has the same amplitude at a frequency in all units, names and orders, to 1e-9, but not
 the same set of peaks: each sample that begins or ceases to slip, 256 of them for each damper in these structures, is a
