@@ -156,8 +156,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
 
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const scene::RunOptions how{has_files, options.coefficients, !options.out.empty(), {},
-                              options.threads.value_or(processors)};
+  const scene::RunOptions how{
+      has_files, options.coefficients, !options.out.empty(), {}, options.threads.value_or(processors)};
   const results::Header header = studies::header(scene);
   std::vector<results::Schema> schemas;
   for (const scene::Study& study : studies) schemas.push_back(study.type->schema(scene, study, how));

@@ -28,8 +28,9 @@ bool Tracer::Impl::corner() {
     if (!found) return false;
     corners.push_back(std::move(*found));
     if (step_beyond_corner()) return true;
-    if (corners.size() <= static_cast<std::size_t>(k)) return false;  // the branch leaves the window before it
-    corners.resize(static_cast<std::size_t>(k) + 1);
+    const std::size_t passed = static_cast<std::size_t>(k) + 1;
+    if (corners.size() < passed) return false;  // the branch leaves the window before it
+    corners.resize(passed);
     from = &corners.back().beyond;
   }
   return false;

@@ -9,10 +9,10 @@
 namespace arcslip::hbm {
 namespace {
 
-constexpr Eigen::Index few = 1;              // linear coordinates
-constexpr Eigen::Index many = 500;           // of them: sparse factors cost less than modes, where there are any
-constexpr double proportional = 1e-12;       // entries of C beside its diagonal
-constexpr double indefinite = 1e-9;          // a negative eigenvalue of M or K, relative to the largest
+constexpr Eigen::Index few = 1;         // linear coordinates
+constexpr Eigen::Index many = 500;      // of them: sparse factors cost less than modes, where there are any
+constexpr double proportional = 1e-12;  // entries of C beside its diagonal
+constexpr double indefinite = 1e-9;     // a negative eigenvalue of M or K, relative to the largest
 
 // In (q, l).
 struct Blocks {

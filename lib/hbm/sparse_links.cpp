@@ -26,7 +26,8 @@ std::optional<continuation::ComplexSparseLU::Matrix> sparse_pattern(Eigen::Index
   continuation::ComplexSparseLU::Matrix pattern(n, n);
   pattern.setFromTriplets(linked.begin(), linked.end());
   if (static_cast<double>(pattern.nonZeros()) > sparse_share * all) return {};
-  if (continuation::ComplexSparseLU(pattern).multiplications() > sparse_share * all * static_cast<double>(n) / 3)
+  if (continuation::ComplexSparseLU(pattern).multiplications() >
+      sparse_share * all * static_cast<double>(n) / 3)
     return {};
   return pattern;
 }

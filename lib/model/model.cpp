@@ -256,9 +256,9 @@ class Builder {
   }
 
   const scene::Scene& scene_;
-  std::vector<int> dof_of_;  // in the model, of those of a scene with matrices
-  std::unordered_map<std::string, std::string> tie_of_;     // names of ties, by their members
-  std::unordered_map<std::string, int> parameter_of_;       // indices, by their names
+  std::vector<int> dof_of_;                              // in the model, of those of a scene with matrices
+  std::unordered_map<std::string, std::string> tie_of_;  // names of ties, by their members
+  std::unordered_map<std::string, int> parameter_of_;    // indices, by their names
   Model model_;
 };
 
