@@ -185,9 +185,8 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   auto monitors = frequency_monitors(observer, steps, watched);
   if (watched.phase) monitors.push_back(phase_resonance_monitor(observer, direction));
   const Vector p = hbm::parameters_at(*problem, from);
-  FrequencyBranch traced{problem,
-                         continuation::trace(problem, {*first.u, p, model::frequency, direction}, options,
-                                             std::move(monitors), each)};
+  FrequencyBranch traced{problem, continuation::trace(problem, {*first.u, p, model::frequency, direction},
+                                                      options, std::move(monitors), each)};
   traced.unknown_stability = observer->unknown_stability();
   speak_of_scene(*model, p, traced.branch);
   return traced;

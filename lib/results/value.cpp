@@ -20,6 +20,8 @@ Value& Value::operator=(const Value& other) = default;
 Value& Value::operator=(Value&& other) noexcept = default;
 Value::~Value() = default;
 
-Object& Value::members() { return std::get<Object>(is_); }
+Object& Value::members() {
+  return std::get<Object>(is_);
+}
 
 }  // namespace arcslip::results

@@ -44,8 +44,8 @@ Harmonics read_harmonics(const Location& place, Faults& faults) {
         read_integer(keys.find("period"), 1, largest_period, faults).value_or(harmonics.period);
     harmonics.accuracy =
         read_number(wanted, accuracy, faults).value_or(order.node != nullptr ? 0 : default_accuracy);
-    const int highest =
-        wanted.node != nullptr ? largest_chosen_order : std::min(default_highest * harmonics.period, largest_order);
+    const int highest = wanted.node != nullptr ? largest_chosen_order
+                                               : std::min(default_highest * harmonics.period, largest_order);
     harmonics.order = read_integer(order, 1, largest_order, faults).value_or(highest);
     harmonics.friction = read_choice(keys.find("friction"), friction_methods, harmonics.friction, faults);
     harmonics.samples = read_integer(keys.find("samples"), 1, largest_samples, faults,

@@ -162,7 +162,8 @@ inline constexpr int largest_depth = 64;                                   // of
 inline constexpr std::size_t largest_size = 64u << 20;                     // bytes
 inline constexpr int largest_order = 2000;                                 // of the harmonics
 inline constexpr double finest_accuracy = 1e-10, coarsest_accuracy = 0.1;  // of the harmonics
-inline constexpr double default_accuracy = 1e-4;   // of a scene file that gives neither an accuracy nor an order
+// Of a scene file that gives neither an accuracy nor an order.
+inline constexpr double default_accuracy = 1e-4;
 inline constexpr int largest_chosen_order = 499;   // by an accuracy, unless the scene gives another one
 inline constexpr int largest_period = 100;         // of a motion, in periods of the excitation
 inline constexpr int largest_samples = 1'000'000;  // per period
