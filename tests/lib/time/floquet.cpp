@@ -7,6 +7,7 @@
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
 #include "lib/time/random_contacts.hpp"
+#include "lib/time/multiplier_distance.hpp"
 #include "lib/time/systems.hpp"
 
 #include <arcslip/elements/contact_3d.hpp>
@@ -21,6 +22,7 @@
 #include <numbers>
 
 using namespace arcslip;
+using multiplier_distance::distance, multiplier_distance::difference;
 using namespace arcslip::time;
 using random_scenes::Excitation;
 
@@ -32,21 +34,6 @@ constexpr double pi = std::numbers::pi;
 std::uint64_t scene_count() {
   if (const char* count = std::getenv("ARCSLIP_SCENES")) return std::strtoull(count, nullptr, 10);
   return 8;
-}
-
-// The largest distance of a multiplier of one list from the nearest one of the other.
-double distance(const std::vector<Complex>& some, const std::vector<Complex>& others) {
-  double largest = 0;
-  for (const Complex& a : some) {
-    double nearest = std::abs(a);  // those left out are 0
-    for (const Complex& b : others) nearest = std::min(nearest, std::abs(a - b));
-    largest = std::max(largest, nearest);
-  }
-  return largest;
-}
-
-double difference(const std::vector<Complex>& a, const std::vector<Complex>& b) {
-  return std::max(distance(a, b), distance(b, a));
 }
 
 std::vector<Complex> along_harmonics(const beside_exact::Pair& pair) {

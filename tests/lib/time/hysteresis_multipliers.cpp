@@ -6,6 +6,7 @@
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
 #include "lib/time/rate_march.hpp"
+#include "lib/time/multiplier_distance.hpp"
 #include "lib/time/systems.hpp"
 
 #include <arcslip/elements/bouc_wen.hpp>
@@ -18,26 +19,13 @@
 #include <numbers>
 
 using namespace arcslip;
+using multiplier_distance::distance, multiplier_distance::difference;
 using namespace arcslip::time;
 
 namespace {
 
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
-
-double distance(const std::vector<Complex>& some, const std::vector<Complex>& others) {
-  double largest = 0;
-  for (const Complex& a : some) {
-    double nearest = std::abs(a);  // those left out are 0
-    for (const Complex& b : others) nearest = std::min(nearest, std::abs(a - b));
-    largest = std::max(largest, nearest);
-  }
-  return largest;
-}
-
-double difference(const std::vector<Complex>& a, const std::vector<Complex>& b) {
-  return std::max(distance(a, b), distance(b, a));
-}
 
 void add_wire(EquationOfMotion& equation, const Vector& d, double k, double a, double z_y, double n,
               double s) {
