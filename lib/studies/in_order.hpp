@@ -75,7 +75,8 @@ void in_order(std::size_t count, int threads, std::atomic<bool>& goes_on, const 
   for (;;) {
     std::unique_lock lock(mutex);
     // What is begun is taken, also after a stop.
-    changed.wait(lock, [&] { return waiting.contains(taken) || taken == count || (!goes_on && taken == begun); });
+    changed.wait(lock,
+                 [&] { return waiting.contains(taken) || taken == count || (!goes_on && taken == begun); });
     const auto next = waiting.extract(taken);
     if (next.empty()) break;
     ++taken;

@@ -34,10 +34,10 @@ struct Case {
   bool alone = true;          // it is the only one
 };
 
-/// Calls take(computed, set) with the result of compute(Case, progress) for each of the combinations, in their
-/// order and in this thread, with the parameters set; up to `threads` of them are computed at the same time.
-/// After a stop by the callback no further combination is started. progress is called by one thread at a time,
-/// and told of the first combination that is being computed.
+/// Calls take(computed, set) with the result of compute(Case, progress) for each of the combinations, in
+/// their order and in this thread, with the parameters set; up to `threads` of them are computed at the same
+/// time. After a stop by the callback no further combination is started. progress is called by one thread at
+/// a time, and told of the first combination that is being computed.
 template <class Compute, class Take>
 void for_each(const scene::Scene& scene, const scene::Combinations& all, int threads, const Compute& compute,
               const results::ProgressCallback& progress, const Take& take) {

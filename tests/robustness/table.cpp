@@ -251,7 +251,8 @@ Random cases, the same on every machine but for the moments of signals. The test
       "between 1e-30 and 1e30 times what is usual, 0 and negative, each point beside equations in extended "
       "precision",
       parameter_ranges::random_scenes, 1, "all parameters at random",
-      "1500: 242 967 points of 1503 branches, none wrong without a flag. 1490 points are farther than 1e-9 from "
+      "1500: 242 967 points of 1503 branches, none wrong without a flag. 1490 points are farther than 1e-9 "
+      "from "
       "the branch, all within the rounding of an ill-conditioned equation, and 77 183 have a flagged "
       "truncation estimate. 1386 branches reach the end of the window; 97 find no first response, 7 grow "
       "until rounding destroys them, 6 end with steps too small, 3 at an unbounded resonance; 4 were cut "

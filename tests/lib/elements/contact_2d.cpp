@@ -41,7 +41,8 @@ TEST_CASE("under a constant load a contact is a Jenkins element and a linear spr
   }
 }
 
-TEST_CASE("the force of a contact that sticks and never opens loses no digits to its preload or to the mean") {
+TEST_CASE(
+    "the force of a contact that sticks and never opens loses no digits to its preload or to the mean") {
   const elements::Harmonics h{7, false};
   const Eigen::Index c = h.size();
   for (unsigned seed = 1; seed < 30; ++seed) {

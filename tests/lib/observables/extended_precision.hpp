@@ -11,51 +11,20 @@
 // with k_n = 0 for jenkins, and N_0 = -k g without T for gap_spring. Where it sticks throughout, w is in the
 // middle between its bounds.
 
+#include "lib/observables/extended_forces.hpp"
+
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/scene/scene.hpp>
 
-#include <complex>
 #include <string>
 #include <vector>
 
 namespace extended {
 
-using Real = long double;  // 64 bits of mantissa on x86
-using Complex = std::complex<Real>;
 using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using ComplexVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1>;
 using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
-
-/// x(theta) = Re sum X_n exp(i n theta).
-class Series {
- public:
-  Series() = default;
-  explicit Series(std::vector<Complex> X);
-
-  bool empty() const { return X_.empty(); }
-  Real value(Real theta) const;
-  Real bound() const { return bound_; }  // of |x|: sum |X_n|
-  Series rate() const;                   // dx/dtheta
-  Series times(Real factor) const;
-  Series plus(const Series& other) const;
-  Series plus(Real constant) const;
-  Real moving() const { return bound_ - std::abs(X_[0]); }  // bound() without the mean
-  /// In one period from `begin` on, ascending, but for those that only touch.
-  std::vector<Real> roots(Real begin) const;
-  /// The highest and the lowest value.
-  std::pair<Real, Real> range() const;
-  Complex operator[](int n) const { return X_[static_cast<std::size_t>(n)]; }
-  int order() const { return static_cast<int>(X_.size()) - 1; }
-
- private:
-  std::vector<Complex> X_;
-  Real bound_ = 0;
-};
-
-/// What an element does over the period: one thing throughout, or several.
-enum class State { slip, stick, open, closed, several };
-const char* name(State state);
 
 struct Evaluation {
   Eigen::VectorXd residual;  // N, in the layout of the unknowns

@@ -269,9 +269,8 @@ TEST_CASE("a study that the user ends in a higher order has the whole results of
   for (const int after : {0, 10, 60}) {  // calls of the second order
     CAPTURE(after);
     int calls = 0;
-    const Json branch = run(s, [&](const results::Progress& now) {
-      return now.order == 3 || ++calls <= after;
-    })["branches"][0];
+    const Json branch = run(
+        s, [&](const results::Progress& now) { return now.order == 3 || ++calls <= after; })["branches"][0];
     CHECK(calls == after + 1);
     CHECK(branch["status"] == "complete");
     CHECK(branch["accuracy"]["orders"] == Json{3});

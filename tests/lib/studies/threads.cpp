@@ -44,7 +44,9 @@ void remove_seconds(Json& node) {
 
 template <class S>
 scene::Study over_loads(const scene::StudyType& type, S settings) {
-  return {std::string(type.name()), &type, scene::Settings::of(std::move(settings)),
+  return {std::string(type.name()),
+          &type,
+          scene::Settings::of(std::move(settings)),
           {{"damper.normal_load", {1, 2, 3, 4, 5, 6, 8, 10}}}};
 }
 
@@ -164,7 +166,8 @@ TEST_CASE("studies of every kind have the same results in one thread and in seve
   }
 }
 
-TEST_CASE("progress comes from one thread at a time, of the first combination that is computed, and stops all") {
+TEST_CASE(
+    "progress comes from one thread at a time, of the first combination that is computed, and stops all") {
   scene::Scene s = scenes::paper(5);
   s.studies = {over_loads(studies::frf(), observables::FrequencyRange{19, 21})};
   std::atomic<int> inside = 0;

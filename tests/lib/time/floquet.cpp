@@ -6,8 +6,8 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
-#include "lib/time/random_contacts.hpp"
 #include "lib/time/multiplier_distance.hpp"
+#include "lib/time/random_contacts.hpp"
 #include "lib/time/systems.hpp"
 
 #include <arcslip/elements/contact_3d.hpp>

@@ -5,8 +5,8 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
-#include "lib/time/rate_march.hpp"
 #include "lib/time/multiplier_distance.hpp"
+#include "lib/time/rate_march.hpp"
 #include "lib/time/systems.hpp"
 
 #include <arcslip/elements/bouc_wen.hpp>
