@@ -249,7 +249,7 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
   bool takes_coefficients() const override { return false; }
   results::Schema schema(const scene::Scene& scene, const scene::Study& study,
                          const scene::RunOptions& /*options*/) const override {
-    const auto& settings = study.settings.as<OptimumSettings>();
+    const OptimumSettings settings = with_places(scene, study.settings.as<OptimumSettings>());
     check_limits(scene, settings.problem);  // before the first study of a run
     return studies::with_set(scene, study,
                              settings.along
@@ -259,7 +259,7 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
   std::vector<results::FigureData> run(const scene::Scene& scene, const scene::Study& study,
                                        const scene::RunOptions& options, std::size_t schema,
                                        results::Sink& sink) const override {
-    const auto& settings = study.settings.as<OptimumSettings>();
+    const OptimumSettings settings = with_places(scene, study.settings.as<OptimumSettings>());
     if (settings.along)
       return studies::run_items(
           scene, study, options, described_curves(scene, settings.problem, settings.along->name), schema,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace arcslip::elements {
 namespace {
@@ -75,14 +76,25 @@ double series_bound(const Harmonics& h, In u, int power) {
   return bound;
 }
 
+double root_mean_square(const Harmonics& h, In u) {
+  const int means = h.odd ? 0 : 1;
+  const double waves = u.tail(u.size() - means).norm() / std::numbers::sqrt2;
+  return means == 0 ? waves : std::hypot(u[0], waves);
+}
+
 bool is_image(const Harmonics& h, In u, double turn, double sign) {
+  return is_image(h, u, u, turn, sign);
+}
+
+bool is_image(const Harmonics& h, In v, In u, double turn, double sign) {
   const double same = same_motion * u.cwiseAbs().maxCoeff();
-  if (!h.odd && sign < 0 && std::abs(u[0]) > same) return false;
+  if (!h.odd && std::abs(v[0] - sign * u[0]) > 2 * same) return false;
   for (int j = 0; j < h.sines(); ++j) {
     const int n = h.sine_order(j);
-    const double a = u[h.cosine_index(n)], b = u[h.sine_index(n)];
+    const double a = v[h.cosine_index(n)], b = v[h.sine_index(n)];
     const double c = std::cos(n * turn), s = std::sin(n * turn);
-    if (std::hypot(c * a + s * b - sign * a, c * b - s * a - sign * b) > same) return false;
+    const double to_a = sign * u[h.cosine_index(n)], to_b = sign * u[h.sine_index(n)];
+    if (std::hypot(c * a + s * b - to_a, c * b - s * a - to_b) > same) return false;
   }
   return true;
 }

@@ -31,7 +31,12 @@ void powers(double theta, int count, std::complex<double>* z);
 /// sum over n of n^power |X_n|, without the mean: a bound of |d^power x / dtheta^power|.
 double series_bound(const Harmonics& harmonics, In u, int power);
 
+/// The root of the mean of x^2 over the period.
+double root_mean_square(const Harmonics& harmonics, In u);
+
 /// Whether x(theta + turn) = sign x(theta), to rounding: sign is 1 or -1.
 bool is_image(const Harmonics& harmonics, In u, double turn, double sign);
+/// Whether y(theta + turn) = sign x(theta), with the coefficients v of y.
+bool is_image(const Harmonics& harmonics, In v, In u, double turn, double sign);
 
 }  // namespace arcslip::elements

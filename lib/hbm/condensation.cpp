@@ -70,24 +70,24 @@ void Condensed::project(ComplexVector& v) const {
   v.head(r).noalias() -= W.leftCols(r).transpose() * v.tail(l);
 }
 
-Complex Condensed::observed_change(const ComplexVector& v) const {
+Complex Condensed::observed_change(const ComplexVector& v, int observation) const {
   const Eigen::Index r = Z.rows();
   Complex sum = 0;
-  for (Eigen::Index k = 0; k < W.rows(); ++k) sum -= W(k, r + 1) * v[r + k];
+  for (Eigen::Index k = 0; k < W.rows(); ++k) sum -= W(k, r + 1 + observation) * v[r + k];
   return sum;
 }
 
-ModalCondensation::ModalCondensation(const FixedInterfaceModes& modes, const Eigen::VectorXd& observed)
+ModalCondensation::ModalCondensation(const FixedInterfaceModes& modes, const Eigen::MatrixXd& observed)
     : r_(modes.K.qq.rows()),
       l_(modes.K.ll.size()),
-      c_(observed.tail(l_)),
+      c_(observed.bottomRows(l_)),
       inverse_(l_),
       Zlq_(l_, r_),
       U_(l_, most_changes),
       inverse_U_(l_, most_changes),
       H_(r_, most_changes),
       equations_(most_changes, most_changes),
-      forces_(most_changes, r_ + 2) {}
+      forces_(most_changes, r_ + 1 + c_.cols()) {}
 
 bool ModalCondensation::condense(const LinearParts& parts, double s, const ComplexVector& f,
                                  Condensed& into) {
@@ -100,7 +100,7 @@ bool ModalCondensation::condense(const LinearParts& parts, double s, const Compl
     inverse_[j] = std::conj(D) / size;
   }
   into.Z.resize(r_, r_);
-  into.W.resize(l_, r_ + 2);
+  into.W.resize(l_, r_ + 1 + c_.cols());
   into.f = f.head(r_);
   for (Eigen::Index i = 0; i < r_; ++i) {
     for (Eigen::Index k = 0; k < r_; ++k) into.Z(k, i) = g.combine(M.qq(k, i), C.qq(k, i), K.qq(k, i));
@@ -111,7 +111,7 @@ bool ModalCondensation::condense(const LinearParts& parts, double s, const Compl
   }
   for (Eigen::Index j = 0; j < l_; ++j) {
     into.W(j, r_) = product(inverse_[j], f[r_ + j]);
-    into.W(j, r_ + 1) = inverse_[j] * c_[j];
+    for (Eigen::Index i = 0; i < c_.cols(); ++i) into.W(j, r_ + 1 + i) = inverse_[j] * c_(j, i);
   }
   for (Eigen::Index i = 0; i < r_; ++i) {
     for (Eigen::Index k = 0; k <= i; ++k) {
@@ -147,10 +147,11 @@ bool ModalCondensation::add_changes(const LinearParts& parts, const Factors& g, 
   H.noalias() -= Zlq_.transpose() * inverse_U;
   ComplexMatrix &A = equations_, &T = forces_;
   A.noalias() = U.transpose() * inverse_U;
-  T.resize(k, r_ + 2);
+  const Eigen::Index observations = c_.cols();
+  T.resize(k, r_ + 1 + observations);
   T.leftCols(r_) = H.transpose();
   T.col(r_).noalias() = inverse_U.transpose() * f.tail(l_);
-  T.col(r_ + 1).noalias() = inverse_U.transpose() * c_;
+  T.rightCols(observations).noalias() = inverse_U.transpose() * c_;
   for (Eigen::Index i = 0; i < k; ++i) {
     const ChangedPart& change = changes[static_cast<std::size_t>(i)];
     const Complex v = change.by * g.of(change.part->kind);
@@ -162,12 +163,15 @@ bool ModalCondensation::add_changes(const LinearParts& parts, const Factors& g, 
   into.Z.noalias() += H * T.leftCols(r_);
   into.f.noalias() -= H * T.col(r_);
   into.W.leftCols(r_).noalias() += inverse_U * T.leftCols(r_);
-  into.W.rightCols(2).noalias() -= inverse_U * T.rightCols(2);
+  into.W.rightCols(1 + observations).noalias() -= inverse_U * T.rightCols(1 + observations);
   return true;
 }
 
-Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::VectorXd& observed)
-    : r_(unknowns), l_(observed.size() - unknowns), c_(observed), rhs_(l_, r_ + 2) {
+Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::MatrixXd& observed)
+    : r_(unknowns),
+      l_(observed.rows() - unknowns),
+      c_(observed.bottomRows(l_)),
+      rhs_(l_, r_ + 1 + c_.cols()) {
   if (l_ > few) choose_sparse(parts);
   if (sparse_lu_) return;
   lu_ = continuation::LU<Complex>(l_);
@@ -224,7 +228,7 @@ bool Condensation::condense(const StructuralMatrices& of, const Factors& g, cons
   for (Eigen::Index k = 0; k < l_; ++k) {
     for (Eigen::Index i = 0; i < r_; ++i) rhs_(k, i) = of.at(g, r_ + k, i);
     rhs_(k, r_) = f[r_ + k];
-    rhs_(k, r_ + 1) = c_[r_ + k];
+    for (Eigen::Index i = 0; i < c_.cols(); ++i) rhs_(k, r_ + 1 + i) = c_(k, i);
   }
   if (!solve_linear(of, g, W)) return false;
   for (Eigen::Index j = 0; j < r_; ++j)

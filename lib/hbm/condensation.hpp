@@ -1,6 +1,6 @@
 #pragma once
 // Dynamic condensation: linear coordinates l of y = (q, l) are eliminated from Z y = f, harmonic by harmonic,
-// and from an observation x = c . y. Z is symmetric.
+// and from observations x = c . y. Z is symmetric.
 //
 //   (Z_qq - Z_ql Z_ll^-1 Z_lq) q = f_q - Z_ql Z_ll^-1 f_l,   l = Z_ll^-1 (f_l - Z_lq q)
 //
@@ -19,21 +19,22 @@ namespace arcslip::hbm {
 struct Condensed {
   ComplexMatrix Z;  // r x r, the Schur complement of Z_ll
   ComplexVector f;  // r
-  ComplexMatrix W;  // l x (r + 2): Z_ll^-1 [Z_lq, f_l, c_l]
+  ComplexMatrix W;  // l x (r + 1 + observations): Z_ll^-1 [Z_lq, f_l, c_l for each observation]
 
   /// y = (q, l) from its q, with f times force_factor.
   void expand(double force_factor, ComplexVector& y) const;
   /// v_q := v_q - Z_ql Z_ll^-1 v_l.
   void project(ComplexVector& v) const;
-  /// -c_l . Z_ll^-1 v_l.
-  Complex observed_change(const ComplexVector& v) const;
+  /// -c_l . Z_ll^-1 v_l of an observation.
+  Complex observed_change(const ComplexVector& v, int observation = 0) const;
 };
 
 /// The same with fixed-interface modes as linear coordinates (fixed_interface.hpp). Mutable, one for each
 /// evaluator.
 class ModalCondensation {
  public:
-  explicit ModalCondensation(const FixedInterfaceModes& modes, const Eigen::VectorXd& observed);
+  /// observed: c, a column for each observation.
+  ModalCondensation(const FixedInterfaceModes& modes, const Eigen::MatrixXd& observed);
 
   /// At the place of parts, which has modes. False where Z_ll is singular to rounding.
   bool condense(const LinearParts& parts, double s, const ComplexVector& f, Condensed& into);
@@ -42,7 +43,7 @@ class ModalCondensation {
   bool add_changes(const LinearParts& parts, const Factors& g, const ComplexVector& f, Condensed& into);
 
   const Eigen::Index r_, l_;
-  Eigen::VectorXd c_;
+  Eigen::MatrixXd c_;      // l x observations
   ComplexVector inverse_;  // of D
   ComplexMatrix Zlq_;
   // Of the changes: d_l, D^-1 d_l, the forces in them.
@@ -54,8 +55,8 @@ class ModalCondensation {
 /// each part links: plain elimination, LU of a dense or of a sparse matrix.
 class Condensation {
  public:
-  /// The first `unknowns` coordinates remain.
-  Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::VectorXd& observed);
+  /// The first `unknowns` coordinates remain. observed: c, a column for each observation.
+  Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::MatrixXd& observed);
 
   /// False where Z_ll is singular to rounding.
   bool condense(const StructuralMatrices& of, const Factors& g, const ComplexVector& f, Condensed& into);
@@ -65,7 +66,7 @@ class Condensation {
   bool solve_linear(const StructuralMatrices& of, const Factors& g, ComplexMatrix& W);
 
   const Eigen::Index r_, l_;
-  Eigen::VectorXd c_;
+  Eigen::MatrixXd c_;  // l x observations
   ComplexMatrix rhs_;  // [Z_lq, f_l, c_l]
   ComplexMatrix Zll_;
   continuation::LU<Complex> lu_;

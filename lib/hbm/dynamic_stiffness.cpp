@@ -1,8 +1,20 @@
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcslip::hbm {
+namespace {
+
+Eigen::MatrixXd observed(const model::Model& model, const Eigen::MatrixXd& P) {
+  Eigen::MatrixXd responses(P.cols(), 1 + static_cast<Eigen::Index>(model.others.size()));
+  responses.col(0) = P.transpose() * model.response;
+  for (Eigen::Index k = 1; k < responses.cols(); ++k)
+    responses.col(k) = P.transpose() * model.others[static_cast<std::size_t>(k - 1)];
+  return responses;
+}
+
+}  // namespace
 
 DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates& coordinates,
                                    const Harmonics& harmonics)
@@ -10,14 +22,17 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       l_(coordinates.linear()),
       layout_(harmonics),
       size_(harmonics.size()),
-      response_(coordinates.P.transpose() * model.response),
-      ground_(model.dofs),
+      responses_(observed(model, coordinates.P)),
+      ground_(1 + model.others.size(), model::Direction(model.dofs)),
       parts_(model, coordinates.P, harmonics, coordinates.modes),
       last_p_(Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""))),
       y_(r_ + l_),
       v_(r_ + l_) {
-  if (coordinates.modes) modal_.emplace(*coordinates.modes, response_);
-  if (model.absolute) ground_ = model.response.sparseView();
+  if (coordinates.modes) modal_.emplace(*coordinates.modes, responses_);
+  if (model.absolute) {
+    ground_.front() = model.response.sparseView();
+    std::copy(model.others.begin(), model.others.end(), ground_.begin() + 1);
+  }
   for (int h = 0; h < harmonics.cosines(); ++h) {
     const int n = harmonics.cosine_order(h);
     harmonics_.push_back({n, h, n > 0 ? harmonics.sine_index(n) : 0, {}});
@@ -40,7 +55,7 @@ bool DynamicStiffness::move_to(In p) {
 bool DynamicStiffness::condense(Harmonic& at) {
   const double s = at.order * base_frequency();
   if (parts_.modes()) return modal_->condense(parts_, s, v_, at.condensed);
-  if (!direct_) direct_.emplace(parts_.parts(), r_, response_);
+  if (!direct_) direct_.emplace(parts_.parts(), r_, responses_);
   return direct_->condense(parts_.matrices(), parts_.factors(s), v_, at.condensed);
 }
 
@@ -128,12 +143,13 @@ void DynamicStiffness::add_base(const model::Direction& d, double force_factor, 
   }
 }
 
-void DynamicStiffness::response(In u, double force_factor, Out x) const {
+void DynamicStiffness::response(In u, double force_factor, Out x, int place) const {
+  const auto direction = responses_.col(place);
   for (const Harmonic& at : harmonics_) {
     expand(u, at, force_factor);
     Complex sum = 0;
-    for (Eigen::Index i = 0; i < y_.size(); ++i) sum += response_[i] * y_[i];
-    sum += force_factor * parts_.base_displacement(at.order, ground_);
+    for (Eigen::Index i = 0; i < y_.size(); ++i) sum += direction[i] * y_[i];
+    sum += force_factor * parts_.base_displacement(at.order, ground_[static_cast<std::size_t>(place)]);
     at.put(sum, 0, x);
   }
 }
@@ -152,24 +168,25 @@ Eigen::MatrixXd DynamicStiffness::motion(const Eigen::MatrixXd& P, In u, double 
   return x;
 }
 
-void DynamicStiffness::response_transposed(In a, Out g) const {
+void DynamicStiffness::response_transposed(In a, Out g, int place) const {
   for (const Harmonic& at : harmonics_) {
-    v_ = response_.cast<Complex>();
+    v_ = responses_.col(place).cast<Complex>();
     at.condensed.project(v_);  // L^T; with a real inner product the transpose is the conjugate
     for (int i = 0; i < r_; ++i) at.put(std::conj(v_[i]) * at.amplitude(a, 0), i * size_, g);
   }
 }
 
-void DynamicStiffness::response_derivative(int k, In u, double force_factor, Out dx) const {
-  const bool moves = ground_.nonZeros() > 0;
+void DynamicStiffness::response_derivative(int k, In u, double force_factor, Out dx, int place) const {
+  const model::Direction& ground = ground_[static_cast<std::size_t>(place)];
+  const bool moves = ground.nonZeros() > 0;
   if ((l_ == 0 && !moves) || !parts_.depend_on(k)) {
     dx.setZero();
     return;
   }
   for (const Harmonic& at : harmonics_) {
     differentiate(k, u, at, force_factor);
-    const Complex base = force_factor * parts_.base_derivative(k, at.order, ground_);
-    at.put(at.condensed.observed_change(v_) + base, 0, dx);
+    const Complex base = force_factor * parts_.base_derivative(k, at.order, ground);
+    at.put(at.condensed.observed_change(v_, place) + base, 0, dx);
   }
 }
 

@@ -37,10 +37,12 @@ class DynamicStiffness {
   /// Adds the displacement of the ground along d to these coefficients.
   void add_base(const model::Direction& d, double force_factor, Out x) const;
 
-  /// The observed coordinate: its coefficients x = L u + x_0, the product L^T a, and dx/dp_k at fixed u.
-  void response(In u, double force_factor, Out x) const;
-  void response_transposed(In a, Out g) const;
-  void response_derivative(int k, In u, double force_factor, Out dx) const;
+  /// How many coordinates are observed: the response and, where it has several places, its others.
+  int places() const { return static_cast<int>(responses_.cols()); }
+  /// One of them: its coefficients x = L u + x_0, the product L^T a, and dx/dp_k at fixed u.
+  void response(In u, double force_factor, Out x, int place = 0) const;
+  void response_transposed(In a, Out g, int place = 0) const;
+  void response_derivative(int k, In u, double force_factor, Out dx, int place = 0) const;
 
   /// Energy lost by dampers and by proportional damping in a period: pi sum n Im x_n^H Z_n x_n, J; of
   /// dampers pi omega_b sum n^2 (a^T C a + b^T C b).
@@ -72,9 +74,9 @@ class DynamicStiffness {
 
   const int r_, l_;
   const Harmonics layout_;
-  const int size_;           // coefficients of a coordinate
-  Vector response_;          // direction in y
-  model::Direction ground_;  // along which the displacement of the ground belongs to the response
+  const int size_;                        // coefficients of a coordinate
+  Eigen::MatrixXd responses_;             // directions in y, a column for each place
+  std::vector<model::Direction> ground_;  // along which the displacement of the ground belongs to each
   LinearParts parts_;
   std::optional<ModalCondensation> modal_;
   std::optional<Condensation> direct_;  // without modes, or where too many parts differ from them

@@ -55,10 +55,14 @@ class Builder {
     }
     model_.response = sparse(scene_.response());
     model_.absolute = scene_.responses.front().frame == scene::Frame::absolute;
+    for (const scene::Direction& other : scene_.responses.front().others)
+      model_.others.push_back(sparse(other));
     for (const scene::Response& response : scene_.responses) {
       if (response.name.empty()) continue;
-      model_.named_responses.push_back(sparse(response.direction));
-      model_.named_absolute.push_back(response.frame == scene::Frame::absolute);
+      NamedResponse& named = model_.named_responses.emplace_back();
+      named.absolute = response.frame == scene::Frame::absolute;
+      named.places.push_back(sparse(response.direction));
+      for (const scene::Direction& other : response.others) named.places.push_back(sparse(other));
     }
     model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
     model_.settings = scene_.harmonics;
@@ -164,7 +168,10 @@ class Builder {
          {&scene_.masses, &scene_.springs, &scene_.dampers, &scene_.excitation, &elements})
       for (const scene::Part& part : *parts)
         for (const scene::Direction& direction : part.directions) use(direction);
-    for (const scene::Response& response : scene_.responses) use(response.direction);
+    for (const scene::Response& response : scene_.responses) {
+      use(response.direction);
+      for (const scene::Direction& other : response.others) use(other);
+    }
     return used;
   }
 

@@ -102,6 +102,12 @@ struct Excitation {
   double displacement_rate(double w) const;
 };
 
+/// A response beside that of the amplitude. Its amplitude, too, is the largest over its places.
+struct NamedResponse {
+  std::vector<Direction> places;
+  bool absolute = false;
+};
+
 /// How the matrices of the scene were reduced.
 struct Reduction {
   int rows = 0;                  // of the matrices
@@ -126,11 +132,10 @@ struct Model {
   std::vector<NonlinearPart> elements;
   std::vector<Patch> patches;
   std::vector<Excitation> excitation;
-  Eigen::VectorXd response;                // the direction of the amplitude
-  std::vector<Direction> named_responses;  // of the scene
-  // Whether these are displacements with that of the ground, not relative to it.
-  bool absolute = false;
-  std::vector<bool> named_absolute;
+  Eigen::VectorXd response;       // the direction of the amplitude
+  std::vector<Direction> others;  // further ones: then the amplitude is the largest along all of them
+  bool absolute = false;          // these are displacements with that of the ground, not relative to it
+  std::vector<NamedResponse> named_responses;  // of the scene
   elements::Harmonics harmonics;  // odd only, where no even one is excited and all laws are antisymmetric
   bool antisymmetric = true;      // all laws are
   scene::Harmonics settings;

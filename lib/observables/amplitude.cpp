@@ -1,5 +1,7 @@
 #include <arcslip/observables/amplitude.hpp>
 
+#include <arcslip/hbm/problem.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,6 +23,22 @@ Extreme Amplitude::of(elements::In x) {
   while (std::abs(turns[first].x) < (1 - same_height) * highest) ++first;
   const auto& turn = turns[first];
   return {std::abs(turn.x), turn.theta, turn.x < 0 ? -1.0 : 1.0, first};
+}
+
+Extreme Amplitude::of(const hbm::HbmEvaluator& at, elements::In u, elements::Out x) {
+  const hbm::DynamicStiffness& linear = at.stiffness();
+  linear.response(u, at.force_factor(), x);
+  Extreme largest = of(x);
+  for (int place = 1; place < linear.places(); ++place) {
+    other_.resize(x.size());
+    linear.response(u, at.force_factor(), other_, place);
+    Extreme extreme = of(other_);
+    if (!(extreme.amplitude > (1 + same_height) * largest.amplitude)) continue;
+    extreme.place = place;
+    largest = extreme;
+    x = other_;
+  }
+  return largest;
 }
 
 std::vector<Extreme> Amplitude::all(elements::In x) {

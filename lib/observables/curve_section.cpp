@@ -103,23 +103,25 @@ class AmplitudeGradient {
         a_(x_.size()) {}
 
   void by_unknowns(const hbm::HbmEvaluator& at, In u, Out dA) {
-    at.stiffness().response(u, at.force_factor(), x_);
-    const Extreme extreme = at_extreme();
+    const Extreme extreme = extreme_of(at, u);
     elements::series_basis(harmonics_, extreme.theta, a_);
     a_ *= extreme.sign;
-    at.stiffness().response_transposed(a_, dA);
+    at.stiffness().response_transposed(a_, dA, extreme.place);
   }
 
   double by_parameter(const hbm::HbmEvaluator& at, In u, int k) {
     if (!changes_) return 0;
-    at.stiffness().response(u, at.force_factor(), x_);
-    const Extreme extreme = at_extreme();
-    at.stiffness().response_derivative(k, u, at.force_factor(), x_);
+    const Extreme extreme = extreme_of(at, u);
+    at.stiffness().response_derivative(k, u, at.force_factor(), x_, extreme.place);
     return amplitude_change(harmonics_, extreme, x_);
   }
 
  private:
-  Extreme at_extreme() { return instant_ && *instant_ ? amplitude_.near(x_, **instant_) : amplitude_.of(x_); }
+  Extreme extreme_of(const hbm::HbmEvaluator& at, In u) {
+    if (!instant_ || !*instant_) return amplitude_.of(at, u, x_);
+    at.stiffness().response(u, at.force_factor(), x_);
+    return amplitude_.near(x_, **instant_);
+  }
 
   std::shared_ptr<const std::optional<double>> instant_;
   elements::Harmonics harmonics_;

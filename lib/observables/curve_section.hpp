@@ -54,7 +54,7 @@ class CurveSection {
 std::vector<continuation::Monitor> amplitude_monitors(const std::shared_ptr<CurveSection>& section);
 
 /// The amplitude as the quantity whose stationary points are continued. instant: if set, the extremum of the
-/// motion nearest to this angle in place of the largest.
+/// motion nearest to this angle in place of the largest, of a response at one place.
 continuation::StationaryQuantity amplitude_quantity(
     const std::shared_ptr<const hbm::HbmProblem>& problem,
     std::shared_ptr<const std::optional<double>> instant = {});

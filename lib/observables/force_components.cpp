@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <tuple>
 
 namespace arcslip::observables {
 namespace {
@@ -75,25 +76,30 @@ void set_contact_angles(const elements::Harmonics& h, elements::In motion, Eleme
 Maxima::Maxima(const hbm::HbmProblem& problem)
     : problem_(problem), largest_(problem.harmonics()), v_(problem.harmonics().size()) {}
 
-void Maxima::add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements::In x) {
+std::pair<double, double> Maxima::of(elements::In x, double base_frequency) {
   const auto& h = problem_.harmonics();
-  const auto& model = problem_.model();
-  const int nc = h.cosines(), ns = h.sines();
-  const double base_frequency = at.stiffness().base_frequency();
+  const int ns = h.sines();
   v_.setZero();
   for (int j = 0; j < ns; ++j) {  // x' = sum n (b cos - a sin)
     const int n = h.sine_order(j);
     v_[h.cosine_index(n)] = n * x[h.sine_index(n)];
     v_[h.sine_index(n)] = -n * x[h.cosine_index(n)];
   }
-  point.maxima.velocity = base_frequency * largest_.of(v_);
+  const double velocity = base_frequency * largest_.of(v_);
   for (int j = 0; j < ns; ++j) {
     const int n = h.sine_order(j);
     v_[h.cosine_index(n)] = n * n * x[h.cosine_index(n)];
     v_[h.sine_index(n)] = n * n * x[h.sine_index(n)];
   }
   if (!h.odd) v_[0] = 0;
-  point.maxima.acceleration = base_frequency * base_frequency * largest_.of(v_);
+  return {velocity, base_frequency * base_frequency * largest_.of(v_)};
+}
+
+void Maxima::add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements::In x) {
+  const auto& h = problem_.harmonics();
+  const auto& model = problem_.model();
+  const int nc = h.cosines(), ns = h.sines();
+  std::tie(point.maxima.velocity, point.maxima.acceleration) = of(x, at.stiffness().base_frequency());
   for (std::size_t e = 0; e < at.element_count(); ++e) {
     ElementResponse& element = point.elements[e];
     if (!element.has_stick) continue;

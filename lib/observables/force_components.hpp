@@ -22,6 +22,8 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/response.hpp>
 
+#include <utility>
+
 namespace arcslip::observables {
 
 /// x: the response's coefficients, at the last place of `at`.
@@ -43,6 +45,9 @@ class Maxima {
   /// Sets point.maxima and those of its friction elements; x: the response's coefficients, at the last place
   /// of `at`. point.forces are there already.
   void add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements::In x);
+
+  /// Largest absolute values over the period of the first and the second derivative of x by the time.
+  std::pair<double, double> of(elements::In x, double base_frequency);
 
  private:
   const hbm::HbmProblem& problem_;

@@ -65,6 +65,7 @@ class Sweeping {
     now_.parameters = described(*model_).parameters;
     now_.steps = settings_.steps;
     try {
+      time::check_response(*model_);
       if (go()) end(Status::complete, reasons::swept, "the sweep reached its last frequency");
     } catch (const time::NotInTime& error) {
       end(Status::failed, error.reason(), error.what());

@@ -1,6 +1,7 @@
 #include <arcslip/observables/histories.hpp>
 
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/amplitude.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +74,7 @@ History history(const scene::Scene& scene, const ResponseBranch& branch, const R
   result.base_frequency = at->stiffness().base_frequency();
   result.angle.assign(angles.begin(), angles.end());
   Vector x(problem.harmonics().size());
-  at->stiffness().response(u, at->force_factor(), x);
+  Amplitude(problem.harmonics()).of(*at, u, x);
   for (double theta : angles) {
     const elements::Values values = elements::series_values(problem.harmonics(), x, theta);
     result.displacement.push_back(values.x);

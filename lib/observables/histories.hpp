@@ -30,7 +30,7 @@ struct ElementHistory {
 struct History {
   double base_frequency = 0;         // rad/s; time = angle/base_frequency
   std::vector<double> angle;         // theta, rad
-  std::vector<double> displacement;  // of the response, m
+  std::vector<double> displacement;  // of the response, m; of its largest place
   std::vector<double> velocity;      // m/s
   std::vector<ElementHistory> elements;
 };

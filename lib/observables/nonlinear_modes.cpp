@@ -119,6 +119,10 @@ class Modes {
       if (element.law->set_valued())
         return "the friction of \"" + element.name +
                "\" has no stiffness, and stops motions of small amplitudes; give the contact a stiffness";
+    if (!free_->others.empty())
+      return "a mode is followed over the amplitude at one place, and the response is the largest of "
+             "several; "
+             "name one of them";
     if (!free_->harmonics.has(free_->harmonics.excited(1)))
       return "the fundamental is not among the harmonics: raise their order to their period at least";
     return {};

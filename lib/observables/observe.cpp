@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace arcslip::observables {
@@ -29,24 +30,25 @@ Observer::Observer(std::shared_ptr<const hbm::HbmProblem> problem, int free)
       x_(problem_->harmonics().size()),
       dx_(x_.size()),
       by_parameter_(x_.size()) {
-  const auto& directions = problem_->model().named_responses;
   const Eigen::MatrixXd& P = problem_->coordinates().P;
-  named_.resize(static_cast<Eigen::Index>(directions.size()), P.cols());
-  for (Eigen::Index i = 0; i < named_.rows(); ++i)
-    named_.row(i) = directions[static_cast<std::size_t>(i)].transpose() * P;
+  std::size_t count = 0;
+  for (const auto& response : problem_->model().named_responses) count += response.places.size();
+  named_.resize(static_cast<Eigen::Index>(count), P.cols());
+  Eigen::Index row = 0;
+  for (const auto& response : problem_->model().named_responses)
+    for (const auto& place : response.places) named_.row(row++) = place.transpose() * P;
 }
 
 Extreme Observer::extreme(const hbm::HbmEvaluator& at, continuation::In u) {
-  at.stiffness().response(u, at.force_factor(), x_);
-  return last_ = amplitude_.of(x_);
+  return last_ = amplitude_.of(at, u, x_);
 }
 
 double Observer::amplitude_change(const hbm::HbmEvaluator& at, continuation::In u, continuation::In du,
                                   std::initializer_list<std::pair<int, double>> dp) {
   const Extreme at_most = extreme(at, u);
-  at.stiffness().response(du, 0, dx_);
+  at.stiffness().response(du, 0, dx_, at_most.place);
   for (const auto& [k, change] : dp) {
-    at.stiffness().response_derivative(k, u, at.force_factor(), by_parameter_);
+    at.stiffness().response_derivative(k, u, at.force_factor(), by_parameter_, at_most.place);
     dx_ += change * by_parameter_;
   }
   return observables::amplitude_change(problem_->harmonics(), at_most, dx_);
@@ -79,14 +81,25 @@ double Observer::phase(continuation::In p, continuation::In x) const {
 void Observer::add_named_responses(const hbm::HbmEvaluator& at, continuation::In u, continuation::In p,
                                    ResponsePoint& point) {
   if (named_.rows() == 0) return;
-  const model::Model& model = problem_->model();
   Eigen::MatrixXd motions = at.stiffness().motion(named_, u, at.force_factor());
-  for (std::size_t i = 0; i < model.named_responses.size(); ++i)
-    if (model.named_absolute[i])
-      at.stiffness().add_base(model.named_responses[i], at.force_factor(),
-                              motions.col(static_cast<Eigen::Index>(i)));
-  for (const auto& x : motions.colwise())
-    point.responses.push_back({amplitude_.of(x).amplitude, phase(p, x)});
+  const auto& responses = problem_->model().named_responses;
+  named_motions_.resize(motions.rows(), static_cast<Eigen::Index>(responses.size()));
+  Eigen::Index column = 0;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    NamedResponse& named = point.responses.emplace_back();
+    named.amplitude = -1;
+    auto largest = named_motions_.col(static_cast<Eigen::Index>(i));
+    for (const model::Direction& place : responses[i].places) {
+      auto x = motions.col(column++);
+      if (responses[i].absolute) at.stiffness().add_base(place, at.force_factor(), x);
+      const double amplitude = amplitude_.of(x).amplitude;
+      if (!(amplitude > named.amplitude)) continue;
+      named.amplitude = amplitude;
+      largest = x;
+    }
+    named.phase = phase(p, largest);
+    named.rms = elements::root_mean_square(problem_->harmonics(), largest);
+  }
 }
 
 const StabilityAnalysis* Observer::stability(const continuation::Accepted& now) {
@@ -139,6 +152,11 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   if (maxima) {
     if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
     maxima_->add_to(point, at, x_);
+    for (std::size_t i = 0; i < point.responses.size(); ++i) {
+      NamedResponse& named = point.responses[i];
+      std::tie(named.velocity, named.acceleration) =
+          maxima_->of(named_motions_.col(static_cast<Eigen::Index>(i)), at.stiffness().base_frequency());
+    }
   }
   return point;
 }
@@ -148,6 +166,7 @@ ResponsePoint Observer::motion(const hbm::HbmEvaluator& at, continuation::In u,
   const auto& h = problem_->harmonics();
   ResponsePoint point;
   point.amplitude = extreme(at, u).amplitude;
+  point.rms = elements::root_mean_square(h, x_);
   point.omega = p[model::frequency];
   add_named_responses(at, u, p, point);
   point.energy_viscous = at.stiffness().viscous_energy(u, at.force_factor());
@@ -208,9 +227,7 @@ continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
   // Sampled friction has a kink wherever a sample begins or ceases to slip.
   monitor.divides_at_kinks = observer->problem().model().settings.friction == scene::Friction::exact;
   if (monitor.divides_at_kinks)
-    monitor.part = [observer](const continuation::Accepted&) {
-      return std::uint64_t{observer->last_reversal()};
-    };
+    monitor.part = [observer](const continuation::Accepted&) { return observer->last_part(); };
   return monitor;
 }
 

@@ -58,8 +58,8 @@ class Observer {
   /// A at the last call of any of these.
   double last_amplitude() const { return last_.amplitude; }
 
-  /// Its reversal.
-  std::size_t last_reversal() const { return last_.reversal; }
+  /// Its Extreme::part().
+  std::uint64_t last_part() const { return last_.part(); }
 
   /// dA/ds along the branch.
   double amplitude_slope(const continuation::Accepted& now);
@@ -73,7 +73,8 @@ class Observer {
   std::shared_ptr<const hbm::HbmProblem> problem_;
   int free_;
   Amplitude amplitude_;
-  Eigen::MatrixXd named_;  // d^T P, a row for each named response
+  Eigen::MatrixXd named_;          // d^T P, a row for each place of the named responses
+  Eigen::MatrixXd named_motions_;  // coefficients of each, at the last place
   Stops stops_;
   std::unique_ptr<Truncation> truncation_;  // created at the first observe()
   std::unique_ptr<Maxima> maxima_;          // created at the first request

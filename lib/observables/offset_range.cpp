@@ -72,12 +72,12 @@ class Search {
     const auto& now = static_cast<const hbm::HbmEvaluator&>(corrector.evaluator());
     const auto& h = problem_.harmonics();
     Vector x(h.size()), phi(h.size());
-    now.stiffness().response(v.head(n), now.force_factor(), x);
-    const Extreme extreme = amplitude_.of(x);
+    const Extreme extreme = amplitude_.of(now, v.head(n), x);
     elements::series_basis(h, extreme.theta, phi);
     Place place{shares, v.head(n), extreme.amplitude, {}, {}};
-    place.slope = slopes(corrector.factors(), now, extreme.sign * phi);
-    place.mean_slope = slopes(corrector.factors(), now, Vector::Unit(h.size(), h.cosine_index(0)));
+    place.slope = slopes(corrector.factors(), now, extreme.sign * phi, extreme.place);
+    const Vector mean = Vector::Unit(h.size(), h.cosine_index(0));
+    place.mean_slope = slopes(corrector.factors(), now, mean, extreme.place);
     return place;
   }
 
@@ -155,12 +155,12 @@ class Search {
   }
 
  private:
-  // Of a . x by the shares.
+  // Of a . x by the shares, x at one place of the response.
   Eigen::ArrayXd slopes(const continuation::LinearSolver& factors, const hbm::HbmEvaluator& now,
-                        const Vector& a) const {
+                        const Vector& a, int place) const {
     const Eigen::Index n = problem_.size();
     Vector l = Vector::Zero(n + 1);
-    now.stiffness().response_transposed(a, l.head(n));
+    now.stiffness().response_transposed(a, l.head(n), place);
     Eigen::ArrayXd slope = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(now.element_count()));
     if (!factors.solve_transposed(l)) return slope;
     for (Eigen::Index e = 0; e < slope.size(); ++e) {

@@ -107,6 +107,10 @@ bool has_maxima(const Point& point) {
   return !std::isnan(point.maxima.velocity);
 }
 
+bool has_named_maxima(const NamedResponse& response) {
+  return !std::isnan(response.velocity);
+}
+
 bool has_force_maxima(const Point& point) {
   return has_maxima(point) && !std::isnan(point.maxima.force_per_displacement.in_phase);
 }
@@ -242,6 +246,7 @@ constexpr ResponseQuantity of_response[] = {
     {"force_per_displacement.out_of_phase.excitation", "N/m",
      "out-of-phase part of the excitation; equals `total`", force<&F::excitation, &P::out_of_phase>,
      is_bounded},
+    {"rms", "m", "root mean square of the response over the period", bounded<&Point::rms>},
     {"maxima.velocity", "m/s",
      "at events, and on curves of peaks, folds and bifurcations: largest absolute velocity of the response",
      largest<&MotionMaxima::velocity>, has_maxima},
@@ -379,6 +384,12 @@ constexpr Quantity<NamedResponse> of_named_response[] = {
      [](const NamedResponse& response) { return response.amplitude; }},
     {"phase", "rad", "phase lag of the fundamental behind the excitation",
      [](const NamedResponse& response) { return response.phase; }},
+    {"rms", "m", "root mean square over the period",
+     [](const NamedResponse& response) { return response.rms; }},
+    {"maxima.velocity", "m/s", "where the response has `maxima`: largest absolute velocity",
+     [](const NamedResponse& response) { return response.velocity; }, has_named_maxima},
+    {"maxima.acceleration", "m/s²", "likewise, acceleration",
+     [](const NamedResponse& response) { return response.acceleration; }, has_named_maxima},
 };
 
 template <class List>

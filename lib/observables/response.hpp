@@ -88,10 +88,13 @@ struct MotionMaxima {
   PhaseParts force_per_displacement{no_value, no_value};
 };
 
-/// A named response.
+/// A named response. At several places: of the one with the largest amplitude.
 struct NamedResponse {
   double amplitude = 0;  // max over the period of |x|, m
   double phase = 0;      // rad, lag of its fundamental behind the force's
+  double rms = 0;        // root of the mean of x^2 over the period, m
+  // Largest absolute values over the period, m/s and m/s^2; no_value if not requested.
+  double velocity = no_value, acceleration = no_value;
 };
 
 /// The Floquet multipliers of a response over its period (stability.hpp).
@@ -117,7 +120,9 @@ struct Synthesis {
 struct ResponsePoint {
   double omega = 0;                 // excitation frequency, rad/s
   double over = 0;                  // the parameter ResponseBranch::over, if there is one
-  double amplitude = 0;             // max over the period of |x|, m, at the scene's response
+  double amplitude = 0;             // max over the period of |x|, m, at the scene's response; at several
+                                    // places: the largest, to which all else of the response belongs
+  double rms = no_value;            // root of the mean of x^2 over the period, m
   double phase = 0;                 // rad, lag of the response's fundamental behind the force's
   double truncation_estimate = 0;   // m, estimated effect of the neglected harmonics on the amplitude
   bool truncation_flagged = false;  // the estimate may be too low (truncation.hpp, stops.hpp)

@@ -39,6 +39,7 @@ class Shooting {
   ResponseBranch run() {
     const auto began = std::chrono::steady_clock::now();
     try {
+      time::check_response(*model_);
       trace();
     } catch (const time::NotPiecewiseLinear& error) {
       refuse(reasons::not_piecewise_linear, error.what());

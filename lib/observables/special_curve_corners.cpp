@@ -4,7 +4,8 @@
 #include <arcslip/observables/special_curve.hpp>
 
 #include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/elements/reversals.hpp>
+#include <arcslip/elements/series.hpp>
+#include <arcslip/observables/amplitude.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -159,7 +160,8 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(co
   return {};
 }
 
-// Whether the displacement attains its maximum at two different instants of the period. The maximum of two
+// Whether the displacement attains its maximum at two different instants of the period, or at two places of
+// the response. The maximum of two
 // functions of the frequency has a convex kink where they cross: it is no peak, and a peak that reaches it
 // ends, exceeded by the other. Extrema that are equal by a symmetry of the motion do not cross.
 bool SpecialCurveTracer::is_surpassed(const CurveStart& at) const {
@@ -169,17 +171,18 @@ bool SpecialCurveTracer::is_surpassed(const CurveStart& at) const {
   if (evaluator->move_to(u, parameters(at.x, at.over), continuation::Needs::residual) !=
       continuation::Evaluated::ok)
     return false;
-  Vector motion(harmonics.size());
-  evaluator->stiffness().response(u, evaluator->force_factor(), motion);
-  elements::Reversals reversals(harmonics);
-  const auto& turns = reversals.find(motion);
-  const auto largest = std::max_element(
-      turns.begin(), turns.end(), [](const auto& a, const auto& b) { return std::abs(a.x) < std::abs(b.x); });
-  return std::any_of(turns.begin(), turns.end(), [&](const auto& turn) {
-    return std::abs(turn.x) > (1 - as_large) * std::abs(largest->x) &&
-           !elements::is_image(harmonics, motion, turn.theta - largest->theta,
-                               turn.x * largest->x < 0 ? -1 : 1);
-  });
+  Amplitude amplitude(harmonics);
+  Vector motion(harmonics.size()), other(harmonics.size());
+  const Extreme largest = amplitude.of(*evaluator, u, motion);
+  for (int place = 0; place < evaluator->stiffness().places(); ++place) {
+    evaluator->stiffness().response(u, evaluator->force_factor(), other, place);
+    for (const Extreme& extreme : amplitude.all(other))
+      if (extreme.amplitude > (1 - as_large) * largest.amplitude &&
+          !elements::is_image(harmonics, other, motion, extreme.theta - largest.theta,
+                              extreme.sign * largest.sign))
+        return true;
+  }
+  return false;
 }
 
 // The smooth curve that starts where the slope vanishes on one side of a corner. There h is prescribed, not

@@ -46,6 +46,7 @@ class InTime {
       p_[static_cast<Eigen::Index>(k)] = model_->parameters[k].value;
     p_[model::frequency] = motion_.omega;
     try {
+      time::check_response(*model_);
       equation_ = time::equation_of_motion(*model_, p_);
     } catch (const time::NotInTime& error) {
       end(Status::failed, error.reason(), 0, 0, error.what());

@@ -133,10 +133,11 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
     change_.parameter += step.length * tangent_.parameter;
     flagged = flagged || !converges || !step.known;
   }
-  wide_.at().stiffness().response(change_.u, 0, response_);
+  wide_.at().stiffness().response(change_.u, 0, response_, extreme.place);
   if (held != HeldBy::parameter) {
     wide_.embed(now.u, base_);
-    wide_.at().stiffness().response_derivative(free_, base_, wide_.at().force_factor(), by_parameter_);
+    wide_.at().stiffness().response_derivative(free_, base_, wide_.at().force_factor(), by_parameter_,
+                                               extreme.place);
     response_ += change_.parameter * by_parameter_;
   }
   const double change = std::abs(amplitude_change(wide_.problem().harmonics(), extreme, response_));

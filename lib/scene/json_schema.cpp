@@ -87,10 +87,11 @@ void add_place(Object& properties) {
   properties.push_back({"direction", map_of(of_type("number"))});
 }
 
-Node one_place() {
+Node one_place(bool or_several = false) {
   Node::List choices;
-  for (const char* key : {"at", "between", "direction"})
-    choices.push_back(of({{"required", node(std::vector<std::string>{key})}}));
+  std::vector<const char*> keys{"at", "between", "direction"};
+  if (or_several) keys.push_back("max_of");
+  for (const char* key : keys) choices.push_back(of({{"required", node(std::vector<std::string>{key})}}));
   return {std::move(choices)};
 }
 
@@ -154,16 +155,22 @@ Node place_object() {
   return of(std::move(object));
 }
 
-/// One place, or a list of places with names.
+/// One response, or a list of responses with names.
 Node responses() {
-  const auto response = [](bool named) {
+  Object repeated{{"repeat", reference("repeat")}};
+  add_place(repeated);
+  Object one = object_of(std::move(repeated), {});
+  one.push_back({"oneOf", one_place()});
+  const Node places = list_of(of(std::move(one)), 1);
+  const auto response = [&places](bool named) {
     Object place;
     if (named) place.insert(place.end(), {{"repeat", reference("repeat")}, {"name", of_type("string")}});
     add_place(place);
+    place.push_back({"max_of", places});
     place.push_back({"frame", one_of_words(frames, Response{}.frame)});
     Object object = object_of(std::move(place), {});
     if (named) object.push_back({"required", node(std::vector<std::string>{"name"})});
-    object.push_back({"oneOf", one_place()});
+    object.push_back({"oneOf", one_place(true)});
     return of(std::move(object));
   };
   return of({{"oneOf", {Node::List{response(false), list_of(response(true), 1)}}}});

@@ -58,10 +58,41 @@ Harmonics read_harmonics(const Location& place, Faults& faults) {
 constexpr std::string_view wanted_response =
     "an object with one of \"at\", \"between\", \"direction\", or a list of such objects with names";
 
+// The keys of a response beside its name.
+void read_places(const Keys& keys, const Dofs& dofs, Response& response, Faults& faults) {
+  response.frame = read_choice(keys.find("frame"), frames, response.frame, faults);
+  const Location places = keys.find("max_of");
+  if (places.node == nullptr) {
+    response.direction = read_direction(keys, dofs, faults).value_or(Direction{});
+    return;
+  }
+  for (const std::string_view key : {"at", "between", "direction"})
+    if (keys.has(key))
+      faults.add(keys.pointer(), "found \"max_of\" and " + shown(key) + " together, must have one of them");
+  const auto* list = places.node->get<Node::List>();
+  if (list == nullptr || list->empty()) {
+    constexpr const char* wanted =
+        "a list of at least one place, such as [{\"at\": \"a\"}, {\"between\": [\"a\", \"b\"]}]";
+    if (list == nullptr)
+      add_wrong_type(places, wanted, faults);
+    else
+      faults.add(places.pointer, std::string("found an empty list, must be ") + wanted);
+    return;
+  }
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Keys place({&(*list)[i], child(places.pointer, i)}, {"at", "between", "direction"}, faults);
+    const Direction direction = read_direction(place, dofs, faults).value_or(Direction{});
+    if (i == 0)
+      response.direction = direction;
+    else
+      response.others.push_back(direction);
+  }
+}
+
 Response read_named_response(const Location& place, const Dofs& dofs, const std::vector<Response>& before,
                              Faults& faults) {
   constexpr const char* wanted = "a string, the name of the response";
-  const Keys keys(place, {"name", "at", "between", "direction", "frame"}, faults);
+  const Keys keys(place, {"name", "at", "between", "direction", "max_of", "frame"}, faults);
   Response response;
   if (!keys.is_object()) return response;
   const Location name = keys.require("name", wanted, faults);
@@ -75,8 +106,7 @@ Response read_named_response(const Location& place, const Dofs& dofs, const std:
                  "found the name " + shown(*text) + " again; responses must have different names");
     }
   }
-  response.direction = read_direction(keys, dofs, faults).value_or(Direction{});
-  response.frame = read_choice(keys.find("frame"), frames, response.frame, faults);
+  read_places(keys, dofs, response, faults);
   return response;
 }
 
@@ -88,16 +118,17 @@ std::vector<Response> read_responses(const Location& place, const Dofs& dofs, Fa
                  "must be " +
                      std::string(wanted_response));
     }
-    return {{"", {{0, 1.0}}}};
+    return {{.direction = {{0, 1.0}}}};
   }
   if (place.node->get<Node::List>() == nullptr && place.node->get<Node::Object>() == nullptr) {
     add_wrong_type(place, wanted_response, faults);
     return std::vector<Response>(1);
   }
   if (place.node->get<Node::List>() == nullptr) {
-    const Keys keys(place, {"at", "between", "direction", "frame"}, faults);
-    return {{"", read_direction(keys, dofs, faults).value_or(Direction{}),
-             read_choice(keys.find("frame"), frames, Frame::relative, faults)}};
+    const Keys keys(place, {"at", "between", "direction", "max_of", "frame"}, faults);
+    std::vector<Response> one(1);
+    read_places(keys, dofs, one.front(), faults);
+    return one;
   }
   std::vector<Response> responses;
   const Node::List& list = *place.node->get<Node::List>();

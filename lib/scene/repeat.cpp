@@ -290,6 +290,14 @@ Origins repeat(Node& scene, Faults& faults) {
   for (const char* section : {"elements", "patches", "response"})
     repeater.repeat(find(&scene, section), child("", section));
   repeater.repeat(find(&scene, "excitation"), "/excitation", false, true);
+  if (Node* response = find(&scene, "response"); response != nullptr) {
+    repeater.repeat(find(response, "max_of"), "/response/max_of");
+    if (response->get<Node::List>() != nullptr) {
+      auto& list = std::get<Node::List>(response->value);
+      for (std::size_t k = 0; k < list.size(); ++k)
+        repeater.repeat(find(&list[k], "max_of"), child(child("/response", k), "max_of"));
+    }
+  }
   if (Node* ties = find(&scene, "ties"); ties != nullptr && ties->get<Node::Object>() != nullptr)
     for (Member& tie : std::get<Node::Object>(ties->value))
       repeater.repeat(&tie.value, child("/ties", tie.key), true);

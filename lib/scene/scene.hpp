@@ -85,6 +85,7 @@ struct Study {
 struct Response {
   std::string name{};  // empty for a single unnamed response
   Direction direction{};
+  std::vector<Direction> others{};  // of "max_of": amplitudes are the largest of `direction` and of these
   Frame frame = Frame::relative;
   friend bool operator==(const Response&, const Response&) = default;
 };

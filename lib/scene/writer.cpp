@@ -180,7 +180,14 @@ Node responses_node(const Scene& scene) {
   for (const Response& response : scene.responses) {
     Node::Object object;
     if (!response.name.empty()) object.push_back({"name", node(response.name)});
-    object.push_back(place_member(response.direction, scene.dofs));
+    if (response.others.empty()) {
+      object.push_back(place_member(response.direction, scene.dofs));
+    } else {
+      Node::List places{Node{Node::Object{place_member(response.direction, scene.dofs)}}};
+      for (const Direction& other : response.others)
+        places.push_back({Node::Object{place_member(other, scene.dofs)}});
+      object.push_back({"max_of", {std::move(places)}});
+    }
     object.push_back({"frame", node(word_of(frames, response.frame))});
     list.push_back({std::move(object)});
   }

@@ -103,8 +103,8 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
   for (std::size_t r = 0; r < scene.responses.size(); ++r)
     if (const scene::Response& named = scene.responses[r]; !named.name.empty())
       add(
-          observables::named_response_quantities(), named, scene, {.mode = asked.mode},
-          {"responses", named.name},
+          observables::named_response_quantities(), named, scene,
+          {.maxima = asked.maxima, .mode = asked.mode}, {"responses", named.name},
           [r](const ResponsePoint& response) {
             return r < response.responses.size() ? &response.responses[r] : nullptr;
           },

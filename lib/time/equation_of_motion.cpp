@@ -44,6 +44,13 @@ void EquationOfMotion::add(std::string name, std::shared_ptr<const elements::Law
   memory += elements.back().law->memory();
 }
 
+void check_response(const model::Model& model) {
+  if (model.others.empty()) return;
+  throw NotInTime(reasons::several_places,
+                  "the response is the largest of " + std::to_string(1 + model.others.size()) +
+                      " places, and a motion in time is followed at one: name one of them");
+}
+
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p) {
   EquationOfMotion equation;
   equation.omega = model.harmonics.base_frequency(p[model::frequency]);

@@ -77,7 +77,7 @@ struct MotionState {
 };
 
 /// A model that has no equation of motion: a law whose force at rest is set-valued (Law::set_valued()), or a
-/// loss factor.
+/// loss factor; or none with one response.
 class NotInTime : public std::runtime_error {
  public:
   NotInTime(results::Reason reason, const std::string& message)
@@ -88,7 +88,11 @@ class NotInTime : public std::runtime_error {
   results::Reason reason_;
 };
 
-/// p: as model.parameters, "frequency" included (rad/s). Throws NotInTime.
+/// Throws NotInTime where the response is the largest of several places.
+void check_response(const model::Model& model);
+
+/// p: as model.parameters, "frequency" included (rad/s). With several places of the response, that is the
+/// first one. Throws NotInTime.
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p);
 
 /// Everything at rest, without memory of force.

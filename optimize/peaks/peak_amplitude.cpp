@@ -53,7 +53,12 @@ PeakAmplitude::PeakAmplitude(std::shared_ptr<const model::Model> model, std::vec
       over_(std::move(over)),
       window_(window),
       go_on_(std::move(go_on)),
-      watched_(watched) {}
+      watched_(watched) {
+  if (!model_->others.empty())
+    throw OptionsError(
+        continuation::text("the response is the largest of ", 1 + model_->others.size(),
+                           " places, each of which needs a load case of its own (with_places())"));
+}
 
 PeakAmplitude::~PeakAmplitude() = default;
 

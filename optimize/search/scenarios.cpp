@@ -22,7 +22,8 @@ bool contains(const std::vector<DesignVariable>& variables, const std::string& n
 
 scene::Scene with_case(scene::Scene scene, const LoadCase& each) {
   for (const auto& [name, value] : each.set) scene::set(scene, name, value);
-  if (each.response) scene.responses = {{"", *each.response}};
+  if (each.response)
+    scene.responses = {{.direction = *each.response, .frame = scene.responses.front().frame}};
   return scene;
 }
 

@@ -178,7 +178,8 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const L
   for (const auto* values : {&of.set, &of.scatter})
     for (const auto& [name, value] : *values) scene::set(scene, name, value);
   if (of.of < problem.cases.size())
-    if (const auto& response = problem.cases[of.of].response) scene.responses = {{"", *response}};
+    if (const auto& response = problem.cases[of.of].response)
+      scene.responses = {{.direction = *response, .frame = scene.responses.front().frame}};
   return scene;
 }
 
@@ -196,6 +197,34 @@ OptimumProblem with_distinct_cases(OptimumProblem problem) {
   }
   problem.cases = std::move(cases);
   return problem;
+}
+
+OptimumSettings with_places(const scene::Scene& scene, OptimumSettings settings) {
+  const scene::Response& response = scene.responses.front();
+  if (response.others.empty()) return settings;
+  const std::string several = continuation::text("where the response is the largest of ",
+                                                 1 + response.others.size(), " places (\"max_of\")");
+  if (settings.along)
+    throw OptionsError("the optimum cannot be continued over \"" + settings.along->name + "\" " + several +
+                       "; optimize at single values of it");
+  if (settings.problem.criterion == Criterion::mean)
+    throw OptionsError("the criterion must be worst " + several);
+  std::vector<LoadCase> cases = std::move(settings.problem.cases);
+  if (cases.empty()) cases.emplace_back();
+  settings.problem.cases.clear();
+  for (LoadCase& each : cases) {
+    if (each.response) {
+      settings.problem.cases.push_back(std::move(each));
+      continue;
+    }
+    each.response = response.direction;
+    settings.problem.cases.push_back(each);
+    for (const scene::Direction& other : response.others) {
+      each.response = other;
+      settings.problem.cases.push_back(each);
+    }
+  }
+  return settings;
 }
 
 void check_limits(const scene::Scene& scene, const OptimumProblem& problem) {

@@ -77,6 +77,10 @@ scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const L
 /// largest of their weights (worst) or their sum (mean).
 OptimumProblem with_distinct_cases(OptimumProblem problem);
 
+/// Where the response is the largest of several places, a case without a response of its own becomes one case
+/// for each of them, of which the worst counts. Throws OptionsError for the criterion mean and with "along".
+OptimumSettings with_places(const scene::Scene& scene, OptimumSettings settings);
+
 /// Throws OptionsError for a limit on an unknown observable, and as optimum() does for an invalid design.
 void check_limits(const scene::Scene& scene, const OptimumProblem& problem);
 

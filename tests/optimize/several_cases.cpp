@@ -6,6 +6,7 @@
 
 #include <arcslip/optimize/search/load_cases.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
+#include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -64,6 +65,33 @@ TEST_CASE("the largest amplitude of any of three blades is least where frequency
       most = std::max(most, highest_peak(read_at(s, blade), loads, 5, 45));
     return most;
   });
+}
+
+TEST_CASE("a response at several places is optimized as one case for each of them") {
+  scene::Scene s = row(3, 2, 5);
+  optimize::OptimumSettings settings;
+  settings.problem = over_loads(2, 5, 45);
+  auto given = settings;
+  for (int blade = 0; blade < 3; ++blade)
+    given.problem.cases.push_back({{}, 1, scene::Direction{{blade, 1}}});
+  s.responses = {{.direction = {{0, 1}}, .others = {{{1, 1}}, {{2, 1}}}}};
+  CHECK(optimize::with_places(s, settings).problem.cases == given.problem.cases);
+  CHECK(optimize::with_places(row(3, 2, 5), settings) == settings);
+  const auto found = optimize::optimum(s, given.problem);
+  REQUIRE(found.status == observables::Status::complete);
+  CHECK(highest_peak(s, found.design, 5, 45) == Approx(found.amplitude).epsilon(1e-9));
+
+  CHECK_THROWS_WITH(optimize::optimum(s, settings.problem),
+                    "the response is the largest of 3 places, each of which needs a load case of its own "
+                    "(with_places())");
+  settings.problem.criterion = Criterion::mean;
+  CHECK_THROWS_WITH(optimize::with_places(s, settings),
+                    "the criterion must be worst where the response is the largest of 3 places (\"max_of\")");
+  settings.along = optimize::DesignVariable{"f.cosine", 1, 2};
+  CHECK_THROWS_WITH(
+      optimize::with_places(s, settings),
+      "the optimum cannot be continued over \"f.cosine\" where the response is the largest of 3 "
+      "places (\"max_of\"); optimize at single values of it");
 }
 
 TEST_CASE("the mean over cases with several peaks each is least where frequency responses say so") {

@@ -217,11 +217,14 @@ TEST_CASE(
     "the equations and the absolute response change with frequency, masses and motion as differences do") {
   scene::Scene s = chain_with(cubic);
   s.responses[0].direction = {{1, 1.0}, {2, 1.0}};  // of the condensed motion
+  s.responses[0].others = {{{0, 1.0}}, {{2, -0.5}}};
   const auto model = std::make_shared<const model::Model>(model::build(s));
   const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
   const Vector p = hbm::parameters_at(problem, 1.3);
   const Vector u = Vector::Random(problem.size());
   const auto evaluator = problem.hbm_evaluator();
+  REQUIRE(evaluator->stiffness().places() == 3);
+  const Eigen::Index size = problem.harmonics().size();
   int seen = 0;
   for (int j = 0; j < p.size() - 1; ++j) {
     CAPTURE(model->parameters[static_cast<std::size_t>(j)].name);
@@ -229,9 +232,10 @@ TEST_CASE(
       Vector q = p;
       q[j] += step;
       REQUIRE(evaluator->move_to(u, q, continuation::Needs::residual) == continuation::Evaluated::ok);
-      Vector all(problem.size() + problem.harmonics().size());
-      auto x = all.tail(problem.harmonics().size());
-      evaluator->stiffness().response(u, evaluator->force_factor(), x);
+      Vector all(problem.size() + 3 * size);
+      for (int place = 0; place < 3; ++place)
+        evaluator->stiffness().response(u, evaluator->force_factor(),
+                                        all.segment(problem.size() + place * size, size), place);
       all.head(problem.size()) = evaluator->residual();
       return all;
     };
@@ -239,12 +243,20 @@ TEST_CASE(
     moved(0);
     Vector derivative(difference.size());
     evaluator->parameter_derivative(j, derivative.head(problem.size()));
-    evaluator->stiffness().response_derivative(j, u, evaluator->force_factor(),
-                                               derivative.tail(problem.harmonics().size()));
+    for (int place = 0; place < 3; ++place)
+      evaluator->stiffness().response_derivative(
+          j, u, evaluator->force_factor(), derivative.segment(problem.size() + place * size, size), place);
     CHECK((difference - derivative).norm() < 1e-8 * (1 + derivative.norm()));
-    if (derivative.tail(problem.harmonics().size()).norm() > 0.01) ++seen;
+    if (derivative.segment(problem.size(), size).norm() > 0.01) ++seen;
   }
   CHECK(seen > 8);
+  for (int place = 0; place < 3; ++place) {  // a . x changes as L^T a . u
+    const Vector weights = Vector::Random(size), du = Vector::Random(problem.size());
+    Vector dx(size), by(problem.size());
+    evaluator->stiffness().response(du, 0, dx, place);
+    evaluator->stiffness().response_transposed(weights, by, place);
+    CHECK(std::abs(weights.dot(dx) - by.dot(du)) < 1e-12 * (1 + dx.norm()));
+  }
 }
 
 TEST_CASE("a constant acceleration of the ground is a weight, in harmonics and in time") {

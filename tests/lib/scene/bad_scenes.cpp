@@ -135,6 +135,19 @@ void add_rest(std::vector<BadScene>& rows) {
   const auto with_responses = [](const std::string& list) {
     return good_scene_with("\"response\": {\"at\": \"a\"}", "\"response\": " + list);
   };
+  rows.push_back({"largest of no places", with_responses("{\"max_of\": []}"), "/response/max_of",
+                  "found an empty list, must be a list of at least one place"});
+  rows.push_back({"largest of a text", with_responses("{\"max_of\": \"a\"}"), "/response/max_of",
+                  "found \"a\" (a string), must be a list of at least one place"});
+  rows.push_back({"a place and the largest of others",
+                  with_responses("{\"at\": \"a\", \"max_of\": [{\"at\": \"b\"}]}"), "/response",
+                  "found \"max_of\" and \"at\" together, must have one of them"});
+  rows.push_back({"unknown place among several",
+                  with_responses("[{\"name\": \"x\", \"max_of\": [{\"at\": \"a\"}, {\"at\": \"bb\"}]}]"),
+                  "/response/0/max_of/1/at", "found \"bb\", which is no degree of freedom"});
+  rows.push_back({"unknown place among repeated ones",
+                  with_responses("{\"max_of\": [{\"repeat\": 3, \"at\": \"q{i}\"}]}"),
+                  "/response/max_of/0/at", "found \"q1\""});
   rows.push_back({"no response in a list", with_responses("[]"), "/response",
                   "found an empty list, must be an object with one of \"at\""});
   rows.push_back({"response in a list without a name", with_responses("[{\"at\": \"a\"}]"),

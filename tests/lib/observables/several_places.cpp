@@ -1,0 +1,182 @@
+// A response at several places: the envelope of their amplitudes, whose peaks are peaks.
+
+#include "catch.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/frequency_sweep.hpp>
+#include <arcslip/observables/histories.hpp>
+#include <arcslip/observables/nonlinear_modes.hpp>
+#include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/time_study.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace arcslip;
+using observables::ResponseBranch;
+using observables::ResponseEvent;
+
+namespace {
+
+const scene::Direction a = {{0, 1.0}}, b = {{1, 1.0}}, c = {{2, 1.0}}, between = {{0, 1.0}, {1, -1.0}};
+
+// Of the masses a, b and c, of which c is seen by no element.
+scene::Scene chain(std::vector<scene::Direction> places, bool even = false) {
+  scene::Scene s = scenes::chain(5, even);
+  s.responses.resize(1);
+  s.responses[0].direction = places.front();
+  s.responses[0].others.assign(places.begin() + 1, places.end());
+  return s;
+}
+
+ResponseBranch response(const scene::Scene& s) {
+  const auto branches = observables::frequency_response(s, scenes::window(s));
+  REQUIRE(branches.size() == 1);
+  REQUIRE(branches[0].status == observables::Status::complete);
+  return branches[0];
+}
+
+std::vector<ResponseEvent> peaks(const ResponseBranch& branch) {
+  std::vector<ResponseEvent> found;
+  std::copy_if(branch.events.begin(), branch.events.end(), std::back_inserter(found),
+               [](const ResponseEvent& event) { return event.kind == "peak"; });
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the amplitude of several places is the largest of theirs") {
+  for (const bool even : {false, true}) {
+    scene::Scene s = chain({a, b, c, between}, even);
+    s.responses[0].name = "any";
+    s.responses.push_back({"a", a});
+    s.responses.push_back({"b", b});
+    s.responses.push_back({"c", c});
+    s.responses.push_back({"between", between});
+    s.responses.push_back({"worst", between, {c, b, a}});
+    const ResponseBranch branch = response(s);
+    std::vector<int> largest(4);
+    for (const auto& point : branch.points) {
+      REQUIRE(point.responses.size() == 6);
+      const auto begin = point.responses.begin() + 1;
+      const auto most = std::max_element(begin, begin + 4, [](const auto& one, const auto& other) {
+        return one.amplitude < other.amplitude;
+      });
+      ++largest[static_cast<std::size_t>(most - begin)];
+      for (const auto& all : {point.responses.front(), point.responses.back()}) {
+        CHECK(std::abs(all.amplitude / most->amplitude - 1) < 1e-13);
+        CHECK(std::abs(all.phase - most->phase) < 1e-11);
+        CHECK(std::abs(all.rms / most->rms - 1) < 1e-13);
+      }
+      CHECK(std::abs(point.amplitude / most->amplitude - 1) < 1e-13);
+      CHECK(std::abs(point.rms / most->rms - 1) < 1e-13);
+    }
+    CHECK(std::count_if(largest.begin(), largest.end(), [](int count) { return count > 5; }) >= 3);
+  }
+}
+
+TEST_CASE("the peaks of several places are those of each that no other exceeds") {
+  const std::vector<scene::Direction> places = {a, b, c};
+  const ResponseBranch together = response(chain(places));
+  std::vector<ResponseEvent> wanted;
+  for (const scene::Direction& place : places)
+    for (ResponseEvent& peak : peaks(response(chain({place})))) {
+      double most = 0;  // this chain has one response at each frequency
+      for (const scene::Direction& other : places)
+        most = std::max(most, scenes::response_at(chain({other}), peak.point.omega).amplitude);
+      if (peak.point.amplitude > (1 - 1e-9) * most) wanted.push_back(std::move(peak));
+    }
+  auto found = peaks(together);
+  REQUIRE(wanted.size() >= 2);
+  REQUIRE(found.size() == wanted.size());
+  const auto earlier = [](const ResponseEvent& one, const ResponseEvent& other) {
+    return one.point.omega < other.point.omega;
+  };
+  std::sort(wanted.begin(), wanted.end(), earlier);
+  std::sort(found.begin(), found.end(), earlier);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    CHECK(found[i].located);
+    CHECK(std::abs(found[i].point.omega / wanted[i].point.omega - 1) < 1e-9);
+    CHECK(std::abs(found[i].point.amplitude / wanted[i].point.amplitude - 1) < 1e-12);
+    CHECK(std::abs(found[i].point.truncation_estimate / wanted[i].point.truncation_estimate - 1) < 1e-6);
+    CHECK(std::abs(found[i].point.maxima.velocity / wanted[i].point.maxima.velocity - 1) < 1e-10);
+  }
+}
+
+TEST_CASE("a curve of peaks of several places is that of the highest, up to where another exceeds it") {
+  const observables::CurveRange range{"d1.normal_load", 0.5, 1.2, scenes::window(chain({a})).from,
+                                      scenes::window(chain({a})).to};
+  int compared = 0;
+  for (const auto& curve : observables::resonance_peaks(chain({c, a, b}), range))
+    for (const auto& point : curve.points) {
+      const auto at = [&, over = point.over](const scene::Direction& place) {
+        scene::Scene s = chain({place});
+        scene::set(s, "d1.normal_load", over);
+        return scenes::response_at(s, point.omega).amplitude;
+      };
+      if (++compared % 5 != 0) continue;
+      CHECK(std::abs(point.amplitude / std::max({at(a), at(b), at(c)}) - 1) < 1e-8);
+    }
+  CHECK(compared > 20);
+}
+
+TEST_CASE("the root mean square, velocity and acceleration of a response are those of its history") {
+  scene::Scene s = chain({between}, true);
+  s.responses[0].name = "stretch";
+  s.responses.push_back({"worst", a, {b, c}});
+  const ResponseBranch branch = response(s);
+  const auto found = peaks(branch);
+  REQUIRE_FALSE(found.empty());
+  const auto& point = found.front().point;
+  const auto history = observables::history(s, branch, point, observables::even_angles(4096));
+  double sum = 0, velocity = 0;
+  for (std::size_t i = 0; i < history.angle.size(); ++i) {
+    sum += history.displacement[i] * history.displacement[i];
+    velocity = std::max(velocity, std::abs(history.velocity[i]));
+  }
+  const double rms = std::sqrt(sum / static_cast<double>(history.angle.size()));
+  CHECK(std::abs(point.rms / rms - 1) < 1e-12);
+  CHECK(std::abs(point.responses[0].rms / rms - 1) < 1e-12);
+  CHECK(std::abs(point.responses[0].velocity / velocity - 1) < 1e-4);  // of samples
+  CHECK(std::abs(point.responses[0].velocity / point.maxima.velocity - 1) < 1e-12);
+  CHECK(std::abs(point.responses[0].acceleration / point.maxima.acceleration - 1) < 1e-12);
+}
+
+TEST_CASE("a linear response has the velocity and acceleration of its sine") {
+  scene::Scene s = chain({a, b, c});
+  s.responses[0].name = "any";
+  s.elements.clear();
+  s.excitation.resize(1);
+  const ResponseBranch branch = response(s);
+  for (const ResponseEvent& peak : peaks(branch)) {
+    const auto& any = peak.point.responses[0];
+    CHECK(std::abs(any.rms * std::sqrt(2.0) / any.amplitude - 1) < 1e-12);
+    CHECK(std::abs(any.velocity / (peak.point.omega * any.amplitude) - 1) < 1e-12);
+    CHECK(std::abs(any.acceleration / (std::pow(peak.point.omega, 2) * any.amplitude) - 1) < 1e-12);
+  }
+}
+
+TEST_CASE("motions in time and modes are followed at one place, and say so") {
+  const scene::Scene s = chain({a, b});
+  const auto motion = observables::motion_in_time(s, {.frequency = 1.1});
+  CHECK(motion.status == observables::Status::failed);
+  CHECK(motion.stop.reason == observables::reasons::several_places);
+  CHECK(motion.stop.message ==
+        "the response is the largest of 2 places, and a motion in time is followed at one: name one of them");
+  for (const auto& sweep : observables::frequency_sweep(s, {.from = 1, .to = 1.1})) {
+    CHECK(sweep.status == observables::Status::failed);
+    CHECK(sweep.stop.reason == observables::reasons::several_places);
+  }
+  auto window = scenes::window(s);
+  window.method = observables::ResponseMethod::shooting;
+  for (const auto& branch : observables::frequency_response(s, window)) {
+    CHECK(branch.status == observables::Status::failed);
+    CHECK(branch.stop.reason == observables::reasons::several_places);
+  }
+  for (const auto& mode : observables::nonlinear_modes(s, {.mode = 1, .from = 0.1, .to = 1})) {
+    CHECK(mode.stop.reason == observables::reasons::no_mode);
+    CHECK(mode.stop.message.find("the response is the largest of several") != std::string::npos);
+  }
+}
