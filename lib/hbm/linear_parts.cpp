@@ -10,11 +10,6 @@ using Kind = model::LinearKind;
 
 constexpr double rounding = 1e-13;  // of a direction in y, relative to its largest entry
 
-// The complex amplitude a - i b of a force; of the mean, it is a.
-Complex amplitude(int harmonic, double cosine, double sine) {
-  return {cosine, harmonic == 0 ? 0.0 : -sine};
-}
-
 }  // namespace
 
 DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x) {
@@ -23,6 +18,12 @@ DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_
   const double least = rounding * d.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < d.size(); ++i)
     if (d[i] != 0 && std::abs(d[i]) >= least) entries_.emplace_back(i, d[i]);
+}
+
+DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x) {
+  const Eigen::VectorXd d = P.transpose() * in_x;
+  for (Eigen::Index i = 0; i < d.size(); ++i)
+    if (d[i] != 0) entries_.emplace_back(i, d[i]);
 }
 
 LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
@@ -44,6 +45,7 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   for (const model::Excitation& excitation : model.excitation) {
     ForceInY force{excitation, harmonics.excited(excitation.harmonic), {}, 0};
     if (!excitation.moves_base()) force.terms.push_back({-1, {P, excitation.direction}});
+    if (excitation.load.size() > 0) force.terms.push_back({-1, {P, excitation.load}});
     for (const model::LinearPart& mass : model.masses) {
       const double along = excitation.moves_base() ? mass.direction.dot(excitation.direction) : 0;
       if (along != 0) force.terms.push_back({mass.parameter, {P, model::Direction(along * mass.direction)}});
@@ -60,8 +62,7 @@ double LinearParts::modal_value(const PartInY& part) const {
 void LinearParts::move_to(In p) {
   base_frequency_ = p[model::frequency] / period_;
   p_ = p;
-  for (ForceInY& force : forces_)
-    force.given = amplitude(force.harmonic, p[force.of.cosine], p[force.of.sine]);
+  for (ForceInY& force : forces_) force.given = force.of.amplitude(p);
   bool same = has_place_;
   has_place_ = true;
   for (PartInY& part : parts_) {
@@ -146,7 +147,7 @@ Complex LinearParts::base_derivative(int k, int n, const model::Direction& direc
   Complex sum = 0;
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n || !force.of.moves_base()) continue;
-    Complex rate = force.of.displacement(w) * amplitude(n, force.of.cosine == k, force.of.sine == k);
+    Complex rate = force.of.displacement(w) * force.of.amplitude_rate(k);
     if (k == model::frequency) rate += force.of.displacement_rate(w) * force.given;
     sum += direction.dot(force.of.direction) * rate;
   }
@@ -168,15 +169,12 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
                                 ComplexVector& v) const {
   const double s = n * base_frequency_;
   v.setZero();
-  if (k == model::frequency) {
-    add_product(factor_rates(n, s), y, v);
-  } else {
-    const Factors g = factors(s);
-    for (const PartInY& part : parts_)
-      if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y), v);
-    for (const MatrixInY& part : matrix_parts_)
-      if (part.of.parameter == k) v.noalias() += g.of(part.of.kind) * (in_y(part) * y);
-  }
+  const Factors g = factors(s);
+  if (k == model::frequency) add_product(factor_rates(n, s), y, v);
+  for (const PartInY& part : parts_)
+    if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y), v);
+  for (const MatrixInY& part : matrix_parts_)
+    if (part.of.parameter == k) v.noalias() += part.of.rate(p_) * g.of(part.of.kind) * (in_y(part) * y);
   if (damping_ && s > 0) {
     const double by_alpha = k == damping_->alpha ? s : 0;
     const double by_spring = (k == damping_->beta ? s : 0) + (k == damping_->loss_factor ? 1 : 0);
@@ -185,7 +183,7 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
   const double w = p_[model::frequency];
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n) continue;
-    Complex rate = force.of.factor(w) * amplitude(n, force.of.cosine == k, force.of.sine == k);
+    Complex rate = force.of.factor(w) * force.of.amplitude_rate(k);
     if (k == model::frequency) rate += force.of.factor_rate(w) * force.given;
     if (rate != 0.0) add(force, -force_factor * rate, v);
     for (const ForceInY::Term& term : force.terms)

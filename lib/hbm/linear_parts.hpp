@@ -29,6 +29,8 @@ using ComplexMatrix = Eigen::MatrixXcd;
 class DirectionInY {
  public:
   DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x);
+  /// Of a force on all rows, with every entry.
+  DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x);
 
   const std::vector<std::pair<Eigen::Index, double>>& entries() const { return entries_; }
   /// d . y

@@ -68,8 +68,7 @@ ComplexVector driving_forces(const model::Model& excited, const Eigen::MatrixXd&
   p[model::frequency] = omega;
   ComplexVector f = ComplexVector::Zero(P.cols());
   for (const model::Excitation& each : excited.excitation)
-    if (each.harmonic == 1)
-      f += Complex(p[each.cosine], -p[each.sine]) * (P.transpose() * model::shape(excited, each, p));
+    if (each.harmonic == 1) f += each.amplitude(p) * (P.transpose() * model::shape(excited, each, p));
   return f;
 }
 

@@ -304,6 +304,17 @@ void NonlinearPart::set_fields(continuation::In p, std::span<double> fields) con
     fields[static_cast<std::size_t>(share.field)] += share.factor * p[share.parameter];
 }
 
+// Of the mean, the amplitude is a.
+std::complex<double> Excitation::amplitude(continuation::In p) const {
+  const std::complex<double> given(p[cosine], harmonic == 0 ? 0.0 : -p[sine]);
+  return imaginary ? given * std::complex<double>(0, 1) : given;
+}
+
+std::complex<double> Excitation::amplitude_rate(int k) const {
+  const std::complex<double> rate(cosine == k, harmonic == 0 || sine != k ? 0.0 : -1.0);
+  return imaginary ? rate * std::complex<double>(0, 1) : rate;
+}
+
 double Excitation::factor(double w) const {
   if (kind == Kind::base_displacement) return harmonic * w * (harmonic * w);
   return kind == Kind::force ? 1 : -1;
@@ -330,6 +341,7 @@ Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const co
     for (const LinearPart& mass : model.masses)
       g += p[mass.parameter] * mass.direction.dot(excitation.direction) * mass.direction;
   }
+  if (excitation.load.size() > 0) g += excitation.load;
   return excitation.factor(p[frequency]) * g;
 }
 

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <complex>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,13 +30,24 @@ struct LinearPart {
 
 enum class LinearKind { mass, damper, spring };
 
-/// A symmetric matrix of the structure: value * A, with the parameter's value, or 1 where there is none.
+/// A symmetric matrix of the structure: value * A, with value = c, its parameter over `scale`, or c^2, or 1
+/// where there is no parameter.
 struct MatrixPart {
   LinearKind kind;
   int parameter = -1;
   std::shared_ptr<const Eigen::MatrixXd> A;  // dofs x dofs
+  bool squared = false;
+  double scale = 1;
 
-  double value(continuation::In p) const { return parameter < 0 ? 1 : p[parameter]; }
+  double value(continuation::In p) const {
+    const double c = parameter < 0 ? 1 : p[parameter] / scale;
+    return squared ? c * c : c;
+  }
+  /// Its derivative by the parameter.
+  double rate(continuation::In p) const {
+    if (parameter < 0) return 0;
+    return squared ? 2 * p[parameter] / (scale * scale) : 1 / scale;
+  }
 };
 
 /// Damping in proportion to the masses and the stiffnesses of the structure, but not to elements: the dynamic
@@ -85,15 +97,21 @@ struct Patch {
 ///   g = -M r               an acceleration of the ground along r
 ///
 /// in coordinates relative to the ground, which moves with all that is fixed to it. M r = sum_k m_k (d_k . r)
-/// d_k over the masses.
+/// d_k over the masses, and M of the matrices times their r. The imaginary part of a shape is an excitation
+/// of its own, i times the complex amplitude cosine - i sine.
 struct Excitation {
   enum class Kind { force, base_displacement, base_acceleration };
   Kind kind;
-  int harmonic;         // n
-  int cosine, sine;     // parameters
-  Direction direction;  // d or r
+  int harmonic;            // n
+  int cosine, sine;        // parameters
+  Direction direction;     // d or r; of r what the degrees of freedom of the model see
+  Eigen::VectorXd load{};  // on all rows: what is added to d, or M r of the matrices; empty: none
+  bool imaginary = false;
 
   bool moves_base() const { return kind != Kind::force; }
+  /// The complex amplitude, a - i b of a cos n theta + b sin n theta, and its derivative by parameter k.
+  std::complex<double> amplitude(continuation::In p) const;
+  std::complex<double> amplitude_rate(int k) const;
   /// The factor of d or M r, and its derivative by the excitation frequency w.
   double factor(double w) const;
   double factor_rate(double w) const;
@@ -116,6 +134,7 @@ struct Reduction {
   double highest_frequency = 0;  // rad/s
   double error = 0;              // structure::Reduced::error
   double free_below = 0;         // rad/s: natural frequencies below are not told from 0
+  double highest_speed = 0;      // rad/s, of the rotation
 };
 
 /// Index of the excitation frequency in the parameters.

@@ -72,7 +72,7 @@ double Observer::phase(continuation::In p, continuation::In x) const {
   const std::complex<double> X(x[h.cosine_index(n)], -x[h.sine_index(n)]);
   for (const auto& excitation : model.excitation) {
     if (excitation.harmonic != model.force_harmonic) continue;
-    const std::complex<double> F(p[excitation.cosine], -p[excitation.sine]);
+    const std::complex<double> F = excitation.amplitude(p);
     return X == 0.0 || F == 0.0 ? 0 : std::arg(F * std::conj(X));
   }
   return 0;

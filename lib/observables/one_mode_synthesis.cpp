@@ -91,8 +91,7 @@ OneModeSynthesis::OneModeSynthesis(const hbm::HbmProblem& motions,
     : harmonics_(motions.harmonics()), excited_(std::move(excited)) {
   const Vector p = model::defaults(*excited_);
   for (const model::Excitation& each : excited_->excitation)
-    if (each.harmonic == 1)
-      forces_.push_back({each, {p[each.cosine], -p[each.sine]}, model::shape(*excited_, each, p)});
+    if (each.harmonic == 1) forces_.push_back({each, each.amplitude(p), model::shape(*excited_, each, p)});
   std::vector<Eigen::Index> driven;
   for (Eigen::Index i = 0; i < excited_->dofs; ++i)
     if (std::any_of(forces_.begin(), forces_.end(), [&](const Force& each) { return each.shape[i] != 0; }))

@@ -16,10 +16,12 @@
 
 namespace arcslip::scene {
 
-/// A file, or none, and the matrix in it.
+/// A file, or none, and the matrix in it: in Matrix Market format (matrix_market.hpp), or of MATLAB
+/// (mat_file.hpp), where `variable` names it if the file holds several.
 struct MatrixFile {
   NamedFile file{};
   std::shared_ptr<const SparseMatrix> matrix{};
+  std::string variable{};
   friend bool operator==(const MatrixFile& a, const MatrixFile& b);
 };
 
@@ -44,6 +46,7 @@ class Derived {
 
 struct Matrices {
   MatrixFile mass{}, stiffness{}, damping{};  // kg, N/m, N s/m; damping without a path: none
+  MatrixFile stiffness_speed_squared{};       // N/m s^2/rad^2: K2 of K + speed^2 K2; without a path: none
   NamedFile names{};
   std::vector<int> rows{};       // from 0, of the first of Scene::dofs
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not

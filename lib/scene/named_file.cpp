@@ -13,12 +13,13 @@ std::shared_ptr<Derived> Derived::none() {
 }
 
 bool operator==(const MatrixFile& a, const MatrixFile& b) {
-  return a.file == b.file;
+  return a.file == b.file && a.variable == b.variable;
 }
 
 bool operator==(const Matrices& a, const Matrices& b) {
-  return a.mass == b.mass && a.stiffness == b.stiffness && a.damping == b.damping && a.names == b.names &&
-         a.rows == b.rows && a.highest_frequency == b.highest_frequency && a.bar == b.bar;
+  return a.mass == b.mass && a.stiffness == b.stiffness && a.damping == b.damping &&
+         a.stiffness_speed_squared == b.stiffness_speed_squared && a.names == b.names && a.rows == b.rows &&
+         a.highest_frequency == b.highest_frequency && a.bar == b.bar;
 }
 
 std::vector<NamedFile*> files(Scene& scene) {
@@ -31,10 +32,12 @@ std::vector<NamedFile*> files(Scene& scene) {
   if (scene.matrices && !scene.matrices->bar) {
     Matrices& own = *scene.matrices;
     all = {&own.stiffness.file, &own.mass.file, &own.names};
-    if (own.has_damping()) all.push_back(&own.damping.file);
+    for (MatrixFile* file : {&own.damping, &own.stiffness_speed_squared})
+      if (!file->file.path.empty()) all.push_back(&file->file);
   }
   for (Part& part : scene.elements) add(part.type, part.options);
   for (Part& patch : scene.patches) add(patch.type, patch.options);
+  for (Part& part : scene.excitation) add(part.type, part.options);
   for (Study& study : scene.studies) add(study.type, study.settings);
   return all;
 }

@@ -35,8 +35,13 @@ struct FileSource {
   Folder folder{};
   StopRequest stop{};
   std::vector<NamedFile> read{};  // already
-  // The matrices in texts that have been read.
-  std::vector<std::pair<std::shared_ptr<const std::string>, std::shared_ptr<const SparseMatrix>>> matrices{};
+  // The matrices in texts that have been read, with the names of their variables.
+  struct Known {
+    std::shared_ptr<const std::string> text;
+    std::string variable;
+    std::shared_ptr<const SparseMatrix> matrix;
+  };
+  std::vector<Known> matrices{};
   std::shared_ptr<Derived> derived{};  // of them
 };
 

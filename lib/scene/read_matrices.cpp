@@ -80,8 +80,8 @@ class Files {
     MatrixFile found;
     found.file = read_file_of(place, wanted, reading_, largest_file).value_or(NamedFile{});
     if (!found.file.text) return found;
-    for (const auto& [text, matrix] : reading_.source.matrices)
-      if (text == found.file.text) found.matrix = matrix;
+    for (const FileSource::Known& known : reading_.source.matrices)
+      if (known.text == found.file.text && known.variable == found.variable) found.matrix = known.matrix;
     if (found.matrix) return found;
     try {
       const SparseMatrix A =

@@ -247,8 +247,9 @@ FileSource source_of(Scene scene) {
   for (const NamedFile* file : files(scene)) source.read.push_back(*file);
   if (!scene.matrices) return source;
   source.derived = scene.matrices->derived;
-  for (const MatrixFile* of : {&scene.matrices->stiffness, &scene.matrices->mass, &scene.matrices->damping})
-    if (of->file.text) source.matrices.emplace_back(of->file.text, of->matrix);
+  const Matrices& own = *scene.matrices;
+  for (const MatrixFile* of : {&own.stiffness, &own.mass, &own.damping, &own.stiffness_speed_squared})
+    if (of->file.text) source.matrices.push_back({of->file.text, of->variable, of->matrix});
   return source;
 }
 

@@ -96,7 +96,8 @@ struct Scene {
   FrequencyUnit frequency_unit = FrequencyUnit::hertz;
   std::vector<std::string> dofs;  // first those of the rows of the matrices that have names
   std::optional<Matrices> matrices{};
-  std::vector<Part> damping{};  // in proportion to masses and stiffnesses
+  std::vector<Part> damping{};   // in proportion to masses and stiffnesses
+  std::vector<Part> rotation{};  // at most one
   std::vector<Part> masses, springs, dampers, elements;
   std::vector<Part> patches;  // of contacts (patch.hpp), which all_elements() has after the elements
   std::vector<Part> excitation;
@@ -125,8 +126,11 @@ const PartType& rayleigh_type();
 const PartType& loss_factor_type();
 const PartType& modal_damping_type();
 std::span<const PartType* const> damping_types();
+/// The speed (rad/s) of a rotating structure, by which its stiffness is K + speed^2 K2.
+const PartType& rotation_type();
 /// Motions of the ground along the part's direction r: the ground under degree of freedom i moves by r_i
-/// times the displacement (m) or acceleration (m/s^2). Displacements are relative to the ground.
+/// times the displacement (m) or acceleration (m/s^2). Displacements are relative to the ground. With
+/// matrices from files r is a vector over all their rows (shape.hpp), as the force of a pressure field is.
 const PartType& base_displacement_type();
 const PartType& base_acceleration_type();
 std::span<const PartType* const> excitation_types();

@@ -76,14 +76,15 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
     const int n = model.harmonics.excited(part.harmonic);
     const double w = p[model::frequency], w_by_omega = model.harmonics.period;
     const Vector g = model::shape(model, part, p);
-    equation.forces.push_back({g, n, p[part.cosine], p[part.sine]});
+    const std::complex<double> given = part.amplitude(p);
+    equation.forces.push_back({g, n, given.real(), -given.imag()});
     if (const double rate = part.factor_rate(w); rate != 0)
       equation.forces.back().by_omega = rate * w_by_omega / part.factor(w) * g;
     const double along = model.absolute ? part.direction.dot(model.response) : 0;
     const double moved = along * part.displacement(w), rate = along * part.displacement_rate(w) * w_by_omega;
     if (moved != 0)
       equation.base.push_back(
-          {n, moved * p[part.cosine], moved * p[part.sine], rate * p[part.cosine], rate * p[part.sine]});
+          {n, moved * given.real(), -moved * given.imag(), rate * given.real(), -rate * given.imag()});
   }
   equation.response = model.response;
   equation.dof_names = model.dof_names;
