@@ -1,7 +1,9 @@
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
+#include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/unbounded.hpp>
+#include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/optimize/peaks/follower.hpp>
 #include <arcslip/optimize/peaks/peak_unknowns.hpp>
 

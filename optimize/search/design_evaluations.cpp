@@ -29,7 +29,7 @@ DesignEvaluations::DesignEvaluations(const scene::Scene& scene, const OptimumPro
       watch_(watch),
       space_(scene, problem),
       scenarios_(scene, problem, space_),
-      cases_(problem.criterion),
+      cases_(problem.criterion, options.threads),
       formulation_(problem, space_, cases_),
       far_apart_(far_apart) {
   for (const Scenario& each : scenarios_.first()) add(each);
@@ -37,8 +37,11 @@ DesignEvaluations::DesignEvaluations(const scene::Scene& scene, const OptimumPro
 
 void DesignEvaluations::add(const Scenario& scenario) {
   all_.push_back(scenario);
-  cases_.add(scenarios_.peaks(scenario, [this] { return watch_.go_on_within(); }),
-             scenarios_.weight(scenario));
+  const auto go_on = [this] {
+    const std::lock_guard lock(asking_);
+    return watch_.go_on_within();
+  };
+  cases_.add(scenarios_.peaks(scenario, go_on), scenarios_.weight(scenario));
   best_.excess = best_traced_.excess = std::numeric_limits<double>::infinity();
 }
 

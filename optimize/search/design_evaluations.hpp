@@ -8,6 +8,7 @@
 #include <arcslip/optimize/search/watch.hpp>
 
 #include <limits>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -83,6 +84,7 @@ class DesignEvaluations {
   Watch& watch_;
   DesignSpace space_;
   Scenarios scenarios_;
+  std::mutex asking_;  // by the threads of the load cases
   LoadCases cases_;
   std::vector<Scenario> all_;  // of the cases
   Formulation formulation_;

@@ -1,6 +1,9 @@
 #include <arcslip/optimize/search/load_cases.hpp>
 
+#include <arcslip/studies/in_order.hpp>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -12,11 +15,15 @@ void LoadCases::add(std::unique_ptr<PeakAmplitude> peaks, double weight) {
 }
 
 void LoadCases::at(std::span<const double> design) {
-  for (const Each& each : all_) each.peaks->at(design);
+  std::atomic<bool> goes_on = true;
+  const auto move = [&](std::size_t c) { return &all_[c].peaks->at(design); };
+  studies::in_order(size(), threads_, goes_on, move, [](const PeakState*) {});
 }
 
 void LoadCases::trace(std::span<const double> design, observables::Steps steps) {
-  for (const Each& each : all_) each.peaks->trace(design, steps);
+  std::atomic<bool> goes_on = true;
+  const auto trace = [&](std::size_t c) { return &all_[c].peaks->trace(design, steps); };
+  studies::in_order(size(), threads_, goes_on, trace, [](const PeakState*) {});
 }
 
 bool LoadCases::stand_at(std::span<const double> design) const {

@@ -19,9 +19,11 @@ namespace arcslip::optimize {
 
 class LoadCases {
  public:
-  explicit LoadCases(Criterion criterion) : criterion_(criterion) {}
+  /// threads: how many cases are evaluated at the same time, with the results of one.
+  explicit LoadCases(Criterion criterion, int threads = 1) : criterion_(criterion), threads_(threads) {}
 
-  /// weight: above 0. All cases have the same design parameters.
+  /// weight: above 0. All cases have the same design parameters. With several threads, each calls what the
+  /// peaks call.
   void add(std::unique_ptr<PeakAmplitude> peaks, double weight);
 
   /// Moves all cases to a design, by tracking their peaks or by a new response for each.
@@ -58,6 +60,7 @@ class LoadCases {
   };
 
   Criterion criterion_;
+  int threads_;
   std::vector<Each> all_;
   double sum_ = 0;  // of the weights
 };

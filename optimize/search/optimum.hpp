@@ -76,6 +76,8 @@ struct OptimumOptions {
   std::optional<LocalOptions> local{};
   int population = 0;
   unsigned long seed = 1;
+  int threads = 1;  // load cases evaluated at the same time, with the results of one; go_on is then called by
+                    // several threads, one at a time
   bool certificate = true;
   bool elsewhere = true;  // with limits: further searches from the lowest of designs sampled over the bounds,
                           // by the algorithm and LN_COBYLA, and by LN_COBYLA and LD_MMA from the start, each

@@ -1,5 +1,6 @@
 #include <arcslip/optimize/study/optimum_study.hpp>
 
+#include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/optimize/search/design_space.hpp>
 #include <arcslip/optimize/search/scaled_parameter.hpp>
 #include <arcslip/optimize/search/watch.hpp>
@@ -234,9 +235,10 @@ void check_limits(const scene::Scene& scene, const OptimumProblem& problem) {
 }
 
 OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
-                            const observables::ProgressCallback& progress, bool alone) {
+                            const observables::ProgressCallback& progress, bool alone, int threads) {
   Teller teller(progress, scene, "search");
   OptimumOptions options = options_of(settings.search);
+  options.threads = threads;
   options.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
   options.go_on = [&] { return teller.again(); };
   const bool limited = !settings.problem.limits.empty() || !settings.problem.linear_limits.empty();

@@ -85,10 +85,12 @@ OptimumSettings with_places(const scene::Scene& scene, OptimumSettings settings)
 void check_limits(const scene::Scene& scene, const OptimumProblem& problem);
 
 /// The search, over distinct cases, with the curves for its figures. alone: with responses at half and twice
-/// the optimum. progress: called throughout, in all phases (`phase`), with the number of evaluations
+/// the optimum. threads: OptimumOptions::threads. progress: called throughout, in all phases (`phase`), with
+/// the number of evaluations
 /// (`points`) and the lowest amplitude (`best`) so far; false stops. Throws as optimum() does.
 OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
-                            const observables::ProgressCallback& progress = {}, bool alone = true);
+                            const observables::ProgressCallback& progress = {}, bool alone = true,
+                            int threads = 1);
 
 /// The same for settings with "along": the curve of optima. Throws as optimum_curve() does.
 OptimumCurveResult optimum_curve_study(const scene::Scene& scene, const OptimumSettings& settings,

@@ -144,7 +144,7 @@ void add_rest(std::vector<BadScene>& rows) {
                   "found \"max_of\" and \"at\" together, must have one of them"});
   rows.push_back({"unknown place among several",
                   with_responses("[{\"name\": \"x\", \"max_of\": [{\"at\": \"a\"}, {\"at\": \"bb\"}]}]"),
-                  "/response/0/max_of/1/at", "found \"bb\", which is no degree of freedom"});
+                  "/response/0/max_of/1/at", "found \"bb\", must be one of the degrees of freedom"});
   rows.push_back({"unknown place among repeated ones",
                   with_responses("{\"max_of\": [{\"repeat\": 3, \"at\": \"q{i}\"}]}"),
                   "/response/max_of/0/at", "found \"q1\""});
