@@ -2,12 +2,16 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/scene/patch.hpp>
+#include <arcslip/scene/rotation.hpp>
+#include <arcslip/scene/shape.hpp>
 #include <arcslip/structure/reduction.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 namespace arcslip::model {
@@ -47,9 +51,10 @@ class Builder {
     for (const auto& patch : scene_.patches) add_patch(patch);
     bool even = false;
     model_.force_harmonic = scene_.harmonics.order;
-    for (const auto& part : scene_.excitation) {
-      model_.excitation.push_back({kind_of(part), part.harmonic, parameter(part, 0), parameter(part, 1),
-                                   sparse(part.directions.front())});
+    if (!scene_.rotation.empty()) set_speed();
+    for (std::size_t i = 0; i < scene_.excitation.size(); ++i) {
+      const auto& part = scene_.excitation[i];
+      add_excitation(part, i);
       even = even || part.harmonic * scene_.harmonics.period % 2 == 0;
       if (part.harmonic > 0) model_.force_harmonic = std::min(model_.force_harmonic, part.harmonic);
     }
@@ -89,6 +94,81 @@ class Builder {
     }
   }
 
+  // A shape of an excitation of the scene.
+  struct ShapeValues {
+    std::size_t excitation;
+    bool imaginary;
+    Eigen::VectorXd on_rows;  // of the matrices
+    Eigen::VectorXd load{};   // on the degrees of freedom of the model
+  };
+
+  std::vector<ShapeValues> shape_values() const {
+    std::vector<ShapeValues> all;
+    for (std::size_t i = 0; i < scene_.excitation.size(); ++i) {
+      const scene::Shape* shape = scene::shape_of(scene_.excitation[i]);
+      if (shape == nullptr) continue;
+      for (const bool imaginary : {false, true}) {
+        const scene::ShapeFile& file = imaginary ? shape->imaginary : shape->real;
+        if (!file.is_given()) continue;
+        const std::vector<double> values = file.values();
+        const auto size = static_cast<Eigen::Index>(values.size());
+        all.push_back({i, imaginary, Eigen::Map<const Eigen::VectorXd>(values.data(), size)});
+      }
+    }
+    return all;
+  }
+
+  // On all rows of the matrices: a force, or M r.
+  Eigen::VectorXd load_of(const ShapeValues& shape, const scene::SparseMatrix& M) const {
+    if (!scene::is_base_motion(*scene_.excitation[shape.excitation].type)) return shape.on_rows;
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(M.rows);
+    for (int j = 0; j < M.columns; ++j)
+      for (auto k = static_cast<std::size_t>(M.starts[static_cast<std::size_t>(j)]);
+           k < static_cast<std::size_t>(M.starts[static_cast<std::size_t>(j) + 1]); ++k)
+        load[M.row_of[k]] += M.values[k] * shape.on_rows[j];
+    return load;
+  }
+
+  void add_excitation(const scene::Part& part, std::size_t i) {
+    const Excitation base{kind_of(part), part.harmonic, parameter(part, 0), parameter(part, 1),
+                          sparse(part.directions.front())};
+    if (scene::shape_of(part) == nullptr) model_.excitation.push_back(base);
+    for (const ShapeValues& shape : shapes_) {
+      if (shape.excitation != i) continue;
+      Excitation one = base;
+      one.imaginary = shape.imaginary;
+      if (one.imaginary) one.direction = Direction(model_.dofs);  // what stands beside the shape is real
+      one.load.setZero(model_.dofs);
+      one.load.head(shape.load.size()) = shape.load;
+      if (one.moves_base()) add_rows(shape.on_rows, one.direction);
+      model_.excitation.push_back(std::move(one));
+    }
+  }
+
+  // Of r on the rows of the matrices what the degrees of freedom of the model have.
+  void add_rows(const Eigen::VectorXd& on_rows, Direction& r) const {
+    for (std::size_t row = 0; row < place_.size(); ++row)
+      if (const double value = on_rows[static_cast<Eigen::Index>(row)]; place_[row] >= 0 && value != 0)
+        r.coeffRef(place_[row]) += value;
+  }
+
+  // The parameter of K2 in K + speed^2 K2.
+  void set_speed() {
+    const scene::Part& part = scene_.rotation.front();
+    const double order = part.options.empty() ? 0 : part.options.as<scene::Rotation>().engine_order;
+    for (MatrixPart& matrix : model_.matrices) {
+      if (!matrix.squared) continue;
+      matrix.parameter = order > 0 ? frequency : parameter(part, 0);
+      matrix.scale = order > 0 ? order : 1;
+    }
+  }
+
+  double highest_speed(double highest_frequency) const {
+    if (scene_.rotation.empty() || scene_.rotation.front().options.empty()) return 0;
+    const auto& rotation = scene_.rotation.front().options.as<scene::Rotation>();
+    return rotation.engine_order > 0 ? highest_frequency / rotation.engine_order : rotation.highest_speed;
+  }
+
   void add_matrix(LinearKind kind, int parameter, Eigen::MatrixXd A) {
     model_.matrices.push_back({kind, parameter, std::make_shared<const Eigen::MatrixXd>(std::move(A))});
   }
@@ -110,6 +190,14 @@ class Builder {
       dof_of_.push_back(static_cast<int>(i < named ? i : place.size() + i - named));
     model_.dof_names.insert(model_.dof_names.end(), scene_.dofs.begin() + static_cast<std::ptrdiff_t>(named),
                             scene_.dofs.end());
+    place_ = place;
+    shapes_ = shape_values();
+    for (ShapeValues& shape : shapes_) {
+      const Eigen::VectorXd load = load_of(shape, *files.mass.matrix);
+      shape.load.setZero(load.size());
+      for (std::size_t row = 0; row < place.size(); ++row)
+        shape.load[place[row]] = load[static_cast<Eigen::Index>(row)];
+    }
     const auto add = [&](LinearKind kind, const scene::MatrixFile& file) {
       if (!file.matrix) return;
       const scene::SparseMatrix& of = *file.matrix;
@@ -123,6 +211,9 @@ class Builder {
     add(LinearKind::mass, files.mass);
     add(LinearKind::spring, files.stiffness);
     add(LinearKind::damper, files.damping);
+    if (!files.stiffness_speed_squared.matrix) return;
+    add(LinearKind::spring, files.stiffness_speed_squared);
+    model_.matrices.back().squared = true;
   }
 
   void add_reduced(const scene::Matrices& files, const scene::StopRequest& stop) {
@@ -139,9 +230,25 @@ class Builder {
       model_.dof_names.push_back(scene_.dofs[i]);
     }
     const double highest = files.highest_frequency * scene::to_rad_per_s(scene_.frequency_unit);
-    const auto reduced =
-        files.derived->get<structure::Reduced>("reduced for " + std::to_string(highest) + " rad/s to " + key,
-                                               [&] { return structure::reduce(files, kept, highest, stop); });
+    structure::Purpose purpose{highest, highest_speed(highest), {}};
+    key = "reduced for " + std::to_string(highest) + " rad/s, " + std::to_string(purpose.highest_speed) +
+          " rad/s to " + key;
+    shapes_ = shape_values();
+    purpose.loads.resize(files.size(), static_cast<Eigen::Index>(shapes_.size()));
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      const Eigen::VectorXd load = load_of(shapes_[k], *files.mass.matrix);
+      purpose.loads.col(static_cast<Eigen::Index>(k)) = load;
+      const std::string_view bytes(reinterpret_cast<const char*>(load.data()),
+                                   sizeof(double) * static_cast<std::size_t>(load.size()));
+      key += "with " + std::to_string(std::hash<std::string_view>()(bytes)) + ' ';
+    }
+    const auto reduced = files.derived->get<structure::Reduced>(
+        key, [&] { return structure::reduce(files, kept, purpose, stop); });
+    place_.assign(static_cast<std::size_t>(files.size()), -1);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      place_[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < shapes_.size(); ++k)
+      shapes_[k].load = reduced->loads.col(static_cast<Eigen::Index>(k));
     const auto coordinates = static_cast<int>(reduced->M.rows()) - static_cast<int>(kept.size());
     model_.unnamed_from = static_cast<int>(kept.size());
     model_.unnamed_to = model_.unnamed_from + coordinates;
@@ -153,9 +260,12 @@ class Builder {
     add_matrix(LinearKind::mass, -1, reduced->M);
     add_matrix(LinearKind::spring, -1, reduced->K);
     if (reduced->C.size() > 0) add_matrix(LinearKind::damper, -1, reduced->C);
-    model_.reduction = {files.size(),   static_cast<int>(kept.size()),
-                        coordinates,    highest,
-                        reduced->error, reduced->free_below};
+    if (reduced->K2.size() > 0) {
+      add_matrix(LinearKind::spring, -1, reduced->K2);
+      model_.matrices.back().squared = true;
+    }
+    model_.reduction = {files.size(),   static_cast<int>(kept.size()), coordinates,          highest,
+                        reduced->error, reduced->free_below,           purpose.highest_speed};
   }
 
   std::vector<bool> used_dofs() const {
@@ -263,6 +373,8 @@ class Builder {
   }
 
   const scene::Scene& scene_;
+  std::vector<int> place_;                               // in the model, of the rows of matrices; -1: none
+  std::vector<ShapeValues> shapes_;                      // of the excitations
   std::vector<int> dof_of_;                              // in the model, of those of a scene with matrices
   std::unordered_map<std::string, std::string> tie_of_;  // names of ties, by their members
   std::unordered_map<std::string, int> parameter_of_;    // indices, by their names

@@ -1,5 +1,7 @@
 #include <arcslip/scene/checks.hpp>
 #include <arcslip/scene/part_type.hpp>
+#include <arcslip/scene/rotation.hpp>
+#include <arcslip/scene/shape.hpp>
 
 #include <algorithm>
 
@@ -17,6 +19,77 @@ void mark(const std::vector<Part>& parts, bool even_zero, std::vector<bool>& act
     for (const Direction& direction : part.directions)
       for (const Term& term : direction) acted_on[static_cast<std::size_t>(term.dof)] = true;
   }
+}
+
+void check_rotation(const Scene& scene, Faults& faults) {
+  const bool has_stiffness = scene.matrices && scene.matrices->stiffness_speed_squared.matrix;
+  if (scene.rotation.empty() && has_stiffness)
+    faults.add(
+        "/structure/matrices/stiffness_speed_squared",
+        "found no \"rotation\", must stand beside \"matrices\": the speed by which this stiffness grows");
+  if (scene.rotation.empty()) return;
+  if (!has_stiffness) {
+    faults.add(
+        "/structure/rotation",
+        "found no \"stiffness_speed_squared\" among \"matrices\", must be there: what the speed changes");
+    return;
+  }
+  const Part& part = scene.rotation.front();
+  const Rotation rotation = part.options.empty() ? Rotation{} : part.options.as<Rotation>();
+  if (scene.matrices->highest_frequency > 0 && rotation.highest_speed == 0 && rotation.engine_order == 0)
+    faults.add(
+        "/structure/rotation",
+        "found no \"highest_speed\" beside \"highest_frequency\", must have it: the highest speed for which "
+        "the structure is reduced");
+  if (rotation.highest_speed > 0 && rotation.engine_order > 0)
+    faults.add("/structure/rotation/highest_speed",
+               "found it beside \"engine_order\", must be one of them: the highest speed is then "
+               "highest_frequency/engine_order");
+}
+
+// What acts on all rows of the matrices.
+void check_shape(const Scene& scene, std::size_t i, Faults& faults) {
+  const Part& part = scene.excitation[i];
+  const std::string pointer = child("/excitation", i);
+  const bool moves_ground = is_base_motion(*part.type), from_files = scene.matrices && !scene.matrices->bar;
+  const Shape* shape = shape_of(part);
+  if (shape == nullptr) {
+    if (scene.matrices && moves_ground)
+      faults.add(
+          child(pointer, "type"),
+          "found " + shown(part.type->name()) +
+              (from_files ? " without \"shape\", must have it with matrices from files: the motion of "
+                            "the ground under all rows, also those without names"
+                          : ", must be \"force\" with a beam or a rod: the ground would move its nodes "
+                            "without names as well"));
+    return;
+  }
+  if (!from_files) {
+    faults.add(child(pointer, "shape"),
+               "found a vector over the rows of matrices, must stand beside \"matrices\" from files");
+    return;
+  }
+  const auto check_rows = [&](const char* key, const ShapeFile& file) {
+    if (file.is_given() && file.from.matrix && file.from.matrix->rows != scene.matrices->size())
+      faults.add(child(pointer, key), "found a vector of " + std::to_string(file.from.matrix->rows) +
+                                          " rows, must have " + std::to_string(scene.matrices->size()) +
+                                          " as the matrices");
+  };
+  check_rows("shape", shape->real);
+  check_rows("imaginary_shape", shape->imaginary);
+  if (shape->imaginary.is_given() && part.harmonic == 0)
+    faults.add(child(pointer, "imaginary_shape"),
+               "found an imaginary part where the harmonic is 0: what is constant has none");
+  const std::size_t rows = scene.matrices->rows.size();
+  for (const Term& term : part.directions.front())
+    if (static_cast<std::size_t>(term.dof) < rows)
+      faults.add(pointer, "found " + shown(scene.dofs[static_cast<std::size_t>(term.dof)]) +
+                              " beside \"shape\", which has it among the rows of the matrices; must name "
+                              "other degrees of freedom alone");
+  if (moves_ground && part.directions.front().empty() && scene.dofs.size() > rows)
+    faults.add(pointer,
+               "found \"shape\" alone, must have \"direction\" beside it: how the ground moves under " +
+                   shown(scene.dofs[rows]) + ", which is no row of the matrices");
 }
 
 }  // namespace
@@ -48,11 +121,7 @@ void check_excitation(const Scene& scene, Faults& faults) {
                                   : "/harmonics.period, which is " + std::to_string(order) + "/" +
                                         std::to_string(period)));
     }
-    if (scene.matrices && is_base_motion(*scene.excitation[i].type))
-      faults.add(child(child("/excitation", i), "type"),
-                 "found " + shown(scene.excitation[i].type->name()) +
-                     ", must be \"force\" with matrices from files: the ground would move their rows without "
-                     "names as well");
+    check_shape(scene, i, faults);
     if (harmonic == 0 && scene.excitation[i].type == &base_displacement_type())
       faults.add(child(child("/excitation", i), "harmonic"),
                  "found 0, must be at least 1 for a displacement of the ground: a constant one moves nothing "
@@ -90,6 +159,7 @@ void check_structure(const Scene& scene, Faults& faults) {
       if (scene.damping[k].type == scene.damping[i].type)
         faults.add(child(child("/structure/damping", i), "type"),
                    "found " + shown(scene.damping[i].type->name()) + " again, must be given once");
+  check_rotation(scene, faults);
   if (!scene.matrices && !any_value(scene.masses))
     faults.add("/structure/masses", "found no mass, must have at least one mass with a value above 0 kg");
   const std::vector<Part> elements = all_elements(scene);

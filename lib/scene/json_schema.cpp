@@ -1,5 +1,6 @@
 #include <arcslip/scene/json_schema.hpp>
 
+#include <arcslip/scene/matrix_file.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/repeat.hpp>
 #include <arcslip/scene/study_type.hpp>
@@ -232,7 +233,13 @@ Node part_of(const PartType& type, bool with_type) {
     object.back().value = place_object();
   else if (type.options_bring_fields())
     object.back().value = of_type("number");  // fields that the options bring
-  if (one_direction && !is_base_motion(type)) object.push_back({"oneOf", one_place()});
+  const bool shaped = std::find(excitations.begin(), excitations.end(), &type) != excitations.end();
+  if (one_direction && !shaped) object.push_back({"oneOf", one_place()});
+  if (&type == &force_type()) {
+    auto places = std::get<Node::List>(one_place().value);
+    places.push_back(of({{"required", node(std::vector<std::string>{"shape"})}}));
+    object.push_back({"anyOf", {std::move(places)}});
+  }
   return of(std::move(object));
 }
 
@@ -314,17 +321,39 @@ Node study_of(const StudyType& type) {
   return of(std::move(study));
 }
 
+Node matrix_file() {
+  return read_tree(matrix_file_schema(false));
+}
+
+Node rotation() {
+  Object object = std::get<Object>(part_of(rotation_type(), false).value);
+  for (Member& member : object) {
+    if (member.key == "properties")
+      std::erase_if(std::get<Object>(member.value.value),
+                    [](const Member& own) { return own.key == "repeat"; });
+    if (member.key == "required") member.value = node(std::vector<std::string>{"name"});
+    if (member.key == "additionalProperties") member.value = {false};
+  }
+  Node::List choices;
+  for (const char* either : {"speed", "engine_order"})
+    choices.push_back(of({{"required", node(std::vector<std::string>{either})}}));
+  object.push_back({"oneOf", {std::move(choices)}});
+  return of(std::move(object));
+}
+
 Node schema_of(const Catalogue& catalogue) {
   Object structure{{"dofs", list_of(word(), 1)},
                    {"masses", list_of(part_of(mass_type(), false))},
                    {"springs", list_of(spring())},
                    {"dampers", list_of(damper())}};
-  structure.push_back({"matrices", of(object_of({{"mass", of_type("string")},
-                                                 {"stiffness", of_type("string")},
-                                                 {"damping", of_type("string")},
+  structure.push_back({"matrices", of(object_of({{"mass", matrix_file()},
+                                                 {"stiffness", matrix_file()},
+                                                 {"damping", matrix_file()},
+                                                 {"stiffness_speed_squared", matrix_file()},
                                                  {"highest_frequency", of_type("number")}},
                                                 {"mass", "stiffness"}))});
   structure.push_back({"names", of_type("string")});
+  structure.push_back({"rotation", rotation()});
   for (const bool bends : {true, false}) {
     Object bar{{"elements", of_type("integer")}, {"highest_frequency", of_type("number")}};
     for (const char* key : {"length", "young", "density", "area", "width", "height"})

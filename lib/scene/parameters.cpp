@@ -19,8 +19,8 @@ struct Slot {
 
 template <class AnyScene>
 auto sections(AnyScene& scene) {
-  return std::array{&scene.masses,   &scene.springs, &scene.dampers,   &scene.damping,
-                    &scene.elements, &scene.patches, &scene.excitation};
+  return std::array{&scene.masses,   &scene.springs,  &scene.dampers, &scene.damping,
+                    &scene.rotation, &scene.elements, &scene.patches, &scene.excitation};
 }
 
 // The slot of "part.field", or an empty one.

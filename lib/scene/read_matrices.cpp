@@ -1,6 +1,6 @@
 // Structures from matrices in files, and the CSV file with the names of their rows.
 #include <arcslip/scene/csv_text.hpp>
-#include <arcslip/scene/matrix_market.hpp>
+#include <arcslip/scene/matrix_file.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/study_keys.hpp>
@@ -14,8 +14,7 @@ namespace {
 
 constexpr double symmetric = 1e-9;  // a(i,j) - a(j,i), relative to sqrt(a(i,i) a(j,j)) or to both
 
-constexpr std::size_t largest_file = std::size_t{4} << 30;  // bytes
-constexpr int largest_whole = 500;                          // rows
+constexpr int largest_whole = 500;  // rows
 
 std::string place(int row, int column) {
   return "row " + std::to_string(row + 1) + ", column " + std::to_string(column + 1);
@@ -50,7 +49,8 @@ void add_without_highest(const std::string& pointer, int rows, Faults& faults) {
 class Files {
  public:
   Files(const Location& place, const Field& frequency, const FileSource& source, Faults& faults)
-      : keys_(place, {"mass", "stiffness", "damping", "highest_frequency"}, faults),
+      : keys_(place, {"mass", "stiffness", "damping", "stiffness_speed_squared", "highest_frequency"},
+              faults),
         reading_{keys_, frequency, none_, no_dofs_, faults, source},
         faults_(faults) {}
 
@@ -61,11 +61,13 @@ class Files {
     matrices.stiffness = read_matrix("stiffness", true);
     matrices.mass = read_matrix("mass", true);
     matrices.damping = read_matrix("damping", false);
+    matrices.stiffness_speed_squared = read_matrix("stiffness_speed_squared", false);
     if (const Location highest = keys_.find("highest_frequency"); highest.node != nullptr)
       matrices.highest_frequency = read_number(highest, reading_.frequency, faults_).value_or(0);
     if (!matrices.stiffness.matrix || !matrices.mass.matrix) return {};
     check_size("mass", matrices.mass, matrices.size());
     check_size("damping", matrices.damping, matrices.size());
+    check_size("stiffness_speed_squared", matrices.stiffness_speed_squared, matrices.size());
     if (faults_.count() > 0) return {};
     check_rows(matrices);
     if (matrices.highest_frequency == 0 && matrices.size() > largest_whole)
@@ -75,26 +77,14 @@ class Files {
 
  private:
   MatrixFile read_matrix(const std::string& key, bool required) {
-    const std::string wanted = "a string, the path of a Matrix Market file";
+    const std::string wanted = "a string, the path of a Matrix Market or .mat file";
     const Location place = required ? keys_.require(key, wanted, faults_) : keys_.find(key);
-    MatrixFile found;
-    found.file = read_file_of(place, wanted, reading_, largest_file).value_or(NamedFile{});
-    if (!found.file.text) return found;
-    for (const FileSource::Known& known : reading_.source.matrices)
-      if (known.text == found.file.text && known.variable == found.variable) found.matrix = known.matrix;
-    if (found.matrix) return found;
-    try {
-      const SparseMatrix A =
-          read_matrix_market(*found.file.text, shown(found.file.path), reading_.source.stop);
-      check(key, A, place);
-      found.matrix = std::make_shared<const SparseMatrix>(A);
-    } catch (const MatrixError& error) {
-      faults_.add(place.pointer, error.what());
-    }
+    MatrixFile found = read_matrix_file(place, wanted, reading_);
+    if (found.matrix) check(key, *found.matrix, place);
     return found;
   }
 
-  // Symmetric, without a negative diagonal entry.
+  // Symmetric, and but for the part that grows with the speed without a negative diagonal entry.
   void check(const std::string& key, const SparseMatrix& A, const Location& at) {
     const auto fault = [&](const std::string& what) {
       faults_.add(at.pointer, "found the " + key + " matrix with " + what);
@@ -102,13 +92,15 @@ class Files {
     if (A.rows != A.columns || A.rows == 0)
       return fault(std::to_string(A.rows) + " rows and " + std::to_string(A.columns) +
                    " columns, must be square");
+    const bool semidefinite = key != "stiffness_speed_squared";
     Places negative, asymmetric;
     for (int j = 0; j < A.columns; ++j)
       for (int k = A.starts[static_cast<std::size_t>(j)]; k < A.starts[static_cast<std::size_t>(j) + 1];
            ++k) {
         const int i = A.row_of[static_cast<std::size_t>(k)];
         const double value = A.values[static_cast<std::size_t>(k)];
-        if (i == j && value < 0) negative.add([&] { return number_text(value) + " in " + place(i, j); });
+        if (i == j && value < 0 && semidefinite)
+          negative.add([&] { return number_text(value) + " in " + place(i, j); });
         if (i == j || value == 0) continue;
         const double other = value_at(A, j, i);
         if (i < j && other != 0) continue;  // compared from there

@@ -61,6 +61,7 @@ std::vector<Direction> read_directions(const PartType& type, const Settings& opt
   const auto slots = type.slots_with(options);
   if (slots.empty() && !type.names_directions()) {
     const bool has_place = keys.has("at") || keys.has("between") || keys.has("direction");
+    if (!has_place && (keys.has("shape") || keys.has("imaginary_shape"))) return {Direction{}};
     if (is_base_motion(type) && !has_place) return {all_dofs(dofs)};
     const auto direction = read_direction(keys, dofs, faults);
     return std::vector<Direction>(direction ? 1 : 0, direction.value_or(Direction{}));
@@ -212,6 +213,12 @@ std::vector<Part> read_parts(const Location& place, const PartType* type,
         read_part({&(*list)[i], child(place.pointer, i)}, type, types, dofs, source, names, faults));
   }
   return parts;
+}
+
+std::vector<Part> read_one(const Location& place, const PartType& type, const Dofs& dofs,
+                           const FileSource& source, Names& names, Faults& faults) {
+  if (place.node == nullptr) return {};
+  return {read_part(place, &type, {}, dofs, source, names, faults)};
 }
 
 namespace {

@@ -80,5 +80,8 @@ std::vector<Part> read_patches(const Location& place, std::span<const PartType* 
 std::vector<Part> read_parts(const Location& place, const PartType* type,
                              std::span<const PartType* const> types, const Dofs& dofs,
                              const FileSource& source, Names& names, Faults& faults);
+/// The part that an object is; none without it.
+std::vector<Part> read_one(const Location& place, const PartType& type, const Dofs& dofs,
+                           const FileSource& source, Names& names, Faults& faults);
 
 }  // namespace arcslip::scene::file

@@ -9,6 +9,7 @@
 #include <arcslip/scene/repeat.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/scene_file.hpp>
+#include <arcslip/scene/shape.hpp>
 #include <arcslip/scene/study_parameters.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/words.hpp>
@@ -178,7 +179,8 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
   const Keys structure(
       structure_place,
-      {"dofs", "masses", "springs", "dampers", "damping", "matrices", "names", "beam", "rod"}, faults);
+      {"dofs", "masses", "springs", "dampers", "damping", "rotation", "matrices", "names", "beam", "rod"},
+      faults);
   if (!structure.is_object()) names.set_incomplete();
   Dofs dofs;
   scene.matrices = read_matrices(structure, scene.frequency_unit, source, dofs, faults);
@@ -200,6 +202,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
       read_parts(in_place(dampers, with_damping), &damper_type(), {}, dofs, source, names, faults);
   scene.damping =
       read_parts(structure.find("damping"), nullptr, damping_types(), dofs, source, names, faults);
+  scene.rotation = read_one(structure.find("rotation"), rotation_type(), dofs, source, names, faults);
   scene.elements =
       read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, source, names, faults);
   scene.patches = read_patches(root.find("patches"), catalogue.elements, dofs, source, names, faults);
@@ -245,11 +248,19 @@ Scene read_scene(Node root, const Catalogue& catalogue, const FileSource& source
 FileSource source_of(Scene scene) {
   FileSource source{scene.folder};
   for (const NamedFile* file : files(scene)) source.read.push_back(*file);
+  const auto know = [&](const MatrixFile& of) {
+    if (of.file.text) source.matrices.push_back({of.file.text, of.variable, of.matrix});
+  };
+  for (const Part& part : scene.excitation)
+    if (const Shape* shape = shape_of(part)) {
+      know(shape->real.from);
+      know(shape->imaginary.from);
+    }
   if (!scene.matrices) return source;
   source.derived = scene.matrices->derived;
   const Matrices& own = *scene.matrices;
   for (const MatrixFile* of : {&own.stiffness, &own.mass, &own.damping, &own.stiffness_speed_squared})
-    if (of->file.text) source.matrices.push_back({of->file.text, of->variable, of->matrix});
+    know(*of);
   return source;
 }
 

@@ -1,6 +1,7 @@
 // A scene as the tree of its file, with every default.
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/matrix_file.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
@@ -87,7 +88,7 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
     Node::Object object = {{"name", node(part.name)}};
     if (with_type) object.push_back({"type", node(part.type->name())});
     const auto slots = part.type->slots_with(part.options);
-    if (slots.empty() && !part.type->names_directions())
+    if (slots.empty() && !part.type->names_directions() && !part.directions.front().empty())
       object.push_back(place_member(part.directions.front(), dofs));
     for (std::size_t i = 0; i < slots.size(); ++i)
       object.push_back({std::string(slots[i]), {Node::Object{place_member(part.directions[i], dofs)}}});
@@ -124,9 +125,13 @@ void add_bar(const Bar& bar, double highest_frequency, Node::Object& structure) 
 
 void add_matrices(const Matrices& matrices, Node::Object& structure) {
   if (matrices.bar) return add_bar(*matrices.bar, matrices.highest_frequency, structure);
-  Node::Object files{{"mass", node(matrices.mass.file.path)},
-                     {"stiffness", node(matrices.stiffness.file.path)}};
-  if (matrices.has_damping()) files.push_back({"damping", node(matrices.damping.file.path)});
+  Node::Object files{{"mass", matrix_file_node(matrices.mass)},
+                     {"stiffness", matrix_file_node(matrices.stiffness)}};
+  // Without its path, as for the hash, a file still has a variable.
+  if (matrices.has_damping() || !matrices.damping.variable.empty())
+    files.push_back({"damping", matrix_file_node(matrices.damping)});
+  if (matrices.stiffness_speed_squared.file.text)
+    files.push_back({"stiffness_speed_squared", matrix_file_node(matrices.stiffness_speed_squared)});
   if (matrices.highest_frequency > 0)
     files.push_back({"highest_frequency", node(matrices.highest_frequency)});
   structure.push_back({"matrices", {std::move(files)}});
@@ -213,6 +218,10 @@ Node tree(const Scene& scene) {
                                      {"springs", parts_node(scene.springs, scene)},
                                      {"dampers", parts_node(scene.dampers, scene)}});
   if (!scene.damping.empty()) structure.push_back({"damping", parts_node(scene.damping, scene, true)});
+  if (!scene.rotation.empty()) {
+    auto rotation = std::get<Node::List>(parts_node(scene.rotation, scene).value);
+    structure.push_back({"rotation", std::move(rotation.front())});
+  }
   Node::Object all{{"format", node(format_name)},
                    {"title", node(scene.title)},
                    {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))},

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <random>
 #include <sstream>
@@ -44,19 +45,49 @@ class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
   }
 };
 
+// With the stiffness at the speed of the expansion.
+scene::Matrices at_speed(scene::Matrices matrices, double square) {
+  if (!matrices.stiffness_speed_squared.matrix) return matrices;
+  std::vector<scene::MatrixEntry> entries;
+  const auto add = [&](const scene::SparseMatrix& A, double factor) {
+    for (int j = 0; j < A.columns; ++j)
+      for (auto k = static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j)]);
+           k < static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j) + 1]); ++k)
+        entries.push_back({A.row_of[k], j, factor * A.values[k]});
+  };
+  add(*matrices.stiffness.matrix, 1);
+  add(*matrices.stiffness_speed_squared.matrix, square);
+  matrices.stiffness.matrix = std::make_shared<const scene::SparseMatrix>(
+      scene::sparse_matrix(matrices.size(), matrices.size(), entries));
+  return matrices;
+}
+
 class Reduction {
  public:
-  Reduction(const scene::Matrices& matrices, const std::vector<int>& kept, double highest, Index most,
+  Reduction(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose, Index most,
             const scene::StopRequest& stop)
-      : matrices_(matrices),
-        highest_(highest),
+      : square_(0.5 * purpose.highest_speed * purpose.highest_speed),
+        matrices_(at_speed(matrices, square_)),
+        highest_(purpose.highest),
         most_(most),
-        sigma_(std::pow(shift_at * highest, 2)),
+        sigma_(std::pow(shift_at * highest_, 2)),
         stop_(stop),
-        parts_(partition(matrices, kept)),
-        M_(blocks(*matrices.mass.matrix, parts_)),
-        K_(blocks(*matrices.stiffness.matrix, parts_)) {
+        parts_(partition(matrices_, kept)),
+        M_(blocks(*matrices_.mass.matrix, parts_)),
+        K_(blocks(*matrices_.stiffness.matrix, parts_)) {
     if (matrices.damping.matrix) C_ = blocks(*matrices.damping.matrix, parts_);
+    if (matrices.stiffness_speed_squared.matrix) {
+      K2_ = blocks(*matrices.stiffness_speed_squared.matrix, parts_);
+      P_.stiffening = {-square_, -0.5 * square_, 0, 0.5 * square_, square_};
+    }
+    const Index loads = purpose.loads.cols();
+    f_b_.setZero(parts_.kept, loads);
+    f_i_.setZero(parts_.others, loads);
+    for (std::size_t row = 0; row < parts_.place.size(); ++row)
+      if (const Index at = parts_.place[row]; at >= parts_.kept && loads > 0)
+        f_i_.row(at - parts_.kept) = purpose.loads.row(static_cast<Index>(row));
+      else if (at >= 0 && loads > 0)
+        f_b_.row(at) = purpose.loads.row(static_cast<Index>(row));
   }
 
   Reduced run() {
@@ -69,8 +100,11 @@ class Reduction {
       P_.A_c = K_.bb + sigma_ * M_.bb;
       P_.M_c = M_.bb;
       if (C_) P_.C_c = C_->bb;
+      if (K2_) P_.K2_c = K2_->bb;
+      P_.f_c = f_b_;
     }
-    for (const MatrixXd* of : {&P_.M_c, &P_.A_c, &P_.C_c, &P_.M_zz, &P_.C_zz, &P_.M_zb, &P_.C_zb})
+    for (const MatrixXd* of : {&P_.M_c, &P_.A_c, &P_.C_c, &P_.K2_c, &P_.f_c, &P_.M_zz, &P_.C_zz, &P_.K2_zz,
+                               &P_.M_zb, &P_.C_zb, &P_.K2_zb, &P_.f_z})
       if (!of->allFinite()) refuse_overflow();
     add_rounding(result);
     project(result);
@@ -125,9 +159,36 @@ class Reduction {
     P_.M_c = projected(M_, R_);
     P_.A_c = K_.bb + sigma_ * M_.bb + A_ib.transpose() * Psi_;
     P_.A_c = 0.5 * (P_.A_c + P_.A_c.transpose()).eval();
-    if (!C_) return;
-    R_C_ = C_->ii * Psi_ + C_->ib;
-    P_.C_c = projected(*C_, R_C_);
+    if (C_) {
+      R_C_ = C_->ii * Psi_ + C_->ib;
+      P_.C_c = projected(*C_, R_C_);
+    }
+    if (K2_) {
+      R_2_ = K2_->ii * Psi_ + K2_->ib;
+      P_.K2_c = projected(*K2_, R_2_);
+    }
+    condense_loads();
+  }
+
+  void condense_loads() {
+    P_.f_c = f_b_ + Psi_.transpose() * f_i_;
+    P_.load_size.setZero(f_i_.cols());
+    if (f_i_.cols() == 0) return;
+    const MatrixXd of_b = continuation::solve(P_.A_c, P_.f_c), of_i = A_.solve(f_i_);
+    P_.load_size =
+        ((of_b.array() * P_.f_c.array()).colwise().sum() + (of_i.array() * f_i_.array()).colwise().sum())
+            .max(0.0)
+            .sqrt()
+            .matrix()
+            .transpose();
+  }
+
+  // A vector of the space leads to A^-1 times each of these.
+  MatrixXd next(const MatrixXd& added) const {
+    MatrixXd right = M_.ii * added;
+    if (C_) right = beside(right, C_->ii * added);
+    if (K2_) right = beside(right, K2_->ii * added);
+    return right;
   }
 
   // Makes V, and all that is projected onto it. The estimate of the error.
@@ -135,10 +196,11 @@ class Reduction {
     const Index most = std::min(most_, parts_.others);
     V_.resize(parts_.others, 0);
     AV_.resize(parts_.others, 0);
-    P_.M_zb.resize(0, parts_.kept);
-    P_.C_zb.resize(0, parts_.kept);
-    MatrixXd right = R_;
-    if (C_) right = beside(R_, R_C_);
+    for (MatrixXd* of : {&P_.M_zb, &P_.C_zb, &P_.K2_zb}) of->resize(0, parts_.kept);
+    P_.f_z.resize(0, f_i_.cols());
+    MatrixXd right = beside(R_, f_i_);
+    if (C_) right = beside(right, R_C_);
+    if (K2_) right = beside(right, R_2_);
     double error = HUGE_VAL, least = HUGE_VAL;
     Index estimated = 0;  // vectors at the last estimate
     int since_least = 0;  // estimates
@@ -154,9 +216,7 @@ class Reduction {
           return missed;
         }
       }
-      const MatrixXd added = V_.rightCols(V_.cols() - old);
-      right = M_.ii * added;
-      if (C_) right = beside(right, C_->ii * added);
+      right = next(V_.rightCols(V_.cols() - old));
       if (static_cast<double>(V_.cols()) < growth * static_cast<double>(estimated) && V_.cols() < most)
         continue;
       const double last = std::exchange(error, change(P_, sigma_, highest_, estimated));
@@ -186,9 +246,15 @@ class Reduction {
     if (V_.size() == 0) refuse_indefinite("");
     P_.M_zz = V_.transpose() * (M_.ii * V_);
     P_.M_zb = V_.transpose() * R_;
-    if (!C_) return 0;
-    P_.C_zz = V_.transpose() * (C_->ii * V_);
-    P_.C_zb = V_.transpose() * R_C_;
+    P_.f_z = V_.transpose() * f_i_;
+    if (C_) {
+      P_.C_zz = V_.transpose() * (C_->ii * V_);
+      P_.C_zb = V_.transpose() * R_C_;
+    }
+    if (K2_) {
+      P_.K2_zz = V_.transpose() * (K2_->ii * V_);
+      P_.K2_zb = V_.transpose() * R_2_;
+    }
     return 0;
   }
 
@@ -280,13 +346,21 @@ class Reduction {
       const MatrixXd corner = columns.bottomRows(count - old);
       square.bottomRightCorner(count - old, count - old) = 0.5 * (corner + corner.transpose());
     };
+    const auto extend_rows = [&](MatrixXd& rows, const MatrixXd& R) {
+      rows.conservativeResize(count, Eigen::NoChange);
+      rows.bottomRows(count - old) = added.transpose() * R;
+    };
     extend(P_.M_zz, M_.ii * added);
-    P_.M_zb.conservativeResize(count, Eigen::NoChange);
-    P_.M_zb.bottomRows(count - old) = added.transpose() * R_;
-    if (!C_) return;
-    extend(P_.C_zz, C_->ii * added);
-    P_.C_zb.conservativeResize(count, Eigen::NoChange);
-    P_.C_zb.bottomRows(count - old) = added.transpose() * R_C_;
+    extend_rows(P_.M_zb, R_);
+    extend_rows(P_.f_z, f_i_);
+    if (C_) {
+      extend(P_.C_zz, C_->ii * added);
+      extend_rows(P_.C_zb, R_C_);
+    }
+    if (K2_) {
+      extend(P_.K2_zz, K2_->ii * added);
+      extend_rows(P_.K2_zb, R_2_);
+    }
   }
 
   // The first vectors alone.
@@ -294,11 +368,10 @@ class Reduction {
     V_.conservativeResize(Eigen::NoChange, count);
     AV_.conservativeResize(Eigen::NoChange, count);
     if (P_.M_zz.rows() <= count) return;
-    P_.M_zz.conservativeResize(count, count);
-    P_.M_zb.conservativeResize(count, Eigen::NoChange);
-    if (!C_) return;
-    P_.C_zz.conservativeResize(count, count);
-    P_.C_zb.conservativeResize(count, Eigen::NoChange);
+    for (MatrixXd* square : {&P_.M_zz, &P_.C_zz, &P_.K2_zz})
+      if (square->rows() > count) square->conservativeResize(count, count);
+    for (MatrixXd* rows : {&P_.M_zb, &P_.C_zb, &P_.K2_zb, &P_.f_z})
+      if (rows->rows() > count) rows->conservativeResize(count, Eigen::NoChange);
   }
 
   // In the eigenvectors of M_zz.
@@ -310,43 +383,59 @@ class Reduction {
       whole.bottomLeftCorner(z, b) = zb;
       whole.topRightCorner(b, z) = zb.transpose();
     };
+    into.loads = P_.f_c;
     if (z == 0) {
       into.M = P_.M_c;
       into.K = P_.A_c - sigma_ * P_.M_c;
       if (C_) into.C = P_.C_c;
-      return;
+      if (K2_) into.K2 = P_.K2_c;
+    } else {
+      const auto [theta, Q] = continuation::symmetric_modes(P_.M_zz);
+      const MatrixXd mu = Q.transpose() * P_.M_zb;
+      put(into.M, P_.M_c, mu);
+      put(into.K, P_.A_c - sigma_ * P_.M_c, -sigma_ * mu);
+      into.M.diagonal().tail(z) = theta.cwiseMax(0.0);
+      into.K.diagonal().tail(z) = 1 - sigma_ * theta.cwiseMax(0.0).array();
+      const auto put_full = [&, &Q = Q](MatrixXd& whole, const MatrixXd& c, const MatrixXd& zb,
+                                        const MatrixXd& zz) {
+        put(whole, c, Q.transpose() * zb);
+        const MatrixXd in_modes = Q.transpose() * zz * Q;
+        whole.bottomRightCorner(z, z) = 0.5 * (in_modes + in_modes.transpose());
+      };
+      if (C_) put_full(into.C, P_.C_c, P_.C_zb, P_.C_zz);
+      if (K2_) put_full(into.K2, P_.K2_c, P_.K2_zb, P_.K2_zz);
+      into.loads.conservativeResize(b + z, Eigen::NoChange);
+      into.loads.bottomRows(z) = Q.transpose() * P_.f_z;
     }
-    const auto [theta, Q] = continuation::symmetric_modes(P_.M_zz);
-    const MatrixXd mu = Q.transpose() * P_.M_zb;
-    put(into.M, P_.M_c, mu);
-    put(into.K, P_.A_c - sigma_ * P_.M_c, -sigma_ * mu);
-    into.M.diagonal().tail(z) = theta.cwiseMax(0.0);
-    into.K.diagonal().tail(z) = 1 - sigma_ * theta.cwiseMax(0.0).array();
-    if (!C_) return;
-    put(into.C, P_.C_c, Q.transpose() * P_.C_zb);
-    const MatrixXd C_zz = Q.transpose() * P_.C_zz * Q;
-    into.C.bottomRightCorner(z, z) = 0.5 * (C_zz + C_zz.transpose());
+    if (K2_) into.K -= square_ * into.K2;
   }
 
-  const scene::Matrices& matrices_;
+  const double square_;  // of the speed of the expansion
+  const scene::Matrices matrices_;
   const double highest_;
   const Index most_;
   const double sigma_;
   const scene::StopRequest& stop_;
   const Partition parts_;
   const Blocks M_, K_;
-  std::optional<Blocks> C_;
+  std::optional<Blocks> C_, K2_;
+  MatrixXd f_b_, f_i_;  // loads
   Cholesky A_;
-  MatrixXd Psi_, R_, R_C_;  // R_C: C_ii Psi + C_ib
+  MatrixXd Psi_, R_, R_C_, R_2_;  // R_C: C_ii Psi + C_ib; R_2: the same of K2
   MatrixXd V_, AV_;
   Projected P_;
 };
 
 }  // namespace
 
+Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose,
+               const scene::StopRequest& stop, int most) {
+  return Reduction(matrices, kept, purpose, most, stop).run();
+}
+
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,
                const scene::StopRequest& stop, int most) {
-  return Reduction(matrices, kept, highest, most, stop).run();
+  return reduce(matrices, kept, Purpose{highest, 0, {}}, stop, most);
 }
 
 }  // namespace arcslip::structure

@@ -15,6 +15,14 @@
 // parts need no case of their own. With a matrix C the space also has A_ii^-1 C_ii times each of its vectors,
 // which adds nothing where C is proportional. A row that no entry of the matrices links to b takes no part.
 //
+// Loads f on all rows become f_b + Psi^T f_i and V^T f_i. Their f_i stand beside R in the space: what b sees
+// of them, p R^T (A_ii - p M_ii)^-1 f_i, then has the moments that Z has.
+//
+// A stiffness K + Omega^2 K2 is expanded about the speed whose square is half that of the highest: K is the
+// stiffness there, R2 = K2_ii Psi + K2_ib stands beside R, and A_ii^-1 K2_ii times each vector of the space
+// is in it as well, which makes the mixed moments in s^2 and Omega^2 exact. Psi and V are those of all
+// speeds.
+//
 // R. R. Craig and M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA J. 6 (1968) 1313,
 // with fixed-interface modes in place of V; moments: E. J. Grimme, Krylov projection methods for model
 // reduction, PhD thesis, Univ. of Illinois (1997).
@@ -33,9 +41,12 @@ namespace arcslip::structure {
 /// In (x_b, z): dense, symmetric, M and K diagonal in z. Without damping C is empty.
 struct Reduced {
   Eigen::MatrixXd M, C, K;
+  Eigen::MatrixXd K2;     // empty: none
+  Eigen::MatrixXd loads;  // a column each
   /// The largest error of an entry of Z, for s from 0 to the highest frequency and a loss factor of 1 %,
-  /// relative to the terms of its row and column on the diagonal, as the last vectors of V tell it; and
-  /// what the last digits of the entries of M and K change of the square of the lowest natural frequency.
+  /// relative to the terms of its row and column on the diagonal, and of the loads at b, relative to
+  /// sqrt(f^T A^-1 f) in place of a row, at speeds from 0 to the highest: as the last vectors of V tell it;
+  /// and what the last digits of the entries of M and K change of the square of the lowest natural frequency.
   double error = 0;
   /// Natural frequencies below this, rad/s, are not told from 0: rigid-body motions. 0: there are none.
   double free_below = 0;
@@ -46,9 +57,17 @@ class ReductionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// kept: rows of the matrices, from 0. highest: rad/s, above 0. most: vectors of V. Throws ReductionError,
-/// where K + sigma M is not positive definite, numbers overflow, or the error stays above 1e-3, and
-/// scene::Interrupted.
+/// What the structure is reduced for, beside the rows that are kept.
+struct Purpose {
+  double highest = 0;        // frequency, rad/s, above 0
+  double highest_speed = 0;  // Omega, rad/s; of matrices with K2
+  Eigen::MatrixXd loads{};   // on all rows, a column each
+};
+
+/// kept: rows of the matrices, from 0. most: vectors of V. Throws ReductionError, where K + sigma M is not
+/// positive definite, numbers overflow, or the error stays above 1e-3, and scene::Interrupted.
+Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose,
+               const scene::StopRequest& stop = {}, int most = 1500);
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,
                const scene::StopRequest& stop = {}, int most = 1500);
 

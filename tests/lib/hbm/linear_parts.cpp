@@ -30,7 +30,8 @@ struct Chain {
     p[model::frequency] = 0.8;
     if (matrices) add_matrices();
   }
-  // One of each kind, that of the dampers over the tied parameter, and proportional damping of all kinds.
+  // One of each kind, that of the dampers over the tied parameter, further ones over the squares of this and of
+  // the frequency, loads with an imaginary part, and proportional damping of all kinds.
   void add_matrices() {
     const auto random = [] {
       const Eigen::MatrixXd A = Eigen::MatrixXd::Random(3, 3);
@@ -39,7 +40,13 @@ struct Chain {
     const int tied = model.masses[0].parameter;
     model.matrices = {{model::LinearKind::mass, -1, random()},
                       {model::LinearKind::damper, tied, random()},
-                      {model::LinearKind::spring, -1, random()}};
+                      {model::LinearKind::spring, -1, random()},
+                      {model::LinearKind::spring, tied, random(), true, 1.3},
+                      {model::LinearKind::spring, model::frequency, random(), true, 2}};
+    model.excitation[0].load = Eigen::VectorXd::Random(3);
+    model.excitation.push_back(model.excitation[0]);
+    model.excitation.back().imaginary = true;
+    model.excitation.back().load = Eigen::VectorXd::Random(3);
     const auto first = static_cast<int>(p.size());
     model.damping = {first, first + 1, first + 2};
     for (const double value : {0.3, 0.05, 0.2}) {
@@ -62,7 +69,11 @@ struct Chain {
   Eigen::VectorXcd force(int n, const Vector& at) const {
     Eigen::VectorXcd f = Eigen::VectorXcd::Zero(3);
     for (const auto& force : model.excitation)
-      if (force.harmonic == n) f += Complex(at[force.cosine], -at[force.sine]) * Vector(force.direction);
+      if (force.harmonic == n) {
+        Vector shape = force.direction;
+        if (force.load.size() > 0) shape += force.load;
+        f += Complex(at[force.cosine], -at[force.sine]) * (force.imaginary ? Complex(0, 1) : 1.0) * shape;
+      }
     return f;
   }
 };
@@ -89,7 +100,9 @@ TEST_CASE("the full equation changes with every parameter as its differences do,
         return (chain.P.transpose() * (Z * x - 0.7 * chain.force(n, p))).eval();
       };
       parts.differentiate(k, n, y, 0.7, v);
-      CHECK((v - (at(1e-4) - at(-1e-4)) / 2e-4).norm() < 1e-9);  // quadratic: differences only round
+      // Cubic at most: these differences only round.
+      const double h = 1e-3;
+      CHECK((v - (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h)).norm() < 1e-9);
       CHECK((v.norm() == 0 || parts.depend_on(k)));
       if (v.norm() > 0) ++seen;
     }

@@ -10,7 +10,7 @@ void add_keys(std::vector<BadScene>& rows) {
   rows.push_back(
       {"unknown key", good_scene_with("\"masses\"", "\"massses\": [], \"masses\""), "/structure/massses",
        "found the unknown key \"massses\", must be one of \"dofs\", \"masses\", \"springs\", \"dampers\", "
-       "\"damping\", \"matrices\", \"names\", \"beam\", \"rod\"; "
+       "\"damping\", \"rotation\", \"matrices\", \"names\", \"beam\", \"rod\"; "
        "did you mean \"masses\"?"});
   rows.push_back(
       {"unknown key of an element", good_scene_with("\"normal_load\": 3", "\"normal_load\": 3, \"a/b~c\": 1"),

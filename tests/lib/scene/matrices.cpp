@@ -242,7 +242,7 @@ TEST_CASE("what is wrong with matrices is told with file, line and cause") {
       "found \"none.mtx\", which cannot be read"));
 }
 
-TEST_CASE("motions of the ground are refused with matrices") {
+TEST_CASE("motions of the ground are refused with matrices without a shape") {
   const Folder folder = chain();
   std::string text = scene_of(files);
   text.replace(text.find("\"at\": \"end.x\", \"cosine\": 1"), 26,
@@ -251,7 +251,7 @@ TEST_CASE("motions of the ground are refused with matrices") {
     read(text, folder.path());
     FAIL("accepted");
   } catch (const scene::SceneError& error) {
-    CHECK(contains(error.what(), "/excitation/0/type: found \"base_acceleration\", must be \"force\""));
+    CHECK(contains(error.what(), "/excitation/0/type: found \"base_acceleration\" without \"shape\""));
   }
 }
 

@@ -1,0 +1,181 @@
+// Reductions with loads on all rows, and with a stiffness that grows with the square of a speed, beside the
+// whole structures.
+#include "catch.hpp"
+
+#include "lib/structure/matrices.hpp"
+
+#include <arcslip/structure/reduction.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+using namespace arcslip;
+
+namespace {
+
+using Long = std::complex<long double>;
+using LongMatrix = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;
+
+std::vector<int> order_of(int size, const std::vector<int>& kept) {
+  std::vector<int> order = kept;
+  for (int i = 0; i < size; ++i)
+    if (std::find(kept.begin(), kept.end(), i) == kept.end()) order.push_back(i);
+  return order;
+}
+
+// (Z, f) condensed onto the first b coordinates, with a loss factor; in long double.
+LongMatrix condensed(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& C,
+                     const Eigen::MatrixXd& f, double s, Eigen::Index b) {
+  LongMatrix Z = K.cast<Long>() * Long(1, 0.01L) - static_cast<long double>(s) * s * M.cast<Long>();
+  if (C.size() > 0) Z += Long(0, s) * C.cast<Long>();
+  const Eigen::Index n = M.rows() - b;
+  LongMatrix all(b, b + f.cols());
+  all << Z.topLeftCorner(b, b), f.topRows(b).cast<Long>();
+  if (n == 0) return all;
+  LongMatrix right(n, b + f.cols());
+  right << Z.bottomLeftCorner(n, b), f.bottomRows(n).cast<Long>();
+  const LongMatrix inside = Z.bottomRightCorner(n, n).partialPivLu().solve(right);
+  return all - Z.topRightCorner(b, n) * inside;
+}
+
+struct Difference {
+  double stiffness = 0, load = 0;
+};
+
+// The largest differences at one speed up to the highest frequency: of the stiffness over the terms of its
+// row and column, of a load over the same of its row and sqrt(f^T K^-1 f).
+Difference difference(const scene::Matrices& of, const std::vector<int>& kept,
+                      const structure::Purpose& purpose, const structure::Reduced& reduced, double speed) {
+  const auto b = static_cast<Eigen::Index>(kept.size());
+  const std::vector<int> order = order_of(of.size(), kept);
+  const auto in_order = [&](const scene::MatrixFile& file) {
+    return Eigen::MatrixXd(structures::dense(file)(order, order));
+  };
+  const Eigen::MatrixXd M = in_order(of.mass),
+                        C = of.damping.matrix ? in_order(of.damping) : Eigen::MatrixXd();
+  Eigen::MatrixXd K = in_order(of.stiffness), K_reduced = reduced.K;
+  if (of.stiffness_speed_squared.matrix) {
+    K += speed * speed * in_order(of.stiffness_speed_squared);
+    K_reduced += speed * speed * reduced.K2;
+  }
+  const Eigen::MatrixXd f = purpose.loads.size() > 0 ? Eigen::MatrixXd(purpose.loads(order, Eigen::all))
+                                                     : Eigen::MatrixXd(of.size(), 0);
+  const Eigen::MatrixXd f_reduced =
+      purpose.loads.size() > 0 ? reduced.loads : Eigen::MatrixXd(reduced.M.rows(), 0);
+  const Eigen::VectorXd load_size =
+      (f.array() * K.partialPivLu().solve(f).array()).colwise().sum().sqrt().matrix().transpose();
+  Difference largest;
+  for (int k = 0; k <= 41; ++k) {
+    const double s = purpose.highest * k / 41;
+    const LongMatrix whole = condensed(M, K, C, f, s, b),
+                     less = condensed(reduced.M, K_reduced, reduced.C, f_reduced, s, b);
+    for (Eigen::Index i = 0; i < b; ++i) {
+      const auto scale = [&](Eigen::Index j) {
+        return std::sqrt(std::abs(K_reduced(j, j)) + s * s * reduced.M(j, j));
+      };
+      for (Eigen::Index j = 0; j < whole.cols(); ++j) {
+        const double by = static_cast<double>(std::abs(whole(i, j) - less(i, j)));
+        if (j < b)
+          largest.stiffness = std::max(largest.stiffness, by / scale(i) / scale(j));
+        else
+          largest.load = std::max(largest.load, by / scale(i) / load_size[j - b]);
+      }
+    }
+  }
+  return largest;
+}
+
+// A chain of masses with three dampers that are not proportional.
+scene::Matrices chain(int size, bool damped) {
+  structures::Entries M, K, C;
+  const auto link = [](structures::Entries& to, int i, int j, double value) {
+    to.insert(to.end(), {{i, i, value}, {j, j, value}, {i, j, -value}, {j, i, -value}});
+  };
+  for (int i = 0; i < size; ++i) M.push_back({i, i, 1 + 0.1 * (i % 4)});
+  K.push_back({0, 0, 150});
+  for (int i = 1; i < size; ++i) link(K, i, i - 1, 100 + i % 7);
+  for (const int i : {7, 20, 33}) link(C, i, i - 1, 0.3);
+  scene::Matrices all;
+  all.mass = structures::matrix(size, M);
+  all.stiffness = structures::matrix(size, K);
+  if (damped) all.damping = structures::matrix(size, C);
+  return all;
+}
+
+// The stiffening of the links by the tension of all that rotates beyond them, and the softening of the frame.
+scene::MatrixFile stiffening(int size) {
+  structures::Entries K2;
+  double tension = 0;
+  for (int i = size - 1; i >= 1; --i) {
+    tension += (1 + 0.1 * (i % 4)) * (0.5 + 0.02 * i);
+    K2.insert(K2.end(),
+              {{i, i, tension}, {i - 1, i - 1, tension}, {i, i - 1, -tension}, {i - 1, i, -tension}});
+  }
+  for (int i = 0; i < size; ++i) K2.push_back({i, i, -(1 + 0.1 * (i % 4))});
+  return structures::matrix(size, K2);
+}
+
+Eigen::MatrixXd pressure(int size) {
+  Eigen::MatrixXd loads(size, 2);
+  for (int i = 0; i < size; ++i) {
+    loads(i, 0) = std::cos(0.4 * i);
+    loads(i, 1) = i % 5 == 0 ? 3.0 : -0.2;
+  }
+  return loads;
+}
+
+}  // namespace
+
+TEST_CASE("loads on all rows act on a reduced structure as on the whole one") {
+  const bool damped = GENERATE(false, true);
+  const scene::Matrices of = chain(60, damped);
+  const std::vector<int> kept = GENERATE(std::vector{59}, std::vector{40, 3});
+  structure::Purpose purpose{GENERATE(0.5, 3.0, 30.0), 0, pressure(60)};
+  const structure::Reduced reduced = structure::reduce(of, kept, purpose);
+  CAPTURE(damped, kept.size(), purpose.highest, reduced.M.rows(), reduced.error);
+  CHECK(reduced.error < 1e-10);
+  const Difference found = difference(of, kept, purpose, reduced, 0);
+  CHECK(found.stiffness < 1e-10);
+  CHECK(found.load < 1e-10);
+}
+
+TEST_CASE("a load on rows that are kept, and on those that nothing links to them") {
+  scene::Matrices of = chain(10, false);
+  const std::vector<int> all{3, 0, 1, 2, 4, 5, 6, 7, 8, 9};
+  structure::Purpose purpose{5, 0, pressure(10)};
+  const structure::Reduced whole = structure::reduce(of, all, purpose);
+  CHECK(whole.loads == Eigen::MatrixXd(purpose.loads(all, Eigen::all)));
+  // A mass of its own.
+  structures::Entries M{{0, 0, 1}, {1, 1, 1}, {2, 2, 1}},
+      K{{0, 0, 2}, {1, 1, 1}, {0, 1, -1}, {1, 0, -1}, {2, 2, 5}};
+  scene::Matrices apart;
+  apart.mass = structures::matrix(3, M);
+  apart.stiffness = structures::matrix(3, K);
+  purpose.loads = Eigen::MatrixXd::Zero(3, 1);
+  purpose.loads(2, 0) = 1;
+  const structure::Reduced reduced = structure::reduce(apart, {0}, purpose);
+  CHECK(reduced.error < 1e-10);
+  CHECK(reduced.loads.isZero(0));
+}
+
+TEST_CASE("a structure whose stiffness grows with the square of a speed is reduced for all speeds") {
+  const int size = 40;
+  scene::Matrices of = chain(size, GENERATE(false, true));
+  of.stiffness_speed_squared = stiffening(size);
+  const std::vector<int> kept{size - 1, 12};
+  // At 6 rad/s, K2 outweighs K in the first links.
+  structure::Purpose purpose{GENERATE(1.0, 8.0), GENERATE(0.5, 2.0), pressure(size)};
+  const structure::Reduced reduced = structure::reduce(of, kept, purpose);
+  CAPTURE(purpose.highest, purpose.highest_speed, reduced.M.rows(), reduced.error);
+  CHECK(reduced.error < 1e-9);
+  for (const double speed : {0.0, 0.37, 0.6, 0.83, 1.0}) {
+    const Difference found = difference(of, kept, purpose, reduced, speed * purpose.highest_speed);
+    CAPTURE(speed);
+    CHECK(found.stiffness < 1e-9);
+    CHECK(found.load < 1e-9);
+  }
+}
