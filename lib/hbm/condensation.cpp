@@ -67,7 +67,16 @@ void Condensed::expand(double force_factor, ComplexVector& y) const {
 void Condensed::project(ComplexVector& v) const {
   const Eigen::Index r = Z.rows(), l = W.rows();
   if (l == 0) return;
-  v.head(r).noalias() -= W.leftCols(r).transpose() * v.tail(l);
+  if (V.size() > 0)
+    v.head(r).noalias() -= V.transpose() * v.tail(l);
+  else
+    v.head(r).noalias() -= W.leftCols(r).transpose() * v.tail(l);
+}
+
+void Condensed::observe(ComplexVector& c) const {
+  const Eigen::Index r = Z.rows(), l = W.rows();
+  if (l == 0) return;
+  c.head(r).noalias() -= W.leftCols(r).transpose() * c.tail(l);
 }
 
 Complex Condensed::observed_change(const ComplexVector& v, int observation) const {
@@ -239,6 +248,49 @@ bool Condensation::condense(const StructuralMatrices& of, const Factors& g, cons
     }
   for (Eigen::Index i = 0; i < r_; ++i)
     for (Eigen::Index k = 0; k < l_; ++k) into.f[i] = less_product(into.f[i], rhs_(k, i), W(k, r_));
+  return true;
+}
+
+UnsymmetricCondensation::UnsymmetricCondensation(int unknowns, const Eigen::MatrixXd& observed)
+    : r_(unknowns),
+      l_(observed.rows() - unknowns),
+      Zll_(l_, l_),
+      c_(observed.bottomRows(l_).cast<Complex>()),
+      column_(l_),
+      solution_(l_),
+      lu_(l_) {}
+
+bool UnsymmetricCondensation::condense(const ComplexMatrix& Z, const ComplexVector& f, Condensed& into) {
+  into.Z = Z.topLeftCorner(r_, r_);
+  into.f = f.head(r_);
+  if (l_ == 0) return true;
+  Zll_ = Z.bottomRightCorner(l_, l_);
+  lu_.factorize(Zll_);
+  for (Eigen::Index k = 0; k < l_; ++k)
+    if (!(std::abs(lu_.pivot(k)) > pole * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
+  into.W.resize(l_, r_ + 1 + c_.cols());
+  into.V.resize(l_, r_);
+  for (Eigen::Index i = 0; i <= r_; ++i) {
+    if (i < r_)
+      column_ = Z.col(i).tail(l_);
+    else
+      column_ = f.tail(l_);
+    lu_.solve(column_, solution_);
+    into.W.col(i) = solution_;
+  }
+  for (Eigen::Index i = 0; i < r_; ++i) {
+    column_ = Z.row(i).tail(l_).transpose();
+    lu_.solve_transposed(column_, solution_);
+    into.V.col(i) = solution_;
+  }
+  for (Eigen::Index i = 0; i < c_.cols(); ++i) {
+    column_ = c_.col(i);
+    lu_.solve_transposed(column_, solution_);
+    into.W.col(r_ + 1 + i) = solution_;
+  }
+  const auto Zql = Z.topRightCorner(r_, l_);
+  into.Z.noalias() -= Zql * into.W.leftCols(r_);
+  into.f.noalias() -= Zql * into.W.col(r_);
   return true;
 }
 

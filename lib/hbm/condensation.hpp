@@ -1,6 +1,6 @@
 #pragma once
 // Dynamic condensation: linear coordinates l of y = (q, l) are eliminated from Z y = f, harmonic by harmonic,
-// and from observations x = c . y. Z is symmetric.
+// and from observations x = c . y. Where Z is symmetric, Z_ql Z_ll^-1 is the transpose of Z_ll^-1 Z_lq.
 //
 //   (Z_qq - Z_ql Z_ll^-1 Z_lq) q = f_q - Z_ql Z_ll^-1 f_l,   l = Z_ll^-1 (f_l - Z_lq q)
 //
@@ -19,7 +19,8 @@ namespace arcslip::hbm {
 struct Condensed {
   ComplexMatrix Z;  // r x r, the Schur complement of Z_ll
   ComplexVector f;  // r
-  ComplexMatrix W;  // l x (r + 1 + observations): Z_ll^-1 [Z_lq, f_l, c_l for each observation]
+  ComplexMatrix W;  // l x (r + 1 + observations): Z_ll^-1 [Z_lq, f_l] and Z_ll^-T c_l for each observation
+  ComplexMatrix V;  // l x r: Z_ll^-T Z_ql^T; empty where Z is symmetric, and W has it
 
   /// y = (q, l) from its q, with f times force_factor.
   void expand(double force_factor, ComplexVector& y) const;
@@ -27,6 +28,8 @@ struct Condensed {
   void project(ComplexVector& v) const;
   /// -c_l . Z_ll^-1 v_l of an observation.
   Complex observed_change(const ComplexVector& v, int observation = 0) const;
+  /// The transpose of expand() without f: c_q := c_q - (Z_ll^-1 Z_lq)^T c_l.
+  void observe(ComplexVector& c) const;
 };
 
 /// The same with fixed-interface modes as linear coordinates (fixed_interface.hpp). Mutable, one for each
@@ -72,6 +75,22 @@ class Condensation {
   continuation::LU<Complex> lu_;
   std::optional<continuation::ComplexSparseLU> sparse_lu_;  // where it costs less; then in place of these:
   continuation::ComplexSparseLU::Matrix sparse_Zll_;
+};
+
+/// The same without symmetry, by LU of a dense matrix. Mutable, one for each evaluator.
+class UnsymmetricCondensation {
+ public:
+  /// observed: as of Condensation.
+  UnsymmetricCondensation(int unknowns, const Eigen::MatrixXd& observed);
+
+  /// False where Z_ll is singular to rounding.
+  bool condense(const ComplexMatrix& Z, const ComplexVector& f, Condensed& into);
+
+ private:
+  const Eigen::Index r_, l_;
+  ComplexMatrix Zll_, c_;
+  ComplexVector column_, solution_;
+  continuation::LU<Complex> lu_;
 };
 
 }  // namespace arcslip::hbm

@@ -45,7 +45,8 @@ class Independent {
   Eigen::MatrixXd chosen_, orthonormal_;
 };
 
-// Directions of the parts that are much stiffer than the softest, stiffest first.
+// Directions of the parts that are much stiffer than the softest, stiffest first. What reaches into the next
+// sector of a ring has no elongation that is a coordinate of one.
 Directions stiff_directions(const model::Model& model) {
   std::vector<std::pair<double, const model::Direction*>> all;
   const auto add = [&](double stiffness, const model::Direction& d) {
@@ -53,10 +54,12 @@ Directions stiff_directions(const model::Model& model) {
     if (k > 0 && std::isfinite(stiffness)) all.emplace_back(k, &d);
   };
   const continuation::Vector p = model::defaults(model);
-  for (const auto& spring : model.springs) add(p[spring.parameter], spring.direction);
+  for (const auto& spring : model.springs)
+    if (spring.next.size() == 0) add(p[spring.parameter], spring.direction);
   for (const auto& element : model.elements)
     for (std::size_t i = 0; i < element.directions.size(); ++i)
-      add(element.law->traits(element.fields(p), static_cast<int>(i)).stiffness, element.directions[i]);
+      if (element.next.empty() || element.next[i].size() == 0)
+        add(element.law->traits(element.fields(p), static_cast<int>(i)).stiffness, element.directions[i]);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   Directions stiff;
   for (const auto& [k, d] : all)
@@ -86,8 +89,11 @@ Directions stiff_between_elements(const Directions& stiff, const Independent& el
 
 Coordinates coordinates(const model::Model& model, double frequency) {
   Directions directions;
-  for (const auto& element : model.elements)
+  for (const auto& element : model.elements) {
     directions.insert(directions.end(), element.directions.begin(), element.directions.end());
+    for (const model::Direction& next : element.next)
+      if (next.size() > 0) directions.emplace_back(next);
+  }
   if (directions.empty()) directions.push_back(model.response);
   Independent elements(model.dofs);
   for (const Eigen::VectorXd& d : directions) elements.add(d);
@@ -106,7 +112,8 @@ Coordinates coordinates(const model::Model& model, double frequency) {
   c.P.leftCols(B.cols()) =
       B * continuation::solve(B.transpose() * B, Eigen::MatrixXd::Identity(B.cols(), B.cols()));
   if (B.cols() < model.dofs) c.P.rightCols(model.dofs - B.cols()) = continuation::orthogonal_complement(B);
-  if (frequency > 0 && stiff.empty()) c.modes = fixed_interface_modes(model, c.P, c.unknowns, frequency);
+  if (frequency > 0 && stiff.empty() && !model.linked)
+    c.modes = fixed_interface_modes(model, c.P, c.unknowns, frequency);
   if (c.modes) c.P.rightCols(c.linear()) *= c.modes->of_linear;
   return c;
 }

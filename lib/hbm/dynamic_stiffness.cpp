@@ -54,6 +54,11 @@ bool DynamicStiffness::move_to(In p) {
 // With its force in v_.
 bool DynamicStiffness::condense(Harmonic& at) {
   const double s = at.order * base_frequency();
+  if (parts_.linked()) {
+    if (!linked_) linked_.emplace(r_, responses_);
+    parts_.dynamic_stiffness(at.order, Z_);
+    return linked_->condense(Z_, v_, at.condensed);
+  }
   if (parts_.modes()) return modal_->condense(parts_, s, v_, at.condensed);
   if (!direct_) direct_.emplace(parts_.parts(), r_, responses_);
   return direct_->condense(parts_.matrices(), parts_.factors(s), v_, at.condensed);
@@ -171,7 +176,7 @@ Eigen::MatrixXd DynamicStiffness::motion(const Eigen::MatrixXd& P, In u, double 
 void DynamicStiffness::response_transposed(In a, Out g, int place) const {
   for (const Harmonic& at : harmonics_) {
     v_ = responses_.col(place).cast<Complex>();
-    at.condensed.project(v_);  // L^T; with a real inner product the transpose is the conjugate
+    at.condensed.observe(v_);  // L^T; with a real inner product the transpose is the conjugate
     for (int i = 0; i < r_; ++i) at.put(std::conj(v_[i]) * at.amplitude(a, 0), i * size_, g);
   }
 }

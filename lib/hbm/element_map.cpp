@@ -9,24 +9,27 @@ namespace arcslip::hbm {
 using elements::In, elements::Out;
 
 ElementMap::ElementMap(std::vector<Share> shares, int blocks, const elements::Harmonics& harmonics)
-    : harmonics_(harmonics),
-      c_(harmonics.size()),
-      blocks_(blocks),
-      shares_(std::move(shares)),
-      turns_(std::any_of(shares_.begin(), shares_.end(), [](const Share& s) { return s.phase != 0; })) {
-  if (turns_) {
-    turned_.resize(c_, c_);
-    block_.resize(c_, c_);
+    : harmonics_(harmonics), c_(harmonics.size()), blocks_(blocks), shares_(std::move(shares)) {
+  if (std::all_of(shares_.begin(), shares_.end(), [](const Share& s) { return s.phase == 0; })) return;
+  turned_.resize(c_, c_);
+  block_.resize(c_, c_);
+  for (const Share& share : shares_) {
+    Turn& turn = turns_.emplace_back();
+    for (int j = 0; j < harmonics_.sines(); ++j) {
+      const double angle = harmonics_.sine_order(j) * share.phase;
+      turn.emplace_back(std::cos(angle), std::sin(angle));
+    }
   }
 }
 
 // x(theta + angle): a_n cos n angle + b_n sin n angle, b_n cos n angle - a_n sin n angle.
-void ElementMap::add_turned(double factor, double angle, In block, Out sum) const {
+void ElementMap::add_turned(double factor, const Turn& by, double sense, In block, Out sum) const {
   if (!harmonics_.odd) sum[0] += factor * block[0];
   for (int j = 0; j < harmonics_.sines(); ++j) {
     const int n = harmonics_.sine_order(j);
     const int a = harmonics_.cosine_index(n), b = harmonics_.sine_index(n);
-    const double c = factor * std::cos(n * angle), s = factor * std::sin(n * angle);
+    const auto& [cosine, sine] = by[static_cast<std::size_t>(j)];
+    const double c = factor * cosine, s = factor * sense * sine;
     sum[a] += c * block[a] + s * block[b];
     sum[b] += c * block[b] - s * block[a];
   }
@@ -34,30 +37,33 @@ void ElementMap::add_turned(double factor, double angle, In block, Out sum) cons
 
 void ElementMap::gather(In u, Out w) const {
   w.setZero();
-  for (const Share& share : shares_) {
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    const Share& share = shares_[k];
     const auto from = u.segment(share.coordinate * c_, c_);
     auto to = w.segment(share.block * c_, c_);
     if (share.phase == 0)
       to += share.weight * from;
     else
-      add_turned(share.weight, share.phase, from, to);
+      add_turned(share.weight, turns_[k], 1, from, to);
   }
 }
 
 void ElementMap::add(In F, Out R) const {
-  for (const Share& share : shares_) {
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    const Share& share = shares_[k];
     const auto from = F.segment(share.block * c_, c_);
     auto to = R.segment(share.coordinate * c_, c_);
     if (share.phase == 0)
       to += share.weight * from;
     else
-      add_turned(share.weight, -share.phase, from, to);
+      add_turned(share.weight, turns_[k], -1, from, to);
   }
 }
 
 void ElementMap::add(const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J) const {
-  for (const Share& j : shares_)
-    for (const Share& i : shares_) {
+  for (std::size_t m = 0; m < shares_.size(); ++m)
+    for (std::size_t l = 0; l < shares_.size(); ++l) {
+      const Share &i = shares_[l], &j = shares_[m];
       auto to = J.block(i.coordinate * c_, j.coordinate * c_, c_, c_);
       const auto from = J_element.block(i.block * c_, j.block * c_, c_, c_);
       if (i.phase == 0 && j.phase == 0) {
@@ -66,10 +72,10 @@ void ElementMap::add(const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J) const
       }
       // T_i^T B T_j, columns first: the transpose of a turn is the turn back.
       turned_.setZero();
-      for (int k = 0; k < c_; ++k) add_turned(i.weight, -i.phase, from.col(k), turned_.col(k));
+      for (int k = 0; k < c_; ++k) add_turned(i.weight, turns_[l], -1, from.col(k), turned_.col(k));
       block_ = turned_.transpose();
       turned_.setZero();
-      for (int k = 0; k < c_; ++k) add_turned(j.weight, -j.phase, block_.col(k), turned_.col(k));
+      for (int k = 0; k < c_; ++k) add_turned(j.weight, turns_[m], -1, block_.col(k), turned_.col(k));
       to += turned_.transpose();
     }
 }

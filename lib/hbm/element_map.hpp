@@ -8,6 +8,7 @@
 
 #include <arcslip/elements/series.hpp>
 
+#include <utility>
 #include <vector>
 
 namespace arcslip::hbm {
@@ -37,13 +38,15 @@ class ElementMap {
   void add_order(int n, const Eigen::MatrixXd& J_element, Eigen::MatrixXd& J_n) const;
 
  private:
-  // sum += factor block, turned by an angle: sign 1 for u, -1 for its transpose.
-  void add_turned(double factor, double angle, elements::In block, elements::Out sum) const;
+  // cos and sin of n phase, for each sine.
+  using Turn = std::vector<std::pair<double, double>>;
+  // sum += factor block, turned by an angle: sense 1 for u, -1 for its transpose.
+  void add_turned(double factor, const Turn& by, double sense, elements::In block, elements::Out sum) const;
 
   elements::Harmonics harmonics_;
   int c_, blocks_;
   std::vector<Share> shares_;
-  bool turns_ = false;
+  std::vector<Turn> turns_;  // of the shares; empty where none has a phase
   mutable Eigen::MatrixXd turned_, block_;
 };
 

@@ -12,12 +12,25 @@ constexpr double rounding = 1e-13;  // of a direction in y, relative to its larg
 
 }  // namespace
 
-DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x) {
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(P.cols());
-  for (model::Direction::InnerIterator x(in_x); x; ++x) d += x.value() * P.row(x.index()).transpose();
-  const double least = rounding * d.cwiseAbs().maxCoeff();
-  for (Eigen::Index i = 0; i < d.size(); ++i)
-    if (d[i] != 0 && std::abs(d[i]) >= least) entries_.emplace_back(i, d[i]);
+DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x,
+                           const model::Direction& next) {
+  const auto in_y = [&P](const model::Direction& of) {
+    Eigen::VectorXd d = Eigen::VectorXd::Zero(P.cols());
+    for (model::Direction::InnerIterator x(of); x; ++x) d += x.value() * P.row(x.index()).transpose();
+    return d;
+  };
+  const auto fill = [](const Eigen::VectorXd& d, double least, Entries& entries) {
+    for (Eigen::Index i = 0; i < d.size(); ++i)
+      if (d[i] != 0 && std::abs(d[i]) >= least) entries.emplace_back(i, d[i]);
+  };
+  const Eigen::VectorXd d = in_y(in_x);
+  double largest = d.cwiseAbs().maxCoeff();
+  if (next.size() > 0) {
+    const Eigen::VectorXd e = in_y(next);
+    largest = std::max(largest, e.cwiseAbs().maxCoeff());
+    fill(e, rounding * largest, next_);
+  }
+  fill(d, rounding * largest, entries_);
 }
 
 DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x) {
@@ -29,11 +42,12 @@ DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x
 LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
                          const elements::Harmonics& harmonics,
                          std::shared_ptr<const FixedInterfaceModes> modes)
-    : period_(harmonics.period), size_(P.cols()), modes_(std::move(modes)) {
+    : linked_(model.linked), period_(harmonics.period), size_(P.cols()), modes_(std::move(modes)) {
+  if (model.sector) sector_ = *model.sector;
   changes_.reserve(most_changes + 1);
   const auto add = [&](Kind kind, const std::vector<model::LinearPart>& parts) {
     for (const model::LinearPart& part : parts)
-      parts_.push_back({kind, part.parameter, {P, part.direction}, std::nan("")});
+      parts_.push_back({kind, part.parameter, {P, part.direction, part.next}, std::nan("")});
   };
   add(Kind::mass, model.masses);
   add(Kind::damper, model.dampers);
@@ -47,8 +61,10 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
     if (!excitation.moves_base()) force.terms.push_back({-1, {P, excitation.direction}});
     if (excitation.load.size() > 0) force.terms.push_back({-1, {P, excitation.load}});
     for (const model::LinearPart& mass : model.masses) {
-      const double along = excitation.moves_base() ? mass.direction.dot(excitation.direction) : 0;
-      if (along != 0) force.terms.push_back({mass.parameter, {P, model::Direction(along * mass.direction)}});
+      if (!excitation.moves_base()) break;
+      Complex along = mass.direction.dot(excitation.direction);
+      if (mass.next.size() > 0) along += turn(force.harmonic) * mass.next.dot(excitation.direction);
+      if (along != 0.0) force.terms.push_back({mass.parameter, {P, mass.direction, mass.next}, along});
     }
     forces_.push_back(std::move(force));
   }
@@ -79,7 +95,7 @@ void LinearParts::move_to(In p) {
 
 void LinearParts::set_values() {
   changes_.clear();
-  modal_ = modes_ != nullptr;
+  modal_ = modes_ != nullptr && !linked_;
   for (const PartInY& part : parts_) {
     if (!modal_) break;
     const double by = part.value - modal_value(part);
@@ -89,17 +105,37 @@ void LinearParts::set_values() {
   for (const MatrixInY& part : matrix_parts_)
     modal_ = modal_ && (part.of.parameter < 0 || part.of.value(p_) == part.of.value(modes_->p));
   if (modal_) return;
-  const auto matrix_of = [&](Kind kind) -> Eigen::MatrixXd& {
-    if (kind == Kind::mass) return matrices_.M;
-    return kind == Kind::damper ? matrices_.C : matrices_.K;
-  };
-  for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring}) matrix_of(kind).setZero(size_, size_);
+  for (Eigen::MatrixXd* matrix : {&matrices_.M, &matrices_.C, &matrices_.K}) matrix->setZero(size_, size_);
   for (const PartInY& part : parts_) {
-    Eigen::MatrixXd& sum = matrix_of(part.kind);
+    Eigen::MatrixXd& sum = matrices_.of(part.kind);
     for (const auto& [j, at_j] : part.direction.entries())
       for (const auto& [i, at_i] : part.direction.entries()) sum(i, j) += part.value * at_i * at_j;
   }
-  for (const MatrixInY& part : matrix_parts_) matrix_of(part.of.kind) += part.of.value(p_) * in_y(part);
+  for (const MatrixInY& part : matrix_parts_) matrices_.of(part.of.kind) += part.of.value(p_) * in_y(part);
+  if (linked_) set_links();
+}
+
+// With d = d_own + t d_next, conj(d) d^T = d_own d_own^T + d_next d_next^T + t d_own d_next^T + the conjugate
+// transpose of that.
+void LinearParts::set_links() {
+  for (Eigen::MatrixXd* links : {&links_.M, &links_.C, &links_.K}) links->setZero(size_, size_);
+  for (const PartInY& part : parts_) {
+    Eigen::MatrixXd& own = matrices_.of(part.kind);
+    Eigen::MatrixXd& links = links_.of(part.kind);
+    for (const auto& [j, at_j] : part.direction.next()) {
+      for (const auto& [i, at_i] : part.direction.next()) own(i, j) += part.value * at_i * at_j;
+      for (const auto& [i, at_i] : part.direction.entries()) links(i, j) += part.value * at_i * at_j;
+    }
+  }
+}
+
+void LinearParts::dynamic_stiffness(int n, ComplexMatrix& Z) const {
+  const Factors g = factors(n * base_frequency_);
+  const Complex t = turn(n);
+  Z.resize(size_, size_);
+  for (Eigen::Index j = 0; j < size_; ++j)
+    for (Eigen::Index i = 0; i < size_; ++i)
+      Z(i, j) = matrices_.at(g, i, j) + t * links_.at(g, i, j) + std::conj(t) * links_.at(g, j, i);
 }
 
 const Eigen::MatrixXd& LinearParts::in_y(const MatrixInY& part) const {
@@ -125,7 +161,8 @@ Factors LinearParts::factor_rates(int n, double s) const {
 }
 
 void LinearParts::add(const ForceInY& force, Complex amplitude, ComplexVector& f) const {
-  for (const ForceInY::Term& term : force.terms) term.direction.add(amplitude * value(term), f);
+  for (const ForceInY::Term& term : force.terms)
+    term.direction.add(amplitude * value(term) * term.along, turn(force.harmonic), f);
 }
 
 void LinearParts::force(int n, ComplexVector& f) const {
@@ -168,17 +205,19 @@ bool LinearParts::depend_on(int k) const {
 void LinearParts::differentiate(int k, int n, const ComplexVector& y, double force_factor,
                                 ComplexVector& v) const {
   const double s = n * base_frequency_;
+  const Complex t = turn(n);
   v.setZero();
   const Factors g = factors(s);
-  if (k == model::frequency) add_product(factor_rates(n, s), y, v);
+  if (k == model::frequency) add_product(factor_rates(n, s), t, y, v);
   for (const PartInY& part : parts_)
-    if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y), v);
+    if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y, t), t, v);
   for (const MatrixInY& part : matrix_parts_)
     if (part.of.parameter == k) v.noalias() += part.of.rate(p_) * g.of(part.of.kind) * (in_y(part) * y);
   if (damping_ && s > 0) {
     const double by_alpha = k == damping_->alpha ? s : 0;
     const double by_spring = (k == damping_->beta ? s : 0) + (k == damping_->loss_factor ? 1 : 0);
-    if (by_alpha != 0 || by_spring != 0) add_product({Complex(0, by_alpha), 0, Complex(0, by_spring)}, y, v);
+    if (by_alpha != 0 || by_spring != 0)
+      add_product({Complex(0, by_alpha), 0, Complex(0, by_spring)}, t, y, v);
   }
   const double w = p_[model::frequency];
   for (const ForceInY& force : forces_) {
@@ -187,40 +226,49 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
     if (k == model::frequency) rate += force.of.factor_rate(w) * force.given;
     if (rate != 0.0) add(force, -force_factor * rate, v);
     for (const ForceInY::Term& term : force.terms)
-      if (term.mass == k) term.direction.add(-force_factor * force.of.factor(w) * force.given, v);
+      if (term.mass == k)
+        term.direction.add(-force_factor * force.of.factor(w) * force.given * term.along, t, v);
   }
 }
 
 // v += (g_m M + g_c C + g_k K) y
-void LinearParts::add_product(const Factors& g, const ComplexVector& y, ComplexVector& v) const {
+void LinearParts::add_product(const Factors& g, Complex turn, const ComplexVector& y,
+                              ComplexVector& v) const {
   if (modal_) {
     modes_->M.add_product(g.mass, y, v);
     modes_->C.add_product(g.damper, y, v);
     if (g.spring != 0.0) modes_->K.add_product(g.spring, y, v);
     for (const ChangedPart& change : changes_)
-      change.part->direction.add(g.of(change.part->kind) * change.by * change.part->direction.along(y), v);
-  } else if (matrix_parts_.empty()) {
+      change.part->direction.add(g.of(change.part->kind) * change.by * change.part->direction.along(y, turn),
+                                 turn, v);
+  } else if (linked_ || matrix_parts_.empty()) {
     for (const PartInY& part : parts_)
       if (const Complex factor = g.of(part.kind) * part.value; factor != 0.0)
-        part.direction.add(factor * part.direction.along(y), v);
+        part.direction.add(factor * part.direction.along(y, turn), turn, v);
+    for (const MatrixInY& part : matrix_parts_)
+      if (const Complex factor = g.of(part.of.kind) * part.of.value(p_); factor != 0.0)
+        v.noalias() += factor * (in_y(part) * y);
   } else {
     for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
       if (g.of(kind) != 0.0) v.noalias() += g.of(kind) * (matrices_.of(kind) * y);
   }
 }
 
-double LinearParts::quadratic_form(Kind kind, const ComplexVector& y) const {
+double LinearParts::quadratic_form(Kind kind, int n, const ComplexVector& y) const {
   double sum = 0;
-  if (!modal_ && !matrix_parts_.empty()) return y.dot(matrices_.of(kind) * y).real();
+  if (!modal_ && !linked_ && !matrix_parts_.empty()) return y.dot(matrices_.of(kind) * y).real();
+  const Complex t = turn(n);
   if (!modal_) {
     for (const PartInY& part : parts_)
-      if (part.kind == kind) sum += part.value * std::norm(part.direction.along(y));
+      if (part.kind == kind) sum += part.value * std::norm(part.direction.along(y, t));
+    for (const MatrixInY& part : matrix_parts_)
+      if (part.of.kind == kind) sum += part.of.value(p_) * y.dot(in_y(part) * y).real();
     return sum;
   }
   const ModalMatrix& whole = kind == Kind::mass ? modes_->M : kind == Kind::damper ? modes_->C : modes_->K;
   sum = whole.form(y);
   for (const ChangedPart& change : changes_)
-    if (change.part->kind == kind) sum += change.by * std::norm(change.part->direction.along(y));
+    if (change.part->kind == kind) sum += change.by * std::norm(change.part->direction.along(y, t));
   return sum;
 }
 
@@ -228,17 +276,18 @@ double LinearParts::damping_form(int n, const ComplexVector& y) const {
   const Factors g = factors(n * base_frequency_);
   double sum = 0;
   for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
-    if (const double loss = g.of(kind).imag(); loss != 0) sum += loss * quadratic_form(kind, y);
+    if (const double loss = g.of(kind).imag(); loss != 0) sum += loss * quadratic_form(kind, n, y);
   return sum;
 }
 
 QuadraticForms LinearParts::quadratic_forms(int n, const ComplexVector& y, double force_factor) const {
-  QuadraticForms forms{quadratic_form(Kind::mass, y), quadratic_form(Kind::spring, y), damping_form(n, y), 0};
+  QuadraticForms forms{quadratic_form(Kind::mass, n, y), quadratic_form(Kind::spring, n, y),
+                       damping_form(n, y), 0};
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n) continue;
     const Complex amplitude = force_factor * force.of.factor(p_[model::frequency]) * force.given;
     for (const ForceInY::Term& term : force.terms)
-      forms.force += amplitude * value(term) * std::conj(term.direction.along(y));
+      forms.force += amplitude * value(term) * term.along * std::conj(term.direction.along(y, turn(n)));
   }
   return forms;
 }

@@ -8,6 +8,9 @@
 // A mass, a damper or a spring adds value * g d d^T to Z, a matrix of the structure value * g A, and a force
 // adds (cosine - i sine) d to the f of its harmonic. Most of d is zero. So do the forces of a moving ground
 // (model::Excitation), one for each mass. alpha, beta, loss_factor: model::ProportionalDamping.
+//
+// In a sector of a ring d = d_own + t d_next, with the turn t of that harmonic (model::Sector), adds
+// value * g conj(d) d^T: Z is linked, not symmetric, with M, C and K Hermitian.
 
 #include <arcslip/hbm/fixed_interface.hpp>
 
@@ -28,24 +31,31 @@ using ComplexMatrix = Eigen::MatrixXcd;
 /// own row and column only, and would swamp softer ones.
 class DirectionInY {
  public:
-  DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x);
+  using Entries = std::vector<std::pair<Eigen::Index, double>>;
+
+  DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x, const model::Direction& next = {});
   /// Of a force on all rows, with every entry.
   DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x);
 
-  const std::vector<std::pair<Eigen::Index, double>>& entries() const { return entries_; }
+  const Entries& entries() const { return entries_; }
+  const Entries& next() const { return next_; }
   /// d . y
-  Complex along(const ComplexVector& y) const {
+  Complex along(const ComplexVector& y, Complex turn) const {
     Complex sum = 0;
     for (const auto& [i, at_i] : entries_) sum += at_i * y[i];
+    if (!next_.empty())
+      for (const auto& [i, at_i] : next_) sum += turn * (at_i * y[i]);
     return sum;
   }
-  /// v += amount d
-  void add(Complex amount, ComplexVector& v) const {
+  /// v += amount conj(d)
+  void add(Complex amount, Complex turn, ComplexVector& v) const {
     for (const auto& [i, at_i] : entries_) v[i] += amount * at_i;
+    if (!next_.empty())
+      for (const auto& [i, at_i] : next_) v[i] += amount * std::conj(turn) * at_i;
   }
 
  private:
-  std::vector<std::pair<Eigen::Index, double>> entries_;
+  Entries entries_, next_;
 };
 
 struct PartInY {
@@ -69,11 +79,15 @@ struct Factors {
   }
 };
 
-/// M, C, K in y, symmetric.
+/// M, C, K in y, symmetric; of a sector what is within it.
 struct StructuralMatrices {
   Eigen::MatrixXd M, C, K;
 
   const Eigen::MatrixXd& of(model::LinearKind kind) const {
+    if (kind == model::LinearKind::mass) return M;
+    return kind == model::LinearKind::damper ? C : K;
+  }
+  Eigen::MatrixXd& of(model::LinearKind kind) {
     if (kind == model::LinearKind::mass) return M;
     return kind == model::LinearKind::damper ? C : K;
   }
@@ -111,6 +125,9 @@ class LinearParts {
   const FixedInterfaceModes* modes() const { return modal_ ? modes_.get() : nullptr; }
   const std::vector<ChangedPart>& changes() const { return changes_; }
   const StructuralMatrices& matrices() const { return matrices_; }
+  /// Whether masses, dampers or springs reach into the next sector. Z is then by this function alone.
+  bool linked() const { return linked_; }
+  void dynamic_stiffness(int n, ComplexMatrix& Z) const;
   /// f of harmonic n.
   void force(int n, ComplexVector& f) const;
 
@@ -124,19 +141,20 @@ class LinearParts {
   /// dZ/dp_k y - force_factor df/dp_k of harmonic n.
   void differentiate(int k, int n, const ComplexVector& y, double force_factor, ComplexVector& v) const;
 
-  /// y^H M y, y^H C y or y^H K y.
-  double quadratic_form(model::LinearKind kind, const ComplexVector& y) const;
+  /// y^H M y, y^H C y or y^H K y of harmonic n.
+  double quadratic_form(model::LinearKind kind, int n, const ComplexVector& y) const;
   /// Im y^H Z y: over pi times the order, the energy that harmonic n of the motion loses in a period.
   double damping_form(int n, const ComplexVector& y) const;
   /// f is that of harmonic n, times force_factor.
   QuadraticForms quadratic_forms(int n, const ComplexVector& y, double force_factor) const;
 
  private:
-  // amplitude * sum_k value_k direction_k; value_k: p_mass, or 1 where that is -1.
+  // amplitude * sum_k value_k along_k direction_k; value_k: p_mass, or 1 where that is -1.
   struct ForceInY {
     struct Term {
       int mass;
       DirectionInY direction;
+      Complex along = 1;
     };
     model::Excitation of;
     int harmonic;  // of the base frequency
@@ -151,11 +169,15 @@ class LinearParts {
     mutable Eigen::MatrixXd A;
   };
   const Eigen::MatrixXd& in_y(const MatrixInY& part) const;
-  void add_product(const Factors& g, const ComplexVector& y, ComplexVector& v) const;
+  Complex turn(int n) const { return linked_ ? sector_.turn(n) : 1; }
+  void add_product(const Factors& g, Complex turn, const ComplexVector& y, ComplexVector& v) const;
   void set_values();
+  void set_links();
   double modal_value(const PartInY& part) const;
   void add(const ForceInY& force, Complex amplitude, ComplexVector& f) const;
 
+  model::Sector sector_{1, 0};
+  bool linked_;
   int period_;
   Eigen::Index size_;
   std::shared_ptr<const FixedInterfaceModes> modes_;
@@ -168,6 +190,7 @@ class LinearParts {
   std::optional<model::ProportionalDamping> damping_;
   std::vector<ForceInY> forces_;
   StructuralMatrices matrices_;
+  StructuralMatrices links_;  // of the sector to the next: the sum of value d_own d_next^T
   Eigen::VectorXd p_;
   double base_frequency_ = -1;
 };

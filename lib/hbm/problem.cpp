@@ -168,11 +168,14 @@ ElementMap HbmProblem::map_of(std::size_t e) const {
   const auto& element = model_->elements[e];
   std::vector<ElementMap::Share> shares;
   int block = 0;
-  for (const model::Direction& direction : element.directions) {
+  const auto add = [&](const model::Direction& direction, double phase) {
     const Vector d = coordinates_.P.leftCols(coordinates_.unknowns).transpose() * direction;
     for (int i = 0; i < coordinates_.unknowns; ++i)
-      if (std::abs(d[i]) > 1e-12 * d.norm()) shares.push_back({block, i, d[i]});
-    ++block;
+      if (std::abs(d[i]) > 1e-12 * d.norm()) shares.push_back({block, i, d[i], phase});
+  };
+  for (std::size_t i = 0; i < element.directions.size(); ++i, ++block) {
+    add(element.directions[i], 0);
+    if (!element.next.empty() && element.next[i].size() > 0) add(element.next[i], -model_->sector->phase());
   }
   int own = coordinates_.unknowns;
   for (std::size_t before = 0; before < e; ++before) own += model_->elements[before].law->auxiliary();
@@ -242,6 +245,8 @@ model::Model with_springs(model::Model model, Vector& p) {
       const double stiffness = element.law->traits(element.fields(p), static_cast<int>(i)).stiffness;
       if (!std::isfinite(stiffness)) continue;
       model.springs.push_back({static_cast<int>(p.size()), element.directions[i]});
+      if (!element.next.empty()) model.springs.back().next = element.next[i];
+      model.linked = model.linked || model.springs.back().next.size() > 0;
       model.parameters.push_back({"", "N/m", stiffness, 1, 0, stiffness});
       p.conservativeResize(p.size() + 1);
       p[p.size() - 1] = stiffness;

@@ -31,6 +31,10 @@ class Builder {
  public:
   Builder(const scene::Scene& scene, const scene::StopRequest& stop) : scene_(scene) {
     set_dofs(stop);
+    if (scene.cyclic) {
+      const int count = scene.cyclic->sectors, order = scene.cyclic->engine_order % count;
+      model_.sector = Sector{count, order < 0 ? order + count : order};
+    }
     for (const scene::Tie& tie : scene.ties)
       for (const std::string& member : tie.members) tie_of_[member] = tie.name;
     parameter_of_["frequency"] = 0;
@@ -285,10 +289,11 @@ class Builder {
     return used;
   }
 
-  Direction sparse(const scene::Direction& direction) const {
+  Direction sparse(const scene::Direction& direction, bool next = false) const {
     Direction d(model_.dofs);
     for (const scene::Term& term : direction)
-      d.coeffRef(dof_of_.empty() ? term.dof : dof_of_[static_cast<std::size_t>(term.dof)]) += term.weight;
+      if (term.next == next)
+        d.coeffRef(dof_of_.empty() ? term.dof : dof_of_[static_cast<std::size_t>(term.dof)]) += term.weight;
     return d;
   }
 
@@ -325,12 +330,29 @@ class Builder {
     return C;
   }
 
-  LinearPart linear(const scene::Part& part) { return {parameter(part, 0), sparse(part.directions.front())}; }
+  // Into the next sector; empty where no term is there.
+  Direction sparse_next(const scene::Direction& direction) const {
+    const bool any =
+        std::any_of(direction.begin(), direction.end(), [](const auto& term) { return term.next; });
+    return any ? sparse(direction, true) : Direction();
+  }
+
+  LinearPart linear(const scene::Part& part) {
+    LinearPart linear{parameter(part, 0), sparse(part.directions.front()),
+                      sparse_next(part.directions.front())};
+    model_.linked = model_.linked || linear.next.size() > 0;
+    return linear;
+  }
 
   void add_element(const scene::Part& part, std::vector<Share> shares) {
     NonlinearPart element{part.name, elements::law_of(part), std::move(shares),
                           {},        part.values.size(),     part.wear_coefficient};
-    for (const auto& direction : part.directions) element.directions.push_back(sparse(direction));
+    for (const auto& direction : part.directions) {
+      element.directions.push_back(sparse(direction));
+      element.next.push_back(sparse_next(direction));
+    }
+    if (std::all_of(element.next.begin(), element.next.end(), [](const auto& d) { return d.size() == 0; }))
+      element.next.clear();
     if (element.directions.size() != static_cast<std::size_t>(element.law->directions()))
       throw std::invalid_argument("the element \"" + part.name + "\" has " +
                                   std::to_string(element.directions.size()) + " directions, its law " +
@@ -445,6 +467,18 @@ double Excitation::displacement_rate(double w) const {
   return kind == Kind::base_acceleration ? -2 / w * displacement(w) : 0;
 }
 
+std::complex<double> Sector::turn(int n) const {
+  const auto part = static_cast<int>(static_cast<long long>(n) * engine_order % count);
+  const double angle = 2 * std::numbers::pi * part / count;
+  const bool quarter = 4LL * part % count == 0;  // of which cosine and sine are whole numbers
+  return {quarter ? std::round(std::cos(angle)) : std::cos(angle),
+          quarter ? -std::round(std::sin(angle)) : -std::sin(angle)};
+}
+
+Direction in_phase(const Direction& d, const Direction& next) {
+  return next.size() > 0 ? Direction(d + next) : d;
+}
+
 Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const continuation::Vector& p) {
   Eigen::VectorXd g = Eigen::VectorXd::Zero(model.dofs);
   if (!excitation.moves_base()) {
@@ -460,6 +494,24 @@ Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const co
 void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum) {
   for (Direction::InnerIterator j(d); j; ++j)
     for (Direction::InnerIterator i(d); i; ++i) sum(i.index(), j.index()) += factor * i.value() * j.value();
+}
+
+void add_outer(double factor, const Direction& d, const Direction& next, std::complex<double> turn,
+               Eigen::MatrixXd& sum) {
+  const Eigen::Index n = d.size();
+  Direction real(2 * n), imaginary(2 * n);  // of (d + turn next) . x
+  const auto add = [&](const Direction& part, std::complex<double> by) {
+    for (Direction::InnerIterator i(part); i; ++i) {
+      real.coeffRef(i.index()) += by.real() * i.value();
+      real.coeffRef(n + i.index()) -= by.imag() * i.value();
+      imaginary.coeffRef(i.index()) += by.imag() * i.value();
+      imaginary.coeffRef(n + i.index()) += by.real() * i.value();
+    }
+  };
+  add(d, 1);
+  if (next.size() > 0) add(next, turn);
+  add_outer(factor, real, sum);
+  add_outer(factor, imaginary, sum);
 }
 
 Eigen::MatrixXd sum_of(const Model& model, LinearKind kind, const continuation::Vector& p) {
@@ -500,7 +552,8 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(model.dofs, model.dofs);
   for (const LinearPart& spring : model.springs)
     if (const double k = p[spring.parameter]; k != 0)
-      add_outer(by_value ? k : 1 / spring.direction.squaredNorm(), spring.direction, K);
+      if (const Direction d = in_phase(spring.direction, spring.next); d.squaredNorm() > 0)
+        add_outer(by_value ? k : 1 / d.squaredNorm(), d, K);
   for (const MatrixPart& part : model.matrices)
     if (part.kind == LinearKind::spring) K += part.value(p) * *part.A;
   const double largest = K.cwiseAbs().maxCoeff(), typical = largest > 0 ? largest : 1;
@@ -508,7 +561,8 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
     for (std::size_t i = 0; i < element.directions.size(); ++i)
       if (const auto traits = element.law->traits(element.fields(p), static_cast<int>(i));
           traits.holds_mean || (in_stick && traits.holds_in_stick))
-        add_outer(typical, element.directions[i], K);
+        add_outer(typical,
+                  in_phase(element.directions[i], element.next.empty() ? Direction() : element.next[i]), K);
   if (!K.allFinite()) return {};  // overflow: nothing is known
   const Eigen::VectorXd size = K.cwiseAbs().rowwise().maxCoeff();
   for (int i = 0; i < model.dofs; ++i)

@@ -12,6 +12,7 @@
 
 #include <complex>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,10 +23,25 @@ namespace arcslip::model {
 /// d, of as many entries as there are degrees of freedom, most of them 0.
 using Direction = Eigen::SparseVector<double>;
 
-/// A mass, damper or spring: value * d d^T on the degrees of freedom.
+/// The model is one sector of a ring in a travelling wave: the next sector moves as this one does, but later,
+///
+///   x_next(theta) = x(theta - phase),   X_next,n = turn(n) X_n = exp(-i n phase) X_n
+///
+/// with the angle theta of the excitation and amplitudes X_n = a_n - i b_n.
+struct Sector {
+  int count;         // of the ring
+  int engine_order;  // 0 to count - 1
+
+  double phase() const { return 2 * std::numbers::pi * engine_order / count; }  // rad
+  std::complex<double> turn(int n) const;
+};
+
+/// A mass, damper or spring: value * d d^T on the degrees of freedom. In a sector it may reach into the next
+/// one: d + turn(n) next for harmonic n, and value * conj(d) d^T.
 struct LinearPart {
   int parameter;
   Direction direction;
+  Direction next{};  // empty: within the sector
 };
 
 enum class LinearKind { mass, damper, spring };
@@ -70,14 +86,16 @@ struct Share {
   double factor = 1;
 };
 
-/// A nonlinear element: its law acts on q_i = d_i . x, along d_i.
+/// A nonlinear element: its law acts on q_i = d_i . x, along d_i, and with a sector q_i = d_i . x + next_i .
+/// x_next.
 struct NonlinearPart {
   std::string name;
   std::shared_ptr<const elements::Law> law;
   std::vector<Share> shares;  // of its fields: one each, or more in a patch
   std::vector<Direction> directions;
   std::size_t field_count = 0;
-  double wear_coefficient = 0;  // m^3/J
+  double wear_coefficient = 0;    // m^3/J
+  std::vector<Direction> next{};  // empty: within the sector; else one for each direction
 
   std::vector<double> fields(const continuation::Vector& p) const;
   void set_fields(continuation::In p, std::span<double> fields) const;
@@ -148,6 +166,8 @@ struct Model {
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<MatrixPart> matrices;
   std::optional<ProportionalDamping> damping;
+  std::optional<Sector> sector;
+  bool linked = false;  // masses, dampers or springs reach into the next sector
   std::vector<NonlinearPart> elements;
   std::vector<Patch> patches;
   std::vector<Excitation> excitation;
@@ -173,13 +193,20 @@ int parameter_index(const Model& model, const std::string& name);
 /// Default values of the parameters.
 continuation::Vector defaults(const Model& model);
 
+/// d + next: where all sectors move alike.
+Direction in_phase(const Direction& d, const Direction& next);
+
 /// g of an excitation.
 Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const continuation::Vector& p);
 
 /// sum += factor d d^T.
 void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum);
+/// The same with conj(d + turn next) (d + turn next)^T, on real and imaginary parts of the degrees of
+/// freedom, one after the other: sum is 2 dofs x 2 dofs.
+void add_outer(double factor, const Direction& d, const Direction& next, std::complex<double> turn,
+               Eigen::MatrixXd& sum);
 
-/// The sum of p d d^T and of the matrices of one kind.
+/// The sum of p d d^T and of the matrices of one kind. Of a sector: what does not reach into the next one.
 Eigen::MatrixXd sum_of(const Model& model, LinearKind kind, const continuation::Vector& p);
 /// M, C and K of M x'' + C x' + K x, without a loss factor, which has no equation in time.
 Eigen::MatrixXd mass_matrix(const Model& model, const continuation::Vector& p);

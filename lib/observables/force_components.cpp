@@ -111,7 +111,7 @@ void Maxima::add_to(ResponsePoint& point, const hbm::HbmEvaluator& at, elements:
     v_.head(nc).setZero();
     element.maxima.sine = largest_.of(v_);
   }
-  if (model.dofs != 1 || model.elements.size() != 1 || !point.elements[0].has_stick ||
+  if (model.dofs != 1 || model.sector || model.elements.size() != 1 || !point.elements[0].has_stick ||
       model.elements[0].directions.size() != 1)
     return;
   const double omega = model.force_harmonic * point.omega;

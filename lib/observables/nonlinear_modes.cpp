@@ -115,6 +115,8 @@ class Modes {
 
   // Why there is no mode to look for.
   std::string refusal() const {
+    if (free_->sector)
+      return "modes of one sector alone are not those of the ring; give \"cyclic\" the key \"full\": true";
     for (const auto& element : free_->elements)
       if (element.law->set_valued())
         return "the friction of \"" + element.name +

@@ -96,6 +96,7 @@ using time::reasons::event_limit;
 using time::reasons::loss_factor;
 using time::reasons::no_convergence;
 using time::reasons::not_finite;
+using time::reasons::sector;
 using time::reasons::set_valued;
 using time::reasons::several_places;
 using time::reasons::singular;
@@ -111,7 +112,7 @@ inline constexpr std::array of_branches = {
     boundary,        unbounded,  closed,        branch_point,   fold,         corner,
     resonance,       jump,       point_limit,   user,           start_failed, step_too_small,
     state_too_large, event,      not_evaluated, monitor_failed, no_mode,      not_piecewise_linear,
-    massless,        set_valued, loss_factor,   several_places};
+    massless,        set_valued, loss_factor,   sector,         several_places};
 
 /// The reasons of a response at one frequency.
 inline constexpr std::array of_responses = {solved, unbounded, user, start_failed, not_evaluated};
@@ -131,6 +132,7 @@ inline constexpr std::array of_motions = {periodic,
                                           massless,
                                           set_valued,
                                           loss_factor,
+                                          sector,
                                           several_places,
                                           event_limit,
                                           energy_defect,
@@ -138,7 +140,7 @@ inline constexpr std::array of_motions = {periodic,
 
 /// The reasons of a sweep.
 inline constexpr std::array of_sweeps = {swept,      user,        no_convergence, singular,   not_finite,
-                                         set_valued, loss_factor, several_places, event_limit};
+                                         set_valued, loss_factor, sector, several_places, event_limit};
 
 /// The reasons of a comparison of methods.
 inline constexpr std::array of_comparisons = {compared, user, start_failed};

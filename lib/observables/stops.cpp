@@ -11,7 +11,14 @@ bool Stops::at_reversals(const elements::Element& at, std::size_t e, const conti
   const double ratio = at.jump_over_bend();
   if (!(ratio > 0)) return false;
   const double omega = model_.harmonics.base_frequency(p[model::frequency]);
-  return !(inertia(model_.elements[e].directions.front(), p) * omega * omega > ratio);
+  const model::NonlinearPart& element = model_.elements[e];
+  double mass = inertia(element.directions.front(), p);
+  if (!element.next.empty() && element.next.front().size() > 0) {  // of both sectors, which give way together
+    const double next = inertia(element.next.front(), p);
+    const bool alone = element.directions.front().nonZeros() == 0;
+    mass = alone ? next : mass > 0 && next > 0 ? 1 / (1 / mass + 1 / next) : 0;
+  }
+  return !(mass * omega * omega > ratio);
 }
 
 // 1/(d^T M^-1 d), and 0 where a part of d has no mass.

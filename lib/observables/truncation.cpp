@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <set>
 #include <utility>
 
 namespace arcslip::observables {
@@ -68,9 +70,60 @@ Eigen::MatrixXd whole_stiffness(const model::Model& model, const Vector& p,
   return K;
 }
 
+// The largest eigenvalue of K v = omega^2 M v; massless motions have none. 0 where there is none at all.
+double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
+  // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift >
+  // 0.
+  const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
+  const Vector all = continuation::symmetric_eigenvalues(M, K + shift * M);
+  if (all.size() == 0) return 0;
+  const double largest = all.maxCoeff();
+  double highest = 0;
+  for (double mu : all)
+    if (mu > 1e-12 * largest) highest = std::max(highest, 1 / mu - shift);
+  return highest;
+}
+
+// Of a sector of a ring in the waves of all its harmonics, in real and imaginary parts.
+double highest_square_of_waves(const model::Model& model, const Vector& p,
+                               const std::vector<double>& motions) {
+  const Eigen::Index n = model.dofs;
+  double highest = 0;
+  std::set<int> diameters;
+  for (int order = 0; order < model.sector->count; ++order)
+    diameters.insert(
+        static_cast<int>(static_cast<long long>(order) * model.sector->engine_order % model.sector->count));
+  for (const int diameter : diameters) {
+    if (2 * diameter > model.sector->count) continue;  // the same wave the other way round
+    const std::complex<double> turn = model::Sector{model.sector->count, diameter}.turn(1);
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(2 * n, 2 * n), K = M;
+    for (const auto& part : model.masses)
+      model::add_outer(p[part.parameter], part.direction, part.next, turn, M);
+    for (const auto& part : model.springs)
+      model::add_outer(p[part.parameter], part.direction, part.next, turn, K);
+    for (const model::MatrixPart& part : model.matrices) {
+      if (part.kind == model::LinearKind::damper) continue;
+      Eigen::MatrixXd& sum = part.kind == model::LinearKind::mass ? M : K;
+      sum.topLeftCorner(n, n) += part.value(p) * *part.A;
+      sum.bottomRightCorner(n, n) += part.value(p) * *part.A;
+    }
+    for (std::size_t e = 0; e < model.elements.size(); ++e) {
+      const auto& element = model.elements[e];
+      for (std::size_t i = 0; i < element.directions.size(); ++i)
+        model::add_outer(element.law->stiffness(element.fields(p), static_cast<int>(i),
+                                                e < motions.size() ? motions[e] : 0),
+                         element.directions[i], element.next.empty() ? model::Direction() : element.next[i],
+                         turn, K);
+    }
+    highest = std::max(highest, highest_square(M, K));
+  }
+  return highest;
+}
+
 // The highest natural frequency is at least this: the largest quotient k_ii/m_ii of a structure of lumped
 // masses. 0 of other structures.
 double bound_of_highest(const model::Model& model, const Vector& p) {
+  if (model.sector) return 0;
   const Eigen::MatrixXd M = model::mass_matrix(model, p);
   const Vector masses = M.diagonal();
   if (!(masses.minCoeff() > 0) || !M.isDiagonal(0)) return 0;
@@ -82,17 +135,8 @@ double bound_of_highest(const model::Model& model, const Vector& p) {
 
 double highest_natural_frequency(const model::Model& model, const Vector& p,
                                  const std::vector<double>& motions) {
-  const Eigen::MatrixXd M = model::mass_matrix(model, p), K = whole_stiffness(model, p, motions);
-  // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift >
-  // 0.
-  const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
-  const Vector all = continuation::symmetric_eigenvalues(M, K + shift * M);
-  if (all.size() == 0) return 0;
-  const double largest = all.maxCoeff();
-  double highest = 0;
-  for (double mu : all)
-    if (mu > 1e-12 * largest) highest = std::max(highest, 1 / mu - shift);
-  return std::sqrt(highest);
+  if (model.sector) return std::sqrt(highest_square_of_waves(model, p, motions));
+  return std::sqrt(highest_square(model::mass_matrix(model, p), whole_stiffness(model, p, motions)));
 }
 
 Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p)

@@ -110,6 +110,28 @@ void check_samples(const Scene& scene, Faults& faults) {
   }
 }
 
+void check_cyclic(const Scene& scene, Faults& faults) {
+  if (scene.harmonics.period > 1)
+    faults.add("/harmonics/period",
+               "found " + std::to_string(scene.harmonics.period) +
+                   ", must be 1 for one sector: a ring whose motion repeats after several periods moves in "
+                   "other waves; give \"cyclic\" the key \"full\": true");
+  const auto is_linked = [](const std::vector<Part>& parts) {
+    return std::any_of(parts.begin(), parts.end(), [](const Part& part) {
+      return std::any_of(part.directions.front().begin(), part.directions.front().end(),
+                         [](const Term& term) { return term.next; });
+    });
+  };
+  for (std::size_t i = 0; i < scene.damping.size(); ++i)
+    if (scene.damping[i].type == &modal_damping_type() &&
+        (is_linked(scene.masses) || is_linked(scene.springs)))
+      faults.add(
+          child(child("/structure/damping", i), "type"),
+          "found " + shown(scene.damping[i].type->name()) +
+              ", must be another damping where masses or springs reach into the next sector: the modes "
+              "of a ring are not those of one sector; give \"cyclic\" the key \"full\": true");
+}
+
 void check_excitation(const Scene& scene, Faults& faults) {
   for (std::size_t i = 0; i < scene.excitation.size(); ++i) {
     const int harmonic = scene.excitation[i].harmonic;

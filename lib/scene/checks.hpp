@@ -7,6 +7,8 @@ namespace arcslip::scene::file {
 
 /// With sampled friction the samples suffice for the order.
 void check_samples(const Scene& scene, Faults& faults);
+/// Nothing that one sector of a ring cannot have.
+void check_cyclic(const Scene& scene, Faults& faults);
 /// No force beyond the highest harmonic.
 void check_excitation(const Scene& scene, Faults& faults);
 /// No absolute response where the ground runs away.

@@ -3,6 +3,7 @@
 #include <arcslip/scene/matrix_file.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/repeat.hpp>
+#include <arcslip/scene/ring.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/scene/words.hpp>
 #include <arcslip/scene/write_values.hpp>
@@ -78,14 +79,36 @@ Node word() {
   return of({{"anyOf", {Node::List{of_type("string"), reference("names")}}}});
 }
 
-/// The keys that say where something acts, and that one of them must be there.
-void add_place(Object& properties) {
-  properties.push_back({"at", of_type("string")});
-  properties.push_back({"between", of({{"type", node("array")},
-                                       {"items", of_type("string")},
-                                       {"minItems", node(2)},
-                                       {"maxItems", node(2)}})});
-  properties.push_back({"direction", map_of(of_type("number"))});
+/// The keys that say where something acts, and that one of them must be there. next: also in the next sector.
+void add_place(Object& properties, bool next = true) {
+  const Node name = next ? reference("dof") : of_type("string");
+  properties.push_back({"at", name});
+  properties.push_back(
+      {"between",
+       of({{"type", node("array")}, {"items", name}, {"minItems", node(2)}, {"maxItems", node(2)}})});
+  properties.push_back({"direction", next ? reference("weights") : map_of(of_type("number"))});
+}
+
+/// One sector of a ring, or all.
+Node cyclic() {
+  const auto whole = [](int lower, int upper, const char* help) {
+    return of({{"type", node("integer")},
+               {"minimum", node(lower)},
+               {"maximum", node(upper)},
+               {"description", node(help)}});
+  };
+  return of(object_of(
+      {{"sectors", whole(least_sectors, largest_sectors, "of the ring")},
+       {"engine_order", whole(-largest_engine_order, largest_engine_order,
+                              "periods around the ring, by which the excitation of each sector is delayed")},
+       {"full", of({{"type", node("boolean")},
+                    {"default", {false}},
+                    {"description", node("all sectors instead of one in the wave of the engine order")}})},
+       {"mistuning",
+        of({{"type", node("object")},
+            {"additionalProperties", of({{"type", node("array")}, {"items", of_type("number")}})},
+            {"description", node("of a full ring: factors of a part's value, for each sector")}})}},
+      {"sectors", "engine_order"}));
 }
 
 Node one_place(bool or_several = false) {
@@ -140,12 +163,19 @@ Node definitions() {
                                    {"index", of({{"type", node("string")}, {"default", node("i")}})},
                                    {"cyclic", of({{"type", node("boolean")}, {"default", {false}}})}},
                                   {"count"}));
-  return of({{"repeat", of({{"anyOf", {Node::List{count, index}}},
-                            {"description", node("one for each index from 1 to a count; {i}, {i+1}, {i-1} in "
-                                                 "texts are the index and its neighbours")}})},
-             {"each", of(object_of({{"each", of_type("array")}}, {"each"}))},
-             {"names", of(object_of({{"repeat", reference("repeat")}, {"name", of_type("string")}},
-                                    {"repeat", "name"}))}});
+  return of(
+      {{"repeat", of({{"anyOf", {Node::List{count, index}}},
+                      {"description", node("one for each index from 1 to a count; {i}, {i+1}, {i-1} in "
+                                           "texts are the index and its neighbours")}})},
+       {"each", of(object_of({{"each", of_type("array")}}, {"each"}))},
+       {"dof", of({{"anyOf",
+                    {Node::List{of_type("string"), of(object_of({{"next", of_type("string")}}, {"next"}))}}},
+                   {"description", node("a degree of freedom, or that of the next sector of a ring")}})},
+       {"weights", of({{"type", node("object")},
+                       {"properties", of({{"next", map_of(of_type("number"))}})},
+                       {"additionalProperties", of_type("number")}})},
+       {"names",
+        of(object_of({{"repeat", reference("repeat")}, {"name", of_type("string")}}, {"repeat", "name"}))}});
 }
 
 Node place_object() {
@@ -159,14 +189,14 @@ Node place_object() {
 /// One response, or a list of responses with names.
 Node responses() {
   Object repeated{{"repeat", reference("repeat")}};
-  add_place(repeated);
+  add_place(repeated, false);
   Object one = object_of(std::move(repeated), {});
   one.push_back({"oneOf", one_place()});
   const Node places = list_of(of(std::move(one)), 1);
   const auto response = [&places](bool named) {
     Object place;
     if (named) place.insert(place.end(), {{"repeat", reference("repeat")}, {"name", of_type("string")}});
-    add_place(place);
+    add_place(place, false);
     place.push_back({"max_of", places});
     place.push_back({"frame", one_of_words(frames, Response{}.frame)});
     Object object = object_of(std::move(place), {});
@@ -196,7 +226,9 @@ Node part_of(const PartType& type, bool with_type) {
     if (&type != &force_type()) required.emplace_back("type");
   }
   const bool one_direction = type.slots().empty() && !type.names_directions();
-  if (one_direction) add_place(properties);
+  const auto excitations = excitation_types();
+  const bool excites = std::find(excitations.begin(), excitations.end(), &type) != excitations.end();
+  if (one_direction) add_place(properties, !excites);
   for (const std::string_view slot : type.slots()) {
     properties.push_back({std::string(slot), place_object()});
     required.emplace_back(slot);
@@ -205,8 +237,7 @@ Node part_of(const PartType& type, bool with_type) {
     properties.push_back({option.name, or_each(described_key(option))});
     if (option.required) required.push_back(option.name);
   }
-  const auto excitations = excitation_types();
-  if (std::find(excitations.begin(), excitations.end(), &type) != excitations.end()) {
+  if (excites) {
     properties.push_back(
         {"harmonic", of({{"type", node("integer")},
                          {"minimum", node(0)},
@@ -342,7 +373,8 @@ Node rotation() {
 }
 
 Node schema_of(const Catalogue& catalogue) {
-  Object structure{{"dofs", list_of(word(), 1)},
+  Object structure{{"cyclic", cyclic()},
+                   {"dofs", list_of(word(), 1)},
                    {"masses", list_of(part_of(mass_type(), false))},
                    {"springs", list_of(spring())},
                    {"dampers", list_of(damper())}};

@@ -256,6 +256,24 @@ std::vector<std::string> read_members(const Location& place, const Names& names,
 
 }  // namespace
 
+namespace {
+
+// Whether a tie is that of a field in all sectors of a ring, as ring.hpp makes them: "part.field" of
+// "part1.field", "part2.field" ...
+bool is_of_ring(const Member& tie) {
+  const std::size_t dot = tie.key.find('.');
+  const auto* members = tie.value.get<Node::List>();
+  if (dot == std::string::npos || members == nullptr || members->empty()) return false;
+  for (std::size_t i = 0; i < members->size(); ++i) {
+    const auto* member = (*members)[i].get<std::string>();
+    if (member == nullptr || *member != tie.key.substr(0, dot) + std::to_string(i + 1) + tie.key.substr(dot))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::vector<Tie> read_ties(const Location& place, Names& names, Faults& faults) {
   std::vector<Tie> ties;
   if (place.node == nullptr || !Keys(place, {}, faults).is_object()) return ties;
@@ -264,7 +282,7 @@ std::vector<Tie> read_ties(const Location& place, Names& names, Faults& faults) 
   for (const Member& member : *place.node->get<Node::Object>()) {
     if (seen[member.key]++ > 0) continue;  // reported as a duplicate key
     const Location item{&member.value, child(place.pointer, member.key)};
-    names.add(member.key, item.pointer, faults);
+    if (!is_of_ring(member)) names.add(member.key, item.pointer, faults);
     ties.push_back({member.key, read_members(item, names, used, faults)});
   }
   return ties;
@@ -276,7 +294,7 @@ constexpr std::size_t largest_dofs = 1000;  // matrices are dense
 constexpr std::string_view dofs_wanted = "a list of at least one name";
 
 // Adds weight * x_name; ground adds nothing. False where the name is not known.
-bool add_term(const std::string& name, double weight, const std::string& pointer, const Dofs& dofs,
+bool add_term(const std::string& name, double weight, bool next, const std::string& pointer, const Dofs& dofs,
               Direction& direction, Faults& faults) {
   if (name == ground) return true;
   const auto found = dofs.index.find(name);
@@ -289,18 +307,46 @@ bool add_term(const std::string& name, double weight, const std::string& pointer
     }
     return false;
   }
-  const auto same = [&](const Term& term) { return term.dof == found->second; };
+  const auto same = [&](const Term& term) { return term.dof == found->second && term.next == next; };
   const auto term = std::find_if(direction.begin(), direction.end(), same);
   if (term == direction.end())
-    direction.push_back({found->second, weight});
+    direction.push_back({found->second, weight, next});
   else
     term->weight += weight;
   return true;
 }
 
-bool read_at(const Location& place, const Dofs& dofs, Direction& direction, Faults& faults) {
-  const auto name = read_string(place, "a string, the name of a degree of freedom", faults);
-  return name && add_term(*name, 1, place.pointer, dofs, direction, faults);
+// Whether there is a next sector; else a fault.
+bool have_next(const Location& place, const Dofs& dofs, Faults& faults) {
+  if (dofs.have_next) return true;
+  faults.add(place.pointer,
+             "found a place of the next sector, must be a degree of freedom by its name: \"next\" belongs to "
+             "masses, springs, dampers, elements and patches of a structure with \"cyclic\"");
+  return false;
+}
+
+// What `place` has under "next", if it is an object with that key.
+Location next_of(const Location& place) {
+  const auto* object = place.node != nullptr ? place.node->get<Node::Object>() : nullptr;
+  for (std::size_t i = 0; object != nullptr && i < object->size(); ++i)
+    if ((*object)[i].key == next_key) return {&(*object)[i].value, child(place.pointer, next_key)};
+  return {};
+}
+
+// Adds weight * x of a name, or of {"next": name} in the next sector.
+bool read_term(const Location& place, double weight, const Dofs& dofs, Direction& direction, Faults& faults) {
+  constexpr std::string_view wanted = "a string, the name of a degree of freedom";
+  const Location next = next_of(place);
+  if (next.node == nullptr) {
+    const auto name = read_string(place, wanted, faults);
+    return name && add_term(*name, weight, false, place.pointer, dofs, direction, faults);
+  }
+  if (!have_next(place, dofs, faults)) return false;
+  const std::size_t before = faults.count();
+  const Keys keys(place, {std::string(next_key)}, faults);
+  const auto name = read_string(next, wanted, faults);
+  return name && add_term(*name, weight, true, next.pointer, dofs, direction, faults) &&
+         faults.count() == before;
 }
 
 bool read_between(const Location& place, const Dofs& dofs, Direction& direction, Faults& faults) {
@@ -315,21 +361,25 @@ bool read_between(const Location& place, const Dofs& dofs, Direction& direction,
   bool good = true;
   for (std::size_t i = 0; i < 2; ++i) {
     const Location item{&(*list)[i], child(place.pointer, i)};
-    const auto name = read_string(item, "a string, the name of a degree of freedom", faults);
-    good = name && add_term(*name, i == 0 ? 1 : -1, item.pointer, dofs, direction, faults) && good;
+    good = read_term(item, i == 0 ? 1 : -1, dofs, direction, faults) && good;
   }
   return good;
 }
 
-bool read_weights(const Location& place, const Dofs& dofs, Direction& direction, Faults& faults) {
+bool read_weights(const Location& place, bool next, const Dofs& dofs, Direction& direction, Faults& faults) {
   const std::size_t before = faults.count();
   const Keys keys(place, {}, faults);
   if (!keys.is_object() || faults.count() > before) return false;
   bool good = true;
   for (const Member& member : *place.node->get<Node::Object>()) {
     const Location item{&member.value, child(place.pointer, member.key)};
+    if (!next && member.key == next_key && member.value.get<Node::Object>() != nullptr) {
+      good = have_next(item, dofs, faults) && read_weights(item, true, dofs, direction, faults) && good;
+      continue;
+    }
     const auto weight = read_number(item, any_number, faults);
-    good = add_term(member.key, weight.value_or(0), item.pointer, dofs, direction, faults) && weight && good;
+    good = add_term(member.key, weight.value_or(0), next, item.pointer, dofs, direction, faults) && weight &&
+           good;
   }
   return good;
 }
@@ -385,9 +435,9 @@ std::optional<Direction> read_direction(const Keys& keys, const Dofs& dofs, Faul
   }
   Direction direction;
   const Location place = keys.find(given.front());
-  const bool good = given.front() == "at"        ? read_at(place, dofs, direction, faults)
+  const bool good = given.front() == "at"        ? read_term(place, 1, dofs, direction, faults)
                     : given.front() == "between" ? read_between(place, dofs, direction, faults)
-                                                 : read_weights(place, dofs, direction, faults);
+                                                 : read_weights(place, false, dofs, direction, faults);
   if (!good) return {};
   std::erase_if(direction, [](const Term& term) { return term.weight == 0; });
   if (direction.empty()) {

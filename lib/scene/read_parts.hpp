@@ -20,6 +20,7 @@ struct Dofs {
   std::vector<std::string> names;
   std::unordered_map<std::string, int> index;
   bool complete = true;
+  bool have_next = false;  // {"next": name} is that of the next sector
 };
 
 /// Why a name is not allowed, as the end of a message; empty if it is.

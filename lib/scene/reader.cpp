@@ -7,6 +7,7 @@
 #include <arcslip/scene/read_studies.hpp>
 #include <arcslip/scene/read_text.hpp>
 #include <arcslip/scene/repeat.hpp>
+#include <arcslip/scene/ring.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/scene_file.hpp>
 #include <arcslip/scene/shape.hpp>
@@ -159,7 +160,8 @@ Location in_place(Location place, const Node& value) {
   return place;
 }
 
-Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource& source, Faults& faults) {
+Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue, const FileSource& source,
+                 Faults& faults) {
   Scene scene;
   const Keys root({&node, ""},
                   {"format", "title", "frequency_unit", "structure", "elements", "patches", "excitation",
@@ -179,10 +181,13 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
   const Keys structure(
       structure_place,
-      {"dofs", "masses", "springs", "dampers", "damping", "rotation", "matrices", "names", "beam", "rod"},
+      {"cyclic", "dofs", "masses", "springs", "dampers", "damping", "rotation", "matrices", "names", "beam",
+       "rod"},
       faults);
   if (!structure.is_object()) names.set_incomplete();
   Dofs dofs;
+  scene.cyclic = read_cyclic(structure.find("cyclic"), faults);
+  dofs.have_next = structure.has("cyclic");
   scene.matrices = read_matrices(structure, scene.frequency_unit, source, dofs, faults);
   if (!structure.has("matrices") && !structure.has("beam") && !structure.has("rod"))
     read_dofs(structure.require("dofs", "a list of at least one name", faults), dofs, faults);
@@ -208,6 +213,7 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   scene.patches = read_patches(root.find("patches"), catalogue.elements, dofs, source, names, faults);
   if (is_sound(before_parts)) check_structure(scene, faults);
 
+  dofs.have_next = false;
   const std::size_t before_excitation = faults.count();
   scene.excitation = read_excitation(root, dofs, source, names, faults);
   const bool excitation_sound = is_sound(before_excitation);
@@ -215,12 +221,14 @@ Scene read_scene(const Node& node, const Catalogue& catalogue, const FileSource&
   const std::size_t before_ties = faults.count();
   scene.ties = read_ties(root.find("ties"), names, faults);
   const bool ties_sound = is_sound(before_ties);
+  if (is_sound(before_parts)) tie_sectors(ring, scene);
   if (is_sound(before_parts)) check_ties(scene, faults);
 
   const std::size_t before_harmonics = faults.count();
   scene.harmonics = read_harmonics(root.find("harmonics"), faults);
   if (is_sound(before_harmonics)) {
     check_samples(scene, faults);
+    if (scene.cyclic) check_cyclic(scene, faults);
     if (excitation_sound) check_excitation(scene, faults);
   }
 
@@ -237,8 +245,11 @@ Scene read_scene(Node root, const Catalogue& catalogue, const FileSource& source
   Faults faults;
   Origins origins = repeat(root, faults);
   faults.raise();  // names of what was not repeated would be missing everywhere
+  faults.set_origins(origins);
+  const Ring ring = write_out_ring(root, origins, faults);
+  faults.raise();
   faults.set_origins(std::move(origins));
-  Scene scene = read_scene(root, catalogue, source, faults);
+  Scene scene = read_scene(root, ring, catalogue, source, faults);
   scene.folder = source.folder;
   faults.raise();
   return scene;

@@ -31,6 +31,7 @@ enum class Frame { relative, absolute };  // of a response: relative to the grou
 struct Term {
   int dof;
   double weight;
+  bool next = false;  // of the next sector (Cyclic)
   friend bool operator==(const Term&, const Term&) = default;
 };
 using Direction = std::vector<Term>;
@@ -90,12 +91,22 @@ struct Response {
   friend bool operator==(const Response&, const Response&) = default;
 };
 
+/// The structure is one sector of a ring of equal ones, which moves in the wave of its engine order: the
+/// excitation and the motion of each sector are those of the one before, later by engine_order/sectors of a
+/// period of the excitation.
+struct Cyclic {
+  int sectors;
+  int engine_order;
+  friend bool operator==(const Cyclic&, const Cyclic&) = default;
+};
+
 struct Scene {
   std::string title;
   std::vector<std::pair<std::string, std::string>> labels{};  // of axes in figures, by parameter or quantity
   FrequencyUnit frequency_unit = FrequencyUnit::hertz;
   std::vector<std::string> dofs;  // first those of the rows of the matrices that have names
   std::optional<Matrices> matrices{};
+  std::optional<Cyclic> cyclic{};
   std::vector<Part> damping{};   // in proportion to masses and stiffnesses
   std::vector<Part> rotation{};  // at most one
   std::vector<Part> masses, springs, dampers, elements;

@@ -13,6 +13,7 @@ namespace arcslip::scene::file {
 
 inline constexpr std::string_view format_name = "arcslip-scene-1";
 inline constexpr std::string_view ground = "ground";
+inline constexpr std::string_view next_key = "next";  // of a place of the next sector
 
 enum class Spacing { linear, logarithmic };  // of the values of a range
 

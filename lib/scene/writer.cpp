@@ -42,12 +42,17 @@ Node node(const std::vector<std::string>& texts) {
 }
 
 Member place_member(const Direction& direction, const std::vector<std::string>& dofs) {
-  const auto name = [&](std::size_t i) { return dofs[static_cast<std::size_t>(direction[i].dof)]; };
-  if (direction.size() == 1 && direction[0].weight == 1) return {"at", node(name(0))};
+  const auto name = [&](const Term& term) { return dofs[static_cast<std::size_t>(term.dof)]; };
+  const auto place = [&](const Term& term) {
+    Node of = node(name(term));
+    return term.next ? Node{Node::Object{{std::string(next_key), std::move(of)}}} : of;
+  };
+  if (direction.size() == 1 && direction[0].weight == 1) return {"at", place(direction[0])};
   if (direction.size() == 2 && direction[0].weight == 1 && direction[1].weight == -1)
-    return {"between", node(std::vector<std::string>{name(0), name(1)})};
-  Node::Object weights;
-  for (std::size_t i = 0; i < direction.size(); ++i) weights.push_back({name(i), node(direction[i].weight)});
+    return {"between", {Node::List{place(direction[0]), place(direction[1])}}};
+  Node::Object weights, next;
+  for (const Term& term : direction) (term.next ? next : weights).push_back({name(term), node(term.weight)});
+  if (!next.empty()) weights.push_back({std::string(next_key), {std::move(next)}});
   return {"direction", {std::move(weights)}};
 }
 
@@ -210,6 +215,10 @@ Node studies_node(const Scene& scene) {
 
 Node tree(const Scene& scene) {
   Node::Object structure;
+  if (scene.cyclic)
+    structure.push_back({"cyclic",
+                         {Node::Object{{"sectors", node(scene.cyclic->sectors)},
+                                       {"engine_order", node(scene.cyclic->engine_order)}}}});
   if (scene.matrices) add_matrices(*scene.matrices, structure);
   const auto named = static_cast<std::ptrdiff_t>(scene.matrices ? scene.matrices->rows.size() : 0);
   const std::vector<std::string> dofs(scene.dofs.begin() + named, scene.dofs.end());

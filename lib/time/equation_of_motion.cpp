@@ -58,6 +58,11 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
     throw NotInTime(reasons::loss_factor,
                     "damping by a loss factor has no equation of motion in time; give \"beta\" in its place, "
                     "loss_factor/(angular frequency), which has the same damping at that frequency");
+  if (model.sector)
+    throw NotInTime(
+        reasons::sector,
+        "one sector of a ring has no equation of motion in time by itself; give \"cyclic\" the key "
+        "\"full\": true, for the whole ring");
   equation.M = model::mass_matrix(model, p);
   equation.C = model::damping_matrix(model, p);
   equation.K = model::stiffness_matrix(model, p);

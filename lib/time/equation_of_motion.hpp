@@ -77,7 +77,7 @@ struct MotionState {
 };
 
 /// A model that has no equation of motion: a law whose force at rest is set-valued (Law::set_valued()), or a
-/// loss factor; or none with one response.
+/// loss factor, or one sector of a ring; or none with one response.
 class NotInTime : public std::runtime_error {
  public:
   NotInTime(results::Reason reason, const std::string& message)

@@ -22,6 +22,7 @@ inline constexpr Reason set_valued{
     "set_valued", "friction without a stiffness has a force at rest that integration in time does not take"};
 inline constexpr Reason loss_factor{"loss_factor",
                                     "damping by a loss factor has no equation of motion in time"};
+inline constexpr Reason sector{"sector", "one sector of a ring has no equation of motion in time by itself"};
 inline constexpr Reason several_places{
     "several_places",
     "the response is the largest of several places, and motions in time are followed at one"};
