@@ -13,6 +13,7 @@
 #include <arcslip/scene/stop_request.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <ostream>
@@ -59,7 +60,8 @@ ExitCode run(int argc, const char* const* argv) {
     return ExitCode::invalid_scene;
   } catch (const scene::Interrupted& error) {
     tell(error.what());
-    return ExitCode::stopped_early;
+    // A factorization may go on in a thread of its own, whose libraries must not be taken down under it.
+    std::_Exit(static_cast<int>(ExitCode::stopped_early));
   } catch (const std::bad_alloc&) {
     tell("out of memory: use fewer harmonics, a shorter range or fewer values in for_each");
   } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/structure/blocks.hpp>
+#include <arcslip/scene/interruptible.hpp>
 #include <arcslip/structure/projected.hpp>
 #include <arcslip/structure/rounding.hpp>
 
@@ -31,8 +32,10 @@ constexpr double growth = 1.1;       // of V from one estimate to the next
 constexpr double dependent = 1e-12;  // what remains of a vector after taking out those before
 constexpr double almost = 0.1;       // the same: from here on rounding counts
 
+constexpr const char* interrupted = "interrupted while the structure was reduced";
+
 void listen(const scene::StopRequest& stop) {
-  if (scene::is_asked(stop)) throw scene::Interrupted("interrupted while the structure was reduced");
+  if (scene::is_asked(stop)) throw scene::Interrupted(interrupted);
 }
 
 class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
@@ -430,7 +433,11 @@ class Reduction {
 
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose,
                const scene::StopRequest& stop, int most) {
-  return Reduction(matrices, kept, purpose, most, stop).run();
+  return scene::interruptible(
+      [=](const scene::StopRequest& given_up) {
+        return Reduction(matrices, kept, purpose, most, given_up).run();
+      },
+      stop, interrupted);
 }
 
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,

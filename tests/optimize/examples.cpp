@@ -423,6 +423,31 @@ TEST_CASE("the best load of a cantilever is that of a beam of any mesh, and of a
   CHECK(solid_amplitude == Approx(amplitude).epsilon(1e-2));
 }
 
+TEST_CASE("the blade of a finite-element program has its natural frequencies, and a best load") {
+  scene::Scene s = example("blade/scene.json");
+  const auto& search = settings(s, 2);
+  const auto result = optimize::optimum_study(s, search);
+  REQUIRE(result.optimum.status == observables::Status::complete);
+  REQUIRE(result.direct.found);
+  CHECK(result.difference_of_design() < 1e-6);
+  for (const double factor : {0.8, 1.25})
+    CHECK(highest(s, search.problem, {factor * result.optimum.design[0]}) > 1.01 * result.optimum.amplitude);
+
+  // CalculiX 2.20, *FREQUENCY, of the same matrices: Hz, as it prints them.
+  constexpr double calculix[] = {209.4483, 843.6336, 1285.859, 1419.738, 2182.629, 2578.179};
+  scene::set(s, "load", 0);
+  scene::set(s, "blade.beta", 1e-9);
+  const auto free = observables::frequency_response(s, {150, 3000});
+  REQUIRE(free.front().status == observables::Status::complete);
+  std::size_t peak = 0;
+  for (const auto& event : free.front().events) {
+    if (event.kind != "peak") continue;
+    REQUIRE(peak < std::size(calculix));
+    CHECK(event.point.omega / (2 * std::numbers::pi) == Approx(calculix[peak++]).epsilon(4e-7).margin(0));
+  }
+  CHECK(peak == std::size(calculix));
+}
+
 TEST_CASE(
     "the best load of the damper under platforms is that of the curve of peaks, and of motions in time") {
   const scene::Scene s = example("under_platform_damper/scene.json");
