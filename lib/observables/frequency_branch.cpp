@@ -5,6 +5,7 @@
 #include <arcslip/observables/phase_resonance.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
+#include <arcslip/scene/interruptible.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,7 @@ constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, round
 constexpr double smallest_step = 1e-2;          // of the largest at the low end of the window
 constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
 constexpr double rejected_in_rounding = 0.5;    // steps, over points: where the branch lies in its rounding
+constexpr int quick_dofs = 200;                 // up to here a problem is made in a tenth of a second
 
 // What may have made a computation fail, as the end of its message.
 std::string causes(const model::Model& model, const Vector& p) {
@@ -95,9 +97,35 @@ void tell_end(const continuation::BranchStop& stop, double from, double upper, s
   }
 }
 
+namespace {
+
+// The modes of a large structure take seconds, in which nothing is asked. Null after a stop.
+std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const model::Model>& model,
+                                                  double omega, double frequency_scale, const GoOn& go_on) {
+  const scene::StopRequest stop = [&] { return !go_on(); };
+  try {
+    return scene::interruptible(
+        [model, omega, frequency_scale](const scene::StopRequest&) {
+          return std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1, frequency_scale, omega);
+        },
+        go_on && model->dofs > quick_dofs ? stop : scene::StopRequest(), "");
+  } catch (const scene::Interrupted&) {
+    return {};
+  }
+}
+
+}  // namespace
+
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on) {
-  const hbm::HbmProblem unscaled(model, model->harmonics, 1, frequency_scale, omega);
+  const auto found = problem_at(model, omega, frequency_scale, go_on);
+  if (!found) {  // without modes, which are not waited for
+    constexpr double at_rest = 0;
+    return {std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1, frequency_scale, at_rest),
+            {},
+            "stopped by the caller"};
+  }
+  const hbm::HbmProblem& unscaled = *found;
   const auto problem_with = [&](double displacement) {
     const double scale = displacement > 0 && std::isfinite(displacement) ? displacement : 1;
     return std::make_shared<const hbm::HbmProblem>(unscaled, scale);
