@@ -92,22 +92,28 @@ class Sector {
   void mistune(const Node* mistuning) {
     if (mistuning == nullptr) return;
     const Location all{mistuning, child(place, "mistuning")};
-    const auto given =
-        Keys(all, {}, faults_).is_object() ? members(all, faults_) : std::vector<const Member*>{};
-    for (const Member* parameter : given) {
-      const Location at{&parameter->value, child(all.pointer, parameter->key)};
+    if (!Keys(all, {}, faults_).is_object()) return;
+    const auto own = numbers();
+    for (const Member& parameter : *mistuning->get<Node::Object>()) {
+      const Location at{&parameter.value, child(all.pointer, parameter.key)};
+      const auto found =
+          std::find_if(own.begin(), own.end(), [&](const auto& each) { return each.first == parameter.key; });
       const auto factors = read_factors(at);
-      Node* value = number_of(parameter->key);
-      if (value == nullptr) {
-        const auto known = numbers();
-        faults_.add(at.pointer, "found " + shown(parameter->key) +
+      if (found == own.end()) {
+        std::vector<std::string> known;
+        for (const auto& each : own) known.push_back(each.first);
+        faults_.add(at.pointer, "found " + shown(parameter.key) +
                                     ", must be one of the numbers of the sector's parts " + listed(known) +
-                                    hint(parameter->key, known));
+                                    hint(parameter.key, known));
       } else if (factors) {
-        const double common = *value->get<double>();
-        Node::List each;
-        for (const double factor : *factors) each.push_back({common * factor});
-        value->value = Node::Object{{"each", {std::move(each)}}};
+        const double common = *found->second->get<double>();
+        Node::List each(factors->size());
+        for (std::size_t i = 0; i < each.size(); ++i) each[i].value = common * (*factors)[i];
+        Node list{std::move(each)};
+        Node::Object values(1);
+        values[0].key = "each";
+        values[0].value = std::move(list);
+        found->second->value = std::move(values);
       }
     }
   }
@@ -194,20 +200,27 @@ class Sector {
   void excite(Node& entry) const {
     auto* object = std::get_if<Node::Object>(&entry.value);
     if (object == nullptr) return;
-    const Node *harmonic = find(&entry, "harmonic"), *type = find(&entry, "type");
+    Node::Object added;
+    const Node* harmonic = find(&entry, "harmonic");
     const double n = harmonic != nullptr && harmonic->get<double>() != nullptr ? *harmonic->get<double>() : 1;
     if (n == std::floor(n) && n >= 0 && n <= largest_order) {
       const auto order = static_cast<std::int64_t>(n) * of_.engine_order % of_.sectors;
-      object->push_back({"engine_order", {static_cast<double>(order)}});
+      added.push_back({"engine_order", {static_cast<double>(order)}});
     }
+    if (moves_ground(entry) && find(&entry, "at") == nullptr && find(&entry, "between") == nullptr &&
+        find(&entry, "direction") == nullptr) {
+      Node::Object all;
+      for (const std::string& dof : dofs_) all.push_back({dof, {1.0}});
+      added.push_back({"direction", {std::move(all)}});
+    }
+    object->insert(object->end(), added.begin(), added.end());
+  }
+
+  static bool moves_ground(Node& entry) {
+    const Node* type = find(&entry, "type");
     const auto* name = type != nullptr ? type->get<std::string>() : nullptr;
-    const bool has_place = find(&entry, "at") != nullptr || find(&entry, "between") != nullptr ||
-                           find(&entry, "direction") != nullptr;
-    if (has_place || name == nullptr) return;
-    if (*name != base_displacement_type().name() && *name != base_acceleration_type().name()) return;
-    Node::Object all;
-    for (const std::string& dof : dofs_) all.push_back({dof, {1.0}});
-    object->push_back({"direction", {std::move(all)}});
+    return name != nullptr &&
+           (*name == base_displacement_type().name() || *name == base_acceleration_type().name());
   }
 
   std::optional<std::vector<double>> read_factors(const Location& at) {
@@ -226,8 +239,9 @@ class Sector {
     return faults_.count() == before ? std::optional(factors) : std::nullopt;
   }
 
-  template <class Function>
-  void for_each_number(const Function& function) {
+  // "part.field" and its place, of each number.
+  std::vector<std::pair<std::string, Node*>> numbers() {
+    std::vector<std::pair<std::string, Node*>> all;
     for (Node::List* section : {list_in(structure_, "masses"), list_in(structure_, "springs"),
                                 list_in(structure_, "dampers"), list_in(&scene_, "elements")}) {
       if (section == nullptr) continue;
@@ -236,23 +250,10 @@ class Sector {
         if (name == nullptr || name->get<std::string>() == nullptr) continue;
         for (Member& member : std::get<Node::Object>(entry.value))
           if (member.value.get<double>() != nullptr)
-            function(*name->get<std::string>() + '.' + member.key, member.value);
+            all.emplace_back(*name->get<std::string>() + '.' + member.key, &member.value);
       }
     }
-  }
-
-  Node* number_of(const std::string& parameter) {
-    Node* found = nullptr;
-    for_each_number([&](const std::string& name, Node& value) {
-      if (name == parameter) found = &value;
-    });
-    return found;
-  }
-
-  std::vector<std::string> numbers() {
-    std::vector<std::string> names;
-    for_each_number([&](const std::string& name, Node&) { names.push_back(name); });
-    return names;
+    return all;
   }
 
   Node& scene_;
