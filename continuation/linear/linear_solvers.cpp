@@ -1,5 +1,7 @@
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
+#include <arcslip/continuation/linear/small_lu.hpp>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -34,7 +36,8 @@ class DenseLU final : public LinearSolver {
     const Eigen::Index n = J->rows(), m = borders.width();
     if (matrix_.rows() != n + m) {
       matrix_.resize(n + m, n + m);
-      lu_ = Eigen::PartialPivLU<Matrix>(n + m);
+      if (n + m > largest_small_lu) lu_ = Eigen::PartialPivLU<Matrix>(n + m);
+      order_.resize(n + m);
       work_.resize(n + m);
     }
     balance(*J, borders);
@@ -42,10 +45,15 @@ class DenseLU final : public LinearSolver {
     matrix_.topRightCorner(n, m) = borders.columns * columns_.asDiagonal();
     matrix_.bottomLeftCorner(m, n) = rows_.asDiagonal() * borders.rows.transpose();
     matrix_.bottomRightCorner(m, m) = rows_.asDiagonal() * borders.corner * columns_.asDiagonal();
-    lu_.compute(matrix_);
-
+    if (n + m <= largest_small_lu) {
+      factorize_small(matrix_, order_);
+    } else {
+      lu_.compute(matrix_);
+      matrix_ = lu_.matrixLU();
+      for (Eigen::Index i = 0; i < n + m; ++i) order_[lu_.permutationP().indices()[i]] = static_cast<int>(i);
+    }
     double sign = sign_of_permutation();
-    const auto pivots = lu_.matrixLU().diagonal();
+    const auto pivots = matrix_.diagonal();
     for (Eigen::Index i = 0; i < n + m; ++i) {
       if (pivots[i] == 0 || !std::isfinite(pivots[i])) return false;
       if (pivots[i] < 0) sign = -sign;
@@ -55,12 +63,10 @@ class DenseLU final : public LinearSolver {
   }
 
   void solve(Out x) const override {
-    work_.noalias() = lu_.permutationP() * x;
-    const Eigen::Index n = x.size() - rows_.size();
-    const auto& to = lu_.permutationP().indices();
-    for (Eigen::Index i = 0; i < rows_.size(); ++i) work_[to[n + i]] *= rows_[i];
-    lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(work_);
-    lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(work_);
+    x.tail(rows_.size()).array() *= rows_.array();
+    for (Eigen::Index i = 0; i < x.size(); ++i) work_[i] = x[order_[i]];
+    matrix_.triangularView<Eigen::UnitLower>().solveInPlace(work_);
+    matrix_.triangularView<Eigen::Upper>().solveInPlace(work_);
     x = work_;
     x.tail(columns_.size()).array() *= columns_.array();
   }
@@ -68,9 +74,9 @@ class DenseLU final : public LinearSolver {
   bool solve_transposed(Out x) const override {
     work_ = x;
     work_.tail(columns_.size()).array() *= columns_.array();
-    lu_.matrixLU().triangularView<Eigen::Upper>().transpose().solveInPlace(work_);
-    lu_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(work_);
-    x.noalias() = lu_.permutationP().transpose() * work_;
+    matrix_.triangularView<Eigen::Upper>().transpose().solveInPlace(work_);
+    matrix_.triangularView<Eigen::UnitLower>().transpose().solveInPlace(work_);
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[order_[i]] = work_[i];
     x.tail(rows_.size()).array() *= rows_.array();
     return true;
   }
@@ -103,11 +109,11 @@ class DenseLU final : public LinearSolver {
 
   // By transpositions back to the identity; Eigen's determinant() of a permutation allocates.
   double sign_of_permutation() {
-    order_ = lu_.permutationP().indices();
+    left_ = order_;
     double sign = 1;
-    for (Eigen::Index i = 0; i < order_.size(); ++i)
-      while (order_[i] != i) {
-        std::swap(order_[i], order_[order_[i]]);
+    for (Eigen::Index i = 0; i < left_.size(); ++i)
+      while (left_[i] != i) {
+        std::swap(left_[i], left_[left_[i]]);
         sign = -sign;
       }
     return sign;
@@ -118,11 +124,12 @@ class DenseLU final : public LinearSolver {
     return factor > 0 && std::isfinite(factor) ? factor : 1;
   }
 
-  Matrix matrix_;
-  Eigen::PartialPivLU<Matrix> lu_{0};
+  Matrix matrix_;                      // L and U
+  Eigen::PartialPivLU<Matrix> lu_{0};  // of large matrices
+  Eigen::VectorXi order_;              // row i of L U is equation order_[i]
+  Eigen::VectorXi left_;
   mutable Vector work_;
   Vector rows_, columns_;  // factors of the last equations and of the last unknowns
-  Eigen::VectorXi order_;
   int sign_ = 1;
 };
 

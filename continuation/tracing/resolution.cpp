@@ -68,15 +68,20 @@ void Resolution::measure_curve(Trial& trial) {
   trial.curve_error = 0;
   trial.other_piece_between = false;
   if (!(options_.step.curve_tolerance > 0)) return;
-  double largest = 0;
+  trial.worst_begin = s_.here.arclength;
+  trial.worst_end = trial.end.arclength;
   trial.all_sections(s_.here, [&](const CurvePoint& from, const CurvePoint& to) {
-    if (from.piece == to.piece)
-      largest = std::max(largest, curve_error(from, trial, to));
-    else if (looks_for_kinks_)
+    if (from.piece == to.piece) {
+      const double error = curve_error(from, trial, to);
+      if (error <= trial.curve_error) return true;
+      trial.curve_error = error;
+      trial.worst_begin = from.arclength;
+      trial.worst_end = to.arclength;
+    } else if (looks_for_kinks_) {
       trial.other_piece_between = true;
+    }
     return true;
   });
-  trial.curve_error = largest;
 }
 
 // The error of one cubic: in its middle, where it is largest up to the variation of the fourth derivative.

@@ -10,6 +10,7 @@ constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, limits
 constexpr double largest_extrapolation = 2.5;    // in last steps, for the cubic predictor
 constexpr double unresolved_rejection = 0.5;     // of the step if the slopes do not determine a quantity
 constexpr double curve_safety = 0.9;             // of the step allowed by the curve's error
+constexpr double least_share = 1e-2;             // of a rejected step, where its curve has a large error
 
 // Factor of the step for a curve error of `error` times the tolerance: the error is of fourth order.
 double curve_factor(double error) {
@@ -66,8 +67,15 @@ double StepControl::after(const Trial& trial) const {
   return s_.step * std::clamp(factor, shrinkage, growth);
 }
 
+// A step over kinks has a cubic on each section. The next one reaches as far into that of the largest error
+// as this allows: a section that ends at a kink has the same error in all steps that reach the kink, and
+// beyond a kink the branch may bend like the power 3/2 of the distance, as where contact begins.
 double StepControl::share_after_unresolved(const Trial& trial) const {
-  return trial.curve_error > 1 ? curve_factor(trial.curve_error) : unresolved_rejection;
+  if (!(trial.curve_error > 1)) return unresolved_rejection;
+  const double before = trial.worst_begin - s_.here.arclength, within = trial.worst_end - trial.worst_begin;
+  const double factor = before > 0 ? curve_safety / std::cbrt(trial.curve_error * trial.curve_error)
+                                   : curve_factor(trial.curve_error);
+  return std::clamp((before + factor * within) / trial.length, least_share, curve_safety);
 }
 
 }  // namespace arcslip::continuation

@@ -20,16 +20,17 @@ struct Trial {
   double length = 0;  // arclength of the step, by way of its corners
   double turn = 0;    // rad, of the tangent
   bool kink = false;  // the tangent jumps in it: at one of its corners, or at a kink that was not located
-  std::vector<PassedKink> corners;       // on the way, in order
-  std::optional<LocatedEvent> crossing;  // the branch point on the way
-  double curve_error = 0;                // of the cubics along it, relative to the tolerance
-  bool other_piece_between = false;      // unnoticed by its sections
-  bool passes_kinks = false;             // which are too weak to be looked for
-  double chord_error = 0;                // of the monitored quantities, relative to the tolerance
-  Rejection rejection;                   // why it was rejected
-  std::size_t unresolved = 0;            // the monitor of the unresolved quantity
-  bool evaluated = true;                 // false: the reason is that the problem could not be evaluated
-  std::string failure;                   // in its words
+  std::vector<PassedKink> corners;        // on the way, in order
+  std::optional<LocatedEvent> crossing;   // the branch point on the way
+  double curve_error = 0;                 // of the cubics along it, relative to the tolerance: the largest
+  double worst_begin = 0, worst_end = 0;  // arclength of the ends of its section
+  bool other_piece_between = false;       // unnoticed by its sections
+  bool passes_kinks = false;              // which are too weak to be looked for
+  double chord_error = 0;                 // of the monitored quantities, relative to the tolerance
+  Rejection rejection;                    // why it was rejected
+  std::size_t unresolved = 0;             // the monitor of the unresolved quantity
+  bool evaluated = true;                  // false: the reason is that the problem could not be evaluated
+  std::string failure;                    // in its words
 
   void begin() {
     length = turn = curve_error = chord_error = 0;

@@ -30,7 +30,7 @@ class Contact2dElement final : public Element {
         g_(h.size()),
         phi_(h.size()),
         F_(2 * h.size()),
-        J_(2 * h.size(), 2 * h.size()),
+        J_(Eigen::MatrixXd::Zero(2 * h.size(), 2 * h.size())),
         middle_(static_cast<std::size_t>(2 * h.order + 1)),
         half_(middle_.size()) {}
 
@@ -41,7 +41,7 @@ class Contact2dElement final : public Element {
     const auto& phases = phases_.find(u_t, u_n, law_);
     F_.setZero();
     by_field_.setZero();
-    if (jacobian) J_.setZero();
+    if (jacobian) J_.topRows(c).setZero();  // the normal force does not depend on x_t
     normal(jacobian);
     if (phases_.full_stick())
       full_stick(u_t, u_n, jacobian);

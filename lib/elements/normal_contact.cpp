@@ -16,6 +16,7 @@ constexpr double kappa = 1 / std::numbers::pi;
 NormalContact::NormalContact(const Harmonics& h)
     : harmonics_(h),
       reversals_(h),
+      crossings_(h),
       moments_(h),
       n_(h.size()),
       F_(h.size()),
@@ -23,7 +24,6 @@ NormalContact::NormalContact(const Harmonics& h)
       by_load_(h.size()),
       middle_(static_cast<std::size_t>(2 * h.order + 1)),
       half_(middle_.size()) {
-  turns_.reserve(static_cast<std::size_t>(4 * h.order + 16));
   closed_.reserve(static_cast<std::size_t>(2 * h.order + 2));
 }
 
@@ -70,46 +70,35 @@ void NormalContact::jacobian(Eigen::Ref<Eigen::MatrixXd> J) const {
   J.row(0) *= 0.5;
 }
 
-// The intervals where N > 0, between the reversals that enclose their ends.
+// The intervals where N > 0.
 void NormalContact::find_closed(In u_n) {
   constexpr double never = std::numeric_limits<double>::infinity();
   closed_.clear();
-  opens_ = false;
-  turns_.clear();
-  if (k_n_ > 0) turns_ = reversals_.find(u_n);
-  const double level = -N_0_ / k_n_;
   const auto always = [&](bool closed) {
     opens_ = !closed;
     if (closed) closed_.emplace_back(0, turn_angle);
   };
-  if (turns_.empty()) return always(n_[0] > 0);
-  const auto is_closed = [&](const Reversal& at) { return at.x > level; };
-  if (std::all_of(turns_.begin(), turns_.end(), is_closed)) return always(true);
-  if (std::none_of(turns_.begin(), turns_.end(), is_closed)) return always(false);
+  if (!(k_n_ > 0)) return always(n_[0] > 0);
+  const auto& crossings = crossings_.find(u_n, -N_0_ / k_n_, reversals_);
+  if (crossings.empty()) return always(crossings_.is_above());
   opens_ = true;
-  double last_end = -never;
-  for (std::size_t i = 0; i < turns_.size(); ++i) {
-    const Reversal from = turns_[i];
-    Reversal to = turns_[i + 1 == turns_.size() ? 0 : i + 1];
-    if (i + 1 == turns_.size()) to.theta += turn_angle;
-    if (is_closed(from) == is_closed(to)) continue;
-    const double at = reversals_.crossing(u_n, from, to, level);
-    if (is_closed(to))
-      closed_.emplace_back(at, never);
+  double last_end = never;
+  for (const auto& [theta, rises] : crossings) {
+    if (rises)
+      closed_.emplace_back(theta, never);
     else if (closed_.empty())
-      last_end = at + turn_angle;
+      last_end = theta + turn_angle;
     else
-      closed_.back().second = at;
+      closed_.back().second = theta;
   }
   if (closed_.back().second == never) closed_.back().second = last_end;
 }
 
 void NormalContact::tell(FrictionState& state) const {
   double high = n_[0], low = n_[0];
-  for (const Reversal& turn : turns_) {
-    const double N = N_0_ + k_n_ * turn.x;
-    high = std::max(high, N);
-    low = std::min(low, N);
+  for (const Reversal& turn : reversals()) {
+    high = std::max(high, turn.x);
+    low = std::min(low, turn.x);
   }
   state.load_max = std::max(high, 0.0);
   state.load_min = std::max(low, 0.0);

@@ -2,6 +2,7 @@
 // A unilateral normal spring under a preload, N = max(N_0 + k_n x_n, 0), over one period of x_n: the
 // intervals in contact, and the coefficients of N - max(N_0, 0), exact.
 
+#include <arcslip/elements/crossings.hpp>
 #include <arcslip/elements/element.hpp>
 #include <arcslip/elements/moments.hpp>
 #include <arcslip/elements/reversals.hpp>
@@ -22,7 +23,8 @@ class NormalContact {
   std::span<const std::pair<double, double>> closed() const { return closed_; }
   bool opens() const { return opens_; }
   const Eigen::VectorXd& load() const { return n_; }  // coefficients of N_0 + k_n x_n
-  const std::vector<Reversal>& reversals() const { return turns_; }
+  /// Of the load N_0 + k_n x_n. The reference holds until the next call.
+  const std::vector<Reversal>& reversals() const { return reversals_.find(n_); }
   void tell(FrictionState& state) const;  // load_max, load_min
 
   // Of N - max(N_0, 0).
@@ -36,8 +38,8 @@ class NormalContact {
 
   Harmonics harmonics_;
   double k_n_ = 0, N_0_ = 0;
-  Reversals reversals_;
-  std::vector<Reversal> turns_;
+  mutable Reversals reversals_;
+  Crossings crossings_;
   std::vector<std::pair<double, double>> closed_;
   bool opens_ = false;
   Moments moments_;

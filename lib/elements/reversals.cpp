@@ -1,5 +1,7 @@
 #include <arcslip/elements/reversals.hpp>
 
+#include <arcslip/elements/bracketed_root.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,37 +9,8 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr int deepest = 14;       // halvings of a sampling step
-constexpr int tabulated = 2;      // the first of them
-constexpr int most_steps = 60;    // with bisection where Halley's method leaves the bracket
-constexpr double settled = 5e-6;  // rad of the highest harmonic, and of a step over the distance to a turn
-constexpr double finest = 1e-13;  // rad: where roots nearly coincide
-
-struct Slopes {
-  double f, f1, f2;  // of a function, with its derivatives
-};
-
-// Halley's method for a monotonic function in a bracket, with bisection if it leaves the bracket. The error
-// is the cube of the last step, at rounding level. Returns the root and calls at_last(root - t) with its
-// distance from the last evaluation.
-template <class Function, class AtLast>
-double bracketed_root(int order, Function&& at, double lower, double upper, double guess, bool rising,
-                      AtLast&& at_last) {
-  double t = guess > lower && guess < upper ? guess : 0.5 * (lower + upper);
-  for (int k = 0;; ++k) {
-    const auto [f, f1, f2] = at(t);
-    ((f > 0) == rising ? upper : lower) = t;
-    double next = f == 0 ? t : t - 2 * f * f1 / (2 * f1 * f1 - f * f2);
-    if (!(next >= lower && next <= upper)) next = 0.5 * (lower + upper);
-    const double step = std::abs(next - t);
-    const bool cubic = step * order <= settled && step * std::abs(f2) <= settled * std::abs(f1);
-    if (cubic || step <= finest || k == most_steps) {
-      at_last(next - t);
-      return next;
-    }
-    t = next;
-  }
-}
+constexpr int deepest = 14;   // halvings of a sampling step
+constexpr int tabulated = 2;  // the first of them
 
 }  // namespace
 
@@ -139,6 +112,16 @@ const std::vector<Reversal>& Reversals::find(In u) {
     const Slope from{start_ + k * step_, d0, before}, to{start_ + (k + 1) * step_, d1, positive};
     search(u, from, to, M, deepest, 3 * k + 1);
   }
+  return found_;
+}
+
+const std::vector<Reversal>& Reversals::within(In u, double begin, double end) {
+  found_.clear();
+  const auto at = [&](double theta) {
+    const double d1 = series_values(harmonics_, u, theta).d1;
+    return Slope{theta, d1, d1 > 0};
+  };
+  search(u, at(begin), at(end), series_bound(harmonics_, u, 3), deepest - tabulated, 0);
   return found_;
 }
 

@@ -24,6 +24,9 @@ class Reversals {
   /// In the order of theta. The reference holds until the next call. Empty where x is constant.
   const std::vector<Reversal>& find(In u);
 
+  /// The same within [begin, end], a part of the span that is not much longer than a sample of it.
+  const std::vector<Reversal>& within(In u, double begin, double end);
+
   /// The root of x(theta) = target on a piece where x is monotone from `from` to `to`, target between their
   /// x.
   double crossing(In u, const Reversal& from, const Reversal& to, double target) const;

@@ -11,7 +11,7 @@
 using namespace bordered;
 
 TEST_CASE("bordered solves and transposed solves leave residuals at rounding level") {
-  for (int n : {1, 2, 7, 40, 150})
+  for (int n : {1, 2, 3, 4, 5, 6, 7, 40, 94, 96, 150})
     for (int m : {0, 1, 2, 3}) {
       const Matrix J = Matrix::Random(n, n);
       const Borders borders = random_borders(n, m);
@@ -27,6 +27,24 @@ TEST_CASE("bordered solves and transposed solves leave residuals at rounding lev
       CHECK((B.transpose() * y - b).norm() < 1e-13 * n * B.norm() * y.norm());
       CHECK(lu->determinant_sign() == (B.determinant() > 0 ? 1 : -1));
     }
+}
+
+TEST_CASE("a matrix of rows that follow each other in a circle is solved without a rounding error") {
+  for (int n : {1, 2, 3, 4, 5, 9, 50, 96, 97, 120}) {
+    Matrix J = Matrix::Zero(n, n);
+    for (int i = 0; i < n; ++i) J(i, (i + 1) % n) = 2;
+    const auto lu = dense_lu();
+    REQUIRE(lu->factorize(J, Borders(n, 0)));
+    const Vector b = Vector::Random(n);
+    Vector x = b, y = b;
+    lu->solve(x);
+    REQUIRE(lu->solve_transposed(y));
+    for (int i = 0; i < n; ++i) {
+      CHECK(x[(i + 1) % n] == b[i] / 2);
+      CHECK(y[i] == b[(i + 1) % n] / 2);
+    }
+    CHECK(lu->determinant_sign() == (n % 2 == 1 ? 1 : -1));
+  }
 }
 
 TEST_CASE("the bordered system of a singular J is solved to rounding, whatever the scale of its rows") {
