@@ -179,7 +179,7 @@ class Sector {
     weights = std::move(all);
   }
 
-  // Also in the slots of an element.
+  // Also in the slots of an element and of a response at several places.
   void set_places(Node::Object& entry) const {
     for (Member& member : entry) {
       auto* object = std::get_if<Node::Object>(&member.value.value);
@@ -192,6 +192,9 @@ class Sector {
         set_weights(*object);
       else if (object != nullptr)
         set_places(*object);
+      else if (member.key == "max_of" && list != nullptr)
+        for (Node& place : *list)
+          if (auto* one = std::get_if<Node::Object>(&place.value)) set_places(*one);
     }
   }
 

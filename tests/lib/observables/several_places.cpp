@@ -166,6 +166,41 @@ TEST_CASE("a linear response has the velocity and acceleration of its sine") {
   }
 }
 
+TEST_CASE("any blade of a mistuned ring is the one with the largest amplitude") {
+  const auto ring = [](const std::string& response) {
+    return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"cyclic": {"sectors": 5, "engine_order": 1, "full": true,
+                               "mistuning": {"k.value": [1, 1.02, 0.97, 1.01, 0.99]}},
+        "dofs": ["d", "b"],
+        "masses": [{"name": "md", "at": "d", "value": 2}, {"name": "m", "at": "b", "value": 1}],
+        "springs": [{"name": "kd", "between": ["d", {"next": "d"}], "value": 3}, {"name": "kg", "at": "d", "value": 1},
+                    {"name": "k", "between": ["b", "d"], "value": 1}],
+        "dampers": [{"name": "c", "between": ["b", "d"], "value": 0.02}]},
+      "elements": [{"name": "s", "type": "jenkins", "between": ["b", {"next": "b"}], "stiffness": 0.2,
+                    "friction_coefficient": 0.3, "normal_load": 1}],
+      "excitation": [{"name": "f", "at": "b", "cosine": 1}],
+      "harmonics": {"order": 3}, "response": )" +
+                         response +
+                         R"(, "studies": [{"name": "s", "kind": "frf", "from": 0.7, "to": 1.1}]})");
+  };
+  const auto any = response(ring(R"({"max_of": [{"repeat": 5, "at": "b{i}"}]})"));
+  const auto each = response(ring(R"([{"name": "blade", "at": "b"}])"));
+  // Both branches at the first frequency, where they begin.
+  double most = 0;
+  REQUIRE(each.points.front().responses.size() == 5);
+  for (const auto& blade : each.points.front().responses) most = std::max(most, blade.amplitude);
+  CHECK(std::abs(any.points.front().amplitude / most - 1) < 1e-10);
+  double highest = 0;
+  for (const auto& event : any.events)
+    if (event.kind == "peak") highest = std::max(highest, event.point.amplitude);
+  for (int blade = 1; blade <= 5; ++blade) {
+    const auto alone = response(ring(R"({"at": "b)" + std::to_string(blade) + "\"}"));
+    for (const auto& event : alone.events)
+      if (event.kind == "peak") CHECK(event.point.amplitude < (1 + 1e-9) * highest);
+  }
+  CHECK(highest > 0);
+}
+
 TEST_CASE("motions in time and modes are followed at one place, and say so") {
   const scene::Scene s = chain({a, b});
   const auto motion = observables::motion_in_time(s, {.frequency = 1.1});
