@@ -1,8 +1,11 @@
-// One evaluation of an element with its Jacobian, all harmonics and the mean, of motions that slip.
+// One evaluation of an element, all harmonics and the mean, of motions that slip.
 //
-//   element/LAW/H:N   exact
-//   sampled/LAW/H:N   the force alone of as many steps in two periods as bring its coefficients to 1e-6
-//                     of the largest, and their projection; no Jacobian
+//   element/LAW/H:N        exact, with the Jacobian
+//   force/LAW/H:N          exact, the force alone
+//   sampled/LAW/H:N        with the Jacobian, of as many steps in two periods as bring the coefficients of
+//   the
+//                          force to 1e-6 of the largest, and their projection by products of matrices
+//   sampled_force/LAW/H:N  the force alone likewise
 //
 // The counter `samples` is that number of steps in a period.
 
@@ -74,14 +77,14 @@ void measure(benchmark::State& state, const Work& work) {
   bench::measure(state, work, bench::calls_to_time(work));
 }
 
-void element(benchmark::State& state, Example (*make)()) {
+void element(benchmark::State& state, Example (*make)(), bool jacobian) {
   const auto [law, fields] = make();
   const elements::Harmonics h{static_cast<int>(state.range(0)), false};
   const auto element = law->element(h, {});
   const Eigen::VectorXd u = motion(h, law->directions());
   measure(state, [&] {
-    element->move_to(u, fields, true);
-    benchmark::DoNotOptimize(element->jacobian().data());
+    element->move_to(u, fields, jacobian);
+    benchmark::DoNotOptimize(element->force().data());
   });
 }
 
@@ -99,7 +102,7 @@ void iwan_table(benchmark::State& state) {
   });
 }
 
-void sampled_element(benchmark::State& state, Example (*make)()) {
+void sampled_element(benchmark::State& state, Example (*make)(), bool jacobian) {
   const Example example = make();
   const elements::Harmonics h{static_cast<int>(state.range(0)), false};
   const Eigen::VectorXd u = motion(h, example.law->directions());
@@ -113,30 +116,33 @@ void sampled_element(benchmark::State& state, Example (*make)()) {
     const Eigen::MatrixXd& F = sampled->coefficients(u);
     if ((F.reshaped() - exact->force()).cwiseAbs().maxCoeff() < 1e-6 * most) break;
   }
-  measure(state, [&] { benchmark::DoNotOptimize(sampled->coefficients(u).data()); });
+  measure(state, [&] { benchmark::DoNotOptimize(sampled->coefficients(u, jacobian).data()); });
   state.counters["samples"] = samples;
 }
 
 void orders(benchmark::internal::Benchmark* b) {
-  b->ArgName("H")->ArgsProduct({{3, 7, 27, 55}});
+  b->ArgName("H")->ArgsProduct({{3, 7, 15, 27, 55}});
 }
 
-BENCHMARK_CAPTURE(element, jenkins, jenkins)->Apply(orders);
-BENCHMARK_CAPTURE(element, gap_spring, gap_spring)->Apply(orders);
-BENCHMARK_CAPTURE(element, contact_2d, contact_2d)->Apply(orders);
-BENCHMARK_CAPTURE(element, separating_contact_2d, separating_contact_2d)->Apply(orders);
-BENCHMARK_CAPTURE(element, contact_3d, contact_3d)->Apply(orders);
-BENCHMARK_CAPTURE(element, separating_contact_3d, separating_contact_3d)->Apply(orders);
-BENCHMARK_CAPTURE(element, iwan, iwan)->Apply(orders);
+constexpr bool with_jacobian = true, force_alone = false;
+
+BENCHMARK_CAPTURE(element, jenkins, jenkins, with_jacobian)->Apply(orders);
+BENCHMARK_CAPTURE(element, gap_spring, gap_spring, with_jacobian)->Apply(orders);
+BENCHMARK_CAPTURE(element, contact_2d, contact_2d, with_jacobian)->Apply(orders);
+BENCHMARK_CAPTURE(element, separating_contact_2d, separating_contact_2d, with_jacobian)->Apply(orders);
+BENCHMARK_CAPTURE(element, contact_3d, contact_3d, with_jacobian)->Apply(orders);
+BENCHMARK_CAPTURE(element, separating_contact_3d, separating_contact_3d, with_jacobian)->Apply(orders);
+BENCHMARK_CAPTURE(element, iwan, iwan, with_jacobian)->Apply(orders);
 BENCHMARK(iwan_table)->Name("element/iwan_table_100")->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, jenkins, jenkins)->Name("sampled/jenkins")->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, gap_spring, gap_spring)->Name("sampled/gap_spring")->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, contact_2d, contact_2d)->Name("sampled/contact_2d")->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, separating_contact_2d, separating_contact_2d)
-    ->Name("sampled/separating_contact_2d")
-    ->Apply(orders);
-BENCHMARK_CAPTURE(sampled_element, separating_contact_3d, separating_contact_3d)
-    ->Name("sampled/separating_contact_3d")
-    ->Apply(orders);
+
+#define ARCSLIP_BESIDE_SAMPLING(law)                                                                 \
+  BENCHMARK_CAPTURE(element, law, law, force_alone)->Name("force/" #law)->Apply(orders);             \
+  BENCHMARK_CAPTURE(sampled_element, law, law, with_jacobian)->Name("sampled/" #law)->Apply(orders); \
+  BENCHMARK_CAPTURE(sampled_element, law, law, force_alone)->Name("sampled_force/" #law)->Apply(orders)
+ARCSLIP_BESIDE_SAMPLING(jenkins);
+ARCSLIP_BESIDE_SAMPLING(gap_spring);
+ARCSLIP_BESIDE_SAMPLING(contact_2d);
+ARCSLIP_BESIDE_SAMPLING(separating_contact_2d);
+ARCSLIP_BESIDE_SAMPLING(separating_contact_3d);
 
 }  // namespace

@@ -3,7 +3,7 @@
 //   frf/paper/H:N            the paper's oscillator, N harmonics
 //   frf/paper_points/finer:R the same with N = 7 and steps an R-th as long
 //   frf/paper_threads        the same with N = 7 in several threads, each with a response of its own
-//   frf/duffing, frf/damped_chain
+//   frf/duffing, frf/damped_chain, frf/nlvib_chain
 //   frf/chain/masses:n, frf/beam/elements:n, frf/contacts/of_20_masses:n, frf/ring/blades:n
 //   observed/SCENE           as the command does it: all quantities and the estimate of truncation
 //   stability/SCENE          likewise with Floquet multipliers
@@ -136,6 +136,11 @@ void damped_chain(benchmark::State& state) {
   response(state, bench::damped_chain(), {0.15, 0.9});
 }
 
+// Example 07 of NLvib.
+void nlvib_chain(benchmark::State& state) {
+  response(state, bench::example("gap_limited_chain"));
+}
+
 void chain(benchmark::State& state) {
   response(state, bench::chain(argument(state), 1), {0.7, 1.5});
 }
@@ -157,6 +162,7 @@ BENCHMARK(paper_points)->Name("frf/paper_points")->ArgName("finer")->ArgsProduct
 BENCHMARK(paper_threads)->Name("frf/paper_threads")->ThreadRange(1, 4);
 BENCHMARK(duffing)->Name("frf/duffing");
 BENCHMARK(damped_chain)->Name("frf/damped_chain");
+BENCHMARK(nlvib_chain)->Name("frf/nlvib_chain");
 BENCHMARK(chain)->Name("frf/chain")->ArgName("masses")->ArgsProduct({{2, 10, 20, 50, 100, 200, 400}});
 BENCHMARK(contacts)->Name("frf/contacts")->ArgName("of_20_masses")->ArgsProduct({{1, 2, 5, 10, 20}});
 BENCHMARK(beam)->Name("frf/beam")->ArgName("elements")->ArgsProduct({{10, 20, 40, 80, 160}});
@@ -177,6 +183,11 @@ void observed_damped_chain(benchmark::State& state, bool stability) {
   observed(state, bench::damped_chain(), {0.15, 0.9}, stability);
 }
 
+void observed_nlvib_chain(benchmark::State& state, bool stability) {
+  const scene::Scene scene = bench::example("gap_limited_chain");
+  observed(state, scene, range_of(scene), stability);
+}
+
 BENCHMARK_CAPTURE(observed_paper, , false)
     ->Name("observed/paper")
     ->ArgName("H")
@@ -187,5 +198,7 @@ BENCHMARK_CAPTURE(observed_paper, , true)
     ->ArgsProduct({{1, 7, 27, 55}});
 BENCHMARK_CAPTURE(observed_damped_chain, , false)->Name("observed/damped_chain");
 BENCHMARK_CAPTURE(observed_damped_chain, , true)->Name("stability/damped_chain");
+BENCHMARK_CAPTURE(observed_nlvib_chain, , false)->Name("observed/nlvib_chain");
+BENCHMARK_CAPTURE(observed_nlvib_chain, , true)->Name("stability/nlvib_chain");
 
 }  // namespace

@@ -29,6 +29,8 @@ class Contact2dElement final : public Element {
         by_field_(2 * h.size(), field_count),
         g_(h.size()),
         phi_(h.size()),
+        at_lower_(h.size()),
+        at_upper_(h.size()),
         F_(2 * h.size()),
         J_(Eigen::MatrixXd::Zero(2 * h.size(), 2 * h.size())),
         middle_(static_cast<std::size_t>(2 * h.order + 1)),
@@ -113,23 +115,24 @@ class Contact2dElement final : public Element {
   // u_0 - w. Where the shares of w add up to 1 neither the mean of x_t nor, in the middle, the load is in it,
   // nor their rounding: with a~, b~ the extremes of the bounds less their means x_t0 -+ d,
   //   u_0 - w = (lower - upper) d - lower a~ - upper b~,   d = mu (N_0 + k_n x_n0)/k_t
-  double mean_elongation(In u_t, In u_n, const StuckSlider& held) {
+  double mean_elongation(In u_t, In u_n, const StuckSlider& held) const {
     const double a = phases_.largest_lower().x, b = phases_.smallest_upper().x;
     if (held.lower + held.upper != 1) return u_t[0] - held.lower * a - held.upper * b;
     const double ratio = law_.mu * law_.k_n / law_.k_t, d = ratio * u_n[0] + law_.mu * law_.N_0 / law_.k_t;
     const Eigen::Index rest = h_.size() - 1;
-    const auto along = [&](double theta, double normal) {
-      series_basis(h_, theta, phi_);
-      return phi_.tail(rest).dot(u_t.tail(rest)) + normal * phi_.tail(rest).dot(u_n.tail(rest));
+    const auto along = [&](const Eigen::VectorXd& phi, double normal) {
+      return phi.tail(rest).dot(u_t.tail(rest)) + normal * phi.tail(rest).dot(u_n.tail(rest));
     };
-    return (held.lower - held.upper) * d - held.lower * along(phases_.largest_lower().theta, -ratio) -
-           held.upper * along(phases_.smallest_upper().theta, ratio);
+    return (held.lower - held.upper) * d - held.lower * along(at_lower_, -ratio) -
+           held.upper * along(at_upper_, ratio);
   }
 
   void full_stick(In u_t, In u_n, bool jacobian) {
     const Eigen::Index c = h_.size();
     const StuckSlider held = phases_.held();
     const double k = law_.k_t;
+    series_basis(h_, phases_.largest_lower().theta, at_lower_);
+    series_basis(h_, phases_.smallest_upper().theta, at_upper_);
     auto F = F_.head(c);
     F = u_t;
     F[0] = mean_elongation(u_t, u_n, held);
@@ -141,7 +144,7 @@ class Contact2dElement final : public Element {
     for (const SliderRest& end : ends) {
       const double share = end.sign() < 0 ? held.lower : held.upper;
       if (share == 0) continue;
-      series_basis(h_, end.theta, phi_);
+      phi_ = end.sign() < 0 ? at_lower_ : at_upper_;
       const RestChange dw = change(end, u_t, u_n);
       for (int field = 0; field < field_count; ++field)
         tangential_rows(field)[0] -= share * k * dw.by_field[field];
@@ -232,7 +235,9 @@ class Contact2dElement final : public Element {
   ContactPhases phases_;
   Moments stick_, slip_;
   Eigen::MatrixXd by_field_;
-  Eigen::VectorXd g_, phi_, F_;
+  Eigen::VectorXd g_, phi_;
+  Eigen::VectorXd at_lower_, at_upper_;  // phi at the extremes of the bounds, in full stick
+  Eigen::VectorXd F_;
   Eigen::MatrixXd J_;
   std::vector<std::complex<double>> middle_, half_;
 };

@@ -1,6 +1,7 @@
 // Coefficients of a piecewise linear force (piecewise_linear.hpp).
 #include <arcslip/elements/piecewise_linear_curve.hpp>
 
+#include <arcslip/elements/crossings.hpp>
 #include <arcslip/elements/moments.hpp>
 #include <arcslip/elements/reversals.hpp>
 
@@ -20,6 +21,7 @@ class PiecewiseLinearElement final : public Element {
       : shapes_(shapes),
         h_(h),
         reversals_(h),
+        crossings_(h),
         factors_(static_cast<Eigen::Index>(shapes.front().terms.size())),
         moments_(shapes.front().terms.size(), Moments(h)),
         A_(h.size(), factors_.size()),
@@ -75,9 +77,25 @@ class PiecewiseLinearElement final : public Element {
   void contact(std::vector<ContactInterval>& intervals) const override { intervals = intervals_; }
 
  private:
+  // The intervals of a period that lie on one of two lines.
+  void find_about_corner(In u, const PiecewiseLinearCurve& curve) {
+    const auto& crossings = crossings_.find(u, curve.corner(0), reversals_);
+    if (crossings.empty()) {
+      piece_ = crossings_.is_above() ? 1 : 0;
+      add(curve, piece_, 0, turn);
+    }
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+      const auto& [begin, rises] = crossings[i];
+      const double end = i + 1 < crossings.size() ? crossings[i + 1].theta : crossings[0].theta + turn;
+      if (rises) piece_ += numbers_[0];
+      add(curve, rises ? 1 : 0, begin, end);
+    }
+  }
+
   // The intervals of a period that lie on one line, between the reversals that enclose their ends. A motion
   // of odd harmonics alone has reversals in half of it, and the others mirrored.
   void find(In u, const PiecewiseLinearCurve& curve) {
+    if (!h_.odd && curve.lines() == 2) return find_about_corner(u, curve);
     const auto& turns = reversals_.find(u);
     if (turns.empty()) {
       const std::size_t line = curve.line_at(h_.odd ? 0 : u[0]);
@@ -139,6 +157,7 @@ class PiecewiseLinearElement final : public Element {
   std::vector<PiecewiseLinearShape> shapes_;
   Harmonics h_;
   Reversals reversals_;
+  Crossings crossings_;
   Eigen::VectorXd factors_;
   std::vector<Moments> moments_;
   std::vector<Reversal> path_;
