@@ -3,7 +3,8 @@
 // by matio. A variable must be a real matrix of double precision, sparse or full.
 //
 // matio and HDF5, by which it reads version 7.3, are not made for threads: files are read one after another.
-// Messages of HDF5 on standard error are switched off meanwhile, for the whole process.
+// Messages of HDF5 on standard error are switched off meanwhile, for the whole process. A damaged file of
+// version 7.3 may leave HDF5 with one more when the program ends.
 
 #include <arcslip/scene/sparse_matrix.hpp>
 #include <arcslip/scene/stop_request.hpp>
