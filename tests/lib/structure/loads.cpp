@@ -69,8 +69,8 @@ Difference difference(const scene::Matrices& of, const std::vector<int>& kept,
   const Eigen::VectorXd load_size =
       (f.array() * K.partialPivLu().solve(f).array()).colwise().sum().sqrt().matrix().transpose();
   Difference largest;
-  for (int k = 0; k <= 41; ++k) {
-    const double s = purpose.highest * k / 41;
+  for (int k = 0; k <= 20; ++k) {
+    const double s = purpose.highest * k / 20;
     const LongMatrix whole = condensed(M, K, C, f, s, b),
                      less = condensed(reduced.M, K_reduced, reduced.C, f_reduced, s, b);
     for (Eigen::Index i = 0; i < b; ++i) {
