@@ -43,6 +43,8 @@ std::string prepare(const scene::Scene& scene, const scene::StopRequest& stop) {
          std::to_string(done->kept) + " of them and " + std::to_string(done->coordinates) +
          " coordinates; error of its dynamic stiffness " + results::quantity(done->error, "-") + " up to " +
          frequency(done->highest_frequency) +
+         (done->highest_speed > 0 ? " and speeds up to " + results::quantity(done->highest_speed, "rad/s")
+                                  : "") +
          (done->free_below > 0 ? "; natural frequencies below " + frequency(to_two_digits(done->free_below)) +
                                      " are not told from 0, that of motions as a rigid body"
                                : "");

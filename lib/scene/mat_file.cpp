@@ -2,7 +2,11 @@
 #include <arcslip/scene/mat_file.hpp>
 #include <arcslip/scene/matrix_market.hpp>
 
+#include <H5Dpublic.h>
 #include <H5Epublic.h>
+#include <H5Fpublic.h>
+#include <H5Ppublic.h>
+#include <H5Spublic.h>
 #include <matio.h>
 
 #include <algorithm>
@@ -23,7 +27,8 @@ using file::listed, file::quoted;
 constexpr std::size_t largest_size = 100'000'000;                 // rows or columns
 constexpr std::size_t largest_full = (std::size_t{4} << 30) / 8;  // entries
 constexpr std::size_t most_variables = 10'000;
-constexpr std::size_t header = 128;  // bytes before the first element of version 5
+constexpr std::size_t most_compressed = 1100;  // bytes of data in one of the file: zlib's limit is 1032
+constexpr std::size_t header = 128;            // bytes before the first element of version 5
 constexpr std::uint32_t matrix_element = 14, compressed_element = 15;
 
 struct CloseFile {
@@ -84,6 +89,7 @@ class Reader {
     const Variable variable = find(file.get());
     told_ += ", variable " + quoted(variable->name);
     check_type(*variable);
+    if (is_version_73(text_) && variable->class_type == MAT_C_SPARSE) check_size(variable->name);
     listen();
     if (Mat_VarReadDataAll(file.get(), variable.get()) != 0 || variable->data == nullptr)
       fail("its data cannot be read; the file may be damaged");
@@ -140,6 +146,7 @@ class Reader {
       if (name_.empty() && names.size() == 1) first = std::move(next);
     }
     if (names.empty()) fail("found no variable; the file may be damaged");
+    std::sort(names.begin(), names.end());
     if (!name_.empty())
       fail("found no variable " + quoted(name_) + ", must be " + (names.size() > 1 ? "one of " : "") +
            listed(names) + file::hint(name_, names));
@@ -161,6 +168,26 @@ class Reader {
       fail("found " + size(of) + ", must have at most " + std::to_string(largest_size) + " of each");
     if (of.class_type == MAT_C_DOUBLE && of.dims[1] > 0 && of.dims[0] > largest_full / of.dims[1])
       fail("found a full matrix with " + size(of) + ", must be sparse where it takes more than 4 GB");
+    if (of.class_type == MAT_C_DOUBLE && of.dims[0] * of.dims[1] / most_compressed > text_.size() / 8)
+      fail("found a full matrix with " + size(of) + " in a file of " + std::to_string(text_.size()) +
+           " bytes; it may be damaged");
+  }
+  // matio takes the memory that the lengths in a file ask for, also where they are damaged.
+  void check_size(const std::string& variable) const {
+    const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    std::size_t longest = 0;
+    for (const char* part : {"/ir", "/jc", "/data"}) {
+      const hid_t data = H5Dopen2(file, (variable + part).c_str(), H5P_DEFAULT);
+      if (data < 0) continue;  // an empty matrix has none
+      const hid_t space = H5Dget_space(data);
+      longest = std::max(longest, static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+      H5Sclose(space);
+      H5Dclose(data);
+    }
+    H5Fclose(file);
+    if (longest / most_compressed > text_.size() / 4)
+      fail("found " + std::to_string(longest) + " entries in a file of " + std::to_string(text_.size()) +
+           " bytes; it may be damaged");
   }
   static std::string size(const matvar_t& of) {
     return std::to_string(of.dims[0]) + " rows and " + std::to_string(of.dims[1]) + " columns";

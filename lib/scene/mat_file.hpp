@@ -2,8 +2,10 @@
 // Matrices in MATLAB's .mat files, of version 5 (which MATLAB 5 to 7 write, compressed or not) and 7.3, read
 // by matio. A variable must be a real matrix of double precision, sparse or full.
 //
-// matio and HDF5, by which it reads version 7.3, are not made for threads: files are read one after another.
-// Messages of HDF5 on standard error are switched off meanwhile, for the whole process.
+// matio reads the file by its path once more, and does not hear a request to stop meanwhile. It and HDF5, by
+// which it reads version 7.3, are not made for threads: files are read one after another. Messages of HDF5 on
+// standard error are switched off meanwhile, for the whole process. A damaged file of version 7.3 may leave
+// HDF5 with one more when the program ends.
 
 #include <arcslip/scene/sparse_matrix.hpp>
 #include <arcslip/scene/stop_request.hpp>

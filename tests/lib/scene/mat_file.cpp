@@ -165,12 +165,12 @@ TEST_CASE("a matrix from a MATLAB file is that of the Matrix Market file, to the
   check_same(read(path, "full"), wanted);
   check_same(read(path, "unsorted"), wanted);
   CHECK(fault(path) ==
-        "\"A.mat\": found the variables \"K\", \"full\", \"unsorted\", \"unit\", must be told which: "
+        "\"A.mat\": found the variables \"K\", \"full\", \"unit\", \"unsorted\", must be told which: "
         "{\"file\": ..., "
         "\"variable\": ...}");
   CHECK(
       fault(path, "ful") ==
-      "\"A.mat\": found no variable \"ful\", must be one of \"K\", \"full\", \"unsorted\", \"unit\"; did you "
+      "\"A.mat\": found no variable \"ful\", must be one of \"K\", \"full\", \"unit\", \"unsorted\"; did you "
       "mean \"full\"?");
 }
 
@@ -277,7 +277,7 @@ TEST_CASE("mutated MATLAB files are read or refused") {
   int read_well = 0, refused = 0;
   for (int k = 0; k < 150; ++k) {
     std::string mutant = whole;
-    for (unsigned n = 1 + random() % 3; n > 0; --n) {
+    for (auto n = 1 + random() % 3; n > 0; --n) {
       char& byte = mutant[random() % mutant.size()];
       byte = k % 3 == 0   ? static_cast<char>(0xff)
              : k % 3 == 1 ? static_cast<char>(byte ^ (1 << random() % 8))

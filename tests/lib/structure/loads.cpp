@@ -69,8 +69,8 @@ Difference difference(const scene::Matrices& of, const std::vector<int>& kept,
   const Eigen::VectorXd load_size =
       (f.array() * K.partialPivLu().solve(f).array()).colwise().sum().sqrt().matrix().transpose();
   Difference largest;
-  for (int k = 0; k <= 41; ++k) {
-    const double s = purpose.highest * k / 41;
+  for (int k = 0; k <= 20; ++k) {
+    const double s = purpose.highest * k / 20;
     const LongMatrix whole = condensed(M, K, C, f, s, b),
                      less = condensed(reduced.M, K_reduced, reduced.C, f_reduced, s, b);
     for (Eigen::Index i = 0; i < b; ++i) {
@@ -106,7 +106,8 @@ scene::Matrices chain(int size, bool damped) {
   return all;
 }
 
-// The stiffening of the links by the tension of all that rotates beyond them, and the softening of the frame.
+// The stiffening of the links by the tension of all that rotates beyond them, and a little softening, which
+// leaves K + Omega^2 K2 definite.
 scene::MatrixFile stiffening(int size) {
   structures::Entries K2;
   double tension = 0;
@@ -115,7 +116,7 @@ scene::MatrixFile stiffening(int size) {
     K2.insert(K2.end(),
               {{i, i, tension}, {i - 1, i - 1, tension}, {i, i - 1, -tension}, {i - 1, i, -tension}});
   }
-  for (int i = 0; i < size; ++i) K2.push_back({i, i, -(1 + 0.1 * (i % 4))});
+  for (int i = 0; i < size; ++i) K2.push_back({i, i, -0.05 * (1 + 0.1 * (i % 4))});
   return structures::matrix(size, K2);
 }
 
@@ -137,7 +138,7 @@ TEST_CASE("loads on all rows act on a reduced structure as on the whole one") {
   structure::Purpose purpose{GENERATE(0.5, 3.0, 30.0), 0, pressure(60)};
   const structure::Reduced reduced = structure::reduce(of, kept, purpose);
   CAPTURE(damped, kept.size(), purpose.highest, reduced.M.rows(), reduced.error);
-  CHECK(reduced.error < 1e-10);
+  CHECK(reduced.error < 1e-9);  // where estimates fall by less than 0.3, the one before the last
   const Difference found = difference(of, kept, purpose, reduced, 0);
   CHECK(found.stiffness < 1e-10);
   CHECK(found.load < 1e-10);
@@ -167,7 +168,7 @@ TEST_CASE("a structure whose stiffness grows with the square of a speed is reduc
   scene::Matrices of = chain(size, GENERATE(false, true));
   of.stiffness_speed_squared = stiffening(size);
   const std::vector<int> kept{size - 1, 12};
-  // At 6 rad/s, K2 outweighs K in the first links.
+  // At 2 rad/s, the first links are twice as stiff.
   structure::Purpose purpose{GENERATE(1.0, 8.0), GENERATE(0.5, 2.0), pressure(size)};
   const structure::Reduced reduced = structure::reduce(of, kept, purpose);
   CAPTURE(purpose.highest, purpose.highest_speed, reduced.M.rows(), reduced.error);
