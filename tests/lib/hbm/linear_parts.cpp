@@ -30,8 +30,8 @@ struct Chain {
     p[model::frequency] = 0.8;
     if (matrices) add_matrices();
   }
-  // One of each kind, that of the dampers over the tied parameter, further ones over the squares of this and of
-  // the frequency, loads with an imaginary part, and proportional damping of all kinds.
+  // One of each kind, that of the dampers over the tied parameter, further ones over the squares of this and
+  // of the frequency, loads with an imaginary part, and proportional damping of all kinds.
   void add_matrices() {
     const auto random = [] {
       const Eigen::MatrixXd A = Eigen::MatrixXd::Random(3, 3);
