@@ -193,8 +193,8 @@ class Sector {
       else if (object != nullptr)
         set_places(*object);
       else if (member.key == "max_of" && list != nullptr)
-        for (Node& place : *list)
-          if (auto* one = std::get_if<Node::Object>(&place.value)) set_places(*one);
+        for (Node& item : *list)
+          if (auto* one = std::get_if<Node::Object>(&item.value)) set_places(*one);
     }
   }
 
