@@ -84,8 +84,9 @@ class Truncation {
 };
 
 /// Highest natural frequency (rad/s) of M x'' + (K + sum of element stiffnesses) x = 0 at p; massless motions
-/// have none. 0 where there is none at all. Of a sector of a ring: in the waves of all harmonics. motions: largest |d_e . x| of each element (m), at which
-/// nonlinear springs have their stiffness 3 k3 |d_e . x|^2; without them they have none.
+/// have none. 0 where there is none at all. Of a sector of a ring: in the waves of all harmonics. motions:
+/// largest |d_e . x| of each element (m), at which nonlinear springs have their stiffness 3 k3 |d_e . x|^2;
+/// without them they have none.
 double highest_natural_frequency(const model::Model& model, const continuation::Vector& p,
                                  const std::vector<double>& motions = {});
 
