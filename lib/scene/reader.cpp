@@ -179,11 +179,10 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
   const std::size_t before_parts = faults.count();
   Names names;
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
-  const Keys structure(
-      structure_place,
-      {"cyclic", "dofs", "masses", "springs", "dampers", "damping", "rotation", "matrices", "names", "beam",
-       "rod"},
-      faults);
+  const Keys structure(structure_place,
+                       {"dofs", "masses", "springs", "dampers", "damping", "rotation", "matrices", "names",
+                        "beam", "rod", "cyclic"},
+                       faults);
   if (!structure.is_object()) names.set_incomplete();
   Dofs dofs;
   scene.cyclic = read_cyclic(structure.find("cyclic"), faults);

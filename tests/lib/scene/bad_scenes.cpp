@@ -10,7 +10,7 @@ void add_keys(std::vector<BadScene>& rows) {
   rows.push_back(
       {"unknown key", good_scene_with("\"masses\"", "\"massses\": [], \"masses\""), "/structure/massses",
        "found the unknown key \"massses\", must be one of \"dofs\", \"masses\", \"springs\", \"dampers\", "
-       "\"damping\", \"rotation\", \"matrices\", \"names\", \"beam\", \"rod\"; "
+       "\"damping\", \"rotation\", \"matrices\", \"names\", \"beam\", \"rod\", \"cyclic\"; "
        "did you mean \"masses\"?"});
   rows.push_back(
       {"unknown key of an element", good_scene_with("\"normal_load\": 3", "\"normal_load\": 3, \"a/b~c\": 1"),
@@ -120,6 +120,21 @@ void add_rest(std::vector<BadScene>& rows) {
   rows.push_back({"too many samples", with_harmonics("{\"friction\": \"sampled\", \"samples\": 1000001}"),
                   "/harmonics/samples",
                   "found 1000001, must be an integer from 1 to 1000000, and at least 4*order + 4"});
+  const auto with_cyclic = [](const std::string& text) {
+    return good_scene_with("\"dofs\"", "\"cyclic\": " + text + ", \"dofs\"");
+  };
+  rows.push_back({"a ring of one sector", with_cyclic("{\"sectors\": 1, \"engine_order\": 1}"),
+                  "/structure/cyclic/sectors", "found 1, must be an integer from 2"});
+  rows.push_back({"a ring without an engine order", with_cyclic("{\"sectors\": 3}"),
+                  "/structure/cyclic/engine_order", "found no key \"engine_order\""});
+  rows.push_back({"mistuning of one sector",
+                  with_cyclic("{\"sectors\": 3, \"engine_order\": 1, \"mistuning\": {}}"),
+                  "/structure/cyclic/mistuning",
+                  "found \"mistuning\", which belongs to a full ring; must have \"full\": true beside it"});
+  rows.push_back({"a factor missing in a mistuning",
+                  with_cyclic("{\"sectors\": 3, \"engine_order\": 1, \"full\": true, \"mistuning\": "
+                              "{\"k.value\": [1, 2]}}"),
+                  "/structure/cyclic/mistuning/k.value", "found a list of 2, must be a list of 3 numbers"});
   rows.push_back({"no response", good_scene_with("\"response\": {\"at\": \"a\"},", ""), "/response",
                   "found no key \"response\", which is required where there are several degrees of freedom"});
   rows.push_back({"response without a place",

@@ -118,15 +118,15 @@ TEST_CASE("with an accuracy the order is the highest one, and samples are not he
 
 TEST_CASE("a scene without an order is computed to the default accuracy") {
   const Scene silent = read_text(good_scene_with("\"response\"", "\"response\""));
-  const Scene empty = read_text(
-      good_scene_with("\"response\"", "\"harmonics\": {\"samples\": 8, \"friction\": \"sampled\"}, \"response\""));
+  const Scene empty = read_text(good_scene_with(
+      "\"response\"", "\"harmonics\": {\"samples\": 8, \"friction\": \"sampled\"}, \"response\""));
   for (const Scene& scene : {silent, empty}) {
     CHECK(scene.harmonics.accuracy == default_accuracy);
     CHECK(scene.harmonics.order == 55);
     CHECK(read_text(write(scene)) == scene);
   }
-  CHECK(read_text(good_scene_with("\"response\"", "\"harmonics\": {\"period\": 2}, \"response\"")).harmonics.order ==
-        110);
+  CHECK(read_text(good_scene_with("\"response\"", "\"harmonics\": {\"period\": 2}, \"response\""))
+            .harmonics.order == 110);
 }
 
 TEST_CASE("decimal numbers are rounded once, to the nearest double") {
@@ -271,4 +271,16 @@ TEST_CASE("a word of nine letters is near up to three edits and not at four") {
   const std::vector<std::string> known = {"stiffness"};
   CHECK(nearest("stiffnxyz", known) == "stiffness");
   CHECK(nearest("stiffwxyz", known).empty());
+}
+
+TEST_CASE("a response at several places is written and read again") {
+  for (
+      const char* response :
+      {R"({"max_of": [{"at": "a"}, {"between": ["a", "b"]}], "frame": "absolute"})",
+       R"([{"name": "tip", "at": "a"}, {"name": "any", "max_of": [{"at": "a"}, {"direction": {"b": 0.5}}]}])"}) {
+    const Scene s =
+        read_text(good_scene_with("\"response\": {\"at\": \"a\"}", std::string("\"response\": ") + response));
+    CHECK(s.responses.back().others.size() == 1);
+    CHECK(read_text(write(s)) == s);
+  }
 }
