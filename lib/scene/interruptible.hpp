@@ -20,6 +20,7 @@ template <class F>
 auto interruptible(F f, const StopRequest& stop, const std::string& message) {
   using Result = std::invoke_result_t<F&, const StopRequest&>;
   if (!stop) return f(stop);
+  if (stop()) throw Interrupted(message);
   const auto given_up = std::make_shared<std::atomic<bool>>(false);
   auto task = std::make_shared<std::packaged_task<Result()>>(
       [f = std::move(f), given_up]() mutable { return f([given_up] { return given_up->load(); }); });

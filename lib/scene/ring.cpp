@@ -92,9 +92,9 @@ class Sector {
   void mistune(const Node* mistuning) {
     if (mistuning == nullptr) return;
     const Location all{mistuning, child(place, "mistuning")};
-    if (!Keys(all, {}, faults_).is_object()) return;
     const auto own = numbers();
-    for (const Member& parameter : *mistuning->get<Node::Object>()) {
+    for (const Member* member : members(all, faults_)) {
+      const Member& parameter = *member;
       const Location at{&parameter.value, child(all.pointer, parameter.key)};
       const auto found =
           std::find_if(own.begin(), own.end(), [&](const auto& each) { return each.first == parameter.key; });

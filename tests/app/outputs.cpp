@@ -150,7 +150,7 @@ TEST_CASE("a sweep over many combinations takes no more memory than a short one"
     return ended.kilobytes;
   };
   if (ARCSLIP_SANITIZED) return;  // what is freed is kept
-  const long few = kilobytes(3), many = kilobytes(400);
+  const long few = kilobytes(3), many = kilobytes(500);
   const auto written = static_cast<long>(fs::file_size(place / "s.json") / 1024);
   CAPTURE(few, many, written);
   CHECK(written > 4 * few);

@@ -110,13 +110,20 @@ TEST_CASE("the peaks of several places are those of each that no other exceeds")
 }
 
 TEST_CASE("curves of peaks of several places go through the peaks of their responses") {
-  const scene::Scene s = chain({c, a, b});
+  scene::Scene s = chain({c, a, b});
+  s.responses.front().name = "any";
+  for (const auto& [name, place] : {std::pair("a", a), std::pair("b", b), std::pair("c", c)})
+    s.responses.push_back({name, place});
   const observables::CurveRange range{"d1.normal_load", 0.5, 1.2, scenes::window(s).from,
                                       scenes::window(s).to};
   int points = 0, compared = 0;
   for (const auto& curve : observables::resonance_peaks(s, range))
     for (const auto& point : curve.points) {
       if (points++ % 10 != 3) continue;
+      // Where two places are equally high, one may exceed the other for less than a step of the response.
+      if (std::count_if(point.responses.begin() + 1, point.responses.end(),
+                        [&](const auto& each) { return each.amplitude > 0.999 * point.amplitude; }) > 1)
+        continue;
       ++compared;
       scene::Scene at = s;
       scene::set(at, range.over, point.over);

@@ -339,7 +339,7 @@ TEST_CASE(
   const Eigen::Map<const continuation::Vector> u(found[0].point.unknowns.data(), problem.size());
   const Eigen::MatrixXd x = time::dof_coefficients(problem, u, p);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(x.rows());
-  for (const auto& [dof, weight] : mode) q += weight * x.col(dof);
+  for (const scene::Term& term : mode) q += term.weight * x.col(term.dof);
   const double mean_square = 0.5 * q.squaredNorm();  // its mean is zero
   CHECK(std::abs(feed * (mean_square - 1) + damping) < 1e-9);
 }

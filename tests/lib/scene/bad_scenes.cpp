@@ -131,6 +131,10 @@ void add_rest(std::vector<BadScene>& rows) {
                   with_cyclic("{\"sectors\": 3, \"engine_order\": 1, \"mistuning\": {}}"),
                   "/structure/cyclic/mistuning",
                   "found \"mistuning\", which belongs to a full ring; must have \"full\": true beside it"});
+  rows.push_back({"mistuned twice",
+                  with_cyclic("{\"sectors\": 3, \"engine_order\": 1, \"full\": true, \"mistuning\": "
+                              "{\"k.value\": [1, 2, 1], \"k.value\": [1, 2, 1]}}"),
+                  "/structure/cyclic/mistuning/k.value", "found the key \"k.value\" again"});
   rows.push_back({"a factor missing in a mistuning",
                   with_cyclic("{\"sectors\": 3, \"engine_order\": 1, \"full\": true, \"mistuning\": "
                               "{\"k.value\": [1, 2]}}"),
