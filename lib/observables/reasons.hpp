@@ -109,9 +109,9 @@ inline constexpr Reason compared{"compared", "all computations were compared"};
 
 /// The reasons of a branch, or of a curve of peaks or folds.
 inline constexpr std::array of_branches = {
-    boundary,        unbounded,  closed,        branch_point,   fold,         corner,
-    resonance,       jump,       point_limit,   user,           start_failed, step_too_small,
-    state_too_large, event,      not_evaluated, monitor_failed, no_mode,      not_piecewise_linear,
+    boundary,        unbounded,  closed,        branch_point,   fold,          corner,
+    resonance,       jump,       point_limit,   user,           start_failed,  step_too_small,
+    state_too_large, event,      not_evaluated, monitor_failed, no_mode,       not_piecewise_linear,
     massless,        set_valued, loss_factor,   sector,         several_places};
 
 /// The reasons of a response at one frequency.
@@ -139,8 +139,9 @@ inline constexpr std::array of_motions = {periodic,
                                           start_failed};
 
 /// The reasons of a sweep.
-inline constexpr std::array of_sweeps = {swept,      user,        no_convergence, singular,   not_finite,
-                                         set_valued, loss_factor, sector, several_places, event_limit};
+inline constexpr std::array of_sweeps = {swept,          user,       no_convergence, singular,
+                                         not_finite,     set_valued, loss_factor,    sector,
+                                         several_places, event_limit};
 
 /// The reasons of a comparison of methods.
 inline constexpr std::array of_comparisons = {compared, user, start_failed};

@@ -1,8 +1,8 @@
 #include <arcslip/structure/reduction.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/structure/blocks.hpp>
 #include <arcslip/scene/interruptible.hpp>
+#include <arcslip/structure/blocks.hpp>
 #include <arcslip/structure/projected.hpp>
 #include <arcslip/structure/rounding.hpp>
 

@@ -31,8 +31,11 @@ TEST_CASE("a computation that ends by itself gives its result or its exception, 
   const auto own = std::this_thread::get_id();
   const auto thread = [](const StopRequest&) { return std::this_thread::get_id(); };
   CHECK(interruptible(thread, {}, "") == own);
-  CHECK(interruptible(thread, [] { return false; }, "") != own);
+  CHECK(interruptible(
+            thread, [] { return false; }, "") != own);
   const auto fails = [](const StopRequest&) -> int { throw std::runtime_error("no solution"); };
   CHECK_THROWS_WITH(interruptible(fails, {}, ""), "no solution");
-  CHECK_THROWS_WITH(interruptible(fails, [] { return false; }, ""), "no solution");
+  CHECK_THROWS_WITH(interruptible(
+                        fails, [] { return false; }, ""),
+                    "no solution");
 }
