@@ -6,6 +6,12 @@
 
 namespace arcslip::continuation {
 
+Evaluated Evaluator::test_piece(In u, In p, std::uint64_t piece, PieceTest, bool& inside) {
+  const Evaluated result = move_to(u, p, Needs::residual);
+  inside = result == Evaluated::ok && residual().allFinite() && this->piece() == piece;
+  return result;
+}
+
 std::unique_ptr<LinearSolver> Problem::linear_solver() const {
   return nullptr;
 }

@@ -45,6 +45,10 @@ bool apply_transposed(const Jacobian& J, In x, Out y);
 /// What an evaluation computes. `jacobian` includes the residual.
 enum class Needs { residual, jacobian };
 
+/// What a test of a piece asks: all of F, or only the part that left the piece last, where F has parts: then
+/// `inside` may be wrong, `outside` is not.
+enum class PieceTest { whole, part };
+
 /// A named scalar of the problem.
 struct Parameter {
   std::string name, unit;
@@ -84,6 +88,10 @@ class Evaluator {
 
   /// The smooth piece of a piecewise smooth F at the last point; equal numbers mean the same piece.
   virtual std::uint64_t piece() const { return 0; }
+
+  /// Whether (u, p) is in this piece, which may cost less than F: many such tests locate a kink. Until the
+  /// next move_to() there is no last point.
+  virtual Evaluated test_piece(In u, In p, std::uint64_t piece, PieceTest test, bool& inside);
 };
 
 class LinearSolver;  // linear_solver.hpp

@@ -169,6 +169,19 @@ bool Corrector::piece(std::uint64_t& piece) {
   }
 }
 
+bool Corrector::is_in_piece(const Vector& v, std::uint64_t piece, PieceTest test) {
+  p_[free_] = v[v.size() - 1];
+  ++counts_.residuals;
+  failure_.clear();
+  bool inside = false;
+  try {
+    return evaluator_->test_piece(v.head(v.size() - 1), p_, piece, test, inside) == Evaluated::ok && inside;
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
+}
+
 std::optional<std::uint64_t> Corrector::piece_of_residual() const {
   try {
     return evaluator_->piece();

@@ -77,6 +77,9 @@ class Corrector {
   /// The smooth piece of the evaluator's last point. False if the problem throws: see failure().
   bool piece(std::uint64_t& piece);
 
+  /// Whether v is in this piece: Evaluator::test_piece().
+  bool is_in_piece(const Vector& v, std::uint64_t piece, PieceTest test);
+
   /// The unit tangent at the last solution or linearize(): B t = e_{n+1}, so that row . t > 0; |t| = 1 in
   /// scales. False if it is not finite.
   bool tangent(Vector& t) const;

@@ -10,10 +10,11 @@ namespace {
 constexpr double finest_kink = 1e-12;  // of the search interval, or of |u|: accuracy of the kink
 constexpr double least_slope = 0.1;    // of a tangent relative to the first one, to predict along it
 constexpr double farther = 8;          // factor after a prediction short of the end of the piece
-constexpr double first_margin = 1e-2, least_margin = 1e-12, largest_margin = 0.5;
-constexpr double wider = 10;  // margin after passing the end
+constexpr double farthest_cubic = 8;   // of the interval of its two points
+constexpr double first_margin = 1e-2;
+constexpr double chord_width = 1e-3;  // of the chord: accuracy of its crossing
 constexpr int most_kink_corrections = 60;
-constexpr int most_bisections = 20;  // where no prediction leaves the piece
+constexpr int most_blind_aims = 20;  // where no prediction leaves the piece
 
 }  // namespace
 
@@ -28,6 +29,56 @@ bool settle(Corrector& at, CurvePoint& place) {
   return at.piece(place.piece);
 }
 
+namespace {
+
+// The branch beyond its last known point in steps x along a direction d: dv/dx = t / <t, d> with its tangent
+// t. With two points it is the cubic through both, with one the tangent.
+class Prediction {
+ public:
+  Prediction(const Vector& direction, const Vector& row)
+      : direction_(direction), row_(row), second_(direction.size()), third_(direction.size()) {}
+
+  void begin_at(double x, const CurvePoint& place) {
+    h_ = 0;
+    x_ = x;
+    v_ = place.v;
+    const double along = row_.dot(place.tangent);
+    goes_on_ = along > least_slope;  // else the branch turns away
+    slope_ = goes_on_ ? Vector(place.tangent / along) : direction_;
+  }
+  void go_on_to(double x, const CurvePoint& place) {
+    const double h = x - x_;
+    const bool went_on = goes_on_;
+    second_ = v_;
+    third_ = slope_;
+    begin_at(x, place);
+    if (!went_on || !goes_on_ || !(h > 0)) return;
+    h_ = h;
+    const Vector mean = (v_ - second_) / h;
+    third_ = (third_ + slope_ - 2 * mean) / (h * h);
+    second_ = (slope_ - mean) / h;
+  }
+  void use_tangent() { h_ = 0; }
+
+  bool is_cubic() const { return h_ > 0; }
+  double interval() const { return h_; }
+  void at(double x, Vector& v) const {
+    const double d = x - x_;
+    v = v_ + d * slope_;
+    if (is_cubic()) v += d * d * (second_ + (d + h_) * third_);
+  }
+  /// At a distance, up to a factor.
+  double error(double d) const { return is_cubic() ? d * d * (d + h_) * (d + h_) : d * d; }
+
+ private:
+  const Vector &direction_, &row_;
+  double x_ = 0, h_ = 0;
+  bool goes_on_ = false;
+  Vector v_, slope_, second_, third_;
+};
+
+}  // namespace
+
 bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePoint& kink, Correction& last,
                  const Inside& is_inside) {
   const Vector row = with.border_row(from.tangent);
@@ -35,66 +86,92 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
   // Along from.tangent: of `kink`, which is in the piece of `from`, and of what is not.
   double lower = 0, upper = length, ahead = length;
   // Share of the distance to the predicted end of the piece that is kept, so that it is not passed. The error
-  // of a prediction is quadratic in the distance, and is known from the next prediction.
-  double margin = first_margin, predicted = 0, way = 0;
+  // of a prediction is known from the next one.
+  double margin = first_margin, predicted = 0, error = 0;
+  bool error_of_cubic = false;
+  Vector beyond;  // the branch at `upper`, or nothing
   bool factors_fit = false;
-  int bisections = 0;
+  int blind_aims = 0;
   kink = from;
   Vector v = from.v;
-  const auto predict = [&](double x) {
-    const double along = row.dot(kink.tangent);
-    if (along > least_slope)
-      v = kink.v + (x - lower) / along * kink.tangent;
-    else  // the branch turns away: no prediction normal to its tangent
-      v = kink.v + (x - lower) * from.tangent;
-  };
+  Prediction prediction(from.tangent, row);
+  prediction.begin_at(0, from);
   const auto inside_at = [&] {
     std::uint64_t piece = 0;
     return with.piece(piece) && piece == from.piece && (!is_inside || is_inside(v));
   };
-  const auto predicted_inside = [&](double x) {
-    predict(x);
-    return with.move_to(v) && inside_at();
+  const auto v_inside = [&](PieceTest test) {
+    return is_inside ? with.move_to(v) && inside_at() : with.is_in_piece(v, from.piece, test);
+  };
+  const auto predicted_inside = [&](double x, PieceTest test) {
+    prediction.at(x, v);
+    return v_inside(test);
+  };
+  const auto inside_on_chord = [&](double x, PieceTest test) {
+    v = kink.v + (x - lower) / (upper - lower) * (beyond - kink.v);
+    return v_inside(test);
+  };
+  // The end of the piece on a path v(x), between a place inside and one outside.
+  const auto bisect = [](double& inside, double& outside, double width, const auto& is_in) {
+    for (double tested = inside;;) {  // by all of F; what left the piece last is asked first
+      while (outside - inside > width) {
+        const double middle = 0.5 * (inside + outside);
+        (is_in(middle, PieceTest::part) ? inside : outside) = middle;
+      }
+      if (inside == tested || is_in(inside, PieceTest::whole)) return;
+      outside = inside;
+      inside = tested;
+    }
+  };
+  // Where the predicted branch stays in the piece but the branch does not: on the chord to its point beyond,
+  // and in the middle in turns.
+  const auto blind_aim = [&] {
+    if (beyond.size() == 0 || blind_aims % 2 == 0) return 0.5 * (lower + upper);
+    double inside = lower, outside = upper;
+    bisect(inside, outside, std::max(finest / 4, chord_width * (upper - lower)), inside_on_chord);
+    return inside > lower ? inside : 0.5 * (lower + outside);
   };
   for (int k = 0; k < most_kink_corrections && upper - lower > finest; ++k) {
     double inside = lower, outside = std::min(upper, lower + ahead);
-    while (predicted_inside(outside)) {
+    if (outside - lower > farthest_cubic * prediction.interval()) prediction.use_tangent();
+    while (predicted_inside(outside, PieceTest::whole)) {
       inside = outside;
       if (outside == upper) break;
       outside = std::min(upper, lower + farther * (outside - lower));
     }
-    const double fine = 0.5 * std::min(margin, largest_margin);
-    while (outside - inside > std::max(finest / 4, fine * (outside - lower))) {
-      const double middle = 0.5 * (inside + outside);
-      (predicted_inside(middle) ? inside : outside) = middle;
+    const double distance = outside - lower;
+    margin = first_margin;
+    if (error > 0 && (prediction.is_cubic() || !error_of_cubic)) {
+      const double next = error_of_cubic ? prediction.error(distance) : distance * distance;
+      margin = std::min(first_margin, 2 * std::abs(outside - predicted) * (next / error) / distance);
     }
+    bisect(inside, outside, std::max(finest / 4, 0.5 * margin * distance), predicted_inside);
     if (inside == lower || outside - lower <= finest) return true;  // the piece ends here
-    if (way > 0)
-      margin = std::min(first_margin, 2 * std::abs(outside - predicted) / (way * way) * (outside - lower));
-    const bool stays = inside == upper, bisected = stays || margin > largest_margin;
-    if (stays && ++bisections > most_bisections) return false;
-    const bool at_end = stays && bisections == 1 && upper == length;  // whether the piece ends at all
-    const double aim = at_end ? upper : bisected ? 0.5 * (lower + upper) : inside - margin * (inside - lower);
-    predict(aim);
+    const bool stays = inside == upper;
+    if (stays && ++blind_aims > most_blind_aims) return false;
+    const bool at_end = stays && blind_aims == 1 && upper == length;  // whether the piece ends at all
+    const double aim = at_end ? upper : stays ? blind_aim() : inside - margin * (inside - lower);
+    prediction.at(aim, v);
     const Correction at = with.correct(v, row, factors_fit);
     factors_fit = at.converged && inside_at();
     if (!factors_fit) {
       upper = aim;
       ahead = upper - lower;
-      margin = wider * std::max(margin, least_margin);
-      way = 0;
+      beyond = at.converged ? v : Vector();
+      error = 0;
       continue;
     }
     if (at_end) return false;
-    way = bisected ? 0 : aim - lower;
-    if (bisected) margin = largest_margin;
+    error = stays ? 0 : prediction.error(aim - lower);
+    error_of_cubic = prediction.is_cubic();
     predicted = outside;
-    ahead = bisected ? upper - aim : 2 * (outside - aim);
+    ahead = stays ? upper - aim : 2 * (outside - aim);
     lower = aim;
     kink.v = v;
     kink.arclength = from.arclength + lower;
     last = at;
     if (!settle(with, kink)) return false;
+    prediction.go_on_to(lower, kink);
   }
   return upper - lower <= finest;
 }

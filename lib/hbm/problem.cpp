@@ -35,6 +35,7 @@ HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
     derivative_.resize(std::max(derivative_.size(), part.motion.size()));
     product_.resize(derivative_.size());
     parts_.push_back(std::move(part));
+    latest_to_leave_.push_back(e);
   }
 }
 
@@ -50,13 +51,45 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
   R_.tail(R_.size() - displacements_).setZero();
   stiffness_.residual(u_, force_factor_, R_);
   for (Part& part : parts_) {
-    part.of->set_fields(p, part.fields);
-    part.map.gather(u_, part.motion);
-    if (part.rate_dependent) part.element->set_frequency(stiffness_.base_frequency());
-    part.element->move_to(part.motion, part.fields, jacobian);
+    move(part, u_, p, jacobian);
     part.map.add(part.element->force(), R_);
   }
   return R_.allFinite() ? Evaluated::ok : Evaluated::failed;
+}
+
+void HbmEvaluator::move(Part& part, const continuation::In& u, const continuation::In& p, bool jacobian) {
+  part.of->set_fields(p, part.fields);
+  part.map.gather(u, part.motion);
+  if (part.rate_dependent)
+    part.element->set_frequency(model_->harmonics.base_frequency(p[model::frequency]));
+  part.element->move_to(part.motion, part.fields, jacobian);
+}
+
+Evaluated HbmEvaluator::test_piece(continuation::In u, continuation::In p, std::uint64_t piece,
+                                   continuation::PieceTest test, bool& inside) {
+  if (!assembled_) assemble();
+  if (!(p[model::frequency] > 0)) return Evaluated::outside_domain;
+  if (!u.allFinite() || !p.allFinite()) return Evaluated::failed;
+  inside = true;
+  if (piece != tested_piece_) {  // not known which of its parts are in it
+    for (Part& part : parts_) move(part, u, p, false);
+    inside = this->piece() == piece;
+    if (!inside) return Evaluated::ok;
+    for (Part& part : parts_) part.tested = part.element->piece();
+    tested_piece_ = piece;
+    return Evaluated::ok;
+  }
+  for (auto at = latest_to_leave_.begin(); at != latest_to_leave_.end(); ++at) {
+    Part& part = parts_[*at];
+    move(part, u, p, false);
+    inside = part.element->piece() == part.tested;
+    if (!inside) {
+      std::rotate(latest_to_leave_.begin(), at, at + 1);
+      return Evaluated::ok;
+    }
+    if (test == continuation::PieceTest::part) return Evaluated::ok;
+  }
+  return Evaluated::ok;
 }
 
 const continuation::Jacobian& HbmEvaluator::jacobian() const {

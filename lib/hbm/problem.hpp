@@ -28,6 +28,9 @@ class HbmEvaluator final : public continuation::Evaluator {
   const continuation::Jacobian& jacobian() const override;  // put together on the first call
   void parameter_derivative(int k, continuation::Out dR) const override;
   std::uint64_t piece() const override;
+  /// Moves only elements, and the one that left a piece last before the others.
+  continuation::Evaluated test_piece(continuation::In u, continuation::In p, std::uint64_t piece,
+                                     continuation::PieceTest test, bool& inside) override;
 
   /// The rows and columns of J of the cosine and sine of order n > 0, those of block i at 2 i and 2 i + 1,
   /// from the parts of J. J_n: 2 blocks() x 2 blocks().
@@ -54,14 +57,18 @@ class HbmEvaluator final : public continuation::Evaluator {
     const model::NonlinearPart* of;
     std::vector<double> fields;
     Vector motion;
+    std::uint64_t tested = 0;  // its piece in tested_piece_
   };
 
+  void move(Part& part, const continuation::In& u, const continuation::In& p, bool jacobian);
   void assemble() const;
 
   std::shared_ptr<const model::Model> model_;
   Eigen::Index displacements_;  // before the auxiliary unknowns
   DynamicStiffness stiffness_;
   std::vector<Part> parts_;
+  std::vector<std::size_t> latest_to_leave_;     // a piece, of parts_
+  std::optional<std::uint64_t> tested_piece_;  // the last one in which a point was found
   Vector u_, R_;
   mutable Vector derivative_, product_;
   mutable continuation::Jacobian jacobian_;

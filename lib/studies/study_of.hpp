@@ -20,6 +20,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -43,28 +44,26 @@ void for_each(const scene::Scene& scene, const scene::Combinations& all, int thr
               const results::ProgressCallback& progress, const Take& take) {
   std::atomic<bool> goes_on = true;
   std::mutex telling;
-  std::map<std::size_t, results::Progress> computed_now;  // with the last report of each
+  std::map<std::size_t, results::Progress> last;  // report of each that is not computed to its end
+  std::size_t first = 0;                          // of them; all before it are computed
+  std::set<std::size_t> ended;                    // after it
   const auto make = [&](std::size_t k) {
-    results::Progress begun;
-    begun.branch = static_cast<int>(k);
-    begun.branches = static_cast<int>(all.size());
-    {
-      const std::lock_guard lock(telling);
-      computed_now.emplace(k, begun);
-    }
     scene::Setting set = all[k];
     scene::Scene with = scene;
     for (const auto& [name, value] : set) scene::set(with, name, value);
     auto computed = compute(Case{with, all.size() == 1}, [&](results::Progress now) {
-      now.branch = begun.branch;
-      now.branches = begun.branches;
       const std::lock_guard lock(telling);
-      computed_now[k] = now;
-      if (progress && !progress(computed_now.begin()->second)) goes_on = false;
+      last[k] = now;
+      results::Progress& of_first = last[first];  // also before its own first report
+      of_first.branch = static_cast<int>(first);
+      of_first.branches = static_cast<int>(all.size());
+      if (progress && !progress(of_first)) goes_on = false;
       return goes_on.load();
     });
     const std::lock_guard lock(telling);
-    computed_now.erase(k);
+    last.erase(k);
+    ended.insert(k);
+    while (ended.erase(first) == 1) ++first;
     return std::pair(std::move(computed), std::move(set));
   };
   in_order(all.size(), threads, goes_on, make,
