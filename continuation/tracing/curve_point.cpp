@@ -12,7 +12,7 @@ constexpr double least_slope = 0.1;    // of a tangent relative to the first one
 constexpr double farther = 8;          // factor after a prediction short of the end of the piece
 constexpr double farthest_cubic = 8;   // of the interval of its two points
 constexpr double first_margin = 1e-2;
-constexpr double chord_width = 1e-3;  // of the chord: accuracy of its crossing
+constexpr double chord_share = 1e-3;  // accuracy of the end of the piece on a chord
 constexpr int most_kink_corrections = 60;
 constexpr int most_blind_aims = 20;  // where no prediction leaves the piece
 
@@ -111,10 +111,10 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
     v = kink.v + (x - lower) / (upper - lower) * (beyond - kink.v);
     return v_inside(test);
   };
-  // The end of the piece on a path v(x), between a place inside and one outside.
-  const auto bisect = [](double& inside, double& outside, double width, const auto& is_in) {
+  // The end of the piece on a path v(x), between a place inside and one outside, to a share of its distance.
+  const auto bisect = [&](double& inside, double& outside, double share, const auto& is_in) {
     for (double tested = inside;;) {  // by all of F; what left the piece last is asked first
-      while (outside - inside > width) {
+      while (outside - inside > std::max(finest / 4, share * (outside - lower))) {
         const double middle = 0.5 * (inside + outside);
         (is_in(middle, PieceTest::part) ? inside : outside) = middle;
       }
@@ -128,7 +128,7 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
   const auto blind_aim = [&] {
     if (beyond.size() == 0 || blind_aims % 2 == 0) return 0.5 * (lower + upper);
     double inside = lower, outside = upper;
-    bisect(inside, outside, std::max(finest / 4, chord_width * (upper - lower)), inside_on_chord);
+    bisect(inside, outside, chord_share, inside_on_chord);
     return inside > lower ? inside : 0.5 * (lower + outside);
   };
   for (int k = 0; k < most_kink_corrections && upper - lower > finest; ++k) {
@@ -145,7 +145,7 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
       const double next = error_of_cubic ? prediction.error(distance) : distance * distance;
       margin = std::min(first_margin, 2 * std::abs(outside - predicted) * (next / error) / distance);
     }
-    bisect(inside, outside, std::max(finest / 4, 0.5 * margin * distance), predicted_inside);
+    bisect(inside, outside, 0.5 * margin, predicted_inside);
     if (inside == lower || outside - lower <= finest) return true;  // the piece ends here
     const bool stays = inside == upper;
     if (stays && ++blind_aims > most_blind_aims) return false;
