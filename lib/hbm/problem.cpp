@@ -60,8 +60,7 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
 void HbmEvaluator::move(Part& part, const continuation::In& u, const continuation::In& p, bool jacobian) {
   part.of->set_fields(p, part.fields);
   part.map.gather(u, part.motion);
-  if (part.rate_dependent)
-    part.element->set_frequency(model_->harmonics.base_frequency(p[model::frequency]));
+  if (part.rate_dependent) part.element->set_frequency(model_->harmonics.base_frequency(p[model::frequency]));
   part.element->move_to(part.motion, part.fields, jacobian);
 }
 
@@ -224,7 +223,22 @@ Vector parameters_at(const HbmProblem& problem, double omega) {
 
 namespace {
 
+std::optional<Vector> newton(const HbmProblem& problem, const Vector& p, const Vector& guess,
+                             int iterations) {
+  if (!guess.allFinite()) return {};
+  const int n = problem.size();
+  continuation::Counts counts;
+  continuation::NewtonOptions options;
+  options.iterations = iterations;
+  continuation::Corrector corrector(problem, p, model::frequency, options, counts);
+  Vector v(n + 1);
+  v << guess, p[model::frequency];
+  if (!corrector.correct(v, Vector::Unit(n + 1, n), false).converged) return {};
+  return v.head(n);
+}
+
 constexpr double least_part = 1e-3;  // of the excitation
+constexpr int most_from_afar = 12;   // iterations; 3 to 7 are usual, and a branch finds what Newton does not
 constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch that closes on itself never ends
 
 // The branch over the excitation factors from -1 to 1, from one of them on, such as from rest at 0. If all
@@ -389,16 +403,7 @@ Vector linear_response(const HbmProblem& problem, const Vector& p) {
 }
 
 std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess) {
-  if (!guess.allFinite()) return {};
-  const int n = problem.size();
-  continuation::Counts counts;
-  continuation::NewtonOptions newton;
-  newton.iterations = 30;
-  continuation::Corrector corrector(problem, p, model::frequency, newton, counts);
-  Vector v(n + 1);
-  v << guess, p[model::frequency];
-  if (!corrector.correct(v, Vector::Unit(n + 1, n), false).converged) return {};
-  return v.head(n);
+  return newton(problem, p, guess, 30);
 }
 
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
@@ -406,10 +411,10 @@ std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& prob
   const auto stopped = [&] { return go_on && !go_on(); };
   const Vector rest = Vector::Zero(problem->size());
   if (stopped()) return {};
-  if (const auto found = response_near(*problem, p, rest)) return found;
+  if (const auto found = newton(*problem, p, rest, most_from_afar)) return found;
   for (const auto guess : {linear_response, stuck_response}) {
     if (stopped()) return {};
-    if (const auto found = response_near(*problem, p, guess(*problem, p))) return found;
+    if (const auto found = newton(*problem, p, guess(*problem, p), most_from_afar)) return found;
   }
   if (const auto found = ramp(problem, p, 0, rest, go_on)) return found;
   if (const auto found = ramp_from_part(problem, p, go_on)) return found;
