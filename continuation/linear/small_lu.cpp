@@ -1,5 +1,7 @@
 #include <arcslip/continuation/linear/small_lu.hpp>
 
+#include <arcslip/continuation/linear/widest.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,8 +26,6 @@ Eigen::Index pivot_row(const double* column, Eigen::Index diagonal, Eigen::Index
   for (Eigen::Index i = 0; i < n; ++i) a[i] -= u * b[i];
 }
 
-// Inlined, so that it is compiled for the instructions of its caller. These change no digit: no sum is in
-// another order.
 [[gnu::always_inline]] inline void factorize(double* A, int* order, Eigen::Index n) {
   for (Eigen::Index i = 0; i < n; ++i) order[i] = static_cast<int>(i);
   for (Eigen::Index begin = 0; begin < n; begin += panel) {
@@ -57,19 +57,10 @@ Eigen::Index pivot_row(const double* column, Eigen::Index diagonal, Eigen::Index
   }
 }
 
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void factorize_by_four(double* A, int* order, Eigen::Index n) {
-  factorize(A, order, n);
-}
-#endif
-
 }  // namespace
 
 void factorize_small(Matrix& A, Eigen::VectorXi& order) {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return factorize_by_four(A.data(), order.data(), A.rows());
-#endif
-  factorize(A.data(), order.data(), A.rows());
+  widest([&]() __attribute__((always_inline)) { factorize(A.data(), order.data(), A.rows()); });
 }
 
 }  // namespace arcslip::continuation

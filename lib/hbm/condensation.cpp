@@ -1,7 +1,9 @@
 #include <arcslip/hbm/condensation.hpp>
 
+#include <arcslip/continuation/linear/widest.hpp>
 #include <arcslip/hbm/sparse_links.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
@@ -11,13 +13,9 @@ namespace {
 
 constexpr double pole = 1e-14;        // pivot of Z_ll, relative to the largest entry of its column
 constexpr double modal_pole = 1e-14;  // D, relative to the sum of its terms
-constexpr Eigen::Index few = 16;  // unknowns, up to which blocks of a factorization cost more than they save
+constexpr Eigen::Index few = 8;       // coordinates, up to which elimination in place costs less
 
 using Sparse = continuation::ComplexSparseLU::Matrix;
-
-Complex product(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 // a - b c, without the tests for infinity of operator*.
 Complex less_product(Complex a, Complex b, Complex c) {
@@ -25,10 +23,12 @@ Complex less_product(Complex a, Complex b, Complex c) {
           a.imag() - b.real() * c.imag() - b.imag() * c.real()};
 }
 
+constexpr Eigen::Index most_in_place = std::max<Eigen::Index>(few, most_changes);
+
 // B := A^-1 B for a small A, which is overwritten, by elimination with row pivots. False: A is singular.
 bool eliminate(ComplexMatrix& A, ComplexMatrix& B) {
   const Eigen::Index n = A.rows(), m = B.cols();
-  std::array<double, few> least;
+  std::array<double, most_in_place> least;
   for (Eigen::Index k = 0; k < n; ++k)
     least[static_cast<std::size_t>(k)] = pole * pole * A.col(k).cwiseAbs2().maxCoeff();
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -53,6 +53,52 @@ bool eliminate(ComplexMatrix& A, ComplexMatrix& B) {
       for (Eigen::Index i = 0; i < k; ++i) B(i, j) = less_product(B(i, j), A(i, k), B(k, j));
     }
   return true;
+}
+
+// Real and imaginary parts of a column.
+struct Split {
+  double *re, *im;
+};
+
+// D^-1 of n modes. False where one is singular to rounding.
+[[gnu::always_inline]] inline bool invert(const Factors& g, double s, const double* M, const double* C,
+                                          const double* K, Eigen::Index n, Split inverse) {
+  double* __restrict re = inverse.re, * __restrict im = inverse.im;
+  int singular = 0;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double a = g.mass.real() * M[j] + g.spring.real() * K[j],
+                 b = g.mass.imag() * M[j] + g.damper.imag() * C[j] + g.spring.imag() * K[j];
+    const double size = a * a + b * b, least = modal_pole * (K[j] + s * s * M[j]);
+    singular |= !(size > least * least);
+    re[j] = a / size;
+    im[j] = -b / size;
+  }
+  return singular == 0;
+}
+
+[[gnu::always_inline]] inline void multiply(Split a, Split b, Eigen::Index n, Split product) {
+  double* __restrict re = product.re, * __restrict im = product.im;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    re[j] = a.re[j] * b.re[j] - a.im[j] * b.im[j];
+    im[j] = a.re[j] * b.im[j] + a.im[j] * b.re[j];
+  }
+}
+
+// sum_j a_j b_j, of every fourth j apart.
+[[gnu::always_inline]] inline Complex scalar_product(Split a, Split b, Eigen::Index n) {
+  constexpr Eigen::Index lanes = 4;
+  double re[lanes] = {}, im[lanes] = {};
+  Eigen::Index j = 0;
+  for (; j + lanes <= n; j += lanes)
+    for (Eigen::Index q = 0; q < lanes; ++q) {
+      re[q] += a.re[j + q] * b.re[j + q] - a.im[j + q] * b.im[j + q];
+      im[q] += a.re[j + q] * b.im[j + q] + a.im[j + q] * b.re[j + q];
+    }
+  for (; j < n; ++j) {
+    re[0] += a.re[j] * b.re[j] - a.im[j] * b.im[j];
+    im[0] += a.re[j] * b.im[j] + a.im[j] * b.re[j];
+  }
+  return {(re[0] + re[1]) + (re[2] + re[3]), (im[0] + im[1]) + (im[2] + im[3])};
 }
 
 }  // namespace
@@ -90,8 +136,12 @@ ModalCondensation::ModalCondensation(const FixedInterfaceModes& modes, const Eig
     : r_(modes.K.qq.rows()),
       l_(modes.K.ll.size()),
       c_(observed.bottomRows(l_)),
-      inverse_(l_),
-      Zlq_(l_, r_),
+      inverse_re_(l_),
+      inverse_im_(l_),
+      right_re_(l_, r_ + 1),
+      right_im_(l_, r_ + 1),
+      W_re_(l_, r_ + 1),
+      W_im_(l_, r_ + 1),
       U_(l_, most_changes),
       inverse_U_(l_, most_changes),
       H_(r_, most_changes),
@@ -102,34 +152,35 @@ bool ModalCondensation::condense(const LinearParts& parts, double s, const Compl
                                  Condensed& into) {
   const auto& [M, C, K] = std::tie(parts.modes()->M, parts.modes()->C, parts.modes()->K);
   const Factors g = parts.factors(s);
-  for (Eigen::Index j = 0; j < l_; ++j) {
-    const Complex D = g.combine(M.ll[j], C.ll[j], K.ll[j]);
-    const double size = std::norm(D), least = modal_pole * (K.ll[j] + s * s * M.ll[j]);
-    if (!(size > least * least)) return false;
-    inverse_[j] = std::conj(D) / size;
-  }
+  right_re_.leftCols(r_) = g.mass.real() * M.lq + g.spring.real() * K.lq;
+  right_im_.leftCols(r_) = g.mass.imag() * M.lq + g.damper.imag() * C.lq + g.spring.imag() * K.lq;
+  right_re_.col(r_) = f.tail(l_).real();
+  right_im_.col(r_) = f.tail(l_).imag();
   into.Z.resize(r_, r_);
+  into.f.resize(r_);
+  const bool regular = continuation::widest([&]() __attribute__((always_inline)) {
+    const Split inverse{inverse_re_.data(), inverse_im_.data()};
+    if (!invert(g, s, M.ll.data(), C.ll.data(), K.ll.data(), l_, inverse)) return false;
+    for (Eigen::Index i = 0; i <= r_; ++i) {
+      const Split W{W_re_.col(i).data(), W_im_.col(i).data()};
+      multiply({right_re_.col(i).data(), right_im_.col(i).data()}, inverse, l_, W);
+      for (Eigen::Index k = 0; k <= std::min(i, r_ - 1); ++k) {
+        const Complex sum = scalar_product({right_re_.col(k).data(), right_im_.col(k).data()}, W, l_);
+        if (i < r_)
+          into.Z(k, i) = into.Z(i, k) = g.combine(M.qq(k, i), C.qq(k, i), K.qq(k, i)) - sum;
+        else
+          into.f[k] = f[k] - sum;
+      }
+    }
+    return true;
+  });
+  if (!regular) return false;
   into.W.resize(l_, r_ + 1 + c_.cols());
-  into.f = f.head(r_);
-  for (Eigen::Index i = 0; i < r_; ++i) {
-    for (Eigen::Index k = 0; k < r_; ++k) into.Z(k, i) = g.combine(M.qq(k, i), C.qq(k, i), K.qq(k, i));
-    for (Eigen::Index j = 0; j < l_; ++j) {
-      Zlq_(j, i) = g.combine(M.lq(j, i), C.lq(j, i), K.lq(j, i));
-      into.W(j, i) = product(Zlq_(j, i), inverse_[j]);
-    }
-  }
-  for (Eigen::Index j = 0; j < l_; ++j) {
-    into.W(j, r_) = product(inverse_[j], f[r_ + j]);
-    for (Eigen::Index i = 0; i < c_.cols(); ++i) into.W(j, r_ + 1 + i) = inverse_[j] * c_(j, i);
-  }
-  for (Eigen::Index i = 0; i < r_; ++i) {
-    for (Eigen::Index k = 0; k <= i; ++k) {
-      Complex sum = into.Z(k, i);
-      for (Eigen::Index j = 0; j < l_; ++j) sum = less_product(sum, Zlq_(j, k), into.W(j, i));
-      into.Z(k, i) = into.Z(i, k) = sum;
-    }
-    for (Eigen::Index j = 0; j < l_; ++j) into.f[i] = less_product(into.f[i], Zlq_(j, i), into.W(j, r_));
-  }
+  for (Eigen::Index i = 0; i <= r_; ++i)
+    for (Eigen::Index j = 0; j < l_; ++j) into.W(j, i) = Complex(W_re_(j, i), W_im_(j, i));
+  for (Eigen::Index i = 0; i < c_.cols(); ++i)
+    for (Eigen::Index j = 0; j < l_; ++j)
+      into.W(j, r_ + 1 + i) = Complex(inverse_re_[j] * c_(j, i), inverse_im_[j] * c_(j, i));
   return parts.changes().empty() || add_changes(parts, g, f, into);
 }
 
@@ -152,8 +203,8 @@ bool ModalCondensation::add_changes(const LinearParts& parts, const Factors& g, 
         H(at, i) = d;
       else
         U(at - r_, i) = d;
-  inverse_U.noalias() = inverse_.asDiagonal() * U;
-  H.noalias() -= Zlq_.transpose() * inverse_U;
+  for (Eigen::Index j = 0; j < l_; ++j) inverse_U.row(j) = Complex(inverse_re_[j], inverse_im_[j]) * U.row(j);
+  H.noalias() -= into.W.leftCols(r_).transpose() * U;  // Z_ql D^-1 d_l
   ComplexMatrix &A = equations_, &T = forces_;
   A.noalias() = U.transpose() * inverse_U;
   const Eigen::Index observations = c_.cols();
@@ -182,9 +233,10 @@ Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, cons
       c_(observed.bottomRows(l_)),
       rhs_(l_, r_ + 1 + c_.cols()) {
   if (l_ > few) choose_sparse(parts);
-  if (sparse_lu_) return;
-  lu_ = continuation::LU<Complex>(l_);
-  Zll_.resize(l_, l_);
+  if (l_ <= few)
+    Zll_.resize(l_, l_);
+  else if (!sparse_lu_)
+    elimination_.emplace(r_, l_, c_.cols());
 }
 
 // Each degree of freedom of a large structure is linked to few others, and so is each coordinate in y.
@@ -201,7 +253,6 @@ void Condensation::choose_sparse(const std::vector<PartInY>& parts) {
   }
 }
 
-// W = Z_ll^-1 rhs_
 bool Condensation::solve_linear(const StructuralMatrices& of, const Factors& g, ComplexMatrix& W) {
   if (sparse_lu_) {
     for (int j = 0; j < l_; ++j)
@@ -214,20 +265,19 @@ bool Condensation::solve_linear(const StructuralMatrices& of, const Factors& g, 
   }
   for (Eigen::Index j = 0; j < l_; ++j)
     for (Eigen::Index i = 0; i < l_; ++i) Zll_(i, j) = of.at(g, r_ + i, r_ + j);
-  if (l_ <= few) {
-    W = rhs_;
-    return eliminate(Zll_, W);
-  }
-  lu_.factorize(Zll_);
-  for (Eigen::Index k = 0; k < l_; ++k)
-    if (!(std::abs(lu_.pivot(k)) > pole * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
-  lu_.solve_columns(rhs_, W);
-  return true;
+  W = rhs_;
+  return eliminate(Zll_, W);
 }
 
 bool Condensation::condense(const StructuralMatrices& of, const Factors& g, const ComplexVector& f,
                             Condensed& into) {
   ComplexMatrix &Z = into.Z, &W = into.W;
+  if (elimination_) {
+    elimination_->set(of, g, f, c_);
+    if (!elimination_->run(pole)) return false;
+    elimination_->condensed(Z, into.f, W);
+    return true;
+  }
   Z.resize(r_, r_);
   for (Eigen::Index j = 0; j < r_; ++j)
     for (Eigen::Index i = 0; i < r_; ++i) Z(i, j) = of.at(g, i, j);

@@ -9,7 +9,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/sparse_algebra.hpp>
-#include <arcslip/hbm/linear_parts.hpp>
+#include <arcslip/hbm/elimination.hpp>
 
 #include <optional>
 
@@ -46,16 +46,17 @@ class ModalCondensation {
   bool add_changes(const LinearParts& parts, const Factors& g, const ComplexVector& f, Condensed& into);
 
   const Eigen::Index r_, l_;
-  Eigen::MatrixXd c_;      // l x observations
-  ComplexVector inverse_;  // of D
-  ComplexMatrix Zlq_;
+  Eigen::MatrixXd c_;  // l x observations
+  // Real and imaginary parts apart: D^-1; Z_lq and f_l, D^-1 times these.
+  Eigen::VectorXd inverse_re_, inverse_im_;
+  Eigen::MatrixXd right_re_, right_im_, W_re_, W_im_;
   // Of the changes: d_l, D^-1 d_l, the forces in them.
   Eigen::MatrixXd U_;
   ComplexMatrix inverse_U_, H_, equations_, forces_;
 };
 
 /// Mutable, one for each evaluator. Z_ll^-1 is by what costs least for its size and for how few coordinates
-/// each part links: plain elimination, LU of a dense or of a sparse matrix.
+/// each part links: elimination in place, elimination (elimination.hpp), or LU of a sparse matrix.
 class Condensation {
  public:
   /// The first `unknowns` coordinates remain. observed: c, a column for each observation.
@@ -66,14 +67,15 @@ class Condensation {
 
  private:
   void choose_sparse(const std::vector<PartInY>& parts);
+  // W = Z_ll^-1 rhs_
   bool solve_linear(const StructuralMatrices& of, const Factors& g, ComplexMatrix& W);
 
   const Eigen::Index r_, l_;
   Eigen::MatrixXd c_;  // l x observations
   ComplexMatrix rhs_;  // [Z_lq, f_l, c_l]
-  ComplexMatrix Zll_;
-  continuation::LU<Complex> lu_;
-  std::optional<continuation::ComplexSparseLU> sparse_lu_;  // where it costs less; then in place of these:
+  ComplexMatrix Zll_;  // of few
+  std::optional<Elimination> elimination_;
+  std::optional<continuation::ComplexSparseLU> sparse_lu_;
   continuation::ComplexSparseLU::Matrix sparse_Zll_;
 };
 

@@ -3,7 +3,7 @@
 namespace arcslip::hbm {
 namespace {
 
-constexpr double sparse_share = 0.1;  // of the multiplications of dense factors, each of which costs less
+constexpr double sparse_share = 0.04;  // of the multiplications of dense factors, each of which costs less
 
 }  // namespace
 
