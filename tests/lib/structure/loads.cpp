@@ -191,10 +191,10 @@ TEST_CASE("a structure whose stiffness grows with the square of a speed is reduc
 
 namespace {
 
-// A shaft in two planes: the chain in each, disks with gyroscopic moments, a bearing with cross-coupled
-// coefficients, and rotating damping.
-scene::Matrices shaft(int size) {
-  const scene::Matrices plane = chain(size, true);
+// A shaft in two planes: the chain in each, with gyroscopic moments of a few disks or all along it, and with
+// disks also bearings with cross-coupled coefficients and rotating damping at the joints.
+scene::Matrices shaft(int size, bool disks) {
+  const scene::Matrices plane = chain(size, disks);
   const auto twice = [&](const scene::MatrixFile& file) {
     structures::Entries entries;
     const Eigen::MatrixXd A = structures::dense(file);
@@ -204,43 +204,45 @@ scene::Matrices shaft(int size) {
           for (const int k : {0, 1}) entries.push_back({2 * i + k, 2 * j + k, A(i, j)});
     return entries;
   };
+  const auto couple = [](structures::Entries& to, int at, double xy, double yx) {
+    to.insert(to.end(), {{2 * at, 2 * at + 1, xy}, {2 * at + 1, 2 * at, yx}});
+  };
+  structures::Entries K = twice(plane.stiffness), G, N;
+  for (int i = 0; i < size; i += disks ? size / 3 : 1) couple(G, i, 0.9, -0.9);
   scene::Matrices all;
   all.mass = structures::matrix(2 * size, twice(plane.mass));
-  structures::Entries K = twice(plane.stiffness), C = twice(plane.damping), G, N;
-  for (const int at : {5, size / 2}) {
-    K.insert(K.end(), {{2 * at, 2 * at, 30},
-                       {2 * at + 1, 2 * at + 1, 45},
-                       {2 * at, 2 * at + 1, 20},
-                       {2 * at + 1, 2 * at, -35}});
-    C.insert(C.end(), {{2 * at, 2 * at, 1},
-                       {2 * at + 1, 2 * at + 1, 2},
-                       {2 * at, 2 * at + 1, 0.4},
-                       {2 * at + 1, 2 * at, 0.1}});
+  if (disks) {
+    structures::Entries C = twice(plane.damping);
+    for (const int at : {5, size / 2}) {
+      K.insert(K.end(), {{2 * at, 2 * at, 30}, {2 * at + 1, 2 * at + 1, 45}});
+      couple(K, at, 20, -35);
+      C.insert(C.end(), {{2 * at, 2 * at, 1}, {2 * at + 1, 2 * at + 1, 2}});
+      couple(C, at, 0.4, 0.1);
+    }
+    couple(N, size / 4, 0.3, -0.3);
+    all.damping = structures::matrix(2 * size, C);
+    all.circulatory = structures::matrix(2 * size, N);
+    all.unsymmetric_stiffness = all.unsymmetric_damping = true;
   }
-  for (int i = 0; i < size; i += 3) G.insert(G.end(), {{2 * i, 2 * i + 1, 0.9}, {2 * i + 1, 2 * i, -0.9}});
-  for (int i = 1; i < size; i += 4) N.insert(N.end(), {{2 * i, 2 * i + 1, 0.3}, {2 * i + 1, 2 * i, -0.3}});
   all.stiffness = structures::matrix(2 * size, K);
-  all.damping = structures::matrix(2 * size, C);
   all.gyroscopic = structures::matrix(2 * size, G);
-  all.circulatory = structures::matrix(2 * size, N);
-  all.unsymmetric_stiffness = all.unsymmetric_damping = true;
   return all;
 }
 
 }  // namespace
 
 TEST_CASE("a rotor with unsymmetric matrices is reduced for all speeds") {
-  const int size = 120;
-  const scene::Matrices of = shaft(size);
+  const int size = 36;
+  const bool disks = GENERATE(true, false);
+  const scene::Matrices of = shaft(size, disks);
   const std::vector<int> kept{2 * size - 1, 24};
-  structure::Purpose purpose{GENERATE(1.0, 6.0), GENERATE(0.5, 4.0), pressure(2 * size)};
+  structure::Purpose purpose{1, disks ? 4.0 : 0.5, pressure(2 * size)};
   const structure::Reduced reduced = structure::reduce(of, kept, purpose);
-  CAPTURE(purpose.highest, purpose.highest_speed, reduced.M.rows(), reduced.error);
+  CAPTURE(disks, purpose.highest, purpose.highest_speed, reduced.M.rows(), reduced.error);
   CHECK(reduced.error < 1e-9);
-  CHECK(reduced.M.rows() < 2 * size);
   CHECK(reduced.G == -reduced.G.transpose());
   CHECK(reduced.N == -reduced.N.transpose());
-  for (const double speed : {0.0, 0.37, 0.83, 1.0}) {
+  for (const double speed : {0.0, 0.37, 1.0}) {
     const Difference found = difference(of, kept, purpose, reduced, speed * purpose.highest_speed);
     CAPTURE(speed);
     CHECK(found.stiffness < 1e-9);
