@@ -112,7 +112,7 @@ Coordinates coordinates(const model::Model& model, double frequency) {
   c.P.leftCols(B.cols()) =
       B * continuation::solve(B.transpose() * B, Eigen::MatrixXd::Identity(B.cols(), B.cols()));
   if (B.cols() < model.dofs) c.P.rightCols(model.dofs - B.cols()) = continuation::orthogonal_complement(B);
-  if (frequency > 0 && stiff.empty() && !model.linked)
+  if (frequency > 0 && stiff.empty() && !model.linked && model::is_symmetric(model))
     c.modes = fixed_interface_modes(model, c.P, c.unknowns, frequency);
   if (c.modes) c.P.rightCols(c.linear()) *= c.modes->of_linear;
   return c;

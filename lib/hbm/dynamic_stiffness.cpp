@@ -54,10 +54,10 @@ bool DynamicStiffness::move_to(In p) {
 // With its force in v_.
 bool DynamicStiffness::condense(Harmonic& at) {
   const double s = at.order * base_frequency();
-  if (parts_.linked()) {
-    if (!linked_) linked_.emplace(r_, responses_);
+  if (!parts_.symmetric()) {
+    if (!unsymmetric_) unsymmetric_.emplace(r_, responses_);
     parts_.dynamic_stiffness(at.order, Z_);
-    return linked_->condense(Z_, v_, at.condensed);
+    return unsymmetric_->condense(Z_, v_, at.condensed);
   }
   if (parts_.modes()) return modal_->condense(parts_, s, v_, at.condensed);
   if (!direct_) direct_.emplace(parts_.parts(), r_, responses_);

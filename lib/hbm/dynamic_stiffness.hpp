@@ -3,7 +3,8 @@
 //
 //   R_n = Z_n X_n - f_n,   Z_n = K - (n omega_b)^2 M + i n omega_b C,   X_n = a_n - i b_n
 //
-// Z_n need not be symmetric, nor of the same K for every n, as in a sector of a ring.
+// Z_n need not be symmetric, as with gyroscopic forces, nor of the same K for every n, as in a sector of a
+// ring.
 
 #include <arcslip/hbm/condensation.hpp>
 #include <arcslip/hbm/coordinates.hpp>
@@ -81,9 +82,9 @@ class DynamicStiffness {
   std::vector<model::Direction> ground_;  // along which the displacement of the ground belongs to each
   LinearParts parts_;
   std::optional<ModalCondensation> modal_;
-  std::optional<Condensation> direct_;             // without modes, or where too many parts differ from them
-  std::optional<UnsymmetricCondensation> linked_;  // to the next sector
-  ComplexMatrix Z_;                                // before that
+  std::optional<Condensation> direct_;  // without modes, or where too many parts differ from them
+  std::optional<UnsymmetricCondensation> unsymmetric_;  // of a rotor, or linked to the next sector
+  ComplexMatrix Z_;                                     // before that
   std::vector<Harmonic> harmonics_;
   Vector last_p_;
   mutable ComplexVector y_, v_;  // a full motion, a residual of the full equation; q comes first in both

@@ -42,7 +42,11 @@ DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x
 LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
                          const elements::Harmonics& harmonics,
                          std::shared_ptr<const FixedInterfaceModes> modes)
-    : linked_(model.linked), period_(harmonics.period), size_(P.cols()), modes_(std::move(modes)) {
+    : linked_(model.linked),
+      symmetric_(model::is_symmetric(model)),
+      period_(harmonics.period),
+      size_(P.cols()),
+      modes_(std::move(modes)) {
   if (model.sector) sector_ = *model.sector;
   changes_.reserve(most_changes + 1);
   const auto add = [&](Kind kind, const std::vector<model::LinearPart>& parts) {
@@ -106,6 +110,7 @@ void LinearParts::set_values() {
     modal_ = modal_ && (part.of.parameter < 0 || part.of.value(p_) == part.of.value(modes_->p));
   if (modal_) return;
   for (Eigen::MatrixXd* matrix : {&matrices_.M, &matrices_.C, &matrices_.K}) matrix->setZero(size_, size_);
+  if (!symmetric_) matrices_.N.setZero(size_, size_);
   for (const PartInY& part : parts_) {
     Eigen::MatrixXd& sum = matrices_.of(part.kind);
     for (const auto& [j, at_j] : part.direction.entries())
@@ -134,8 +139,11 @@ void LinearParts::dynamic_stiffness(int n, ComplexMatrix& Z) const {
   const Complex t = turn(n);
   Z.resize(size_, size_);
   for (Eigen::Index j = 0; j < size_; ++j)
-    for (Eigen::Index i = 0; i < size_; ++i)
-      Z(i, j) = matrices_.at(g, i, j) + t * links_.at(g, i, j) + std::conj(t) * links_.at(g, j, i);
+    for (Eigen::Index i = 0; i < size_; ++i) {
+      Z(i, j) = matrices_.at(g, i, j);
+      if (linked_) Z(i, j) = Z(i, j) + t * links_.at(g, i, j) + std::conj(t) * links_.at(g, j, i);
+    }
+  if (!symmetric_) Z += g.circulatory * matrices_.N;
 }
 
 const Eigen::MatrixXd& LinearParts::in_y(const MatrixInY& part) const {
@@ -144,7 +152,7 @@ const Eigen::MatrixXd& LinearParts::in_y(const MatrixInY& part) const {
 }
 
 Factors LinearParts::factors(double s) const {
-  Factors g{-s * s, Complex(0, s), 1};
+  Factors g{-s * s, Complex(0, s), 1, 1};
   if (!damping_ || s == 0) return g;
   g.mass += Complex(0, s * damping_->alpha_at(p_));
   g.spring += Complex(0, s * damping_->beta_at(p_) + damping_->loss_factor_at(p_));
@@ -249,8 +257,9 @@ void LinearParts::add_product(const Factors& g, Complex turn, const ComplexVecto
       if (const Complex factor = g.of(part.of.kind) * part.of.value(p_); factor != 0.0)
         v.noalias() += factor * (in_y(part) * y);
   } else {
-    for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
-      if (g.of(kind) != 0.0) v.noalias() += g.of(kind) * (matrices_.of(kind) * y);
+    for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring, Kind::circulatory})
+      if (g.of(kind) != 0.0 && matrices_.of(kind).size() > 0)
+        v.noalias() += g.of(kind) * (matrices_.of(kind) * y);
   }
 }
 
@@ -272,17 +281,28 @@ double LinearParts::quadratic_form(Kind kind, int n, const ComplexVector& y) con
   return sum;
 }
 
+// The share of skew-symmetric parts in y^H Z y: of A = S + N, y^H S y is real and y^H N y imaginary.
+Complex LinearParts::skew_form(const ComplexVector& y, double s) const {
+  if (symmetric_) return 0;
+  const Factors g = factors(s);
+  Complex sum = 0;
+  for (const MatrixInY& part : matrix_parts_)
+    if (!part.of.symmetric)
+      sum += g.of(part.of.kind) * part.of.value(p_) * Complex(0, y.dot(in_y(part) * y).imag());
+  return sum;
+}
+
 double LinearParts::damping_form(int n, const ComplexVector& y) const {
   const Factors g = factors(n * base_frequency_);
   double sum = 0;
   for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
     if (const double loss = g.of(kind).imag(); loss != 0) sum += loss * quadratic_form(kind, n, y);
-  return sum;
+  return symmetric_ ? sum : sum + skew_form(y, n * base_frequency_).imag();
 }
 
 QuadraticForms LinearParts::quadratic_forms(int n, const ComplexVector& y, double force_factor) const {
   QuadraticForms forms{quadratic_form(Kind::mass, n, y), quadratic_form(Kind::spring, n, y),
-                       damping_form(n, y), 0};
+                       damping_form(n, y), skew_form(y, n * base_frequency_).real(), 0};
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n) continue;
     const Complex amplitude = force_factor * force.of.factor(p_[model::frequency]) * force.given;

@@ -9,6 +9,9 @@
 // adds (cosine - i sine) d to the f of its harmonic. Most of d is zero. So do the forces of a moving ground
 // (model::Excitation), one for each mass. alpha, beta, loss_factor: model::ProportionalDamping.
 //
+// A circulatory matrix has the factor 1, without proportional damping. Matrices of the structure may be
+// unsymmetric; gyroscopic ones are among C.
+//
 // In a sector of a ring d = d_own + t d_next, with the turn t of that harmonic (model::Sector), adds
 // value * g conj(d) d^T: Z is linked, not symmetric, with M, C and K Hermitian.
 
@@ -68,8 +71,10 @@ struct PartInY {
 /// g of the masses, the dampers and the springs at one s.
 struct Factors {
   Complex mass, damper, spring;
+  double circulatory = 0;
 
   Complex of(model::LinearKind kind) const {
+    if (kind == model::LinearKind::circulatory) return circulatory;
     if (kind == model::LinearKind::mass) return mass;
     return kind == model::LinearKind::damper ? damper : spring;
   }
@@ -79,19 +84,21 @@ struct Factors {
   }
 };
 
-/// M, C, K in y, symmetric; of a sector what is within it.
+/// M, C, K in y; of a sector what is within it. N: circulatory, empty where there is none.
 struct StructuralMatrices {
-  Eigen::MatrixXd M, C, K;
+  Eigen::MatrixXd M, C, K, N;
 
   const Eigen::MatrixXd& of(model::LinearKind kind) const {
+    if (kind == model::LinearKind::circulatory) return N;
     if (kind == model::LinearKind::mass) return M;
     return kind == model::LinearKind::damper ? C : K;
   }
   Eigen::MatrixXd& of(model::LinearKind kind) {
+    if (kind == model::LinearKind::circulatory) return N;
     if (kind == model::LinearKind::mass) return M;
     return kind == model::LinearKind::damper ? C : K;
   }
-  /// An entry of Z.
+  /// An entry of Z without N.
   Complex at(const Factors& g, Eigen::Index i, Eigen::Index j) const {
     return g.combine(M(i, j), C(i, j), K(i, j));
   }
@@ -101,6 +108,7 @@ struct StructuralMatrices {
 struct QuadraticForms {
   double mass = 0, stiffness = 0;  // x^H M x, x^H K x
   double damping = 0;              // Im x^H Z x
+  double gyroscopic = 0;           // what skew-symmetric matrices add to Re x^H Z x
   Complex force;                   // x^H f
 };
 
@@ -125,8 +133,9 @@ class LinearParts {
   const FixedInterfaceModes* modes() const { return modal_ ? modes_.get() : nullptr; }
   const std::vector<ChangedPart>& changes() const { return changes_; }
   const StructuralMatrices& matrices() const { return matrices_; }
-  /// Whether masses, dampers or springs reach into the next sector. Z is then by this function alone.
-  bool linked() const { return linked_; }
+  /// False where masses, dampers or springs reach into the next sector, or a matrix of the structure is
+  /// unsymmetric. Z is then by this function alone.
+  bool symmetric() const { return !linked_ && symmetric_; }
   void dynamic_stiffness(int n, ComplexMatrix& Z) const;
   /// f of harmonic n.
   void force(int n, ComplexVector& f) const;
@@ -141,7 +150,7 @@ class LinearParts {
   /// dZ/dp_k y - force_factor df/dp_k of harmonic n.
   void differentiate(int k, int n, const ComplexVector& y, double force_factor, ComplexVector& v) const;
 
-  /// y^H M y, y^H C y or y^H K y of harmonic n.
+  /// y^H M y, y^H C y or y^H K y of harmonic n: of the symmetric part.
   double quadratic_form(model::LinearKind kind, int n, const ComplexVector& y) const;
   /// Im y^H Z y: over pi times the order, the energy that harmonic n of the motion loses in a period.
   double damping_form(int n, const ComplexVector& y) const;
@@ -173,11 +182,12 @@ class LinearParts {
   void add_product(const Factors& g, Complex turn, const ComplexVector& y, ComplexVector& v) const;
   void set_values();
   void set_links();
+  Complex skew_form(const ComplexVector& y, double s) const;
   double modal_value(const PartInY& part) const;
   void add(const ForceInY& force, Complex amplitude, ComplexVector& f) const;
 
   model::Sector sector_{1, 0};
-  bool linked_;
+  bool linked_, symmetric_;
   int period_;
   Eigen::Index size_;
   std::shared_ptr<const FixedInterfaceModes> modes_;

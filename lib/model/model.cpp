@@ -21,6 +21,8 @@ constexpr double massless = 1e-14;  // a mode: its mu relative to the largest
 constexpr double unnamed = 1e-6;    // of what a row or coordinate without a name counts as drifting
 constexpr double held = 1e-12;      // a mean position: its stiffness relative to that of its springs
 
+enum class Form { symmetric, skew, general };
+
 Excitation::Kind kind_of(const scene::Part& part) {
   if (part.type == &scene::base_displacement_type()) return Excitation::Kind::base_displacement;
   if (part.type == &scene::base_acceleration_type()) return Excitation::Kind::base_acceleration;
@@ -156,12 +158,12 @@ class Builder {
         r.coeffRef(place_[row]) += value;
   }
 
-  // The parameter of K2 in K + speed^2 K2.
+  // The parameter of the matrices that follow the speed.
   void set_speed() {
     const scene::Part& part = scene_.rotation.front();
     const double order = part.options.empty() ? 0 : part.options.as<scene::Rotation>().engine_order;
-    for (MatrixPart& matrix : model_.matrices) {
-      if (!matrix.squared) continue;
+    for (const std::size_t i : by_speed_) {
+      MatrixPart& matrix = model_.matrices[i];
       matrix.parameter = order > 0 ? frequency : parameter(part, 0);
       matrix.scale = order > 0 ? order : 1;
     }
@@ -173,8 +175,16 @@ class Builder {
     return rotation.engine_order > 0 ? highest_frequency / rotation.engine_order : rotation.highest_speed;
   }
 
-  void add_matrix(LinearKind kind, int parameter, Eigen::MatrixXd A) {
+  void add_matrix(LinearKind kind, int parameter, Eigen::MatrixXd A, bool symmetric = true) {
     model_.matrices.push_back({kind, parameter, std::make_shared<const Eigen::MatrixXd>(std::move(A))});
+    model_.matrices.back().symmetric = symmetric;
+  }
+
+  // Of a rotor, value: speed or its square.
+  void add_by_speed(LinearKind kind, Eigen::MatrixXd A, bool squared) {
+    add_matrix(kind, -1, std::move(A), squared);
+    model_.matrices.back().squared = squared;
+    by_speed_.push_back(model_.matrices.size() - 1);
   }
 
   void add_whole(const scene::Matrices& files) {
@@ -202,22 +212,29 @@ class Builder {
       for (std::size_t row = 0; row < place.size(); ++row)
         shape.load[place[row]] = load[static_cast<Eigen::Index>(row)];
     }
-    const auto add = [&](LinearKind kind, const scene::MatrixFile& file) {
-      if (!file.matrix) return;
+    const auto whole = [&](const scene::MatrixFile& file, Form form) {
       const scene::SparseMatrix& of = *file.matrix;
       Eigen::MatrixXd A = Eigen::MatrixXd::Zero(of.rows, of.columns);
       for (std::size_t j = 0; j < place.size(); ++j)
         for (auto k = static_cast<std::size_t>(of.starts[j]); k < static_cast<std::size_t>(of.starts[j + 1]);
              ++k)
           A(place[static_cast<std::size_t>(of.row_of[k])], place[j]) = of.values[k];
-      add_matrix(kind, -1, 0.5 * (A + A.transpose()));
+      if (form == Form::symmetric) A = 0.5 * (A + A.transpose()).eval();
+      if (form == Form::skew) A = 0.5 * (A - A.transpose()).eval();
+      return A;
+    };
+    const auto add = [&](LinearKind kind, const scene::MatrixFile& file, bool unsymmetric = false) {
+      if (file.matrix)
+        add_matrix(kind, -1, whole(file, unsymmetric ? Form::general : Form::symmetric), !unsymmetric);
     };
     add(LinearKind::mass, files.mass);
-    add(LinearKind::spring, files.stiffness);
-    add(LinearKind::damper, files.damping);
-    if (!files.stiffness_speed_squared.matrix) return;
-    add(LinearKind::spring, files.stiffness_speed_squared);
-    model_.matrices.back().squared = true;
+    add(LinearKind::spring, files.stiffness, files.unsymmetric_stiffness);
+    add(LinearKind::damper, files.damping, files.unsymmetric_damping);
+    if (files.stiffness_speed_squared.matrix)
+      add_by_speed(LinearKind::spring, whole(files.stiffness_speed_squared, Form::symmetric), true);
+    if (files.gyroscopic.matrix) add_by_speed(LinearKind::damper, whole(files.gyroscopic, Form::skew), false);
+    if (files.circulatory.matrix)
+      add_by_speed(LinearKind::circulatory, whole(files.circulatory, Form::skew), false);
   }
 
   void add_reduced(const scene::Matrices& files, const scene::StopRequest& stop) {
@@ -262,12 +279,11 @@ class Builder {
       model_.dof_names.push_back(scene_.dofs[i]);
     }
     add_matrix(LinearKind::mass, -1, reduced->M);
-    add_matrix(LinearKind::spring, -1, reduced->K);
-    if (reduced->C.size() > 0) add_matrix(LinearKind::damper, -1, reduced->C);
-    if (reduced->K2.size() > 0) {
-      add_matrix(LinearKind::spring, -1, reduced->K2);
-      model_.matrices.back().squared = true;
-    }
+    add_matrix(LinearKind::spring, -1, reduced->K, !files.unsymmetric_stiffness);
+    if (reduced->C.size() > 0) add_matrix(LinearKind::damper, -1, reduced->C, !files.unsymmetric_damping);
+    if (reduced->K2.size() > 0) add_by_speed(LinearKind::spring, reduced->K2, true);
+    if (reduced->G.size() > 0) add_by_speed(LinearKind::damper, reduced->G, false);
+    if (reduced->N.size() > 0) add_by_speed(LinearKind::circulatory, reduced->N, false);
     model_.reduction = {files.size(),   static_cast<int>(kept.size()), coordinates,          highest,
                         reduced->error, reduced->free_below,           purpose.highest_speed};
   }
@@ -311,11 +327,16 @@ class Builder {
     }
   }
 
-  // Of the modes V of M and K with natural frequencies w_j, V^T M V = 1, C = M V diag(2 w_j) V^T M over the
-  // damping ratio. With B = K + s^2 M, definite, M V = B V mu, w_j^2 = 1/mu - s^2; massless modes have none.
+  // Of the modes V of M and K at rest, of its symmetric part, with natural frequencies w_j, V^T M V = 1, C =
+  // M V diag(2 w_j) V^T M over the damping ratio. With B = K + s^2 M, definite, M V = B V mu, w_j^2 = 1/mu -
+  // s^2; massless modes have none.
   Eigen::MatrixXd modal_damping() {
     const continuation::Vector p = defaults(model_);
-    const Eigen::MatrixXd M = mass_matrix(model_, p), K = stiffness_matrix(model_, p);
+    const Eigen::MatrixXd M = mass_matrix(model_, p);
+    Eigen::MatrixXd K = sum_of(model_, LinearKind::spring, p);
+    for (const std::size_t i : by_speed_)  // without a parameter yet: with the value 1
+      if (model_.matrices[i].kind == LinearKind::spring) K -= *model_.matrices[i].A;
+    K = 0.5 * (K + K.transpose()).eval();
     const double shift = K.trace() / M.trace();
     Eigen::MatrixXd C = Eigen::MatrixXd::Zero(model_.dofs, model_.dofs);
     const auto modes = continuation::symmetric_modes(M, K + shift * M);
@@ -397,6 +418,7 @@ class Builder {
   const scene::Scene& scene_;
   std::vector<int> place_;                               // in the model, of the rows of matrices; -1: none
   std::vector<ShapeValues> shapes_;                      // of the excitations
+  std::vector<std::size_t> by_speed_;                    // matrices that follow the speed of rotation
   std::vector<int> dof_of_;                              // in the model, of those of a scene with matrices
   std::unordered_map<std::string, std::string> tie_of_;  // names of ties, by their members
   std::unordered_map<std::string, int> parameter_of_;    // indices, by their names
@@ -514,12 +536,18 @@ void add_outer(double factor, const Direction& d, const Direction& next, std::co
   add_outer(factor, imaginary, sum);
 }
 
+bool is_symmetric(const Model& model) {
+  return std::all_of(model.matrices.begin(), model.matrices.end(),
+                     [](const MatrixPart& part) { return part.symmetric; });
+}
+
 Eigen::MatrixXd sum_of(const Model& model, LinearKind kind, const continuation::Vector& p) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(model.dofs, model.dofs);
   const auto& parts = kind == LinearKind::mass     ? model.masses
                       : kind == LinearKind::damper ? model.dampers
                                                    : model.springs;
-  for (const LinearPart& part : parts) add_outer(p[part.parameter], part.direction, sum);
+  if (kind != LinearKind::circulatory)
+    for (const LinearPart& part : parts) add_outer(p[part.parameter], part.direction, sum);
   for (const MatrixPart& part : model.matrices)
     if (part.kind == kind) sum += part.value(p) * *part.A;
   return sum;
@@ -539,7 +567,7 @@ Eigen::MatrixXd damping_matrix(const Model& model, const continuation::Vector& p
 }
 
 Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector& p) {
-  return sum_of(model, LinearKind::spring, p);
+  return sum_of(model, LinearKind::spring, p) + sum_of(model, LinearKind::circulatory, p);
 }
 
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick) {
@@ -555,7 +583,7 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
       if (const Direction d = in_phase(spring.direction, spring.next); d.squaredNorm() > 0)
         add_outer(by_value ? k : 1 / d.squaredNorm(), d, K);
   for (const MatrixPart& part : model.matrices)
-    if (part.kind == LinearKind::spring) K += part.value(p) * *part.A;
+    if (part.kind == LinearKind::spring || part.kind == LinearKind::circulatory) K += part.value(p) * *part.A;
   const double largest = K.cwiseAbs().maxCoeff(), typical = largest > 0 ? largest : 1;
   for (const NonlinearPart& element : model.elements)
     for (std::size_t i = 0; i < element.directions.size(); ++i)
@@ -568,7 +596,12 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
   for (int i = 0; i < model.dofs; ++i)
     if (size[i] == 0) return i;
   const Eigen::VectorXd scale = size.cwiseSqrt().cwiseInverse();
-  const auto modes = continuation::symmetric_modes(scale.asDiagonal() * K * scale.asDiagonal());
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * K * scale.asDiagonal();
+  const auto modes = [&]() -> continuation::SymmetricModes {
+    if (is_symmetric(model)) return continuation::symmetric_modes(scaled);
+    auto [values, V] = continuation::singular_values(scaled);
+    return {std::move(values), std::move(V)};
+  }();
   Eigen::Index softest = 0, dof = 0;
   if (modes.values.cwiseAbs().minCoeff(&softest) > held) return {};
   Eigen::VectorXd share = (scale.asDiagonal() * modes.V.col(softest)).cwiseAbs();

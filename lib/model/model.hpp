@@ -44,16 +44,18 @@ struct LinearPart {
   Direction next{};  // empty: within the sector
 };
 
-enum class LinearKind { mass, damper, spring };
+/// circulatory: a stiffness without a potential, to which no proportional damping belongs.
+enum class LinearKind { mass, damper, spring, circulatory };
 
-/// A symmetric matrix of the structure: value * A, with value = c, its parameter over `scale`, or c^2, or 1
-/// where there is no parameter.
+/// A matrix of the structure: value * A, with value = c, its parameter over `scale`, or c^2, or 1 where there
+/// is no parameter. Gyroscopic matrices are dampers with a skew-symmetric A.
 struct MatrixPart {
   LinearKind kind;
   int parameter = -1;
   std::shared_ptr<const Eigen::MatrixXd> A;  // dofs x dofs
   bool squared = false;
   double scale = 1;
+  bool symmetric = true;  // A is
 
   double value(continuation::In p) const {
     const double c = parameter < 0 ? 1 : p[parameter] / scale;
@@ -206,9 +208,13 @@ void add_outer(double factor, const Direction& d, Eigen::MatrixXd& sum);
 void add_outer(double factor, const Direction& d, const Direction& next, std::complex<double> turn,
                Eigen::MatrixXd& sum);
 
+/// Whether all matrices of the structure are symmetric.
+bool is_symmetric(const Model& model);
+
 /// The sum of p d d^T and of the matrices of one kind. Of a sector: what does not reach into the next one.
 Eigen::MatrixXd sum_of(const Model& model, LinearKind kind, const continuation::Vector& p);
-/// M, C and K of M x'' + C x' + K x, without a loss factor, which has no equation in time.
+/// M, C and K of M x'' + C x' + K x, gyroscopic and circulatory matrices included, without a loss factor,
+/// which has no equation in time.
 Eigen::MatrixXd mass_matrix(const Model& model, const continuation::Vector& p);
 Eigen::MatrixXd damping_matrix(const Model& model, const continuation::Vector& p);
 Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector& p);

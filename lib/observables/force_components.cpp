@@ -31,7 +31,7 @@ ForceComponents force_components(const hbm::HbmProblem& problem, const hbm::HbmE
   if (!(square > 0)) return result;
   const double omega = n * at.stiffness().base_frequency();
   const hbm::QuadraticForms forms = at.stiffness().quadratic_forms(n, at.unknowns(), at.force_factor());
-  result.inertia = -omega * omega * forms.mass / square;
+  result.inertia = (forms.gyroscopic - omega * omega * forms.mass) / square;
   result.spring = forms.stiffness / square;
   result.viscous = forms.damping / square;
   result.excitation += forms.force / square;

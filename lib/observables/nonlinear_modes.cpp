@@ -117,6 +117,9 @@ class Modes {
   std::string refusal() const {
     if (free_->sector)
       return "modes of one sector alone are not those of the ring; give \"cyclic\" the key \"full\": true";
+    if (!model::is_symmetric(*free_))
+      return "modes of gyroscopic, circulatory and other unsymmetric matrices are complex, and are not "
+             "followed; a study of kind \"frf\" has their resonances";
     for (const auto& element : free_->elements)
       if (element.law->set_valued())
         return "the friction of \"" + element.name +

@@ -55,10 +55,11 @@ HeldBy held_by(const continuation::Event& event) {
 
 namespace {
 
-// With the stiffnesses of the elements.
+// Symmetric, with the stiffnesses of the elements.
 Eigen::MatrixXd whole_stiffness(const model::Model& model, const Vector& p,
                                 const std::vector<double>& motions) {
-  Eigen::MatrixXd K = model::stiffness_matrix(model, p);
+  Eigen::MatrixXd K = model::sum_of(model, model::LinearKind::spring, p);
+  if (!model::is_symmetric(model)) K = 0.5 * (K + K.transpose()).eval();
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const auto& element = model.elements[e];
     for (std::size_t i = 0; i < element.directions.size(); ++i) {
@@ -84,6 +85,35 @@ double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
   return highest;
 }
 
+// The gyroscopic matrix.
+Eigen::MatrixXd skew_damping(const model::Model& model, const Vector& p) {
+  if (model::is_symmetric(model)) return {};
+  const Eigen::MatrixXd C = model::sum_of(model, model::LinearKind::damper, p);
+  return 0.5 * (C - C.transpose());
+}
+
+// The largest |lambda|^2 of lambda^2 M v + lambda G v + K v = 0, G skew-symmetric, in the modes of M and K
+// with mass: those without have no gyroscopic forces.
+double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& G) {
+  if (G.size() == 0 || G.isZero(0)) return highest_square(M, K);
+  const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
+  const auto modes = continuation::symmetric_modes(M, K + shift * M);
+  if (modes.values.size() == 0) return 0;
+  const double largest = modes.values.maxCoeff();
+  Eigen::Index massless = 0;
+  while (massless < modes.values.size() && !(modes.values[massless] > 1e-12 * largest)) ++massless;
+  const Eigen::Index n = modes.values.size() - massless;
+  const Vector mu = modes.values.tail(n);
+  const Eigen::MatrixXd V = modes.V.rightCols(n) * mu.cwiseSqrt().cwiseInverse().asDiagonal();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  const double scale = std::sqrt(shift);
+  A.topRightCorner(n, n).diagonal().setConstant(scale);
+  A.bottomLeftCorner(n, n).diagonal() = (shift - mu.cwiseInverse().array()) / scale;
+  A.bottomRightCorner(n, n) = -V.transpose() * G * V;
+  const Eigen::VectorXcd all = continuation::eigenvalues(A);
+  return all.size() > 0 ? all.cwiseAbs2().maxCoeff() : 0;
+}
+
 // Of a sector of a ring in the waves of all its harmonics, in real and imaginary parts.
 double highest_square_of_waves(const model::Model& model, const Vector& p,
                                const std::vector<double>& motions) {
@@ -96,16 +126,21 @@ double highest_square_of_waves(const model::Model& model, const Vector& p,
   for (const int diameter : diameters) {
     if (2 * diameter > model.sector->count) continue;  // the same wave the other way round
     const std::complex<double> turn = model::Sector{model.sector->count, diameter}.turn(1);
-    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(2 * n, 2 * n), K = M;
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(2 * n, 2 * n), K = M, G;
+    if (const Eigen::MatrixXd own = skew_damping(model, p); own.size() > 0) {
+      G = M;
+      G.topLeftCorner(n, n) = G.bottomRightCorner(n, n) = own;
+    }
     for (const auto& part : model.masses)
       model::add_outer(p[part.parameter], part.direction, part.next, turn, M);
     for (const auto& part : model.springs)
       model::add_outer(p[part.parameter], part.direction, part.next, turn, K);
     for (const model::MatrixPart& part : model.matrices) {
-      if (part.kind == model::LinearKind::damper) continue;
+      if (part.kind != model::LinearKind::mass && part.kind != model::LinearKind::spring) continue;
       Eigen::MatrixXd& sum = part.kind == model::LinearKind::mass ? M : K;
-      sum.topLeftCorner(n, n) += part.value(p) * *part.A;
-      sum.bottomRightCorner(n, n) += part.value(p) * *part.A;
+      const Eigen::MatrixXd even = 0.5 * part.value(p) * (*part.A + part.A->transpose());
+      sum.topLeftCorner(n, n) += even;
+      sum.bottomRightCorner(n, n) += even;
     }
     for (std::size_t e = 0; e < model.elements.size(); ++e) {
       const auto& element = model.elements[e];
@@ -115,7 +150,7 @@ double highest_square_of_waves(const model::Model& model, const Vector& p,
                          element.directions[i], element.next.empty() ? model::Direction() : element.next[i],
                          turn, K);
     }
-    highest = std::max(highest, highest_square(M, K));
+    highest = std::max(highest, highest_square(M, K, G));
   }
   return highest;
 }
@@ -136,7 +171,8 @@ double bound_of_highest(const model::Model& model, const Vector& p) {
 double highest_natural_frequency(const model::Model& model, const Vector& p,
                                  const std::vector<double>& motions) {
   if (model.sector) return std::sqrt(highest_square_of_waves(model, p, motions));
-  return std::sqrt(highest_square(model::mass_matrix(model, p), whole_stiffness(model, p, motions)));
+  return std::sqrt(highest_square(model::mass_matrix(model, p), whole_stiffness(model, p, motions),
+                                  skew_damping(model, p)));
 }
 
 Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p)

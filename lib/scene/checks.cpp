@@ -22,16 +22,15 @@ void mark(const std::vector<Part>& parts, bool even_zero, std::vector<bool>& act
 }
 
 void check_rotation(const Scene& scene, Faults& faults) {
-  const bool has_stiffness = scene.matrices && scene.matrices->stiffness_speed_squared.matrix;
-  if (scene.rotation.empty() && has_stiffness)
+  if (scene.rotation.empty() && scene.matrices && scene.matrices->stiffness_speed_squared.matrix)
     faults.add(
         "/structure/matrices/stiffness_speed_squared",
         "found no \"rotation\", must stand beside \"matrices\": the speed by which this stiffness grows");
   if (scene.rotation.empty()) return;
-  if (!has_stiffness) {
-    faults.add(
-        "/structure/rotation",
-        "found no \"stiffness_speed_squared\" among \"matrices\", must be there: what the speed changes");
+  if (!scene.matrices || !scene.matrices->turns()) {
+    faults.add("/structure/rotation",
+               "found no \"stiffness_speed_squared\", \"gyroscopic\" or \"circulatory\" among \"matrices\", "
+               "must be there: what the speed changes");
     return;
   }
   const Part& part = scene.rotation.front();

@@ -352,6 +352,12 @@ Node study_of(const StudyType& type) {
   return of(std::move(study));
 }
 
+// Which matrices need not be symmetric.
+Node unsymmetric() {
+  Node word = of({{"enum", node(std::vector<std::string>{"stiffness", "damping"})}});
+  return list_of(std::move(word), 1);
+}
+
 Node matrix_file() {
   return read_tree(matrix_file_schema(false));
 }
@@ -382,6 +388,9 @@ Node schema_of(const Catalogue& catalogue) {
                                                  {"stiffness", matrix_file()},
                                                  {"damping", matrix_file()},
                                                  {"stiffness_speed_squared", matrix_file()},
+                                                 {"gyroscopic", matrix_file()},
+                                                 {"circulatory", matrix_file()},
+                                                 {"unsymmetric", unsymmetric()},
                                                  {"highest_frequency", of_type("number")}},
                                                 {"mass", "stiffness"}))});
   structure.push_back({"names", of_type("string")});

@@ -2,6 +2,9 @@
 // A structure from matrices in files: M x'' + C x' + K x of a finite-element model. Some rows have names, by
 // which parts of the scene act on them. It is reduced to those that the scene uses and to modes of the
 // others.
+//
+// Of a rotor, with the speed of a rotation (rotation.hpp): M x'' + (C + speed G) x' + (K + speed N + speed^2
+// K2) x, G and N skew-symmetric; without a rotation G and N as they stand.
 
 #include <arcslip/scene/bar.hpp>
 #include <arcslip/scene/named_file.hpp>
@@ -47,6 +50,8 @@ class Derived {
 struct Matrices {
   MatrixFile mass{}, stiffness{}, damping{};  // kg, N/m, N s/m; damping without a path: none
   MatrixFile stiffness_speed_squared{};       // N/m s^2/rad^2: K2 of K + speed^2 K2; without a path: none
+  MatrixFile gyroscopic{}, circulatory{};     // G and N; with a rotation per rad/s; without a path: none
+  bool unsymmetric_stiffness = false, unsymmetric_damping = false;  // as the scene says
   NamedFile names{};
   std::vector<int> rows{};       // from 0, of the first of Scene::dofs
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not
@@ -55,6 +60,8 @@ struct Matrices {
 
   int size() const { return stiffness.matrix ? stiffness.matrix->rows : 0; }
   bool has_damping() const { return !damping.file.path.empty(); }
+  /// Whether a speed changes it.
+  bool turns() const { return stiffness_speed_squared.matrix || gyroscopic.matrix || circulatory.matrix; }
   friend bool operator==(const Matrices& a, const Matrices& b);
 };
 

@@ -18,7 +18,9 @@ bool operator==(const MatrixFile& a, const MatrixFile& b) {
 
 bool operator==(const Matrices& a, const Matrices& b) {
   return a.mass == b.mass && a.stiffness == b.stiffness && a.damping == b.damping &&
-         a.stiffness_speed_squared == b.stiffness_speed_squared && a.names == b.names && a.rows == b.rows &&
+         a.stiffness_speed_squared == b.stiffness_speed_squared && a.gyroscopic == b.gyroscopic &&
+         a.circulatory == b.circulatory && a.unsymmetric_stiffness == b.unsymmetric_stiffness &&
+         a.unsymmetric_damping == b.unsymmetric_damping && a.names == b.names && a.rows == b.rows &&
          a.highest_frequency == b.highest_frequency && a.bar == b.bar;
 }
 
@@ -32,7 +34,7 @@ std::vector<NamedFile*> files(Scene& scene) {
   if (scene.matrices && !scene.matrices->bar) {
     Matrices& own = *scene.matrices;
     all = {&own.stiffness.file, &own.mass.file, &own.names};
-    for (MatrixFile* file : {&own.damping, &own.stiffness_speed_squared})
+    for (MatrixFile* file : {&own.damping, &own.stiffness_speed_squared, &own.gyroscopic, &own.circulatory})
       if (!file->file.path.empty()) all.push_back(&file->file);
   }
   for (Part& part : scene.elements) add(part.type, part.options);

@@ -12,9 +12,13 @@
 namespace arcslip::scene::file {
 namespace {
 
-constexpr double symmetric = 1e-9;  // a(i,j) - a(j,i), relative to sqrt(a(i,i) a(j,j)) or to both
+constexpr double agreeing = 1e-9;  // a(i,j) - a(j,i), relative to sqrt(a(i,i) a(j,j)) or to both
 
 constexpr int largest_whole = 500;  // rows
+
+enum class Form { symmetric, skew, general };
+
+constexpr const char* unsymmetric_wanted = "a list of at least one of \"stiffness\", \"damping\"";
 
 std::string place(int row, int column) {
   return "row " + std::to_string(row + 1) + ", column " + std::to_string(column + 1);
@@ -49,7 +53,9 @@ void add_without_highest(const std::string& pointer, int rows, Faults& faults) {
 class Files {
  public:
   Files(const Location& place, const Field& frequency, const FileSource& source, Faults& faults)
-      : keys_(place, {"mass", "stiffness", "damping", "stiffness_speed_squared", "highest_frequency"},
+      : keys_(place,
+              {"mass", "stiffness", "damping", "stiffness_speed_squared", "gyroscopic", "circulatory",
+               "unsymmetric", "highest_frequency"},
               faults),
         reading_{keys_, frequency, none_, no_dofs_, faults, source},
         faults_(faults) {}
@@ -58,40 +64,73 @@ class Files {
     if (!keys_.is_object()) return {};
     Matrices matrices;
     if (reading_.source.derived) matrices.derived = reading_.source.derived;
-    matrices.stiffness = read_matrix("stiffness", true);
+    read_unsymmetric(matrices);
+    const auto form = [](bool unsymmetric) { return unsymmetric ? Form::general : Form::symmetric; };
+    matrices.stiffness = read_matrix("stiffness", true, form(matrices.unsymmetric_stiffness));
     matrices.mass = read_matrix("mass", true);
-    matrices.damping = read_matrix("damping", false);
+    matrices.damping = read_matrix("damping", false, form(matrices.unsymmetric_damping));
     matrices.stiffness_speed_squared = read_matrix("stiffness_speed_squared", false);
+    matrices.gyroscopic = read_matrix("gyroscopic", false, Form::skew);
+    matrices.circulatory = read_matrix("circulatory", false, Form::skew);
     if (const Location highest = keys_.find("highest_frequency"); highest.node != nullptr)
       matrices.highest_frequency = read_number(highest, reading_.frequency, faults_).value_or(0);
     if (!matrices.stiffness.matrix || !matrices.mass.matrix) return {};
     check_size("mass", matrices.mass, matrices.size());
     check_size("damping", matrices.damping, matrices.size());
     check_size("stiffness_speed_squared", matrices.stiffness_speed_squared, matrices.size());
+    check_size("gyroscopic", matrices.gyroscopic, matrices.size());
+    check_size("circulatory", matrices.circulatory, matrices.size());
     if (faults_.count() > 0) return {};
     check_rows(matrices);
+    check_mass("gyroscopic", matrices.gyroscopic, *matrices.mass.matrix);
+    if (matrices.unsymmetric_damping) check_mass("damping", matrices.damping, *matrices.mass.matrix);
     if (matrices.highest_frequency == 0 && matrices.size() > largest_whole)
       add_without_highest(keys_.pointer(), matrices.size(), faults_);
     return matrices;
   }
 
  private:
-  MatrixFile read_matrix(const std::string& key, bool required) {
+  void read_unsymmetric(Matrices& matrices) {
+    const Location place = keys_.find("unsymmetric");
+    if (place.node == nullptr) return;
+    const Node::List* list = read_list(place, unsymmetric_wanted, faults_);
+    if (list == nullptr) return;
+    if (list->empty())
+      faults_.add(place.pointer, std::string("found an empty list, must be ") + unsymmetric_wanted);
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const Location at{&(*list)[i], child(place.pointer, i)};
+      const auto key = read_string(at, "\"stiffness\" or \"damping\"", faults_);
+      if (!key) continue;
+      const bool stiffness = *key == "stiffness";
+      bool& flag = stiffness ? matrices.unsymmetric_stiffness : matrices.unsymmetric_damping;
+      if (!stiffness && *key != "damping")
+        faults_.add(at.pointer, "found " + shown(*key) + ", must be \"stiffness\" or \"damping\"");
+      else if (flag)
+        faults_.add(at.pointer, "found " + shown(*key) + " again, must be given once");
+      else if (!stiffness && !keys_.has("damping"))
+        faults_.add(at.pointer, "found \"damping\" without the key \"damping\", must be beside that matrix");
+      else
+        flag = true;
+    }
+  }
+
+  MatrixFile read_matrix(const std::string& key, bool required, Form form = Form::symmetric) {
     const std::string wanted = "a string, the path of a Matrix Market or .mat file";
     const Location place = required ? keys_.require(key, wanted, faults_) : keys_.find(key);
     MatrixFile found = read_matrix_file(place, wanted, reading_);
-    if (found.matrix) check(key, *found.matrix, place);
+    if (found.matrix) check(key, *found.matrix, place, form);
     return found;
   }
 
-  // Symmetric, and but for the part that grows with the speed without a negative diagonal entry.
-  void check(const std::string& key, const SparseMatrix& A, const Location& at) {
+  // Of its form, and but for the parts that grow with the speed without a negative diagonal entry.
+  void check(const std::string& key, const SparseMatrix& A, const Location& at, Form form) {
     const auto fault = [&](const std::string& what) {
       faults_.add(at.pointer, "found the " + key + " matrix with " + what);
     };
     if (A.rows != A.columns || A.rows == 0)
       return fault(std::to_string(A.rows) + " rows and " + std::to_string(A.columns) +
                    " columns, must be square");
+    if (form == Form::skew) return check_skew(A, fault);
     const bool semidefinite = key != "stiffness_speed_squared";
     Places negative, asymmetric;
     for (int j = 0; j < A.columns; ++j)
@@ -101,13 +140,13 @@ class Files {
         const double value = A.values[static_cast<std::size_t>(k)];
         if (i == j && value < 0 && semidefinite)
           negative.add([&] { return number_text(value) + " in " + place(i, j); });
-        if (i == j || value == 0) continue;
+        if (i == j || value == 0 || form == Form::general) continue;
         const double other = value_at(A, j, i);
         if (i < j && other != 0) continue;  // compared from there
         const double diagonal =
             std::sqrt(std::abs(value_at(A, i, i))) * std::sqrt(std::abs(value_at(A, j, j)));
         const double scale = std::max({std::abs(value), std::abs(other), diagonal});
-        if (std::abs(value - other) <= symmetric * scale) continue;
+        if (std::abs(value - other) <= agreeing * scale) continue;
         asymmetric.add([&] {
           return number_text(value) + " in " + place(i, j) + " and " + number_text(other) + " in " +
                  place(j, i);
@@ -116,6 +155,60 @@ class Files {
     if (negative.any())
       fault(negative.told() + ", must be positive semidefinite: no negative entry on the diagonal");
     if (asymmetric.any()) fault(asymmetric.told() + ", must be symmetric");
+  }
+
+  template <class Fault>
+  static void check_skew(const SparseMatrix& A, const Fault& fault) {
+    Places wrong;
+    for (int j = 0; j < A.columns; ++j) {
+      const auto from = static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j)]),
+                 to = static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j) + 1]);
+      double largest = 0;
+      for (std::size_t k = from; k < to; ++k)
+        if (A.row_of[k] != j) largest = std::max(largest, std::abs(A.values[k]));
+      for (std::size_t k = from; k < to; ++k) {
+        const int i = A.row_of[k];
+        const double value = A.values[k];
+        if (i == j) {
+          if (std::abs(value) > agreeing * largest)
+            wrong.add([&] { return number_text(value) + " in " + place(i, j); });
+          continue;
+        }
+        const double other = value_at(A, j, i);
+        if (value == 0 || (i < j && other != 0)) continue;  // compared from there
+        if (std::abs(value + other) <= agreeing * std::max(std::abs(value), std::abs(other))) continue;
+        wrong.add([&] {
+          return number_text(value) + " in " + place(i, j) + " and " + number_text(other) + " in " +
+                 place(j, i);
+        });
+      }
+    }
+    if (wrong.any())
+      fault(wrong.told() +
+            ", must be skew-symmetric: entries across the diagonal of opposite signs, and 0 on it");
+  }
+
+  // Where velocities couple without symmetry there is mass: a motion without it would follow at once.
+  void check_mass(const std::string& key, const MatrixFile& file, const SparseMatrix& M) {
+    if (!file.matrix) return;
+    const SparseMatrix& A = *file.matrix;
+    Places without;
+    for (int j = 0; j < A.columns; ++j)
+      for (auto k = static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j)]);
+           k < static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j) + 1]); ++k) {
+        const int i = A.row_of[k];
+        const double value = A.values[k], other = value_at(A, j, i);
+        const bool skew = std::abs(value - other) > agreeing * std::max(std::abs(value), std::abs(other));
+        if (!skew || (value_at(M, i, i) > 0 && value_at(M, j, j) > 0)) continue;
+        const int row = value_at(M, i, i) > 0 ? j : i;
+        without.add([&] {
+          return number_text(value) + " in " + place(i, j) + ", where the mass matrix has " +
+                 number_text(value_at(M, row, row)) + " in " + place(row, row);
+        });
+      }
+    if (without.any())
+      faults_.add(child(keys_.pointer(), key), "found the " + key + " matrix with " + without.told() +
+                                                   ", must have mass in both rows that it couples");
   }
 
   void check_size(const std::string& key, const MatrixFile& file, int size) {

@@ -269,7 +269,8 @@ FileSource source_of(Scene scene) {
   if (!scene.matrices) return source;
   source.derived = scene.matrices->derived;
   const Matrices& own = *scene.matrices;
-  for (const MatrixFile* of : {&own.stiffness, &own.mass, &own.damping, &own.stiffness_speed_squared})
+  for (const MatrixFile* of : {&own.stiffness, &own.mass, &own.damping, &own.stiffness_speed_squared,
+                               &own.gyroscopic, &own.circulatory})
     know(*of);
   return source;
 }

@@ -43,7 +43,7 @@ class RotationType final : public file::KeyedPart<Rotation, PartType> {
  public:
   RotationType() : KeyedPart(keys()) {}
   std::string_view name() const override { return "rotation"; }
-  std::string_view help() const override { return "stiffness K + speed^2 K2"; }
+  std::string_view help() const override { return "speed of C + speed G and K + speed N + speed^2 K2"; }
   bool names_directions() const override { return true; }
   std::span<const Field> fields(const Settings& options) const override {
     if (options.empty()) return any_speed;

@@ -1,7 +1,8 @@
 #pragma once
-// The rotation of a structure from matrices: its stiffness is K + Omega^2 K2, with the stiffening by
-// centrifugal forces and the softening of a rotating frame in K2. The speed Omega is a parameter, or follows
-// the excitation: Omega = frequency/engine_order, both as angles per time.
+// The rotation of a structure from matrices: its damping is C + Omega G, with gyroscopic or Coriolis forces
+// in G, its stiffness K + Omega N + Omega^2 K2, with the circulatory forces of rotating damping in N, and the
+// stiffening by centrifugal forces and the softening of a rotating frame in K2. The speed Omega is a
+// parameter, or follows the excitation: Omega = frequency/engine_order, both as angles per time.
 
 #include <arcslip/scene/field.hpp>
 

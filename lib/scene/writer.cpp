@@ -137,6 +137,13 @@ void add_matrices(const Matrices& matrices, Node::Object& structure) {
     files.push_back({"damping", matrix_file_node(matrices.damping)});
   if (matrices.stiffness_speed_squared.file.text)
     files.push_back({"stiffness_speed_squared", matrix_file_node(matrices.stiffness_speed_squared)});
+  if (matrices.gyroscopic.file.text) files.push_back({"gyroscopic", matrix_file_node(matrices.gyroscopic)});
+  if (matrices.circulatory.file.text)
+    files.push_back({"circulatory", matrix_file_node(matrices.circulatory)});
+  std::vector<std::string> unsymmetric;
+  if (matrices.unsymmetric_stiffness) unsymmetric.emplace_back("stiffness");
+  if (matrices.unsymmetric_damping) unsymmetric.emplace_back("damping");
+  if (!unsymmetric.empty()) files.push_back({"unsymmetric", node(unsymmetric)});
   if (matrices.highest_frequency > 0)
     files.push_back({"highest_frequency", node(matrices.highest_frequency)});
   structure.push_back({"matrices", {std::move(files)}});

@@ -6,17 +6,42 @@ namespace arcslip::structure {
 
 using Eigen::Index, Eigen::MatrixXd;
 
-Partition partition(const scene::Matrices& matrices, const std::vector<int>& kept) {
+namespace {
+
+scene::SparseMatrix with_transpose(const scene::SparseMatrix& A, double sign) {
+  std::vector<scene::MatrixEntry> entries;
+  entries.reserve(2 * A.entries());
+  for (int j = 0; j < A.columns; ++j)
+    for (auto k = static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j)]);
+         k < static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j) + 1]); ++k) {
+      entries.push_back({A.row_of[k], j, 0.5 * A.values[k]});
+      entries.push_back({j, A.row_of[k], sign * 0.5 * A.values[k]});
+    }
+  return scene::sparse_matrix(A.rows, A.columns, entries);
+}
+
+}  // namespace
+
+scene::SparseMatrix symmetric_part(const scene::SparseMatrix& A) {
+  return with_transpose(A, 1);
+}
+
+scene::SparseMatrix skew_part(const scene::SparseMatrix& A) {
+  return with_transpose(A, -1);
+}
+
+Partition partition(int size, const std::vector<const scene::SparseMatrix*>& matrices,
+                    const std::vector<int>& kept) {
   Partition parts;
   parts.kept = static_cast<Index>(kept.size());
-  parts.place.assign(static_cast<std::size_t>(matrices.size()), -1);
+  parts.place.assign(static_cast<std::size_t>(size), -1);
   std::vector<int> reached = kept;
   for (std::size_t i = 0; i < kept.size(); ++i)
     parts.place[static_cast<std::size_t>(kept[i])] = static_cast<int>(i);
   for (std::size_t next = 0; next < reached.size(); ++next)
-    for (const auto* file : {&matrices.stiffness, &matrices.mass, &matrices.damping}) {
-      if (!file->matrix) continue;
-      const scene::SparseMatrix& A = *file->matrix;
+    for (const scene::SparseMatrix* matrix : matrices) {
+      if (matrix == nullptr) continue;
+      const scene::SparseMatrix& A = *matrix;
       const auto j = static_cast<std::size_t>(reached[next]);
       for (auto k = static_cast<std::size_t>(A.starts[j]); k < static_cast<std::size_t>(A.starts[j + 1]);
            ++k) {

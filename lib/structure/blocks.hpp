@@ -18,14 +18,20 @@ struct Partition {
   Eigen::Index kept = 0, others = 0;
 };
 
-Partition partition(const scene::Matrices& matrices, const std::vector<int>& kept);
+/// matrices: those that link rows, each symmetric or skew-symmetric, of one size; null: none.
+Partition partition(int size, const std::vector<const scene::SparseMatrix*>& matrices,
+                    const std::vector<int>& kept);
 
-/// The blocks of a symmetric matrix in (b, i).
+/// The blocks of a symmetric matrix in (b, i), or of a skew-symmetric one, whose bi is -ib^T.
 struct Blocks {
   Eigen::MatrixXd bb;
   Sparse ib, ii;
 };
 
 Blocks blocks(const scene::SparseMatrix& A, const Partition& parts);
+
+/// (A + A^T)/2 and (A - A^T)/2
+scene::SparseMatrix symmetric_part(const scene::SparseMatrix& A);
+scene::SparseMatrix skew_part(const scene::SparseMatrix& A);
 
 }  // namespace arcslip::structure

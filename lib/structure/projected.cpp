@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -52,22 +53,34 @@ Modes modes(const Projected& P, double stiffening, Index count) {
   return {found.values, found.V.transpose() * in.mu, found.V.transpose() * kappa, found.V.transpose() * in.f};
 }
 
-// The same with C.
+// The same with C and skew-symmetric matrices.
 MatrixXcd interior(const Projected& P, double stiffening, Index count, Complex p, Complex s) {
   const Index b = P.M_zb.cols(), all = b + P.f_z.cols();
   if (count == 0) return MatrixXcd::Zero(all, all);
-  const MatrixXcd Z_zz =
+  MatrixXcd Z_zz =
       (MatrixXd::Identity(count, count) + stiffened(P.K2_zz, stiffening, count, count)).cast<Complex>() -
-      p * P.M_zz.topLeftCorner(count, count) + s * P.C_zz.topLeftCorner(count, count);
+      p * P.M_zz.topLeftCorner(count, count);
   MatrixXcd B(count, all);
-  B << stiffened(P.K2_zb, stiffening, count, b) - p * P.M_zb.topRows(count) + s * P.C_zb.topRows(count),
+  B << stiffened(P.K2_zb, stiffening, count, b) - p * P.M_zb.topRows(count),
       P.f_z.topRows(count).cast<Complex>();
-  return B.transpose() * continuation::solve_complex(Z_zz, B);
+  if (P.C_c.size() > 0) {
+    Z_zz += s * P.C_zz.topLeftCorner(count, count);
+    B.leftCols(b) += s * P.C_zb.topRows(count);
+  }
+  MatrixXcd B_left = B;
+  const double speed = std::sqrt(std::max(P.square + stiffening, 0.0));
+  for (const ProjectedSkew& skew : P.skew) {
+    const Complex factor = (skew.of_velocity ? s : 1.0) * (skew.by_speed ? speed : 1.0);
+    Z_zz += factor * skew.zz.topLeftCorner(count, count);
+    B.leftCols(b) += factor * skew.zb.topRows(count);
+    B_left.leftCols(b) -= factor * skew.zb.topRows(count);
+  }
+  return B_left.transpose() * continuation::solve_complex(Z_zz, B);
 }
 
 // With one stiffening.
 double change(const Projected& P, double stiffening, double sigma, double highest, Index first) {
-  const bool damped = P.C_c.size() > 0;
+  const bool damped = P.C_c.size() > 0 || !P.skew.empty();
   const Index all = P.M_zz.rows(), b = P.A_c.rows();
   const Modes before = modes(P, stiffening, damped ? 0 : first), now = modes(P, stiffening, damped ? 0 : all);
   std::vector<double> squares;  // omega^2

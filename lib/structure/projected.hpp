@@ -1,5 +1,6 @@
 #pragma once
-// M, C, K2 and A = K + sigma M in the coordinates (b, z), where V^T A_ii V = 1 and A_bz = 0, and loads f.
+// M, C, K2 and A = K + sigma M in the coordinates (b, z), where V^T A_ii V = 1 and A_bz = 0, loads f, and
+// skew-symmetric matrices.
 
 #include <Eigen/Core>
 
@@ -7,11 +8,19 @@
 
 namespace arcslip::structure {
 
+/// A skew-symmetric matrix beside them: times s or not, times the speed or not.
+struct ProjectedSkew {
+  bool of_velocity, by_speed;
+  Eigen::MatrixXd c, zz, zb;  // as of C
+};
+
 struct Projected {
   Eigen::MatrixXd M_c, A_c, C_c, K2_c, f_c;  // condensed statically onto b; C_c, K2_c without C and K2 empty
   Eigen::MatrixXd M_zz, C_zz, K2_zz, M_zb, C_zb, K2_zb, f_z;
-  Eigen::VectorXd load_size;            // of each load: sqrt(f^T A^-1 f)
+  Eigen::VectorXd load_size;  // of each load: sqrt(f^T A^-1 f)
+  std::vector<ProjectedSkew> skew;
   std::vector<double> stiffening{0.0};  // A is A + each of them times K2
+  double square = 1;                    // of the speed, where the stiffening is 0; 1 without a speed
 };
 
 /// The largest change of an entry of Z, or of the loads condensed with it, by the coordinates z after the

@@ -48,6 +48,42 @@ class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
   }
 };
 
+// With the symmetric parts of C and K.
+scene::Matrices symmetric_parts(scene::Matrices matrices) {
+  const auto replace = [](scene::MatrixFile& file) {
+    file.matrix = std::make_shared<const scene::SparseMatrix>(symmetric_part(*file.matrix));
+  };
+  if (matrices.unsymmetric_stiffness) replace(matrices.stiffness);
+  if (matrices.unsymmetric_damping) replace(matrices.damping);
+  return matrices;
+}
+
+// A skew-symmetric matrix of the structure.
+struct Skew {
+  bool of_velocity, by_speed;
+  scene::SparseMatrix A;
+};
+
+std::vector<Skew> skew_parts(const scene::Matrices& of) {
+  std::vector<Skew> all;
+  const auto add = [&](bool of_velocity, bool by_speed, const scene::MatrixFile& file) {
+    if (file.matrix) all.push_back({of_velocity, by_speed, skew_part(*file.matrix)});
+  };
+  add(true, true, of.gyroscopic);
+  add(false, true, of.circulatory);
+  if (of.unsymmetric_stiffness) add(false, false, of.stiffness);
+  if (of.unsymmetric_damping) add(true, false, of.damping);
+  return all;
+}
+
+Partition partition_of(const scene::Matrices& matrices, const std::vector<Skew>& skew,
+                       const std::vector<int>& kept) {
+  std::vector<const scene::SparseMatrix*> all{matrices.stiffness.matrix.get(), matrices.mass.matrix.get(),
+                                              matrices.damping.matrix.get()};
+  for (const Skew& each : skew) all.push_back(&each.A);
+  return partition(matrices.size(), all, kept);
+}
+
 // With the stiffness at the speed of the expansion.
 scene::Matrices at_speed(scene::Matrices matrices, double square) {
   if (!matrices.stiffness_speed_squared.matrix) return matrices;
@@ -70,18 +106,28 @@ class Reduction {
   Reduction(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose, Index most,
             const scene::StopRequest& stop)
       : square_(0.5 * purpose.highest_speed * purpose.highest_speed),
-        matrices_(at_speed(matrices, square_)),
+        matrices_(at_speed(symmetric_parts(matrices), square_)),
+        skew_(skew_parts(matrices)),
         highest_(purpose.highest),
         most_(most),
         sigma_(std::pow(shift_at * highest_, 2)),
         stop_(stop),
-        parts_(partition(matrices_, kept)),
+        parts_(partition_of(matrices_, skew_, kept)),
         M_(blocks(*matrices_.mass.matrix, parts_)),
         K_(blocks(*matrices_.stiffness.matrix, parts_)) {
-    if (matrices.damping.matrix) C_ = blocks(*matrices.damping.matrix, parts_);
+    if (matrices_.damping.matrix) C_ = blocks(*matrices_.damping.matrix, parts_);
     if (matrices.stiffness_speed_squared.matrix) {
       K2_ = blocks(*matrices.stiffness_speed_squared.matrix, parts_);
+    }
+    bool by_speed = K2_.has_value();
+    for (const Skew& each : skew_) {
+      S_.push_back(blocks(each.A, parts_));
+      P_.skew.push_back({each.of_velocity, each.by_speed, {}, {}, {}});
+      by_speed = by_speed || each.by_speed;
+    }
+    if (by_speed && square_ > 0) {
       P_.stiffening = {-square_, -0.5 * square_, 0, 0.5 * square_, square_};
+      P_.square = square_;
     }
     const Index loads = purpose.loads.cols();
     f_b_.setZero(parts_.kept, loads);
@@ -104,11 +150,14 @@ class Reduction {
       P_.M_c = M_.bb;
       if (C_) P_.C_c = C_->bb;
       if (K2_) P_.K2_c = K2_->bb;
+      for (std::size_t k = 0; k < S_.size(); ++k) P_.skew[k].c = S_[k].bb;
       P_.f_c = f_b_;
     }
     for (const MatrixXd* of : {&P_.M_c, &P_.A_c, &P_.C_c, &P_.K2_c, &P_.f_c, &P_.M_zz, &P_.C_zz, &P_.K2_zz,
                                &P_.M_zb, &P_.C_zb, &P_.K2_zb, &P_.f_z})
       if (!of->allFinite()) refuse_overflow();
+    for (const ProjectedSkew& skew : P_.skew)
+      if (!skew.c.allFinite() || !skew.zz.allFinite() || !skew.zb.allFinite()) refuse_overflow();
     add_rounding(result);
     project(result);
     return result;
@@ -170,6 +219,11 @@ class Reduction {
       R_2_ = K2_->ii * Psi_ + K2_->ib;
       P_.K2_c = projected(*K2_, R_2_);
     }
+    for (std::size_t k = 0; k < S_.size(); ++k) {
+      R_S_.push_back(S_[k].ii * Psi_ + S_[k].ib);
+      const MatrixXd sum = S_[k].bb + Psi_.transpose() * R_S_[k] - S_[k].ib.transpose() * Psi_;
+      P_.skew[k].c = 0.5 * (sum - sum.transpose());
+    }
     condense_loads();
   }
 
@@ -191,6 +245,7 @@ class Reduction {
     MatrixXd right = M_.ii * added;
     if (C_) right = beside(right, C_->ii * added);
     if (K2_) right = beside(right, K2_->ii * added);
+    for (const Blocks& S : S_) right = beside(right, S.ii * added);
     return right;
   }
 
@@ -204,6 +259,8 @@ class Reduction {
     MatrixXd right = beside(R_, f_i_);
     if (C_) right = beside(right, R_C_);
     if (K2_) right = beside(right, R_2_);
+    for (ProjectedSkew& skew : P_.skew) skew.zb.resize(0, parts_.kept);
+    for (const MatrixXd& R : R_S_) right = beside(right, R);
     double error = HUGE_VAL, least = HUGE_VAL;
     Index estimated = 0;  // vectors at the last estimate
     int since_least = 0;  // estimates
@@ -257,6 +314,11 @@ class Reduction {
     if (K2_) {
       P_.K2_zz = V_.transpose() * (K2_->ii * V_);
       P_.K2_zb = V_.transpose() * R_2_;
+    }
+    for (std::size_t k = 0; k < S_.size(); ++k) {
+      const MatrixXd zz = V_.transpose() * (S_[k].ii * V_);
+      P_.skew[k].zz = 0.5 * (zz - zz.transpose());
+      P_.skew[k].zb = V_.transpose() * R_S_[k];
     }
     return 0;
   }
@@ -341,13 +403,13 @@ class Reduction {
     }
     keep(count);
     const auto added = V_.rightCols(count - old);
-    const auto extend = [&](MatrixXd& square, const MatrixXd& product) {
+    const auto extend = [&](MatrixXd& square, const MatrixXd& product, double sign = 1) {
       const MatrixXd columns = V_.transpose() * product;
       square.conservativeResize(count, count);
       square.rightCols(count - old) = columns;
-      square.bottomRows(count - old) = columns.transpose();
+      square.bottomRows(count - old) = sign * columns.transpose();
       const MatrixXd corner = columns.bottomRows(count - old);
-      square.bottomRightCorner(count - old, count - old) = 0.5 * (corner + corner.transpose());
+      square.bottomRightCorner(count - old, count - old) = 0.5 * (corner + sign * corner.transpose());
     };
     const auto extend_rows = [&](MatrixXd& rows, const MatrixXd& R) {
       rows.conservativeResize(count, Eigen::NoChange);
@@ -364,6 +426,10 @@ class Reduction {
       extend(P_.K2_zz, K2_->ii * added);
       extend_rows(P_.K2_zb, R_2_);
     }
+    for (std::size_t k = 0; k < S_.size(); ++k) {
+      extend(P_.skew[k].zz, S_[k].ii * added, -1);
+      extend_rows(P_.skew[k].zb, R_S_[k]);
+    }
   }
 
   // The first vectors alone.
@@ -375,6 +441,10 @@ class Reduction {
       if (square->rows() > count) square->conservativeResize(count, count);
     for (MatrixXd* rows : {&P_.M_zb, &P_.C_zb, &P_.K2_zb, &P_.f_z})
       if (rows->rows() > count) rows->conservativeResize(count, Eigen::NoChange);
+    for (ProjectedSkew& skew : P_.skew) {
+      if (skew.zz.rows() > count) skew.zz.conservativeResize(count, count);
+      if (skew.zb.rows() > count) skew.zb.conservativeResize(count, Eigen::NoChange);
+    }
   }
 
   // In the eigenvectors of M_zz.
@@ -387,20 +457,22 @@ class Reduction {
       whole.topRightCorner(b, z) = zb.transpose();
     };
     into.loads = P_.f_c;
+    MatrixXd Q;  // eigenvectors of M_zz
     if (z == 0) {
       into.M = P_.M_c;
       into.K = P_.A_c - sigma_ * P_.M_c;
       if (C_) into.C = P_.C_c;
       if (K2_) into.K2 = P_.K2_c;
     } else {
-      const auto [theta, Q] = continuation::symmetric_modes(P_.M_zz);
+      continuation::SymmetricModes modes = continuation::symmetric_modes(P_.M_zz);
+      const VectorXd& theta = modes.values;
+      Q = std::move(modes.V);
       const MatrixXd mu = Q.transpose() * P_.M_zb;
       put(into.M, P_.M_c, mu);
       put(into.K, P_.A_c - sigma_ * P_.M_c, -sigma_ * mu);
       into.M.diagonal().tail(z) = theta.cwiseMax(0.0);
       into.K.diagonal().tail(z) = 1 - sigma_ * theta.cwiseMax(0.0).array();
-      const auto put_full = [&, &Q = Q](MatrixXd& whole, const MatrixXd& c, const MatrixXd& zb,
-                                        const MatrixXd& zz) {
+      const auto put_full = [&](MatrixXd& whole, const MatrixXd& c, const MatrixXd& zb, const MatrixXd& zz) {
         put(whole, c, Q.transpose() * zb);
         const MatrixXd in_modes = Q.transpose() * zz * Q;
         whole.bottomRightCorner(z, z) = 0.5 * (in_modes + in_modes.transpose());
@@ -411,10 +483,22 @@ class Reduction {
       into.loads.bottomRows(z) = Q.transpose() * P_.f_z;
     }
     if (K2_) into.K -= square_ * into.K2;
+    for (const ProjectedSkew& skew : P_.skew) {
+      MatrixXd& to =
+          skew.by_speed ? (skew.of_velocity ? into.G : into.N) : (skew.of_velocity ? into.C : into.K);
+      if (to.size() == 0) to.setZero(b + z, b + z);
+      to.topLeftCorner(b, b) += skew.c;
+      if (z == 0) continue;
+      const MatrixXd zb = Q.transpose() * skew.zb, zz = Q.transpose() * skew.zz * Q;
+      to.bottomLeftCorner(z, b) += zb;
+      to.topRightCorner(b, z) -= zb.transpose();
+      to.bottomRightCorner(z, z) += 0.5 * (zz - zz.transpose());
+    }
   }
 
-  const double square_;  // of the speed of the expansion
-  const scene::Matrices matrices_;
+  const double square_;             // of the speed of the expansion
+  const scene::Matrices matrices_;  // symmetric parts
+  const std::vector<Skew> skew_;
   const double highest_;
   const Index most_;
   const double sigma_;
@@ -422,9 +506,11 @@ class Reduction {
   const Partition parts_;
   const Blocks M_, K_;
   std::optional<Blocks> C_, K2_;
-  MatrixXd f_b_, f_i_;  // loads
+  std::vector<Blocks> S_;  // of skew_
+  MatrixXd f_b_, f_i_;     // loads
   Cholesky A_;
   MatrixXd Psi_, R_, R_C_, R_2_;  // R_C: C_ii Psi + C_ib; R_2: the same of K2
+  std::vector<MatrixXd> R_S_;     // of skew_
   MatrixXd V_, AV_;
   Projected P_;
 };

@@ -23,6 +23,11 @@
 // is in it as well, which makes the mixed moments in s^2 and Omega^2 exact. Psi and V are those of all
 // speeds.
 //
+// Of unsymmetric C and K the symmetric parts take the places of C and K; the skew-symmetric ones, and
+// gyroscopic and circulatory matrices S, with the speed as a factor or not, are projected onto the same
+// coordinates, where they are skew-symmetric again. The space has A_ii^-1 (S_ii Psi + S_ib) and A_ii^-1 S_ii
+// times each of its vectors; as S^T = -S, it is that of the transposed structure as well.
+//
 // R. R. Craig and M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA J. 6 (1968) 1313,
 // with fixed-interface modes in place of V; moments: E. J. Grimme, Krylov projection methods for model
 // reduction, PhD thesis, Univ. of Illinois (1997).
@@ -38,9 +43,11 @@
 
 namespace arcslip::structure {
 
-/// In (x_b, z): dense, symmetric, M and K diagonal in z. Without damping C is empty.
+/// In (x_b, z): dense, symmetric, M and K diagonal in z. Without damping C is empty. C and K are unsymmetric
+/// where those of the structure are, and K is then diagonal in z but for its skew-symmetric part.
 struct Reduced {
   Eigen::MatrixXd M, C, K;
+  Eigen::MatrixXd G, N;   // gyroscopic and circulatory, with the speed as a factor; empty: none
   Eigen::MatrixXd K2;     // empty: none
   Eigen::MatrixXd loads;  // a column each
   /// The largest error of an entry of Z, for s from 0 to the highest frequency and a loss factor of 1 %,
@@ -60,7 +67,7 @@ class ReductionError : public std::runtime_error {
 /// What the structure is reduced for, beside the rows that are kept.
 struct Purpose {
   double highest = 0;        // frequency, rad/s, above 0
-  double highest_speed = 0;  // Omega, rad/s; of matrices with K2
+  double highest_speed = 0;  // Omega, rad/s; 0: G and N as they stand, and no K2
   Eigen::MatrixXd loads{};   // on all rows, a column each
 };
 

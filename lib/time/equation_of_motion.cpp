@@ -10,6 +10,11 @@ double EquationOfMotion::period() const {
   return 2 * std::numbers::pi / omega;
 }
 
+Matrix EquationOfMotion::circulatory() const {
+  if (K == K.transpose()) return {};
+  return 0.5 * (K - K.transpose());
+}
+
 void EquationOfMotion::force(double t, Vector& f) const {
   f.setZero(dofs());
   for (const HarmonicForce& part : forces) {

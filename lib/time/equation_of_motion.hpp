@@ -56,6 +56,8 @@ struct EquationOfMotion {
   std::vector<std::string> dof_names;  // for messages; may be empty
 
   int dofs() const { return static_cast<int>(M.rows()); }
+  /// The skew-symmetric part of K, whose forces are those of no potential; empty where K is symmetric.
+  Matrix circulatory() const;
   /// 2 pi/omega, s: that of the motion sought, one or several of the excitation.
   double period() const;
   /// The excitation at time t (s), N.

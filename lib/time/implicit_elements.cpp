@@ -51,6 +51,7 @@ ImplicitElements::ImplicitElements(std::vector<TimeElement> elements, int dofs)
 void ImplicitElements::set_matrix(const Matrix& A) {
   A_ = A;
   size_of_A_ = A.cwiseAbs();
+  convex_ = convex_ && A == A.transpose();
   has_factors_ = false;
 }
 

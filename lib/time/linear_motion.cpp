@@ -33,9 +33,12 @@ void require_mass(const EquationOfMotion& equation) {
   fail(i);
 }
 
-// Largest |eigenvalue| of A over M.
+// The norm of a symmetric A over M: its largest |eigenvalue|. Without symmetry an upper bound of the norm.
 double largest_over(const continuation::Cholesky& mass, const Matrix& A) {
-  return continuation::symmetric_eigenvalues(mass.reduced(A)).cwiseAbs().maxCoeff();
+  if (A == A.transpose()) return continuation::symmetric_eigenvalues(mass.reduced(A)).cwiseAbs().maxCoeff();
+  const Matrix even = mass.reduced(0.5 * (A + A.transpose())), skew = mass.reduced(0.5 * (A - A.transpose()));
+  return continuation::symmetric_eigenvalues(even).cwiseAbs().maxCoeff() +
+         continuation::singular_values(skew).values[0];
 }
 
 // A diagonal matrix above (sign 1) all stiffnesses of a part, or below (-1) them, and 0: by the sums of the
@@ -85,6 +88,7 @@ LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> p
   mass_.factorize(equation.M);
   stiffness_ = mass_.solve(equation.K);
   damping_ = mass_.solve(equation.C);
+  circulatory_ = equation.circulatory();
   for (const Part& part : parts_) {
     over_mass_.push_back(mass_.solve(part.directions));
     const Eigen::Index d = part.directions.cols();
@@ -232,7 +236,14 @@ LinearMotion::Work LinearMotion::work(double s) const {
     force.col(k) *= power;
   }
   const Matrix integrated = h_ * s * velocity * hilbert_;
-  return {force.cwiseProduct(integrated).sum(), (equation_.C * velocity).cwiseProduct(integrated).sum()};
+  Work work{force.cwiseProduct(integrated).sum(), (equation_.C * velocity).cwiseProduct(integrated).sum()};
+  if (circulatory_.size() == 0) return work;
+  Matrix displacement(force_.rows(), order + 1);
+  power = 1;
+  for (int k = 0; k <= order; ++k, power *= s)
+    displacement.col(k) = power * X_[static_cast<std::size_t>(k)].col(0);
+  work.viscous += (circulatory_ * displacement).cwiseProduct(integrated).sum();
+  return work;
 }
 
 }  // namespace arcslip::time

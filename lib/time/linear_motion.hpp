@@ -5,10 +5,11 @@
 //   X_(k+1) = h V_k/(k+1),   V_(k+1) = h M^-1 (f_k + [k = 0] sum D g - C V_k - K' X_k)/(k+1),   0 <= s <= 1
 //
 // T_e: the stiffness of the modes that the elements are in. h rho <= 1 with rho = max(Omega + gamma, n
-// omega): Omega^2 and gamma are the largest |eigenvalues| of K' and C over M in any modes, n omega the
-// fastest force; the norms of the skew parts of T_e add to Omega^2. In the energy norm the terms fall at
-// least like 1/k!, so that `order` of them leave less than 1e-18 of the motion, whether it is damped,
-// undamped, free of springs or in resonance: there is neither a particular solution nor a matrix exponential.
+// omega): Omega^2 and gamma are the largest |eigenvalues| of K' and C over M in any modes, or bounds of their
+// norms where these are not symmetric, n omega the fastest force; the norms of the skew parts of T_e add to
+// Omega^2. In the energy norm the terms fall at least like 1/k!, so that `order` of them leave less than
+// 1e-18 of the motion, whether it is damped, undamped, free of springs or in resonance: there is neither a
+// particular solution nor a matrix exponential.
 //
 // Several columns run together: the first is the motion, the others, without the force, its variations. The
 // last one may be that with omega, at a fixed t, which the derivative of the force drives:
@@ -62,7 +63,8 @@ class LinearMotion {
   /// Series of the observed displacement and velocity, with those of the ground (EquationOfMotion::base).
   void observed(Series& x, Series& v) const;
 
-  /// Work of the force, integral of f . x' dt, and of the dampers, integral of x' . C x' dt, from 0 to s; J.
+  /// Work of the force, integral of f . x' dt, and of the dampers and of circulatory forces, integral of
+  /// x' . (C x' + N x) dt with the skew part N of K, from 0 to s; J.
   struct Work {
     double input = 0, viscous = 0;
   };
@@ -76,6 +78,7 @@ class LinearMotion {
   continuation::Cholesky mass_;
   std::vector<Part> parts_;
   Matrix stiffness_, damping_;     // M^-1 K', M^-1 C
+  Matrix circulatory_;             // N; empty: none
   std::vector<Matrix> over_mass_;  // M^-1 D of each part
   std::vector<Matrix> in_modes_;   // their stiffness now
   double longest_ = 0, t_ = 0, h_ = 0;

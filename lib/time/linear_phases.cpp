@@ -34,7 +34,7 @@ struct Free {
 };
 
 Free free_modes(const EquationOfMotion& equation) {
-  const Matrix &M = equation.M, &K = equation.K;
+  const Matrix &M = equation.M, K = 0.5 * (equation.K + equation.K.transpose());
   const auto fail = [&](const Vector& motion, const std::string& reason) {
     Eigen::Index dof = 0;
     motion.cwiseAbs().maxCoeff(&dof);
@@ -49,10 +49,17 @@ Free free_modes(const EquationOfMotion& equation) {
     while (none < M.rows() && by_mass.values[none] * shift <= massless) ++none;
   if (by_mass.values.size() == M.rows() && none > 0) {
     found.without_mass = by_mass.V.leftCols(none);
-    for (const auto& motion : found.without_mass.colwise())
-      if ((equation.C * motion).cwiseAbs().maxCoeff() >
-          damped * equation.C.cwiseAbs().maxCoeff() * motion.norm())
-        fail(motion, ", and a damper acts on it");
+    const auto acts = [](const Matrix& A, const auto& motion) {
+      const double largest =
+          std::max((A * motion).cwiseAbs().maxCoeff(), (A.transpose() * motion).cwiseAbs().maxCoeff());
+      return largest > damped * A.cwiseAbs().maxCoeff() * motion.norm();
+    };
+    const Matrix circulatory = equation.circulatory();
+    for (const auto& motion : found.without_mass.colwise()) {
+      if (acts(equation.C, motion)) fail(motion, ", and a damper acts on it");
+      if (circulatory.size() > 0 && acts(circulatory, motion))
+        fail(motion, ", and an unsymmetric stiffness acts on it");
+    }
     const Matrix rest = by_mass.V.rightCols(M.rows() - none);
     auto modes = continuation::symmetric_modes(rest.transpose() * K * rest, rest.transpose() * M * rest);
     found.squares = std::move(modes.values);
@@ -91,11 +98,14 @@ LinearPhases::LinearPhases(const EquationOfMotion& equation, std::vector<PhasePa
   const Free free = free_modes(equation);
   natural_ = free.squares.cwiseMax(0).cwiseSqrt();
   Eigen::Index n = 0;
-  while (n < natural_.size() && (n < least_modes || natural_[n] <= highest)) ++n;
+  const Matrix circulatory = equation.circulatory();
+  const bool symmetric_parts = circulatory.size() == 0 && equation.C == equation.C.transpose();
+  while (n < natural_.size() && (!symmetric_parts || n < least_modes || natural_[n] <= highest)) ++n;
   if (n == 0) throw SingularMass("no degree of freedom has a mass");
   const Matrix V = free.V.leftCols(n);
   squares_ = free.squares.head(n);
   damping_ = V.transpose() * equation.C * V;
+  if (circulatory.size() > 0) circulatory_ = V.transpose() * circulatory * V;
   contact_ = D.transpose() * V;
   const Eigen::Index cut = natural_.size() - n, none = free.without_mass.cols();
   if (cut + none == 0) return;
@@ -215,6 +225,7 @@ void LinearPhases::decompose(Phase& phase) const {
   }
   phase.K = contact_.transpose() * times_T(phase.along);
   phase.K.diagonal() += squares_;
+  if (circulatory_.size() > 0) phase.K += circulatory_;
   phase.inputs = -contact_.transpose() * by_memory;
 
   const double size = phase.K.cwiseAbs().maxCoeff();
@@ -271,8 +282,9 @@ bool LinearPhases::find_planes(Phase& phase, const Matrix& U, const Vector& squa
     const std::complex<double> square = v.transpose() * v;
     add((v * std::polar(1.0, -0.5 * std::arg(square))).real(), -value.real(), std::norm(value));
   }
-  std::sort(real.begin(), real.end(),
-            [&values = values](Eigen::Index a, Eigen::Index b) { return values[a].real() < values[b].real(); });
+  std::sort(real.begin(), real.end(), [&values = values](Eigen::Index a, Eigen::Index b) {
+    return values[a].real() < values[b].real();
+  });
   if (2 * planes + static_cast<Eigen::Index>(real.size()) != 2 * n) return false;
   for (std::size_t i = 0; i < real.size() / 2; ++i) {
     const Eigen::Index a = real[i], b = real[i + real.size() / 2];

@@ -17,6 +17,9 @@
 // Where eigenvectors are nearly parallel, as at critical damping, the phase moves by power series instead
 // (variation.hpp).
 //
+// C and K may be unsymmetric: the modes V are then those of M and of the symmetric part of K, and all are
+// kept.
+//
 // Motions without inertia follow at once: those of degrees of freedom without mass, and natural modes above a
 // limit. They leave a flexibility R between the contacts, so that the contacts move by
 //
@@ -107,6 +110,7 @@ class LinearPhases {
   Eigen::Index rows_ = 0, memories_ = 0;
   Vector squares_, natural_;             // of the modes kept; natural frequencies of all, rising
   Matrix damping_, contact_, residual_;  // of the modes kept; Phi; R, empty: 0
+  Matrix circulatory_;                   // V^T N V of the skew part N of K; empty: none
 
   std::map<std::vector<int>, Phase> phases_;
   std::size_t numbers_ = 0;  // kept in them

@@ -12,8 +12,10 @@ namespace {
 
 constexpr double negligible = 1e-13;  // a mass or damping, relative to those of its degrees of freedom
 
-// An orthonormal basis of S w = 0, S symmetric and positive semidefinite.
-Matrix null_space(const Matrix& S) {
+// An orthonormal basis of S w = 0, S the symmetric part of A and positive semidefinite: where there is no
+// mass, damping is symmetric.
+Matrix null_space(const Matrix& A) {
+  const Matrix S = 0.5 * (A + A.transpose());
   Vector scale = S.diagonal();
   for (double& s : scale) s = s > 0 ? 1 / std::sqrt(s) : 1;
   const auto modes = continuation::symmetric_modes(scale.asDiagonal() * S * scale.asDiagonal());
@@ -37,6 +39,7 @@ Newmark::Newmark(EquationOfMotion equation, long steps)
                                 " rad/s, must be above 0 and finite");
   inertia_ = 4 / h_ * equation_.M;
   elements_.set_matrix(inertia_ / h_ + 2 / h_ * equation_.C + equation_.K);
+  circulatory_ = equation_.circulatory();
   massless_ = null_space(equation_.M);
   undamped_ = massless_.cols() > 0 ? null_space(equation_.M + h_ * equation_.C) : massless_;
   const Matrix I = Matrix::Identity(equation_.dofs(), equation_.dofs()),
@@ -127,6 +130,7 @@ Solved Newmark::step() {
   energy_.input += 0.5 * (force_ + new_force_).dot(y_);
   v_.noalias() = equation_.C * y_;
   energy_.viscous += y_.dot(v_) / h_;
+  if (circulatory_.size() > 0) energy_.viscous += y_.dot(circulatory_ * state_.x);
   for (std::size_t e = 0; e < elements_.elements().size(); ++e)
     energy_.friction += elements_.end(e).dissipated;
 

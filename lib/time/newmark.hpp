@@ -65,6 +65,7 @@ class Newmark {
   MotionState state_;
   Vector force_, new_force_, rate_, b_, y_, v_;
   Matrix inertia_;              // 4/h M
+  Matrix circulatory_;          // skew part of K; empty: none
   Matrix massless_, undamped_;  // orthonormal bases of M w = 0, and of M w = C w = 0
   Vector massless_rate_, undamped_velocity_;
   EnergyBalance energy_;

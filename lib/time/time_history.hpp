@@ -36,7 +36,7 @@ inline std::vector<double> total_load(const TimeHistory& history, std::size_t fi
 struct EnergyBalance {
   double input = 0;     // work of the excitation
   double friction = 0;  // dissipated by the friction elements
-  double viscous = 0;   // dissipated by the dampers
+  double viscous = 0;   // dissipated by the dampers and by circulatory forces
   double stored = 0;    // change of kinetic and elastic energy, that of the elements included
 
   double defect() const { return input - friction - viscous - stored; }

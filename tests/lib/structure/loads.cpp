@@ -1,5 +1,5 @@
-// Reductions with loads on all rows, and with a stiffness that grows with the square of a speed, beside the
-// whole structures.
+// Reductions with loads on all rows, with a stiffness that grows with the square of a speed, and with
+// gyroscopic, circulatory and other unsymmetric matrices, beside the whole structures.
 #include "catch.hpp"
 
 #include "lib/structure/matrices.hpp"
@@ -55,12 +55,20 @@ Difference difference(const scene::Matrices& of, const std::vector<int>& kept,
   const auto in_order = [&](const scene::MatrixFile& file) {
     return Eigen::MatrixXd(structures::dense(file)(order, order));
   };
-  const Eigen::MatrixXd M = in_order(of.mass),
-                        C = of.damping.matrix ? in_order(of.damping) : Eigen::MatrixXd();
+  const Eigen::MatrixXd M = in_order(of.mass);
+  Eigen::MatrixXd C = of.damping.matrix ? in_order(of.damping) : Eigen::MatrixXd(), C_reduced = reduced.C;
   Eigen::MatrixXd K = in_order(of.stiffness), K_reduced = reduced.K;
   if (of.stiffness_speed_squared.matrix) {
     K += speed * speed * in_order(of.stiffness_speed_squared);
     K_reduced += speed * speed * reduced.K2;
+  }
+  if (of.gyroscopic.matrix) {
+    C += speed * in_order(of.gyroscopic);
+    C_reduced += speed * reduced.G;
+  }
+  if (of.circulatory.matrix) {
+    K += speed * in_order(of.circulatory);
+    K_reduced += speed * reduced.N;
   }
   const Eigen::MatrixXd f = purpose.loads.size() > 0 ? Eigen::MatrixXd(purpose.loads(order, Eigen::all))
                                                      : Eigen::MatrixXd(of.size(), 0);
@@ -72,7 +80,7 @@ Difference difference(const scene::Matrices& of, const std::vector<int>& kept,
   for (int k = 0; k <= 20; ++k) {
     const double s = purpose.highest * k / 20;
     const LongMatrix whole = condensed(M, K, C, f, s, b),
-                     less = condensed(reduced.M, K_reduced, reduced.C, f_reduced, s, b);
+                     less = condensed(reduced.M, K_reduced, C_reduced, f_reduced, s, b);
     for (Eigen::Index i = 0; i < b; ++i) {
       const auto scale = [&](Eigen::Index j) {
         return std::sqrt(std::abs(K_reduced(j, j)) + s * s * reduced.M(j, j));
@@ -179,4 +187,79 @@ TEST_CASE("a structure whose stiffness grows with the square of a speed is reduc
     CHECK(found.stiffness < 1e-9);
     CHECK(found.load < 1e-9);
   }
+}
+
+namespace {
+
+// A shaft in two planes: the chain in each, with gyroscopic moments of a few disks or all along it, and with
+// disks also bearings with cross-coupled coefficients and rotating damping at the joints.
+scene::Matrices shaft(int size, bool disks) {
+  const scene::Matrices plane = chain(size, disks);
+  const auto twice = [&](const scene::MatrixFile& file) {
+    structures::Entries entries;
+    const Eigen::MatrixXd A = structures::dense(file);
+    for (int i = 0; i < size; ++i)
+      for (int j = 0; j < size; ++j)
+        if (A(i, j) != 0)
+          for (const int k : {0, 1}) entries.push_back({2 * i + k, 2 * j + k, A(i, j)});
+    return entries;
+  };
+  const auto couple = [](structures::Entries& to, int at, double xy, double yx) {
+    to.insert(to.end(), {{2 * at, 2 * at + 1, xy}, {2 * at + 1, 2 * at, yx}});
+  };
+  structures::Entries K = twice(plane.stiffness), G, N;
+  for (int i = 0; i < size; i += disks ? size / 3 : 1) couple(G, i, 0.9, -0.9);
+  scene::Matrices all;
+  all.mass = structures::matrix(2 * size, twice(plane.mass));
+  if (disks) {
+    structures::Entries C = twice(plane.damping);
+    for (const int at : {5, size / 2}) {
+      K.insert(K.end(), {{2 * at, 2 * at, 30}, {2 * at + 1, 2 * at + 1, 45}});
+      couple(K, at, 20, -35);
+      C.insert(C.end(), {{2 * at, 2 * at, 1}, {2 * at + 1, 2 * at + 1, 2}});
+      couple(C, at, 0.4, 0.1);
+    }
+    couple(N, size / 4, 0.3, -0.3);
+    all.damping = structures::matrix(2 * size, C);
+    all.circulatory = structures::matrix(2 * size, N);
+    all.unsymmetric_stiffness = all.unsymmetric_damping = true;
+  }
+  all.stiffness = structures::matrix(2 * size, K);
+  all.gyroscopic = structures::matrix(2 * size, G);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a rotor with unsymmetric matrices is reduced for all speeds") {
+  const int size = 36;
+  const bool disks = GENERATE(true, false);
+  const scene::Matrices of = shaft(size, disks);
+  const std::vector<int> kept{2 * size - 1, 24};
+  structure::Purpose purpose{1, disks ? 4.0 : 0.5, pressure(2 * size)};
+  const structure::Reduced reduced = structure::reduce(of, kept, purpose);
+  CAPTURE(disks, purpose.highest, purpose.highest_speed, reduced.M.rows(), reduced.error);
+  CHECK(reduced.error < 1e-9);
+  CHECK(reduced.G == -reduced.G.transpose());
+  CHECK(reduced.N == -reduced.N.transpose());
+  for (const double speed : {0.0, 0.37, 1.0}) {
+    const Difference found = difference(of, kept, purpose, reduced, speed * purpose.highest_speed);
+    CAPTURE(speed);
+    CHECK(found.stiffness < 1e-9);
+    CHECK(found.load < 1e-9);
+  }
+}
+
+TEST_CASE("what only a skew-symmetric matrix links to the rows that are kept is part of the reduction") {
+  scene::Matrices of;
+  of.mass = structures::matrix(3, {{0, 0, 1}, {1, 1, 2}, {2, 2, 1}});
+  of.stiffness = structures::matrix(3, {{0, 0, 4}, {1, 1, 5}, {2, 2, 6}});
+  of.damping = structures::matrix(3, {{0, 0, 0.1}});
+  of.gyroscopic = structures::matrix(3, {{0, 1, 0.7}, {1, 0, -0.7}});
+  of.circulatory = structures::matrix(3, {{1, 2, 0.2}, {2, 1, -0.2}});
+  const structure::Purpose purpose{5, 3, {}};
+  const structure::Reduced reduced = structure::reduce(of, {0}, purpose);
+  CHECK(reduced.M.rows() == 3);
+  for (const double speed : {0.0, 1.3, 3.0})
+    CHECK(difference(of, {0}, purpose, reduced, speed).stiffness < 1e-12);
 }
