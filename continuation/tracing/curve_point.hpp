@@ -40,9 +40,9 @@ bool settle(Corrector& at, CurvePoint& place);
 using Inside = std::function<bool(const Vector& v)>;
 
 /// The end of the smooth piece of `from` along its tangent, within [0, length]: the kink, seen from this
-/// side. The end of the piece is bisected on the tangent, which costs only residuals, and corrected onto
-/// the branch; this is repeated from there, and the remaining distance converges quadratically. last: the
-/// last correction. False if the piece does not end there, or a tangent on the way does not exist. is_inside:
+/// side. The end of the piece is bisected on the predicted branch, which costs only tests of the piece, and
+/// corrected onto the branch; this is repeated from there: section 8.7 of the theory. last: the last
+/// correction. False if the piece does not end there, or a tangent on the way does not exist. is_inside:
 /// none, or a criterion in place of the piece.
 bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePoint& kink, Correction& last,
                  const Inside& is_inside = {});
