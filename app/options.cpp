@@ -19,12 +19,12 @@ namespace {
 constexpr std::string_view exit_codes =
     "Exit codes: 0 done, 1 usage or file, 2 invalid scene, 3 stopped early with partial results written.";
 
-constexpr const char *run = "run", *check = "check";
+constexpr const char *run = "run", *check = "check", *reduce = "reduce";
 constexpr int most_threads = 1024;
 
 struct Verb {
   std::string name, help;
-  const scene::StudyType* type = nullptr;  // none: run, check
+  const scene::StudyType* type = nullptr;  // none: run, reduce, check
   std::vector<KeyOption> keys{};
 };
 
@@ -48,6 +48,7 @@ std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
     key.help += " of frequency responses";
     verbs.front().keys.push_back({key});
   }
+  verbs.push_back({reduce, "write the reduced structure of the scene, and the scene with it"});
   verbs.push_back({check, "validate the scene and print it with every default"});
   return verbs;
 }
@@ -176,7 +177,13 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
     if (argc < 2 || each.name != argv[1]) continue;  // its options are not needed
     if (each.type != nullptr) each.keys = options_of(each.type->keys());
     add_scene_options(verb, options, texts);
-    if (each.name == check)
+    if (each.name == reduce) {
+      verb->add_option(
+              "--out", options.out,
+              "folder for the matrices and the scene (default: out/<name of the scene file>_reduced)")
+          ->type_name("DIR");
+      verb->add_flag("--quiet", options.quiet, "print only errors");
+    } else if (each.name == check)
       verb->add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
     else
       add_study_options(*verb, each, options, texts);

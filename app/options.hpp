@@ -30,7 +30,7 @@ struct GivenKey {
 };
 
 struct CommandOptions {
-  std::string verb;                                 // "run", "check", or the verb of a kind of study
+  std::string verb;                                 // "run", "reduce", "check", or the verb of a kind of study
   const scene::StudyType* type = nullptr;           // of the verb
   std::string scene;                                // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value

@@ -8,6 +8,7 @@
 #include "sinks.hpp"
 #include "standard_output.hpp"
 
+#include <arcslip/model/reduced_scene.hpp>
 #include <arcslip/observables/prepare.hpp>
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/results/progress.hpp>
@@ -248,6 +249,50 @@ ExitCode check(const scene::Scene& scene, const CommandOptions& options) {
   return ExitCode::done;
 }
 
+/// Throws if an output would replace a file that the scene names.
+void check_sources(const scene::Scene& scene, const std::filesystem::path& folder,
+                   const std::vector<OutputPath>& places) {
+  scene::Scene beside = scene::from_folder(scene, folder.string());
+  for (const scene::NamedFile* source : scene::files(beside))
+    for (const OutputPath& place : places) {
+      std::error_code none;
+      if (std::filesystem::equivalent(folder / source->path, place.path, none))
+        throw UsageError(results::visible(place.path) +
+                         " is a file of the scene itself: choose another folder with --out");
+    }
+}
+
+/// The reduced structure as files, and the scene with it.
+ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
+  tell_beyond_reduction(scene, scene.studies);
+  const std::filesystem::path folder =
+      options.out.empty()
+          ? std::filesystem::path("out") / (std::filesystem::path(options.scene).stem().string() + "_reduced")
+          : std::filesystem::path(options.out);
+  model::ReducedScene reduced = model::reduced_scene(scene, folder.string(), interrupted);
+  reduced.files.emplace_back("reduced.json", std::move(reduced.scene));
+  const ResultsFolder held(folder.string());
+  std::vector<OutputPath> places;
+  for (const auto& [name, text] : reduced.files)
+    places.push_back({"the reduced structure", (folder / name).string()});
+  check_places(places, options.scene);
+  check_sources(scene, folder, places);
+  Writing writing;
+  std::ostringstream written;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (writing.attempt(results::visible(places[i].path), [&] {
+          output::write_file(
+              places[i].path, [&](std::ostream& out) { out << reduced.files[i].second; }, interrupted);
+        }))
+      written << results::visible(places[i].path) << '\n';
+  if (!options.quiet) {
+    StandardOutput screen;
+    screen.write_lines([&](std::ostream& out) { out << written.str(); });
+    writing.attempt("standard output", [&] { screen.finish(); });
+  }
+  return writing.code(ExitCode::done);
+}
+
 ExitCode run(scene::Scene scene, CommandOptions options) {
   if (scene.studies.empty()) {
     throw UsageError(
@@ -278,6 +323,7 @@ ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogu
   if (const std::string done = observables::prepare(scene, interrupted); !done.empty() && !options.quiet)
     tell(done);
   if (options.verb == "run") return run(std::move(scene), options);
+  if (options.verb == "reduce") return reduce(scene, options);
   if (options.type == nullptr) return check(scene, options);
   const scene::Study study = study_of_verb(scene, options);
   return run_studies(scene, {study}, options);

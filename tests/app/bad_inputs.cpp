@@ -58,9 +58,22 @@ std::vector<BadInput> make() {
       line("an unknown verb", {"fry", "scene.json"},
            "unknown verb \"fry\", must be run, frf, trace, peaks, folds, bifurcations, time, point, modes, "
            "sweep, accuracy, "
-           "optimize, check "
+           "optimize, reduce, check "
            "or "
            "schema"),
+      bare("a structure that is not reduced", {"reduce", "bare.json"},
+           "the structure is not reduced: give its matrices, its beam or its rod a \"highest_frequency\""),
+      {"a reduced structure over the scene that it is of",
+       {"reduce", "reduced.json", "--out", "."},
+       1,
+       "reduced.json is the scene file itself: choose another path for the results",
+       "reduced.json",
+       [] {
+         return scene_with(
+             R"({"beam": {"elements": 4, "length": 1, "young": 2e11, "density": 7800, "width": 0.1,
+           "height": 0.1, "points": {"x": 1}, "highest_frequency": 500}})",
+             "");
+       }},
       line("an amplitude that is no number", {"modes", "scene.json", "--amplitude", "x", "1"},
            "--amplitude x: must be two numbers, [from, to], 0 < from < to"),
       line("one amplitude", {"modes", "scene.json", "--amplitude", "1"},

@@ -1,0 +1,150 @@
+#include <arcslip/model/reduced_scene.hpp>
+
+#include <arcslip/model/model.hpp>
+#include <arcslip/scene/shape.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace arcslip::model {
+namespace {
+
+constexpr double rounding = 1e-9;   // a negative entry of the diagonal, relative to its row
+constexpr int largest_whole = 500;  // rows of matrices without a highest frequency
+
+enum class Form { symmetric, skew, general };
+
+void append(std::string& text, double value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+// A comment, then the entries other than 0; of a symmetric and of a skew-symmetric matrix the lower triangle.
+std::string matrix_market(const Eigen::MatrixXd& A, Form form, const std::string& comment) {
+  const Eigen::Index n = A.rows();
+  std::string lines;
+  std::size_t count = 0;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = form == Form::general ? 0 : form == Form::symmetric ? j : j + 1; i < n; ++i) {
+      if (A(i, j) == 0) continue;
+      ++count;
+      lines += std::to_string(i + 1) + ' ' + std::to_string(j + 1) + ' ';
+      append(lines, A(i, j));
+      lines += '\n';
+    }
+  const char* name = form == Form::symmetric ? "symmetric"
+                     : form == Form::skew    ? "skew-symmetric"
+                                             : "general";
+  return std::string("%%MatrixMarket matrix coordinate real ") + name + "\n% " + comment + '\n' +
+         std::to_string(n) + ' ' + std::to_string(n) + ' ' + std::to_string(count) + '\n' + lines;
+}
+
+std::string vector_market(const Eigen::VectorXd& f) {
+  std::string text = "%%MatrixMarket matrix array real general\n" + std::to_string(f.size()) + " 1\n";
+  for (const double value : f) {
+    append(text, value);
+    text += '\n';
+  }
+  return text;
+}
+
+// Without entries on the diagonal of K that rounding makes negative, as where a structure floats.
+Eigen::MatrixXd semidefinite(Eigen::MatrixXd K, const Eigen::MatrixXd& M, double highest) {
+  for (Eigen::Index i = 0; i < K.rows(); ++i) {
+    const double size = K.row(i).cwiseAbs().maxCoeff() + highest * highest * std::abs(M(i, i));
+    if (K(i, i) < 0 && -K(i, i) <= rounding * size) K(i, i) = 0;
+  }
+  return K;
+}
+
+// The blocks of the matrices of the structure in the rows and coordinates of its reduction.
+class Blocks {
+ public:
+  explicit Blocks(const Model& model) : model_(model) {}
+  Eigen::MatrixXd next() {
+    return model_.matrices[next_++].A->topLeftCorner(model_.unnamed_to, model_.unnamed_to);
+  }
+
+ private:
+  const Model& model_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
+                           const scene::StopRequest& stop) {
+  if (!scene.matrices || scene.matrices->highest_frequency == 0)
+    throw NotReduced(
+        "the structure is not reduced: give its matrices, its beam or its rod a \"highest_frequency\"");
+  for (const scene::Part& part : scene.excitation)
+    if (scene::is_base_motion(*part.type) && scene::shape_of(part) != nullptr)
+      throw NotReduced(
+          "the ground moves under all rows by the excitation \"" + part.name +
+          "\", which has no displacements of the coordinates of a reduced structure: give M r as "
+          "the shape of a force");
+  scene::Scene undamped = scene;  // of the damping that the scene adds
+  undamped.damping.clear();
+  const Model model = build(undamped, stop);
+
+  ReducedScene reduced;
+  scene::Scene copy = scene::from_folder(scene, folder);
+  scene::Matrices& to = *copy.matrices;
+  const scene::Matrices& from = *scene.matrices;
+  const auto text = [](double value) {
+    std::string digits;
+    append(digits, value);
+    return digits;
+  };
+  const std::string comment = "reduced from " + std::to_string(model.reduction->rows) +
+                              " rows, for frequencies up to " + text(from.highest_frequency) + " " +
+                              std::string(scene::unit_name(scene.frequency_unit)) + ", error " +
+                              text(model.reduction->error);
+  const auto add = [&](const std::string& name, std::string content) {
+    reduced.files.emplace_back(name, std::move(content));
+    return scene::NamedFile{name, std::make_shared<const std::string>(reduced.files.back().second)};
+  };
+  const auto add_matrix = [&](const std::string& name, const Eigen::MatrixXd& A, Form form) {
+    return scene::MatrixFile{add(name, matrix_market(A, form, comment)), nullptr, {}};
+  };
+  const auto form = [](bool unsymmetric) { return unsymmetric ? Form::general : Form::symmetric; };
+  Blocks blocks(model);
+  const Eigen::MatrixXd M = blocks.next();
+  to.mass = add_matrix("M.mtx", M, Form::symmetric);
+  to.stiffness = add_matrix("K.mtx", semidefinite(blocks.next(), M, model.reduction->highest_frequency),
+                            form(from.unsymmetric_stiffness));
+  if (from.damping.matrix) to.damping = add_matrix("C.mtx", blocks.next(), form(from.unsymmetric_damping));
+  if (from.stiffness_speed_squared.matrix)
+    to.stiffness_speed_squared = add_matrix("K2.mtx", blocks.next(), Form::symmetric);
+  if (from.gyroscopic.matrix) to.gyroscopic = add_matrix("G.mtx", blocks.next(), Form::skew);
+  if (from.circulatory.matrix) to.circulatory = add_matrix("N.mtx", blocks.next(), Form::skew);
+  std::string names = "name,row\n";
+  for (int i = 0; i < model.unnamed_from; ++i)
+    names += model.dof_names[static_cast<std::size_t>(i)] + ',' + std::to_string(i + 1) + '\n';
+  to.names = add("names.csv", names);
+  to.bar.reset();
+  if (model.unnamed_to <= largest_whole) to.highest_frequency = 0;
+
+  std::size_t next = 0;  // of the model's excitations, one for each part of a shape
+  for (std::size_t i = 0; i < copy.excitation.size(); ++i) {
+    if (scene::shape_of(copy.excitation[i]) == nullptr) {
+      ++next;
+      continue;
+    }
+    auto& shape = copy.excitation[i].options.as<scene::Shape>();
+    for (scene::ShapeFile* file : {&shape.real, &shape.imaginary}) {
+      if (!file->is_given()) continue;
+      const std::string name =
+          "shape_" + std::to_string(i + 1) + (file == &shape.imaginary ? "_imaginary.mtx" : ".mtx");
+      *file = {{add(name, vector_market(model.excitation[next++].load.head(model.unnamed_to))), nullptr, {}},
+               1};
+    }
+  }
+  reduced.scene = scene::write(copy);
+  return reduced;
+}
+
+}  // namespace arcslip::model

@@ -1,0 +1,30 @@
+#pragma once
+// The reduced structure of a scene as files: the matrices of structure/reduction.hpp in Matrix Market format,
+// the names of their rows, the loads of shapes, and the scene with these in place of its own.
+
+#include <arcslip/scene/scene.hpp>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace arcslip::model {
+
+struct ReducedScene {
+  std::string scene;                                       // text of the scene file
+  std::vector<std::pair<std::string, std::string>> files;  // that it names: names and texts
+};
+
+/// A structure that has no reduction, or none that files can hold: what() says why.
+class NotReduced : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// folder: of the new scene and its files, to which the paths of other files become relative. Throws
+/// NotReduced where the matrices are not reduced or where the ground moves under all rows,
+/// structure::ReductionError and scene::Interrupted.
+ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
+                           const scene::StopRequest& stop = {});
+
+}  // namespace arcslip::model
