@@ -25,9 +25,10 @@ int longest_chord(const Jacobian& J) {
 }
 
 constexpr double smallest_damping = 1.0 / 256;
-constexpr double undamped = 1e-2;      // smaller corrections are not damped, and tested at the next point
-constexpr double divergence = 2;       // of such corrections, from one to the next
-constexpr double linear_share = 1e-2;  // of a small Newton correction in the next one: not quadratic
+constexpr double undamped = 1e-2;        // smaller corrections are not damped, and tested at the next point
+constexpr double divergence = 2;         // of such corrections, from one to the next
+constexpr double linear_share = 1e-2;    // of a small Newton correction in the next one: not quadratic
+constexpr double surely_within = 1e-13;  // smaller corrections are not looked at for kinks
 constexpr double smallest_relevant_state = 1e-6;      // in scales: below this, corrections are absolute
 constexpr double smallest_relevant_parameter = 1e-3;  // of its scale: below, corrections of p are absolute
 }  // namespace
@@ -263,6 +264,15 @@ double Corrector::distance_from_branch(const Vector& v) {
 
 Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
   Correction result;
+  Vector across;  // v beyond a kink that the last correction crossed: the result if there is no better one
+  const auto failed = [&]() -> Correction {
+    if (across.size() == 0) return result;
+    v = across;
+    p_[free_] = v[v.size() - 1];
+    result.evaluated = result.converged = true;
+    result.singular = result.linear = false;
+    return result;
+  };
   double before = 0;                          // size of the correction that led to v
   std::optional<std::uint64_t> piece_before;  // of F, where that began, if it was small
   if (keep_factors && options_.chord && problem_.cheap_residual()) {
@@ -272,11 +282,11 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
   for (int k = 0; k < options_.iterations; ++k, ++result.iterations) {
     if (!evaluate(v, Needs::jacobian)) {
       result.evaluated = false;
-      return result;
+      return failed();
     }
     if (!factorize(v, row)) {
       result.singular = true;
-      return result;
+      return failed();
     }
     solve(dv_);
     const double now = size(dv_, v);
@@ -290,22 +300,30 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
     const bool stagnates = piece && piece == piece_before && now > 0.5 * before;
     piece_before = piece;
     if (now <= options_.tolerance || stagnates) {
+      if (now > surely_within && !stagnates) piece = piece_of_residual();
       v += dv_;
       p_[free_] = v[v.size() - 1];
+      // Across a kink the equations are others, and the branch may be far from a solution of these.
+      if (across.size() == 0 && now > surely_within && !stagnates && piece &&
+          !is_in_piece(v, *piece, PieceTest::whole)) {
+        across = v;
+        before = now;
+        continue;
+      }
       result.converged = true;
       return result;
     }
-    if (!std::isfinite(now)) return result;
+    if (!std::isfinite(now)) return failed();
     if (k > 0 && before > 0 && before < undamped && now > linear_share * before) result.linear = true;
     if (now < undamped) {
-      if (k > 0 && before > 0 && before < undamped && now > divergence * before) return result;
+      if (k > 0 && before > 0 && before < undamped && now > divergence * before) return failed();
       v += dv_;
       before = now;
       continue;
     }
     double damping = 1, next = 0;
     for (;; damping /= 2) {
-      if (damping < smallest_damping) return result;
+      if (damping < smallest_damping) return failed();
       trial_ = v + damping * dv_;
       if (!evaluate(trial_, Needs::residual)) continue;
       solve(next_);
@@ -316,7 +334,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
     before = 0;
   }
   result.linear = true;  // it converged in all iterations, but too slowly
-  return result;
+  return failed();
 }
 
 }  // namespace arcslip::continuation

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 
 namespace arcslip::hbm {
@@ -391,6 +392,36 @@ std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, 
   return branch.points.back().u;
 }
 
+constexpr int random_starts = 200, unknowns_of_starts = 4000;  // fewer starts of large problems
+constexpr double farthest_start = 4;                           // decades from the scale, on both sides
+
+// Newton's method from motions at random, the same in each run: of a size for the mean and one for all
+// harmonics, which fall as 1/n^2.
+std::optional<Vector> from_random_starts(const HbmProblem& problem, const Vector& p,
+                                         const std::function<bool()>& go_on) {
+  const Harmonics& h = problem.harmonics();
+  const Vector scales = problem.scales();
+  std::mt19937_64 random(1);
+  const auto between = [&](double a, double b) {
+    return a + (b - a) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  Vector u(problem.size());
+  const int starts = std::min(random_starts, unknowns_of_starts / problem.size());
+  for (int start = 0; start < starts && (!go_on || go_on()); ++start) {
+    const double mean = std::pow(10, between(-farthest_start, farthest_start));
+    const double moving = std::pow(10, between(-farthest_start, farthest_start));
+    for (Eigen::Index at = 0; at < u.size(); at += h.size())
+      for (int n = 0; n <= h.order; ++n) {
+        if (!h.has(n)) continue;
+        const double size = scales[at] * (n == 0 ? mean : moving / (n * n));
+        u[at + h.cosine_index(n)] = size * between(-1, 1);
+        if (n > 0) u[at + h.sine_index(n)] = size * between(-1, 1);
+      }
+    if (const auto found = response_near(problem, p, u)) return found;
+  }
+  return {};
+}
+
 }  // namespace
 
 Vector linear_response(const HbmProblem& problem, const Vector& p) {
@@ -422,7 +453,7 @@ std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& prob
     if (stopped()) return {};
     if (const auto found = gradual(problem, p, springs, go_on)) return found;
   }
-  return {};
+  return from_random_starts(*problem, p, go_on);
 }
 
 }  // namespace arcslip::hbm

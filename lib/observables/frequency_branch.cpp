@@ -143,11 +143,12 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
             "contact that sticks hold it, with \"offset\": \"static\""};
   const auto u = hbm::steady_state(problem, p, go_on);
   if (!u) {
-    return {problem,
-            {},
-            "Newton's method failed from rest and from the linear response, and so did continuation in the "
-            "excitation level and in the forces of the elements" +
-                causes(*model, p) + held_by_friction(*model, p)};
+    return {
+        problem,
+        {},
+        "Newton's method failed from rest, from the linear response and from motions at random, and so did "
+        "continuation in the excitation level and in the forces of the elements" +
+            causes(*model, p) + held_by_friction(*model, p)};
   }
   return {problem_with(u->norm()), u, {}};
 }

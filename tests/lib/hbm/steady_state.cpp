@@ -50,3 +50,21 @@ TEST_CASE("a response is found where the branch from rest turns back through zer
     }
   }
 }
+
+TEST_CASE("a response is found of a contact that lifts off without damping, beside stiff and soft springs") {
+  // Newton's method from rest cycles, and branches over the excitation and the forces of the contact pass
+  // undamped resonances.
+  check_found(scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+    "dofs": ["t", "n"],
+    "masses": [{"name": "mt", "at": "t", "value": 9.2}, {"name": "mn", "at": "n", "value": 1.69e-4}],
+    "springs": [{"name": "kt", "at": "t", "value": 1.556e7}, {"name": "kn", "at": "n", "value": 1554},
+                {"name": "ktn", "direction": {"t": 1, "n": 1}, "value": 0.194}],
+    "dampers": [{"name": "ct", "at": "t", "value": 0.0136}]},
+    "elements": [{"name": "pad", "type": "contact_2d", "tangential": {"at": "t"}, "normal": {"at": "n"},
+                  "tangential_stiffness": 0.757, "normal_stiffness": 1.507e6, "friction_coefficient": 6.12e-4,
+                  "normal_load": 0.0118}],
+    "excitation": [{"name": "force", "direction": {"t": 1, "n": 0.6}, "cosine": -24.76},
+                   {"name": "pull", "at": "n", "harmonic": 0, "cosine": -0.4}],
+    "harmonics": {"order": 3}, "response": {"at": "t"}})"),
+              2559.7);
+}
