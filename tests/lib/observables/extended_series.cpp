@@ -32,7 +32,8 @@ Real bisected(const Series& g, const Series& rate, Real level, Real a, Real b) {
 }
 
 Series::Series(std::vector<Complex> X) : X_(std::move(X)) {
-  for (const Complex& each : X_) bound_ += std::abs(each);
+  for (std::size_t n = 1; n < X_.size(); ++n) moving_ += std::abs(X_[n]);
+  bound_ = moving_ + (X_.empty() ? Real(0) : std::abs(X_[0]));
 }
 
 Real Series::value(Real theta) const {

@@ -29,7 +29,7 @@ class Series {
   Series times(Real factor) const;
   Series plus(const Series& other) const;
   Series plus(Real constant) const;
-  Real moving() const { return bound_ - std::abs(X_[0]); }  // bound() without the mean
+  Real moving() const { return moving_; }  // bound() without the mean
   /// In one period from `begin` on, ascending, but for those that only touch.
   std::vector<Real> roots(Real begin) const;
   /// The highest and the lowest value.
@@ -39,7 +39,7 @@ class Series {
 
  private:
   std::vector<Complex> X_;
-  Real bound_ = 0;
+  Real bound_ = 0, moving_ = 0;
 };
 
 /// The root of g = level in [a, b], where g - level has one sign at a (or is 0 there) and the other at b.

@@ -12,7 +12,7 @@
 namespace parameter_ranges {
 
 inline constexpr Volume pairs_of_each{"ARCSLIP_PAIRS", 20, 100000};  // the latter: all there are
-inline constexpr Volume random_scenes{"ARCSLIP_RANGES", 500, 100000};
+inline constexpr Volume random_scenes{"ARCSLIP_RANGES", 2000, 100000};
 
 /// oscillator: the paper's, N = 7, from 18 to 22 Hz. chain: two masses with a stop
 /// (examples/unilateral_oscillator), N = 7. pad: a contact_2d (examples/rubbing_pad), N = 5.

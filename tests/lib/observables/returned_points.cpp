@@ -31,9 +31,10 @@ constexpr double roundings = 64;           // of a sum, per term, of which there
 constexpr double corrector = 1e-9;         // continuation::NewtonOptions::tolerance
 constexpr double few_digits = 1e-6;        // a distance from the branch beyond which a point needs a flag
 constexpr double smallest_row = 1e-30;     // of terms, over the Jacobian: where all terms are nearly 0
-constexpr double smallest_force = 1e-290;  // N: below, doubles lose digits
-constexpr double unit_invariance = 1e-12;  // relative, times the condition
-constexpr double largest_value = 1e-12;    // of an amplitude over its series: reversals are found to 1e-6
+constexpr double smallest_force = 1e-290;  // N, and of energies J: below, doubles lose digits
+constexpr double beside[] = {1e-11, 1e-10, 5e-10};  // a kink: over |u|, within the corrector's tolerance
+constexpr double unit_invariance = 1e-12;           // relative, times the condition
+constexpr double largest_value = 1e-12;  // of an amplitude over its series: reversals are found to 1e-6
 
 std::vector<ResponseBranch> traced(const scene::Scene& s, bool* cut, double* seconds) {
   long steps = 0;
@@ -50,9 +51,12 @@ std::vector<ResponseBranch> traced(const scene::Scene& s, bool* cut, double* sec
 
 class Check {
  public:
-  Check(const std::string& name, const scene::Scene& s, Tally& tally)
+  Check(const std::string& name, const scene::Scene& s, Tally& tally, const Some& points = {})
       : name_(name),
         tally_(tally),
+        points_(points),
+        held_(std::all_of(s.springs.begin(), s.springs.end(),
+                          [](const scene::Part& spring) { return spring.values[0] > 0; })),
         range_(scenes::window(s)),
         unit_(scene::to_rad_per_s(s.frequency_unit)),
         model_(std::make_shared<const model::Model>(model::build(s))),
@@ -69,7 +73,9 @@ class Check {
     const auto known = observables::reasons::of_branches;
     if (std::find(known.begin(), known.end(), each.stop.reason) == known.end())
       fault("the unknown reason " + reason);
-    for (const auto& at : each.points) point(each, at);
+    if (each.stop.reason == observables::reasons::start_failed) no_first_response(each.stop.message);
+    for (std::size_t i = points_.first; i < each.points.size(); i += points_.every)
+      point(each, each.points[i]);
     for (const auto& event : each.events)
       if (!event.point.unbounded && event.located) point(each, event.point);
   }
@@ -101,6 +107,15 @@ class Check {
       r[i] = exact.residual[i] / row;
     }
     return {A, r};
+  }
+
+  // That there is none is known where nothing holds a mean position, and may be where a spring pushes or only
+  // a contact holds: a force beyond it, or the mean of a large motion, has no equilibrium there.
+  void no_first_response(const std::string& message) {
+    const bool drifts = message.find("no spring holds the mean position") != std::string::npos;
+    const bool beyond_digits = message.find("too large a ratio") != std::string::npos;
+    ++(drifts ? tally_.drifting : held_ ? tally_.held : tally_.pushed);
+    if (held_ && !drifts && !beyond_digits) fault("no first response of springs that hold");
   }
 
   double width() const { return (range_.to - range_.from) * unit_; }
@@ -137,7 +152,7 @@ class Check {
     };
     judge("another amplitude", over(at.amplitude - exact.amplitude, largest_value * exact.amplitude_rounding),
           tally_.worst.amplitude);
-    const extended::Real energy = roundings * epsilon * exact.energy_rounding;
+    const extended::Real energy = smallest_force + roundings * epsilon * exact.energy_rounding;
     judge("another energy",
           std::max({over(at.energy_friction - exact.friction, energy),
                     over(at.energy_viscous - exact.viscous, energy),
@@ -147,7 +162,27 @@ class Check {
     if (residual(branch, at, u, exact, judge)) linear(at, exact, judge);
   }
 
-  // Whether the mean force has its digits.
+  // From u to a solution of the equations of a piece that begins or ends beside u, over |u| and the window:
+  // the last correction of a point may have crossed a kink.
+  double distance_across_kink(const Vector& u, double omega) {
+    const Eigen::Index n = u.size();
+    const std::uint64_t own = evaluator_->piece();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (const double far : beside)
+        for (const double side : {-far, far}) {
+          const Vector from = u + side * u.stableNorm() * Vector::Unit(n, i);
+          const bool moved =
+              evaluator_->move_to(from, hbm::parameters_at(problem_, omega), continuation::Needs::jacobian) ==
+              continuation::Evaluated::ok;
+          if (!moved || evaluator_->piece() == own) continue;
+          const auto [A, r] = system(from, equations_.at(from, omega));
+          nearest = std::min(nearest, far + continuation::shortest_least_squares(A, r).X.norm());
+        }
+    return nearest;
+  }
+
+  // Whether the mean force has its digits, and the point those of its own piece.
   template <class Judge>
   bool residual(const ResponseBranch& branch, const ResponsePoint& at, const Vector& u,
                 const extended::Evaluation& exact, const Judge& judge) {
@@ -184,6 +219,10 @@ class Check {
     const double smallest = continuation::singular_values(A).values[R.size() - 1];
     const double rounding = roundings * epsilon * std::sqrt(static_cast<double>(R.size())) / smallest;
     if (branch.status == observables::Status::failed || !branch.doubt.empty()) return true;  // it says so
+    if (distance > corrector + rounding && distance_across_kink(u, at.omega) <= corrector) {
+      ++tally_.across_kinks;
+      return false;
+    }
     judge("off the branch", distance / (corrector + rounding), tally_.worst.distance);
     if (distance > few_digits && !at.truncation_flagged) {
       std::ostringstream text;
@@ -200,8 +239,18 @@ class Check {
     if (std::count(states.begin(), states.end(), extended::State::several) > 0) return;
     ++tally_.linear;
     const extended::Linear closed_form = equations_.linear(exact, at.omega);
-    const double allowed = static_cast<double>((corrector + largest_value) * closed_form.amplitude +
-                                               roundings * epsilon * closed_form.rounding);
+    // A point within the corrector's tolerance, of |u| and of the window.
+    double slope = 0;
+    for (const double change : {-corrector * width(), corrector * width()})
+      slope =
+          std::max(slope, static_cast<double>(std::abs(equations_.linear(exact, at.omega + change).amplitude -
+                                                       closed_form.amplitude)));
+    const double size =
+        Eigen::Map<const Vector>(at.unknowns.data(), static_cast<Eigen::Index>(at.unknowns.size()))
+            .stableNorm();
+    const double allowed = static_cast<double>(largest_value * closed_form.amplitude +
+                                               roundings * epsilon * closed_form.rounding) +
+                           corrector * std::max(static_cast<double>(closed_form.amplitude), size) + slope;
     const double error = std::abs(static_cast<double>(at.amplitude - closed_form.amplitude));
     if (error > allowed &&
         error <= allowed + roundings * epsilon * static_cast<double>(closed_form.preload)) {
@@ -213,6 +262,8 @@ class Check {
 
   std::string name_;
   Tally& tally_;
+  Some points_;
+  bool held_;  // by springs that all hold
   observables::FrequencyRange range_;
   double unit_;
   std::shared_ptr<const model::Model> model_;
@@ -223,14 +274,14 @@ class Check {
 
 }  // namespace
 
-void check(const std::string& name, const scene::Scene& s, Tally& tally) {
+void check(const std::string& name, const scene::Scene& s, Tally& tally, const Some& points) {
   ++tally.scenes;
   bool cut = false;
   double seconds = 0;
   try {
     const auto branches = traced(s, &cut, &seconds);
     tally.seconds += seconds;
-    Check check(name, s, tally);
+    Check check(name, s, tally, points);
     for (const auto& branch : branches) check.branch(branch);
     if (branches.empty()) check.fault("no branch");
     if (seconds > 2 * most_seconds) check.fault("not to be stopped for " + std::to_string(seconds) + " s");

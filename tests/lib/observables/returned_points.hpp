@@ -4,6 +4,7 @@
 
 #include <arcslip/scene/scene.hpp>
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,10 +24,14 @@ struct Ratios {
 
 struct Tally {
   long scenes = 0, branches = 0, points = 0;
-  long flagged = 0;    // points whose truncation is flagged
-  long linear = 0;     // points where each element does one thing throughout
-  long rounded = 0;    // points farther from the branch than the corrector's tolerance, by rounding
-  long preloaded = 0;  // points whose mean force lost digits in a preload: not judged further
+  long flagged = 0;       // points whose truncation is flagged
+  long linear = 0;        // points where each element does one thing throughout
+  long rounded = 0;       // points farther from the branch than the corrector's tolerance, by rounding
+  long preloaded = 0;     // points whose mean force lost digits in a preload: not judged further
+  long across_kinks = 0;  // points that solve the equations of a piece beside a kink: not judged further
+  // Without a first response: nothing holds the mean, a spring pushes or is missing, or stiffnesses are too
+  // far apart.
+  long drifting = 0, pushed = 0, held = 0;
   std::map<std::string, long> states;                 // points of each, where there is one state throughout
   std::map<std::string, long> reasons;                // ends of branches
   std::map<std::string, std::string> first_messages;  // of each reason: scene and message
@@ -35,8 +40,15 @@ struct Tally {
   double seconds = 0;  // of processor time, without the checks
 };
 
+/// Points of a branch, beside its events, that are held against the equations: each `every`-th from `first`
+/// on.
+struct Some {
+  std::size_t first = 0, every = 1;
+};
+
 /// Traces the scene in its window and adds to the tally.
-void check(const std::string& name, const arcslip::scene::Scene& scene, Tally& tally);
+void check(const std::string& name, const arcslip::scene::Scene& scene, Tally& tally,
+           const Some& points = {});
 
 /// Whether both scenes, of which the second is the first in units that are powers of two, give the same bits
 /// but for exponents, in frequencies, amplitudes and truncation estimates; empty, or what differs first.
