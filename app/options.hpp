@@ -30,9 +30,9 @@ struct GivenKey {
 };
 
 struct CommandOptions {
-  std::string verb;                                 // "run", "reduce", "check", or the verb of a kind of study
-  const scene::StudyType* type = nullptr;           // of the verb
-  std::string scene;                                // path
+  std::string verb;                        // "run", "reduce", "check", or the verb of a kind of study
+  const scene::StudyType* type = nullptr;  // of the verb
+  std::string scene;                       // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
   std::optional<double> accuracy;

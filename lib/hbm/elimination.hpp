@@ -20,7 +20,8 @@ class Elimination {
   /// False where a pivot is below `least` times the largest entry of l in its column.
   bool run(double least);
 
-  /// Of the last run: Z_qq - Z_ql Z_ll^-1 Z_lq, symmetric as Z; f_q - Z_ql Z_ll^-1 f_l; Z_ll^-1 [Z_lq, f_l, c].
+  /// Of the last run: Z_qq - Z_ql Z_ll^-1 Z_lq, symmetric as Z; f_q - Z_ql Z_ll^-1 f_l; Z_ll^-1 [Z_lq, f_l,
+  /// c].
   void condensed(ComplexMatrix& Z, ComplexVector& f, ComplexMatrix& W) const;
 
  private:

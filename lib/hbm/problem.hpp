@@ -67,7 +67,7 @@ class HbmEvaluator final : public continuation::Evaluator {
   Eigen::Index displacements_;  // before the auxiliary unknowns
   DynamicStiffness stiffness_;
   std::vector<Part> parts_;
-  std::vector<std::size_t> latest_to_leave_;     // a piece, of parts_
+  std::vector<std::size_t> latest_to_leave_;   // a piece, of parts_
   std::optional<std::uint64_t> tested_piece_;  // the last one in which a point was found
   Vector u_, R_;
   mutable Vector derivative_, product_;

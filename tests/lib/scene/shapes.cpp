@@ -285,9 +285,10 @@ TEST_CASE("what is wrong with a rotation is told") {
   CHECK(contains(of(rotating(false, R"("speed": 1, "engine_order": 2)")), "/structure/rotation/speed"));
   CHECK(contains(of(rotating(false, R"("highest_speed": 1, "engine_order": 2)")),
                  "/structure/rotation/highest_speed: found it beside \"engine_order\""));
-  CHECK(contains(of(by_files + R"(, "rotation": {"name": "rotor", "speed": 3})"),
-                 "/structure/rotation: found no \"stiffness_speed_squared\", \"gyroscopic\" or \"circulatory\" "
-                 "among \"matrices\""));
+  CHECK(
+      contains(of(by_files + R"(, "rotation": {"name": "rotor", "speed": 3})"),
+               "/structure/rotation: found no \"stiffness_speed_squared\", \"gyroscopic\" or \"circulatory\" "
+               "among \"matrices\""));
   std::string alone = rotating(false, R"("speed": 3)");
   alone.erase(alone.find(", \"rotation\""));
   CHECK(contains(of(alone), "/structure/matrices/stiffness_speed_squared: found no \"rotation\""));
