@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 namespace arcslip::hbm {
 namespace {
@@ -150,7 +149,7 @@ ModalCondensation::ModalCondensation(const FixedInterfaceModes& modes, const Eig
 
 bool ModalCondensation::condense(const LinearParts& parts, double s, const ComplexVector& f,
                                  Condensed& into) {
-  const auto& [M, C, K] = std::tie(parts.modes()->M, parts.modes()->C, parts.modes()->K);
+  const ModalMatrix &M = parts.modes()->M, &C = parts.modes()->C, &K = parts.modes()->K;
   const Factors g = parts.factors(s);
   right_re_.leftCols(r_) = g.mass.real() * M.lq + g.spring.real() * K.lq;
   right_im_.leftCols(r_) = g.mass.imag() * M.lq + g.damper.imag() * C.lq + g.spring.imag() * K.lq;
