@@ -14,7 +14,7 @@ constexpr double farthest_cubic = 8;   // of the interval of its two points
 constexpr double first_margin = 1e-2;
 constexpr double chord_share = 1e-3;  // accuracy of the end of the piece on a chord
 constexpr int most_kink_corrections = 60;
-constexpr int most_blind_aims = 20;  // where no prediction leaves the piece
+constexpr int most_blind_aims = 40;  // where no prediction leaves the piece
 
 }  // namespace
 
@@ -138,6 +138,7 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
       inside = outside;
       if (outside == upper) break;
       outside = std::min(upper, lower + farther * (outside - lower));
+      if (outside - lower > farthest_cubic * prediction.interval()) prediction.use_tangent();
     }
     const double distance = outside - lower;
     margin = first_margin;

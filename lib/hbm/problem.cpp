@@ -224,22 +224,7 @@ Vector parameters_at(const HbmProblem& problem, double omega) {
 
 namespace {
 
-std::optional<Vector> newton(const HbmProblem& problem, const Vector& p, const Vector& guess,
-                             int iterations) {
-  if (!guess.allFinite()) return {};
-  const int n = problem.size();
-  continuation::Counts counts;
-  continuation::NewtonOptions options;
-  options.iterations = iterations;
-  continuation::Corrector corrector(problem, p, model::frequency, options, counts);
-  Vector v(n + 1);
-  v << guess, p[model::frequency];
-  if (!corrector.correct(v, Vector::Unit(n + 1, n), false).converged) return {};
-  return v.head(n);
-}
-
 constexpr double least_part = 1e-3;  // of the excitation
-constexpr int most_from_afar = 12;   // iterations; 3 to 7 are usual, and a branch finds what Newton does not
 constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch that closes on itself never ends
 
 // The branch over the excitation factors from -1 to 1, from one of them on, such as from rest at 0. If all
@@ -434,7 +419,16 @@ Vector linear_response(const HbmProblem& problem, const Vector& p) {
 }
 
 std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess) {
-  return newton(problem, p, guess, 30);
+  if (!guess.allFinite()) return {};
+  const int n = problem.size();
+  continuation::Counts counts;
+  continuation::NewtonOptions newton;
+  newton.iterations = 30;
+  continuation::Corrector corrector(problem, p, model::frequency, newton, counts);
+  Vector v(n + 1);
+  v << guess, p[model::frequency];
+  if (!corrector.correct(v, Vector::Unit(n + 1, n), false).converged) return {};
+  return v.head(n);
 }
 
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
@@ -442,10 +436,10 @@ std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& prob
   const auto stopped = [&] { return go_on && !go_on(); };
   const Vector rest = Vector::Zero(problem->size());
   if (stopped()) return {};
-  if (const auto found = newton(*problem, p, rest, most_from_afar)) return found;
+  if (const auto found = response_near(*problem, p, rest)) return found;
   for (const auto guess : {linear_response, stuck_response}) {
     if (stopped()) return {};
-    if (const auto found = newton(*problem, p, guess(*problem, p), most_from_afar)) return found;
+    if (const auto found = response_near(*problem, p, guess(*problem, p))) return found;
   }
   if (const auto found = ramp(problem, p, 0, rest, go_on)) return found;
   if (const auto found = ramp_from_part(problem, p, go_on)) return found;
