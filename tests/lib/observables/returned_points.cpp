@@ -291,9 +291,9 @@ void check(const std::string& name, const scene::Scene& s, Tally& tally, const S
 }
 
 std::string differ_in_bits(const scene::Scene& one, const scene::Scene& other, double length, double time) {
-  bool cut = false;
+  bool cut_one = false, cut_other = false;  // at the same point
   double seconds = 0;
-  const auto a = traced(one, &cut, &seconds), b = traced(other, &cut, &seconds);
+  const auto a = traced(one, &cut_one, &seconds), b = traced(other, &cut_other, &seconds);
   std::ostringstream text;
   text.precision(17);
   const auto same = [&](const char* what, std::size_t i, double x, double y) {
