@@ -4,8 +4,10 @@
 #include "csv_text.hpp"
 
 #include <arcslip/elements/van_der_pol.hpp>
+#include <arcslip/observables/accuracy.hpp>
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/frequency_sweep.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/time_study.hpp>
@@ -157,6 +159,14 @@ class Examination {
     if (study.type == &optimize::optimum_type()) {
       const auto& problem = study.settings.as<optimize::OptimumSettings>().problem;
       return range(problem.frequency_from, problem.frequency_to);
+    }
+    if (study.type == &studies::sweep()) {
+      const auto& sweep = study.settings.as<observables::SweepSettings>();
+      return range(sweep.from, sweep.to);
+    }
+    if (study.type == &studies::accuracy()) {
+      const auto& accuracy = study.settings.as<observables::AccuracySettings>();
+      return range(accuracy.from, accuracy.to);
     }
     if (study.type == &studies::modes()) return {1, 10};  // they have none
     if (study.type == &studies::bifurcations()) {
