@@ -34,9 +34,10 @@ void check_words(const results::Reason& reason) {
 }
 
 const std::span<const results::Reason> lists[] = {
-    observables::reasons::of_branches,  observables::reasons::of_motions,
-    observables::reasons::of_responses, observables::reasons::of_sweeps, observables::reasons::of_comparisons,
-    optimize::reasons::of_optima,       optimize::reasons::of_optimum_curves};
+    observables::reasons::of_branches,    observables::reasons::of_motions,
+    observables::reasons::of_responses,   observables::reasons::of_sweeps,
+    observables::reasons::of_comparisons, optimize::reasons::of_optima,
+    optimize::reasons::of_optimum_curves};
 
 }  // namespace
 

@@ -131,7 +131,8 @@ TEST_CASE("two masses and a stop by shooting lose their stability where NLvib's 
   CHECK(std::abs(doublings[0].point.omega - 0.7387830) < 5.1e-8);
   CHECK(std::abs(doublings[1].point.omega - 0.7555862) < 5.1e-8);
   REQUIRE(folds.size() == 2);
-  // By NLvib's harmonic balance 0.7556255; that of this project converges with its order to the one by shooting.
+  // By NLvib's harmonic balance 0.7556255; that of this project converges with its order to the one by
+  // shooting.
   CHECK(std::abs(folds[0].point.omega - 0.7556255) < 2e-6);
   auto series = two_masses_and_stop(stop);
   series.harmonics.order = 120;

@@ -171,7 +171,8 @@ TEST_CASE("the hash does not see how a file is laid out, and sees each value") {
   Scene scene = read_text(good_scene());
   const std::string before = hash(scene);
   CHECK(hash(read_text(write(scene))) == before);
-  CHECK(hash(read_text(good_scene_with("\"response\"", "\"harmonics\": {\"accuracy\": 1e-4, \"order\": 55},\n\n\"response\""))) ==
+  CHECK(hash(read_text(good_scene_with(
+            "\"response\"", "\"harmonics\": {\"accuracy\": 1e-4, \"order\": 55},\n\n\"response\""))) ==
         before);
   scene.masses[0].values[0] = std::nextafter(1.0, 2.0);
   CHECK(hash(scene) != before);

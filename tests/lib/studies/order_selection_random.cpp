@@ -18,7 +18,7 @@ using namespace arcslip;
 namespace {
 
 constexpr Volume structures{"ARCSLIP_ORDERS", 3, 250};  // of each kind
-constexpr double digits = 1e-9;                              // of amplitudes
+constexpr double digits = 1e-9;                         // of amplitudes
 
 double highest(const std::vector<observables::ResponseBranch>& branches) {
   double most = 0;
