@@ -84,6 +84,11 @@ class FunctionEvaluator final : public Evaluator, private Operator {
 
   std::uint64_t piece() const override { return f_->piece ? f_->piece(u_, p_) : 0; }
 
+  Evaluated test_piece(In u, In p, std::uint64_t piece, PieceTest, bool& inside) override {
+    inside = !f_->piece || f_->piece(u, p) == piece;
+    return Evaluated::ok;
+  }
+
  private:
   void apply(In x, Out y) const override { f_->apply_jacobian(u_of_J_, p_of_J_, x, y); }
   bool apply_transposed(In x, Out y) const override {

@@ -300,12 +300,13 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
     const bool stagnates = piece && piece == piece_before && now > 0.5 * before;
     piece_before = piece;
     if (now <= options_.tolerance || stagnates) {
-      if (now > surely_within && !stagnates) piece = piece_of_residual();
+      // Across a kink the equations are others, and the branch may be far from a solution of these.
+      const bool may_cross =
+          now > surely_within && !stagnates && across.size() == 0 && problem_.cheap_residual();
+      if (may_cross) piece = piece_of_residual();
       v += dv_;
       p_[free_] = v[v.size() - 1];
-      // Across a kink the equations are others, and the branch may be far from a solution of these.
-      if (across.size() == 0 && now > surely_within && !stagnates && piece &&
-          !is_in_piece(v, *piece, PieceTest::whole)) {
+      if (may_cross && piece && !is_in_piece(v, *piece, PieceTest::whole)) {
         across = v;
         before = now;
         continue;

@@ -6,30 +6,6 @@ namespace arcslip::structure {
 
 using Eigen::Index, Eigen::MatrixXd;
 
-namespace {
-
-scene::SparseMatrix with_transpose(const scene::SparseMatrix& A, double sign) {
-  std::vector<scene::MatrixEntry> entries;
-  entries.reserve(2 * A.entries());
-  for (int j = 0; j < A.columns; ++j)
-    for (auto k = static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j)]);
-         k < static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j) + 1]); ++k) {
-      entries.push_back({A.row_of[k], j, 0.5 * A.values[k]});
-      entries.push_back({j, A.row_of[k], sign * 0.5 * A.values[k]});
-    }
-  return scene::sparse_matrix(A.rows, A.columns, entries);
-}
-
-}  // namespace
-
-scene::SparseMatrix symmetric_part(const scene::SparseMatrix& A) {
-  return with_transpose(A, 1);
-}
-
-scene::SparseMatrix skew_part(const scene::SparseMatrix& A) {
-  return with_transpose(A, -1);
-}
-
 Partition partition(int size, const std::vector<const scene::SparseMatrix*>& matrices,
                     const std::vector<int>& kept) {
   Partition parts;

@@ -30,8 +30,4 @@ struct Blocks {
 
 Blocks blocks(const scene::SparseMatrix& A, const Partition& parts);
 
-/// (A + A^T)/2 and (A - A^T)/2
-scene::SparseMatrix symmetric_part(const scene::SparseMatrix& A);
-scene::SparseMatrix skew_part(const scene::SparseMatrix& A);
-
 }  // namespace arcslip::structure

@@ -5,6 +5,7 @@
 #include <arcslip/structure/blocks.hpp>
 #include <arcslip/structure/projected.hpp>
 #include <arcslip/structure/rounding.hpp>
+#include <arcslip/structure/symmetry.hpp>
 
 #include <Eigen/CholmodSupport>
 
@@ -47,34 +48,6 @@ class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
     return static_cast<const int*>(m_cholmodFactor->Perm)[m_cholmodFactor->minor];
   }
 };
-
-// With the symmetric parts of C and K.
-scene::Matrices symmetric_parts(scene::Matrices matrices) {
-  const auto replace = [](scene::MatrixFile& file) {
-    file.matrix = std::make_shared<const scene::SparseMatrix>(symmetric_part(*file.matrix));
-  };
-  if (matrices.unsymmetric_stiffness) replace(matrices.stiffness);
-  if (matrices.unsymmetric_damping) replace(matrices.damping);
-  return matrices;
-}
-
-// A skew-symmetric matrix of the structure.
-struct Skew {
-  bool of_velocity, by_speed;
-  scene::SparseMatrix A;
-};
-
-std::vector<Skew> skew_parts(const scene::Matrices& of) {
-  std::vector<Skew> all;
-  const auto add = [&](bool of_velocity, bool by_speed, const scene::MatrixFile& file) {
-    if (file.matrix) all.push_back({of_velocity, by_speed, skew_part(*file.matrix)});
-  };
-  add(true, true, of.gyroscopic);
-  add(false, true, of.circulatory);
-  if (of.unsymmetric_stiffness) add(false, false, of.stiffness);
-  if (of.unsymmetric_damping) add(true, false, of.damping);
-  return all;
-}
 
 Partition partition_of(const scene::Matrices& matrices, const std::vector<Skew>& skew,
                        const std::vector<int>& kept) {
