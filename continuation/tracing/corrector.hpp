@@ -8,8 +8,8 @@
 // one factorization.
 //
 // Where that last correction leaves the smooth piece of F, the equations beyond are others: Newton's method
-// continues once more, and v + dv stays the solution if that leads nowhere. This is tested where residuals are
-// cheap and corrections above 1e-13.
+// continues once more, and v + dv stays the solution if that leads nowhere. This is tested where residuals
+// are cheap and corrections above 1e-13.
 //
 // Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004,
 // chapter 3): |B^-1 F(v + lambda dv)| must fall below (1 - lambda/4) |dv|. It is invariant under scaling of
