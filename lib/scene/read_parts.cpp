@@ -194,7 +194,7 @@ const Field* Names::field(std::string_view parameter, const std::string& pointer
 }
 
 void Names::set_fields(const std::string& part, std::span<const Field> fields) {
-  parts_.emplace(part, fields);
+  parts_.emplace(part, std::vector<Field>(fields.begin(), fields.end()));
   for (const Field& field : fields) fields_.push_back(part + '.' + std::string(field.name));
 }
 

@@ -32,8 +32,8 @@ class Names {
  public:
   /// Reports a fault if the name is not allowed or taken.
   bool add(const std::string& name, const std::string& pointer, Faults& faults);
-  void set_fields(const std::string& part, std::span<const Field> fields);
-  void set_unknown(const std::string& part);  // what fields it has
+  void set_fields(const std::string& part, std::span<const Field> fields);  // copied
+  void set_unknown(const std::string& part);                                // what fields it has
   void set_incomplete() { complete_ = false; }
 
   /// The field of "part.field", or a fault with a hint. Nothing, without a fault, if the name may belong to a
@@ -45,8 +45,8 @@ class Names {
   const std::vector<std::string>& fields() const { return fields_; }
 
  private:
-  std::unordered_map<std::string, std::string> pointers_;  // of the first use of a name
-  std::map<std::string, std::optional<std::span<const Field>>, std::less<>> parts_;  // none: not known
+  std::unordered_map<std::string, std::string> pointers_;                        // of the first use of a name
+  std::map<std::string, std::optional<std::vector<Field>>, std::less<>> parts_;  // none: not known
   std::vector<std::string> fields_;
   bool complete_ = true;
 };

@@ -27,10 +27,9 @@ std::string told(const Tally& tally) {
   std::ostringstream text;
   text << tally.scenes << " scenes, " << tally.branches << " branches, " << tally.points
        << " points: " << tally.flagged << " flagged, " << tally.linear << " in one state, " << tally.rounded
-       << " rounded, " << tally.preloaded << " preloaded, " << tally.across_kinks
-       << " of a piece beside a kink; without a first response " << tally.drifting << " that drift and "
-       << tally.pushed << " with a negative or no spring, and " << tally.held << " others; " << tally.seconds
-       << " s.";
+       << " rounded, " << tally.preloaded << " preloaded; without a first response " << tally.drifting
+       << " that drift and " << tally.pushed << " with a negative or no spring, and " << tally.held
+       << " others; " << tally.seconds << " s.";
   for (const auto& [reason, count] : tally.reasons)
     text << "\n  " << reason << ": " << count << ", as " << tally.first_messages.at(reason);
   text << "\n  worst: residual " << tally.worst.residual << ", distance " << tally.worst.distance

@@ -32,9 +32,8 @@ constexpr double corrector = 1e-9;         // continuation::NewtonOptions::toler
 constexpr double few_digits = 1e-6;        // a distance from the branch beyond which a point needs a flag
 constexpr double smallest_row = 1e-30;     // of terms, over the Jacobian: where all terms are nearly 0
 constexpr double smallest_force = 1e-290;  // N, and of energies J: below, doubles lose digits
-constexpr double beside[] = {1e-11, 1e-10, 5e-10};  // a kink: over |u|, within the corrector's tolerance
-constexpr double unit_invariance = 1e-12;           // relative, times the condition
-constexpr double largest_value = 1e-12;  // of an amplitude over its series: reversals are found to 1e-6
+constexpr double unit_invariance = 1e-12;  // relative, times the condition
+constexpr double largest_value = 1e-12;    // of an amplitude over its series: reversals are found to 1e-6
 
 std::vector<ResponseBranch> traced(const scene::Scene& s, bool* cut, double* seconds) {
   long steps = 0;
@@ -162,27 +161,7 @@ class Check {
     if (residual(branch, at, u, exact, judge)) linear(at, exact, judge);
   }
 
-  // From u to a solution of the equations of a piece that begins or ends beside u, over |u| and the window:
-  // the last correction of a point may have crossed a kink.
-  double distance_across_kink(const Vector& u, double omega) {
-    const Eigen::Index n = u.size();
-    const std::uint64_t own = evaluator_->piece();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (const double far : beside)
-        for (const double side : {-far, far}) {
-          const Vector from = u + side * u.stableNorm() * Vector::Unit(n, i);
-          const bool moved =
-              evaluator_->move_to(from, hbm::parameters_at(problem_, omega), continuation::Needs::jacobian) ==
-              continuation::Evaluated::ok;
-          if (!moved || evaluator_->piece() == own) continue;
-          const auto [A, r] = system(from, equations_.at(from, omega));
-          nearest = std::min(nearest, far + continuation::shortest_least_squares(A, r).X.norm());
-        }
-    return nearest;
-  }
-
-  // Whether the mean force has its digits, and the point those of its own piece.
+  // Whether the mean force has its digits.
   template <class Judge>
   bool residual(const ResponseBranch& branch, const ResponsePoint& at, const Vector& u,
                 const extended::Evaluation& exact, const Judge& judge) {
@@ -219,10 +198,6 @@ class Check {
     const double smallest = continuation::singular_values(A).values[R.size() - 1];
     const double rounding = roundings * epsilon * std::sqrt(static_cast<double>(R.size())) / smallest;
     if (branch.status == observables::Status::failed || !branch.doubt.empty()) return true;  // it says so
-    if (distance > corrector + rounding && distance_across_kink(u, at.omega) <= corrector) {
-      ++tally_.across_kinks;
-      return false;
-    }
     judge("off the branch", distance / (corrector + rounding), tally_.worst.distance);
     if (distance > few_digits && !at.truncation_flagged) {
       std::ostringstream text;
@@ -239,18 +214,8 @@ class Check {
     if (std::count(states.begin(), states.end(), extended::State::several) > 0) return;
     ++tally_.linear;
     const extended::Linear closed_form = equations_.linear(exact, at.omega);
-    // A point within the corrector's tolerance, of |u| and of the window.
-    double slope = 0;
-    for (const double change : {-corrector * width(), corrector * width()})
-      slope =
-          std::max(slope, static_cast<double>(std::abs(equations_.linear(exact, at.omega + change).amplitude -
-                                                       closed_form.amplitude)));
-    const double size =
-        Eigen::Map<const Vector>(at.unknowns.data(), static_cast<Eigen::Index>(at.unknowns.size()))
-            .stableNorm();
-    const double allowed = static_cast<double>(largest_value * closed_form.amplitude +
-                                               roundings * epsilon * closed_form.rounding) +
-                           corrector * std::max(static_cast<double>(closed_form.amplitude), size) + slope;
+    const double allowed = static_cast<double>((corrector + largest_value) * closed_form.amplitude +
+                                               roundings * epsilon * closed_form.rounding);
     const double error = std::abs(static_cast<double>(at.amplitude - closed_form.amplitude));
     if (error > allowed &&
         error <= allowed + roundings * epsilon * static_cast<double>(closed_form.preload)) {

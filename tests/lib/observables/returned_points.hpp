@@ -24,11 +24,10 @@ struct Ratios {
 
 struct Tally {
   long scenes = 0, branches = 0, points = 0;
-  long flagged = 0;       // points whose truncation is flagged
-  long linear = 0;        // points where each element does one thing throughout
-  long rounded = 0;       // points farther from the branch than the corrector's tolerance, by rounding
-  long preloaded = 0;     // points whose mean force lost digits in a preload: not judged further
-  long across_kinks = 0;  // points that solve the equations of a piece beside a kink: not judged further
+  long flagged = 0;    // points whose truncation is flagged
+  long linear = 0;     // points where each element does one thing throughout
+  long rounded = 0;    // points farther from the branch than the corrector's tolerance, by rounding
+  long preloaded = 0;  // points whose mean force lost digits in a preload: not judged further
   // Without a first response: nothing holds the mean, a spring pushes or is missing, or stiffnesses are too
   // far apart.
   long drifting = 0, pushed = 0, held = 0;
