@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace arcslip::hbm {
 namespace {
@@ -58,16 +59,33 @@ bool eliminate(ComplexMatrix& A, ComplexMatrix& B) {
 struct Split {
   double *re, *im;
 };
+Split column(SplitMatrix& of, Eigen::Index j) {
+  return {of.re.data() + j * of.rows(), of.im.data() + j * of.rows()};
+}
 
-// D^-1 of n modes. False where one is singular to rounding.
-[[gnu::always_inline]] inline bool invert(const Factors& g, double s, const double* M, const double* C,
-                                          const double* K, Eigen::Index n, Split inverse) {
-  double* __restrict re = inverse.re, * __restrict im = inverse.im;
-  int singular = 0;
+// Diagonals of M, C and K, or columns of their blocks lq.
+struct Terms {
+  const double *M, *C, *K;
+};
+
+// z = g(M, C, K) of n entries.
+[[gnu::always_inline]] inline void combine(const Factors& g, Terms of, Eigen::Index n, Split z) {
+  double* __restrict re = z.re, * __restrict im = z.im;
+  const double mass = g.mass.real(), spring = g.spring.real(), i_mass = g.mass.imag(),
+               i_damper = g.damper.imag(), i_spring = g.spring.imag();
   for (Eigen::Index j = 0; j < n; ++j) {
-    const double a = g.mass.real() * M[j] + g.spring.real() * K[j],
-                 b = g.mass.imag() * M[j] + g.damper.imag() * C[j] + g.spring.imag() * K[j];
-    const double size = a * a + b * b, least = modal_pole * (K[j] + s * s * M[j]);
+    re[j] = mass * of.M[j] + spring * of.K[j];
+    im[j] = i_mass * of.M[j] + i_damper * of.C[j] + i_spring * of.K[j];
+  }
+}
+
+// D := D^-1 of n modes. False where one is singular to rounding.
+[[gnu::always_inline]] inline bool invert(double s, Terms of, Eigen::Index n, Split D) {
+  double* __restrict re = D.re, * __restrict im = D.im;
+  std::int64_t singular = 0;  // as wide as a double, as vectors need it
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double a = re[j], b = im[j];
+    const double size = a * a + b * b, least = modal_pole * (of.K[j] + s * s * of.M[j]);
     singular |= !(size > least * least);
     re[j] = a / size;
     im[j] = -b / size;
@@ -100,34 +118,36 @@ struct Split {
   return {(re[0] + re[1]) + (re[2] + re[3]), (im[0] + im[1]) + (im[2] + im[3])};
 }
 
+void put(const ComplexVector& column, Eigen::Index j, SplitMatrix& into) {
+  into.re.col(j) = column.real();
+  into.im.col(j) = column.imag();
+}
+
 }  // namespace
 
 void Condensed::expand(double force_factor, ComplexVector& y) const {
   const Eigen::Index r = Z.rows(), l = W.rows();
-  if (l == 0) return;
-  y.tail(l) = force_factor * W.col(r);
-  y.tail(l).noalias() -= W.leftCols(r) * y.head(r);
+  for (Eigen::Index j = 0; j < l; ++j) y[r + j] = force_factor * W(j, r);
+  for (Eigen::Index i = 0; i < r; ++i)
+    for (Eigen::Index j = 0; j < l; ++j) y[r + j] = less_product(y[r + j], W(j, i), y[i]);
 }
 
 void Condensed::project(ComplexVector& v) const {
-  const Eigen::Index r = Z.rows(), l = W.rows();
-  if (l == 0) return;
-  if (V.size() > 0)
-    v.head(r).noalias() -= V.transpose() * v.tail(l);
-  else
-    v.head(r).noalias() -= W.leftCols(r).transpose() * v.tail(l);
+  const Eigen::Index r = Z.rows();
+  if (V.size() == 0) return observe(v);
+  v.head(r).noalias() -= V.transpose() * v.tail(W.rows());
 }
 
 void Condensed::observe(ComplexVector& c) const {
   const Eigen::Index r = Z.rows(), l = W.rows();
-  if (l == 0) return;
-  c.head(r).noalias() -= W.leftCols(r).transpose() * c.tail(l);
+  for (Eigen::Index i = 0; i < r; ++i)
+    for (Eigen::Index j = 0; j < l; ++j) c[i] = less_product(c[i], W(j, i), c[r + j]);
 }
 
 Complex Condensed::observed_change(const ComplexVector& v, int observation) const {
   const Eigen::Index r = Z.rows();
   Complex sum = 0;
-  for (Eigen::Index k = 0; k < W.rows(); ++k) sum -= W(k, r + 1 + observation) * v[r + k];
+  for (Eigen::Index j = 0; j < W.rows(); ++j) sum = less_product(sum, W(j, r + 1 + observation), v[r + j]);
   return sum;
 }
 
@@ -135,36 +155,38 @@ ModalCondensation::ModalCondensation(const FixedInterfaceModes& modes, const Eig
     : r_(modes.K.qq.rows()),
       l_(modes.K.ll.size()),
       c_(observed.bottomRows(l_)),
-      inverse_re_(l_),
-      inverse_im_(l_),
-      right_re_(l_, r_ + 1),
-      right_im_(l_, r_ + 1),
-      W_re_(l_, r_ + 1),
-      W_im_(l_, r_ + 1),
+      f_rate_(r_ + l_),
       U_(l_, most_changes),
       inverse_U_(l_, most_changes),
       H_(r_, most_changes),
       equations_(most_changes, most_changes),
-      forces_(most_changes, r_ + 1 + c_.cols()) {}
+      forces_(most_changes, r_ + 1 + c_.cols()) {
+  inverse_.resize(l_, 1);
+  right_.resize(l_, r_ + 1);
+  along_.resize(l_, 2);
+}
 
 bool ModalCondensation::condense(const LinearParts& parts, double s, const ComplexVector& f,
                                  Condensed& into) {
   const ModalMatrix &M = parts.modes()->M, &C = parts.modes()->C, &K = parts.modes()->K;
   const Factors g = parts.factors(s);
-  right_re_.leftCols(r_) = g.mass.real() * M.lq + g.spring.real() * K.lq;
-  right_im_.leftCols(r_) = g.mass.imag() * M.lq + g.damper.imag() * C.lq + g.spring.imag() * K.lq;
-  right_re_.col(r_) = f.tail(l_).real();
-  right_im_.col(r_) = f.tail(l_).imag();
+  into.has_rates = false;
   into.Z.resize(r_, r_);
   into.f.resize(r_);
+  into.W.resize(l_, r_ + 1 + c_.cols());
+  right_.re.col(r_) = f.tail(l_).real();
+  right_.im.col(r_) = f.tail(l_).imag();
   const bool regular = continuation::widest([&]() __attribute__((always_inline)) {
-    const Split inverse{inverse_re_.data(), inverse_im_.data()};
-    if (!invert(g, s, M.ll.data(), C.ll.data(), K.ll.data(), l_, inverse)) return false;
+    const Terms diagonal{M.ll.data(), C.ll.data(), K.ll.data()};
+    const Split inverse = column(inverse_, 0);
+    combine(g, diagonal, l_, inverse);
+    if (!invert(s, diagonal, l_, inverse)) return false;
     for (Eigen::Index i = 0; i <= r_; ++i) {
-      const Split W{W_re_.col(i).data(), W_im_.col(i).data()};
-      multiply({right_re_.col(i).data(), right_im_.col(i).data()}, inverse, l_, W);
+      const Split right = column(right_, i), W = column(into.W, i);
+      if (i < r_) combine(g, {M.lq.data() + i * l_, C.lq.data() + i * l_, K.lq.data() + i * l_}, l_, right);
+      multiply(right, inverse, l_, W);
       for (Eigen::Index k = 0; k <= std::min(i, r_ - 1); ++k) {
-        const Complex sum = scalar_product({right_re_.col(k).data(), right_im_.col(k).data()}, W, l_);
+        const Complex sum = scalar_product(column(right_, k), W, l_);
         if (i < r_)
           into.Z(k, i) = into.Z(i, k) = g.combine(M.qq(k, i), C.qq(k, i), K.qq(k, i)) - sum;
         else
@@ -174,13 +196,71 @@ bool ModalCondensation::condense(const LinearParts& parts, double s, const Compl
     return true;
   });
   if (!regular) return false;
-  into.W.resize(l_, r_ + 1 + c_.cols());
-  for (Eigen::Index i = 0; i <= r_; ++i)
-    for (Eigen::Index j = 0; j < l_; ++j) into.W(j, i) = Complex(W_re_(j, i), W_im_(j, i));
-  for (Eigen::Index i = 0; i < c_.cols(); ++i)
-    for (Eigen::Index j = 0; j < l_; ++j)
-      into.W(j, r_ + 1 + i) = Complex(inverse_re_[j] * c_(j, i), inverse_im_[j] * c_(j, i));
+  for (Eigen::Index i = 0; i < c_.cols(); ++i) {
+    into.W.re.col(r_ + 1 + i) = inverse_.re.cwiseProduct(c_.col(i));
+    into.W.im.col(r_ + 1 + i) = inverse_.im.cwiseProduct(c_.col(i));
+  }
   return parts.changes().empty() || add_changes(parts, g, f, into);
+}
+
+// With y = Y (q, force factor) and f' the rate of f, the rates are L^T (Z' Y - f'), L: Y without its last
+// column, then -Z_ll^-1 c_l of each observation.
+void ModalCondensation::differentiate(const LinearParts& parts, int n, Condensed& at) {
+  const ModalMatrix &M = parts.modes()->M, &C = parts.modes()->C, &K = parts.modes()->K;
+  const Factors g = parts.factor_rates(n);
+  const Eigen::Index observations = c_.cols();
+  const bool forced = parts.force_rate(n, f_rate_);
+  at.rates.resize(r_ + observations, r_ + 1);
+  continuation::widest([&]() __attribute__((always_inline)) {
+    const Split D = column(inverse_, 0), y = column(along_, 0), v = column(along_, 1);
+    combine(g, {M.ll.data(), C.ll.data(), K.ll.data()}, l_, D);
+    for (Eigen::Index i = 0; i < r_; ++i)
+      combine(g, {M.lq.data() + i * l_, C.lq.data() + i * l_, K.lq.data() + i * l_}, l_, column(right_, i));
+    for (Eigen::Index b = 0; b <= r_; ++b) {
+      const bool of_force = b == r_;
+      const Split W = column(at.W, b);
+      const double sign = of_force ? 1 : -1;
+      for (Eigen::Index j = 0; j < l_; ++j) {
+        y.re[j] = sign * W.re[j];
+        y.im[j] = sign * W.im[j];
+      }
+      multiply(D, y, l_, v);
+      if (!of_force) {
+        along_.re.col(1) += right_.re.col(b);
+        along_.im.col(1) += right_.im.col(b);
+      } else if (forced) {
+        along_.re.col(1) -= f_rate_.tail(l_).real();
+        along_.im.col(1) -= f_rate_.tail(l_).imag();
+      }
+      for (Eigen::Index a = 0; a < r_; ++a) {
+        const Complex own = !of_force ? g.combine(M.qq(a, b), C.qq(a, b), K.qq(a, b))
+                            : forced  ? -f_rate_[a]
+                                      : Complex(0);
+        at.rates(a, b) =
+            own + scalar_product(column(right_, a), y, l_) - scalar_product(column(at.W, a), v, l_);
+      }
+      for (Eigen::Index i = 0; i < observations; ++i)
+        at.rates(r_ + i, b) = -scalar_product(column(at.W, r_ + 1 + i), v, l_);
+    }
+  });
+  for (const ChangedPart& change : parts.changes()) {
+    const auto along = [&](Eigen::Index k) {  // d . of a column of (Y, L)
+      Complex sum = 0;
+      for (const auto& [i, d] : change.part->direction.entries())
+        if (i >= r_)
+          sum += (k == r_ ? d : -d) * at.W(i - r_, k);
+        else if (i == k)
+          sum += d;
+      return sum;
+    };
+    const Complex by = change.by * g.of(change.part->kind);
+    for (Eigen::Index b = 0; b <= r_; ++b) {
+      const Complex force = by * along(b);
+      for (Eigen::Index a = 0; a < r_; ++a) at.rates(a, b) += along(a) * force;
+      for (Eigen::Index i = 0; i < observations; ++i) at.rates(r_ + i, b) += along(r_ + 1 + i) * force;
+    }
+  }
+  at.has_rates = true;
 }
 
 // With the forces t = v (d . y) in the changed parts, v = by g(s), as further unknowns, Z' of the modes alone
@@ -202,8 +282,9 @@ bool ModalCondensation::add_changes(const LinearParts& parts, const Factors& g, 
         H(at, i) = d;
       else
         U(at - r_, i) = d;
-  for (Eigen::Index j = 0; j < l_; ++j) inverse_U.row(j) = Complex(inverse_re_[j], inverse_im_[j]) * U.row(j);
-  H.noalias() -= into.W.leftCols(r_).transpose() * U;  // Z_ql D^-1 d_l
+  for (Eigen::Index j = 0; j < l_; ++j) inverse_U.row(j) = inverse_(j, 0) * U.row(j);
+  H.real().noalias() -= into.W.re.leftCols(r_).transpose() * U;  // Z_ql D^-1 d_l
+  H.imag().noalias() -= into.W.im.leftCols(r_).transpose() * U;
   ComplexMatrix &A = equations_, &T = forces_;
   A.noalias() = U.transpose() * inverse_U;
   const Eigen::Index observations = c_.cols();
@@ -221,8 +302,11 @@ bool ModalCondensation::add_changes(const LinearParts& parts, const Factors& g, 
   if (!eliminate(A, T)) return false;
   into.Z.noalias() += H * T.leftCols(r_);
   into.f.noalias() -= H * T.col(r_);
-  into.W.leftCols(r_).noalias() += inverse_U * T.leftCols(r_);
-  into.W.rightCols(1 + observations).noalias() -= inverse_U * T.rightCols(1 + observations);
+  T.rightCols(1 + observations) *= -1;
+  for (Eigen::Index j = 0; j < T.cols(); ++j)
+    for (Eigen::Index i = 0; i < k; ++i)
+      for (Eigen::Index row = 0; row < l_; ++row)
+        into.W.set(row, j, less_product(into.W(row, j), -inverse_U(row, i), T(i, j)));
   return true;
 }
 
@@ -252,29 +336,30 @@ void Condensation::choose_sparse(const std::vector<PartInY>& parts) {
   }
 }
 
-bool Condensation::solve_linear(const StructuralMatrices& of, const Factors& g, ComplexMatrix& W) {
+bool Condensation::solve_linear(const StructuralMatrices& of, const Factors& g) {
   if (sparse_lu_) {
     for (int j = 0; j < l_; ++j)
       for (Sparse::InnerIterator entry(sparse_Zll_, j); entry; ++entry)
         entry.valueRef() = of.at(g, r_ + entry.row(), r_ + j);
     if (!sparse_lu_->factorize(sparse_Zll_, pole)) return false;
-    W = rhs_;
-    sparse_lu_->solve_in_place(W);
+    W_ = rhs_;
+    sparse_lu_->solve_in_place(W_);
     return true;
   }
   for (Eigen::Index j = 0; j < l_; ++j)
     for (Eigen::Index i = 0; i < l_; ++i) Zll_(i, j) = of.at(g, r_ + i, r_ + j);
-  W = rhs_;
-  return eliminate(Zll_, W);
+  W_ = rhs_;
+  return eliminate(Zll_, W_);
 }
 
 bool Condensation::condense(const StructuralMatrices& of, const Factors& g, const ComplexVector& f,
                             Condensed& into) {
-  ComplexMatrix &Z = into.Z, &W = into.W;
+  ComplexMatrix& Z = into.Z;
+  into.has_rates = false;
   if (elimination_) {
     elimination_->set(of, g, f, c_);
     if (!elimination_->run(pole)) return false;
-    elimination_->condensed(Z, into.f, W);
+    elimination_->condensed(Z, into.f, into.W);
     return true;
   }
   Z.resize(r_, r_);
@@ -288,15 +373,17 @@ bool Condensation::condense(const StructuralMatrices& of, const Factors& g, cons
     rhs_(k, r_) = f[r_ + k];
     for (Eigen::Index i = 0; i < c_.cols(); ++i) rhs_(k, r_ + 1 + i) = c_(k, i);
   }
-  if (!solve_linear(of, g, W)) return false;
+  if (!solve_linear(of, g)) return false;
+  into.W.re = W_.real();
+  into.W.im = W_.imag();
   for (Eigen::Index j = 0; j < r_; ++j)
     for (Eigen::Index i = 0; i <= j; ++i) {  // Z is symmetric
       Complex sum = Z(i, j);
-      for (Eigen::Index k = 0; k < l_; ++k) sum = less_product(sum, rhs_(k, i), W(k, j));
+      for (Eigen::Index k = 0; k < l_; ++k) sum = less_product(sum, rhs_(k, i), W_(k, j));
       Z(i, j) = Z(j, i) = sum;
     }
   for (Eigen::Index i = 0; i < r_; ++i)
-    for (Eigen::Index k = 0; k < l_; ++k) into.f[i] = less_product(into.f[i], rhs_(k, i), W(k, r_));
+    for (Eigen::Index k = 0; k < l_; ++k) into.f[i] = less_product(into.f[i], rhs_(k, i), W_(k, r_));
   return true;
 }
 
@@ -310,6 +397,7 @@ UnsymmetricCondensation::UnsymmetricCondensation(int unknowns, const Eigen::Matr
       lu_(l_) {}
 
 bool UnsymmetricCondensation::condense(const ComplexMatrix& Z, const ComplexVector& f, Condensed& into) {
+  into.has_rates = false;
   into.Z = Z.topLeftCorner(r_, r_);
   into.f = f.head(r_);
   if (l_ == 0) return true;
@@ -325,7 +413,7 @@ bool UnsymmetricCondensation::condense(const ComplexMatrix& Z, const ComplexVect
     else
       column_ = f.tail(l_);
     lu_.solve(column_, solution_);
-    into.W.col(i) = solution_;
+    put(solution_, i, into.W);
   }
   for (Eigen::Index i = 0; i < r_; ++i) {
     column_ = Z.row(i).tail(l_).transpose();
@@ -335,11 +423,15 @@ bool UnsymmetricCondensation::condense(const ComplexMatrix& Z, const ComplexVect
   for (Eigen::Index i = 0; i < c_.cols(); ++i) {
     column_ = c_.col(i);
     lu_.solve_transposed(column_, solution_);
-    into.W.col(r_ + 1 + i) = solution_;
+    put(solution_, r_ + 1 + i, into.W);
   }
   const auto Zql = Z.topRightCorner(r_, l_);
-  into.Z.noalias() -= Zql * into.W.leftCols(r_);
-  into.f.noalias() -= Zql * into.W.col(r_);
+  for (Eigen::Index k = 0; k < l_; ++k)
+    for (Eigen::Index i = 0; i < r_; ++i) {
+      for (Eigen::Index j = 0; j < r_; ++j)
+        into.Z(i, j) = less_product(into.Z(i, j), Zql(i, k), into.W(k, j));
+      into.f[i] = less_product(into.f[i], Zql(i, k), into.W(k, r_));
+    }
   return true;
 }
 

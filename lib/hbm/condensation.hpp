@@ -19,8 +19,12 @@ namespace arcslip::hbm {
 struct Condensed {
   ComplexMatrix Z;  // r x r, the Schur complement of Z_ll
   ComplexVector f;  // r
-  ComplexMatrix W;  // l x (r + 1 + observations): Z_ll^-1 [Z_lq, f_l] and Z_ll^-T c_l for each observation
+  SplitMatrix W;    // l x (r + 1 + observations): Z_ll^-1 [Z_lq, f_l] and Z_ll^-T c_l for each observation
   ComplexMatrix V;  // l x r: Z_ll^-T Z_ql^T; empty where Z is symmetric, and W has it
+  /// By the excitation frequency, where it has been computed: of Z and -f, a row for each, and of the
+  /// observations x = c . y below; the last column is that of f and of the force factor.
+  ComplexMatrix rates;
+  bool has_rates = false;
 
   /// y = (q, l) from its q, with f times force_factor.
   void expand(double force_factor, ComplexVector& y) const;
@@ -41,15 +45,18 @@ class ModalCondensation {
 
   /// At the place of parts, which has modes. False where Z_ll is singular to rounding.
   bool condense(const LinearParts& parts, double s, const ComplexVector& f, Condensed& into);
+  /// The rates of harmonic n, which is condensed at the place of parts.
+  void differentiate(const LinearParts& parts, int n, Condensed& at);
 
  private:
   bool add_changes(const LinearParts& parts, const Factors& g, const ComplexVector& f, Condensed& into);
 
   const Eigen::Index r_, l_;
-  Eigen::MatrixXd c_;  // l x observations
-  // Real and imaginary parts apart: D^-1; Z_lq and f_l, D^-1 times these.
-  Eigen::VectorXd inverse_re_, inverse_im_;
-  Eigen::MatrixXd right_re_, right_im_, W_re_, W_im_;
+  Eigen::MatrixXd c_;    // l x observations
+  SplitMatrix inverse_;  // D^-1, a column
+  SplitMatrix right_;    // Z_lq, f_l
+  SplitMatrix along_;    // of a motion y: y_l and (dZ y - df)_l
+  ComplexVector f_rate_;
   // Of the changes: d_l, D^-1 d_l, the forces in them.
   Eigen::MatrixXd U_;
   ComplexMatrix inverse_U_, H_, equations_, forces_;
@@ -67,13 +74,13 @@ class Condensation {
 
  private:
   void choose_sparse(const std::vector<PartInY>& parts);
-  // W = Z_ll^-1 rhs_
-  bool solve_linear(const StructuralMatrices& of, const Factors& g, ComplexMatrix& W);
+  // W_ = Z_ll^-1 rhs_
+  bool solve_linear(const StructuralMatrices& of, const Factors& g);
 
   const Eigen::Index r_, l_;
-  Eigen::MatrixXd c_;  // l x observations
-  ComplexMatrix rhs_;  // [Z_lq, f_l, c_l]
-  ComplexMatrix Zll_;  // of few
+  Eigen::MatrixXd c_;      // l x observations
+  ComplexMatrix rhs_, W_;  // [Z_lq, f_l, c_l]
+  ComplexMatrix Zll_;      // of few
   std::optional<Elimination> elimination_;
   std::optional<continuation::ComplexSparseLU> sparse_lu_;
   continuation::ComplexSparseLU::Matrix sparse_Zll_;

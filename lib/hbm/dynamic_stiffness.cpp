@@ -79,6 +79,12 @@ void DynamicStiffness::differentiate(int k, const In& u, const Harmonic& at, dou
   parts_.differentiate(k, at.order, y_, force_factor, v_);
 }
 
+const ComplexMatrix* DynamicStiffness::rates(int k, Harmonic& at) const {
+  if (k != model::frequency || !parts_.modes() || !parts_.symmetric()) return nullptr;
+  if (!at.condensed.has_rates) modal_->differentiate(parts_, at.order, at.condensed);
+  return &at.condensed.rates;
+}
+
 void DynamicStiffness::scatter(const ComplexVector& q, const Harmonic& at, Out& x) const {
   for (int i = 0; i < r_; ++i) at.put(q[i], i * size_, x);
 }
@@ -133,9 +139,15 @@ void DynamicStiffness::parameter_derivative(int k, In u, double force_factor, Ou
     dR.setZero();
     return;
   }
-  for (const Harmonic& at : harmonics_) {
-    differentiate(k, u, at, force_factor);
-    at.condensed.project(v_);
+  for (Harmonic& at : harmonics_) {
+    if (const ComplexMatrix* by = rates(k, at)) {
+      gather(u, at);
+      v_.head(r_) = force_factor * by->col(r_).head(r_);
+      v_.head(r_).noalias() += by->topLeftCorner(r_, r_).lazyProduct(y_.head(r_));
+    } else {
+      differentiate(k, u, at, force_factor);
+      at.condensed.project(v_);
+    }
     scatter(v_, at, dR);
   }
 }
@@ -188,10 +200,17 @@ void DynamicStiffness::response_derivative(int k, In u, double force_factor, Out
     dx.setZero();
     return;
   }
-  for (const Harmonic& at : harmonics_) {
-    differentiate(k, u, at, force_factor);
-    const Complex base = force_factor * parts_.base_derivative(k, at.order, ground);
-    at.put(at.condensed.observed_change(v_, place) + base, 0, dx);
+  for (Harmonic& at : harmonics_) {
+    Complex change = force_factor * parts_.base_derivative(k, at.order, ground);
+    if (const ComplexMatrix* by = rates(k, at)) {
+      change += force_factor * (*by)(r_ + place, r_);
+      for (Eigen::Index i = 0; i < r_; ++i)
+        change += (*by)(r_ + place, i) * at.amplitude(u, static_cast<int>(i) * size_);
+    } else {
+      differentiate(k, u, at, force_factor);
+      change += at.condensed.observed_change(v_, place);
+    }
+    at.put(change, 0, dx);
   }
 }
 

@@ -72,6 +72,8 @@ class DynamicStiffness {
   void gather(const In& u, const Harmonic& at) const;
   void expand(const In& u, const Harmonic& at, double force_factor) const;
   void differentiate(int k, const In& u, const Harmonic& at, double force_factor) const;
+  // By the frequency, of coordinates in modes: Condensed::rates. Null: not by these.
+  const ComplexMatrix* rates(int k, Harmonic& at) const;
   bool condense(Harmonic& at);
   void scatter(const ComplexVector& q, const Harmonic& at, Out& x) const;
 
@@ -81,11 +83,11 @@ class DynamicStiffness {
   Eigen::MatrixXd responses_;             // directions in y, a column for each place
   std::vector<model::Direction> ground_;  // along which the displacement of the ground belongs to each
   LinearParts parts_;
-  std::optional<ModalCondensation> modal_;
+  mutable std::optional<ModalCondensation> modal_;
   std::optional<Condensation> direct_;  // without modes, or where too many parts differ from them
   std::optional<UnsymmetricCondensation> unsymmetric_;  // of a rotor, or linked to the next sector
   ComplexMatrix Z_;                                     // before that
-  std::vector<Harmonic> harmonics_;
+  mutable std::vector<Harmonic> harmonics_;             // their rates
   Vector last_p_;
   mutable ComplexVector y_, v_;  // a full motion, a residual of the full equation; q comes first in both
 };

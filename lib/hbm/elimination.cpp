@@ -120,7 +120,7 @@ bool Elimination::run(double least) {
   return continuation::widest([&]() __attribute__((always_inline)) { return eliminate(all, least); });
 }
 
-void Elimination::condensed(ComplexMatrix& Z, ComplexVector& f, ComplexMatrix& W) const {
+void Elimination::condensed(ComplexMatrix& Z, ComplexVector& f, SplitMatrix& W) const {
   const auto value = [&](Index i, Index j) { return Complex(re_(i, j), im_(i, j)); };
   Z.resize(r_, r_);
   for (Index j = 0; j < r_; ++j)
@@ -129,8 +129,10 @@ void Elimination::condensed(ComplexMatrix& Z, ComplexVector& f, ComplexMatrix& W
   for (Index i = 0; i < r_; ++i) f[i] = value(i, n_);
   const Index l = n_ - r_, more = columns_ - n_ - 1;
   W.resize(l, r_ + 1 + more);
-  for (Index j = 0; j < W.cols(); ++j)
-    for (Index i = 0; i < l; ++i) W(i, j) = value(r_ + i, j < r_ ? j : n_ + j - r_);
+  W.re.leftCols(r_) = re_.bottomLeftCorner(l, r_);
+  W.im.leftCols(r_) = im_.bottomLeftCorner(l, r_);
+  W.re.rightCols(1 + more) = re_.bottomRightCorner(l, 1 + more);
+  W.im.rightCols(1 + more) = im_.bottomRightCorner(l, 1 + more);
 }
 
 }  // namespace arcslip::hbm

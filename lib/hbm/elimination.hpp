@@ -8,6 +8,22 @@
 
 namespace arcslip::hbm {
 
+/// A complex matrix, real and imaginary parts apart.
+struct SplitMatrix {
+  Eigen::MatrixXd re, im;
+
+  void resize(Eigen::Index rows, Eigen::Index columns) {
+    re.resize(rows, columns);
+    im.resize(rows, columns);
+  }
+  Eigen::Index rows() const { return re.rows(); }
+  Complex operator()(Eigen::Index i, Eigen::Index j) const { return {re(i, j), im(i, j)}; }
+  void set(Eigen::Index i, Eigen::Index j, Complex value) {
+    re(i, j) = value.real();
+    im(i, j) = value.imag();
+  }
+};
+
 /// Mutable, with its buffers.
 class Elimination {
  public:
@@ -22,7 +38,7 @@ class Elimination {
 
   /// Of the last run: Z_qq - Z_ql Z_ll^-1 Z_lq, symmetric as Z; f_q - Z_ql Z_ll^-1 f_l; Z_ll^-1 [Z_lq, f_l,
   /// c].
-  void condensed(ComplexMatrix& Z, ComplexVector& f, ComplexMatrix& W) const;
+  void condensed(ComplexMatrix& Z, ComplexVector& f, SplitMatrix& W) const;
 
  private:
   const Eigen::Index r_, n_, columns_;  // n_ = r + l rows; columns: those of Z, then right hand sides

@@ -10,6 +10,12 @@ using Kind = model::LinearKind;
 
 constexpr double rounding = 1e-13;  // of a direction in y, relative to its largest entry
 
+bool equal_beside_frequency(const In& a, const Eigen::VectorXd& b) {
+  static_assert(model::frequency == 0);
+  const auto* begin = a.data() + 1;
+  return std::equal(begin, a.data() + a.size(), b.data() + 1);
+}
+
 }  // namespace
 
 DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x,
@@ -81,14 +87,12 @@ double LinearParts::modal_value(const PartInY& part) const {
 
 void LinearParts::move_to(In p) {
   base_frequency_ = p[model::frequency] / period_;
+  bool same = has_place_ && p.size() == p_.size() && equal_beside_frequency(p, p_);
+  has_place_ = true;
   p_ = p;
   for (ForceInY& force : forces_) force.given = force.of.amplitude(p);
-  bool same = has_place_;
-  has_place_ = true;
-  for (PartInY& part : parts_) {
-    same = same && part.value == p[part.parameter];
-    part.value = p[part.parameter];
-  }
+  if (!same)
+    for (PartInY& part : parts_) part.value = p[part.parameter];
   for (std::size_t k = 0; k < matrix_parts_.size(); ++k) {
     const double value = matrix_parts_[k].of.value(p);
     same = same && matrix_values_[k] == value;
@@ -107,7 +111,8 @@ void LinearParts::set_values() {
     modal_ = changes_.size() <= most_changes;
   }
   for (const MatrixInY& part : matrix_parts_)
-    modal_ = modal_ && (part.of.parameter < 0 || part.of.value(p_) == part.of.value(modes_->p));
+    modal_ = modal_ && part.of.parameter != model::frequency &&
+             (part.of.parameter < 0 || part.of.value(p_) == part.of.value(modes_->p));
   if (modal_) return;
   for (Eigen::MatrixXd* matrix : {&matrices_.M, &matrices_.C, &matrices_.K}) matrix->setZero(size_, size_);
   if (!symmetric_) matrices_.N.setZero(size_, size_);
@@ -159,8 +164,8 @@ Factors LinearParts::factors(double s) const {
   return g;
 }
 
-Factors LinearParts::factor_rates(int n, double s) const {
-  const double ds = static_cast<double>(n) / period_;
+Factors LinearParts::factor_rates(int n) const {
+  const double s = n * base_frequency_, ds = static_cast<double>(n) / period_;
   Factors rates{-2 * s * ds, Complex(0, ds), 0};
   if (!damping_) return rates;
   rates.mass += Complex(0, ds * damping_->alpha_at(p_));
@@ -177,6 +182,20 @@ void LinearParts::force(int n, ComplexVector& f) const {
   f.setZero();
   for (const ForceInY& force : forces_)
     if (force.harmonic == n) add(force, force.of.factor(p_[model::frequency]) * force.given, f);
+}
+
+bool LinearParts::force_rate(int n, ComplexVector& f) const {
+  bool any = false;
+  for (const ForceInY& force : forces_) {
+    if (force.harmonic != n) continue;
+    const Complex rate = force.of.factor_rate(p_[model::frequency]) * force.given +
+                         force.of.factor(p_[model::frequency]) * force.of.amplitude_rate(model::frequency);
+    if (rate == 0.0) continue;
+    if (!any) f.setZero();
+    any = true;
+    add(force, rate, f);
+  }
+  return any;
 }
 
 Complex LinearParts::base_displacement(int n, const model::Direction& direction) const {
@@ -216,7 +235,7 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
   const Complex t = turn(n);
   v.setZero();
   const Factors g = factors(s);
-  if (k == model::frequency) add_product(factor_rates(n, s), t, y, v);
+  if (k == model::frequency) add_product(factor_rates(n), t, y, v);
   for (const PartInY& part : parts_)
     if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y, t), t, v);
   for (const MatrixInY& part : matrix_parts_)

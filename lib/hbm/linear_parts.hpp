@@ -139,6 +139,9 @@ class LinearParts {
   void dynamic_stiffness(int n, ComplexMatrix& Z) const;
   /// f of harmonic n.
   void force(int n, ComplexVector& f) const;
+  /// By the excitation frequency: of the factors, and of f; false where f does not have it.
+  Factors factor_rates(int n) const;
+  bool force_rate(int n, ComplexVector& f) const;
 
   /// The displacement of the ground in harmonic n along a direction of the degrees of freedom, and its
   /// derivative by p_k.
@@ -171,7 +174,6 @@ class LinearParts {
     Complex given;  // the amplitude as the scene gives it
   };
   double value(const ForceInY::Term& term) const { return term.mass < 0 ? 1 : p_[term.mass]; }
-  Factors factor_rates(int n, double s) const;  // by the excitation frequency
   // P^T A P, made when it is first needed: with modes it seldom is.
   struct MatrixInY {
     model::MatrixPart of;

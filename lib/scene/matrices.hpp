@@ -54,6 +54,7 @@ struct Matrices {
   bool unsymmetric_stiffness = false, unsymmetric_damping = false;  // as the scene says
   NamedFile names{};
   std::vector<int> rows{};       // from 0, of the first of Scene::dofs
+  int copies = 1;                // of the structure, side by side: the sectors of a full ring
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not
   std::optional<Bar> bar{};      // of which they are, in place of files
   std::shared_ptr<Derived> derived = Derived::none();
