@@ -116,9 +116,8 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
                       std::to_string(scene::usual_combinations) + ")")
       ->type_name("N");
   verb.add_option("--threads", texts.threads,
-                  "combinations, or load cases of an optimum, computed at the same time (default: as many as "
-                  "there are "
-                  "processors)")
+                  "threads for combinations, load cases of an optimum, and elements of a response (default: "
+                  "as many as there are processors)")
       ->type_name("N");
   verb.add_flag("--quiet", options.quiet, "print only errors, no progress and no notes");
 }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -14,12 +15,19 @@ namespace arcslip::hbm {
 using continuation::Evaluated;
 using continuation::Needs;
 
+namespace {
+
+constexpr double worth_sharing = 100e-6;  // s, of all elements; waking the threads takes some 10 us
+
+}  // namespace
+
 HbmEvaluator::~HbmEvaluator() = default;
 
 HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
     : model_(problem.shared_model()),
       displacements_(problem.coordinates().unknowns * problem.harmonics().size()),
       stiffness_(*model_, problem.coordinates(), problem.harmonics()),
+      workers_(problem.workers()),
       u_(problem.size()),
       R_(u_.size()),
       jacobian_(Eigen::MatrixXd()) {
@@ -51,11 +59,19 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
   assembled_ = !jacobian;
   R_.tail(R_.size() - displacements_).setZero();
   stiffness_.residual(u_, force_factor_, R_);
-  for (Part& part : parts_) {
-    move(part, u_, p, jacobian);
-    part.map.add(part.element->force(), R_);
-  }
+  move_all(u_, p, jacobian);
+  for (const Part& part : parts_) part.map.add(part.element->force(), R_);
   return R_.allFinite() ? Evaluated::ok : Evaluated::failed;
+}
+
+void HbmEvaluator::move_all(const continuation::In& u, const continuation::In& p, bool jacobian) {
+  using Clock = std::chrono::steady_clock;
+  double& seconds = seconds_[jacobian];
+  if (workers_ && seconds > worth_sharing)
+    return workers_->run(parts_.size(), [&](std::size_t e) { move(parts_[e], u, p, jacobian); });
+  const auto begin = workers_ ? Clock::now() : Clock::time_point();
+  for (Part& part : parts_) move(part, u, p, jacobian);
+  if (workers_) seconds = std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 void HbmEvaluator::move(Part& part, const continuation::In& u, const continuation::In& p, bool jacobian) {
@@ -72,7 +88,7 @@ Evaluated HbmEvaluator::test_piece(continuation::In u, continuation::In p, std::
   if (!u.allFinite() || !p.allFinite()) return Evaluated::failed;
   inside = true;
   if (piece != tested_piece_) {  // not known which of its parts are in it
-    for (Part& part : parts_) move(part, u, p, false);
+    move_all(u, p, false);
     inside = this->piece() == piece;
     if (!inside) return Evaluated::ok;
     for (Part& part : parts_) part.tested = part.element->piece();
@@ -164,6 +180,9 @@ HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonic
   parameters_[model::frequency].scale = frequency;
   parameters_.push_back({"excitation_factor", "-", 1, 1, 0, 1e300});
   for (const auto& element : model_->elements) blocks_ += element.law->auxiliary();
+  if (model_->threads > 1 && model_->elements.size() > 1)
+    workers_ =
+        std::make_shared<Workers>(std::min(model_->threads, static_cast<int>(model_->elements.size())));
 }
 
 HbmProblem::HbmProblem(const HbmProblem& other, double displacement) : HbmProblem(other) {

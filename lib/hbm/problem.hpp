@@ -10,6 +10,7 @@
 
 #include <arcslip/hbm/dynamic_stiffness.hpp>
 #include <arcslip/hbm/element_map.hpp>
+#include <arcslip/hbm/workers.hpp>
 
 #include <functional>
 #include <memory>
@@ -61,12 +62,15 @@ class HbmEvaluator final : public continuation::Evaluator {
   };
 
   void move(Part& part, const continuation::In& u, const continuation::In& p, bool jacobian);
+  void move_all(const continuation::In& u, const continuation::In& p, bool jacobian);
   void assemble() const;
 
   std::shared_ptr<const model::Model> model_;
   Eigen::Index displacements_;  // before the auxiliary unknowns
   DynamicStiffness stiffness_;
   std::vector<Part> parts_;
+  std::shared_ptr<Workers> workers_;  // null: one thread
+  double seconds_[2] = {0, 0};        // of all elements in one thread: without and with their Jacobians
   std::vector<std::size_t> latest_to_leave_;   // a piece, of parts_
   std::optional<std::uint64_t> tested_piece_;  // the last one in which a point was found
   Vector u_, R_;
@@ -105,6 +109,8 @@ class HbmProblem final : public continuation::Problem {
   ElementMap map_of(std::size_t element) const;
   double displacement() const { return displacement_; }
   int excitation_factor() const { return static_cast<int>(parameters_.size()) - 1; }
+  /// Of Model::threads, which evaluators share; null: one.
+  const std::shared_ptr<Workers>& workers() const { return workers_; }
 
  private:
   std::shared_ptr<const model::Model> model_;
@@ -114,6 +120,7 @@ class HbmProblem final : public continuation::Problem {
   int blocks_;
   std::vector<continuation::Parameter> parameters_;
   double displacement_;
+  std::shared_ptr<Workers> workers_;
 };
 
 /// Default values of the parameters, at one excitation frequency (rad/s).

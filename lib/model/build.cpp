@@ -75,6 +75,7 @@ class Builder {
     }
     model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
     model_.settings = scene_.harmonics;
+    model_.threads = scene_.threads.count;
     return std::move(model_);
   }
 

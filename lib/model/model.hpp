@@ -182,6 +182,7 @@ struct Model {
   scene::Harmonics settings;
   std::optional<Reduction> reduction;  // of its matrices
   int force_harmonic = 1;              // lowest of the excitation: the fundamental
+  int threads = 1;                     // of the scene
 };
 
 /// From a validated scene. The matrices of a large structure are reduced to the rows that the scene uses

@@ -100,6 +100,12 @@ struct Cyclic {
   friend bool operator==(const Cyclic&, const Cyclic&) = default;
 };
 
+/// For the elements of one response, whose results do not depend on them. Not of the file, and not compared.
+struct Threads {
+  int count = 1;
+  friend bool operator==(const Threads&, const Threads&) { return true; }
+};
+
 struct Scene {
   std::string title;
   std::vector<std::pair<std::string, std::string>> labels{};  // of axes in figures, by parameter or quantity
@@ -116,7 +122,8 @@ struct Scene {
   Harmonics harmonics;
   std::vector<Response> responses{1};  // at least one: the first defines the amplitude
   std::vector<Study> studies;
-  Folder folder{};  // of its file
+  Folder folder{};    // of its file
+  Threads threads{};  // that may be used
 
   const Direction& response() const { return responses.front().direction; }
   Direction& response() { return responses.front().direction; }

@@ -16,6 +16,11 @@
 
 namespace arcslip::studies {
 
+/// How many of the threads each of `count` computations may use.
+inline int threads_for_each(int threads, std::size_t count) {
+  return threads <= 1 ? 1 : std::max(1, threads / static_cast<int>(std::clamp<std::size_t>(count, 1, 1024)));
+}
+
 /// take(make(k)) for k = 0 ... count - 1, in this order and in the calling thread, with make() in up to
 /// `threads` threads: the results are those of one thread. None is begun that far ahead of take() that more
 /// than twice as many results as threads wait for it. No k is begun after goes_on is false. An exception of

@@ -37,8 +37,9 @@ struct Case {
 
 /// Calls take(computed, set) with the result of compute(Case, progress) for each of the combinations, in
 /// their order and in this thread, with the parameters set; up to `threads` of them are computed at the same
-/// time. After a stop by the callback no further combination is started. progress is called by one thread at
-/// a time, and told of the first combination that is being computed.
+/// time, with the threads that are left for their elements. After a stop by the callback no further
+/// combination is started. progress is called by one thread at a time, and told of the first combination that
+/// is being computed.
 template <class Compute, class Take>
 void for_each(const scene::Scene& scene, const scene::Combinations& all, int threads, const Compute& compute,
               const results::ProgressCallback& progress, const Take& take) {
@@ -50,6 +51,7 @@ void for_each(const scene::Scene& scene, const scene::Combinations& all, int thr
   const auto make = [&](std::size_t k) {
     scene::Setting set = all[k];
     scene::Scene with = scene;
+    with.threads.count = threads_for_each(threads, all.size());
     for (const auto& [name, value] : set) scene::set(with, name, value);
     auto computed = compute(Case{with, all.size() == 1}, [&](results::Progress now) {
       const std::lock_guard lock(telling);

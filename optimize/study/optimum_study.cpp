@@ -4,6 +4,7 @@
 #include <arcslip/optimize/search/design_space.hpp>
 #include <arcslip/optimize/search/scaled_parameter.hpp>
 #include <arcslip/optimize/search/watch.hpp>
+#include <arcslip/studies/in_order.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -234,8 +235,12 @@ void check_limits(const scene::Scene& scene, const OptimumProblem& problem) {
   for (const auto& limit : problem.limits) space.observable(limit.observable);
 }
 
-OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
+OptimumResult optimum_study(const scene::Scene& given, const OptimumSettings& settings,
                             const observables::ProgressCallback& progress, bool alone, int threads) {
+  scene::Scene scene = given;
+  const std::size_t load_cases =
+      std::max<std::size_t>(1, settings.problem.cases.size()) * (1 + 2 * settings.problem.scatter.size());
+  scene.threads.count = studies::threads_for_each(threads, load_cases);
   Teller teller(progress, scene, "search");
   OptimumOptions options = options_of(settings.search);
   options.threads = threads;

@@ -41,12 +41,14 @@ TEST_CASE("elimination of the linear coordinates is that of a factorization, wit
         right << full.bottomLeftCorner(l, r), f.tail(l), c.cast<Complex>();
         const ComplexMatrix expected = full.bottomRightCorner(l, l).fullPivLu().solve(right);
         hbm::Elimination elimination(r, l, more);
-        ComplexMatrix Z, W;
+        ComplexMatrix Z;
         ComplexVector condensed;
+        hbm::SplitMatrix split;
         for (int again = 0; again < 2; ++again) {
           elimination.set(of, g, f, c);
           REQUIRE(elimination.run(1e-14));
-          elimination.condensed(Z, condensed, W);
+          elimination.condensed(Z, condensed, split);
+          const ComplexMatrix W = split.re + Complex(0, 1) * split.im;
           REQUIRE(W.cols() == expected.cols());
           CHECK((W - expected).norm() < 1e-11 * expected.norm());
           const ComplexMatrix left = full.topRightCorner(r, l);

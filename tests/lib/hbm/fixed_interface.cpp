@@ -84,8 +84,10 @@ struct Structure {
     R = u;
     stiffness.solve(R);
     add(R, R.norm());
-    stiffness.response(u, 0.7, x);
-    add(x, u.norm());
+    for (int place = 0; place < stiffness.places(); ++place) {
+      stiffness.response(u, 0.7, x, place);
+      add(x, u.norm());
+    }
     stiffness.response_transposed(Vector::LinSpaced(c, 1, 2), g);
     add(g, 1);
     add(stiffness.motion(coordinates.P, u, 0.7).reshaped(), u.norm());
@@ -97,11 +99,15 @@ struct Structure {
     std::map<std::string, std::pair<Vector, Vector>> by_unit;
     for (int k = 0; k < p.size(); ++k) {
       stiffness.parameter_derivative(k, u, 0.7, R);
-      stiffness.response_derivative(k, u, 0.7, x);
       auto& [residuals, responses] = by_unit[model->parameters[static_cast<std::size_t>(k)].unit];
-      for (const auto& [list, v] : {std::pair(&residuals, R), std::pair(&responses, x)}) {
-        list->conservativeResize(list->size() + v.size());
-        list->tail(v.size()) = v;
+      const auto append = [](Vector& list, const Vector& v) {
+        list.conservativeResize(list.size() + v.size());
+        list.tail(v.size()) = v;
+      };
+      append(residuals, R);
+      for (int place = 0; place < stiffness.places(); ++place) {
+        stiffness.response_derivative(k, u, 0.7, x, place);
+        append(responses, x);
       }
     }
     for (const auto& [unit, derivatives] : by_unit)
@@ -128,6 +134,33 @@ TEST_CASE("with fixed-interface modes a structure is the same, for proportional 
       CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
     }
   }
+}
+
+TEST_CASE("with fixed-interface modes a structure on a moving ground is the same, at all of its places") {
+  scene::Scene s = chain(Damping::none);
+  s.damping.push_back({"r", &scene::rayleigh_type(), {}, {0.3, 2e-4}});
+  scene::Direction all;
+  for (int i = 0; i < dofs; ++i) all.push_back({i, 1.0});
+  for (const int n : {0, 1, 2})
+    s.excitation.push_back({"g" + std::to_string(n),
+                            n == 1 ? &scene::base_acceleration_type() : &scene::base_displacement_type(),
+                            {all},
+                            {0.02, n > 0 ? 0.01 : 0.0},
+                            n});
+  s.responses.front().others = {{{0, 1.0}}, {{20, 1.0}, {21, -1.0}}};
+  s.responses.front().frame = scene::Frame::absolute;
+  Structure modal(s, true), direct(s, false);
+  REQUIRE(modal.coordinates.modes);
+  REQUIRE(modal.stiffness.places() == 3);
+  Vector p = model::defaults(*modal.model);
+  const Vector u = Vector::Random(modal.coordinates.unknowns * modal.model->harmonics.size());
+  for (const double omega : {0.3, 21.0, 64.0, 900.0}) {
+    CAPTURE(omega);
+    p[model::frequency] = omega;
+    CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
+  }
+  p[modal.model->springs[4].parameter] *= 3;  // a change beside the modes
+  CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
 }
 
 TEST_CASE("parts that change beside the modes are exact, a few by their rank and many by a factorization") {
