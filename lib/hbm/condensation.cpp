@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace arcslip::hbm {
 namespace {
@@ -101,16 +102,22 @@ struct Terms {
   }
 }
 
+// Four numbers at once, on every processor.
+using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
+
 // sum_j a_j b_j, of every fourth j apart.
 [[gnu::always_inline]] inline Complex scalar_product(Split a, Split b, Eigen::Index n) {
   constexpr Eigen::Index lanes = 4;
-  double re[lanes] = {}, im[lanes] = {};
+  Four re = {}, im = {}, a_re, a_im, b_re, b_im;
   Eigen::Index j = 0;
-  for (; j + lanes <= n; j += lanes)
-    for (Eigen::Index q = 0; q < lanes; ++q) {
-      re[q] += a.re[j + q] * b.re[j + q] - a.im[j + q] * b.im[j + q];
-      im[q] += a.re[j + q] * b.im[j + q] + a.im[j + q] * b.re[j + q];
-    }
+  for (; j + lanes <= n; j += lanes) {
+    std::memcpy(&a_re, a.re + j, sizeof(Four));
+    std::memcpy(&a_im, a.im + j, sizeof(Four));
+    std::memcpy(&b_re, b.re + j, sizeof(Four));
+    std::memcpy(&b_im, b.im + j, sizeof(Four));
+    re += a_re * b_re - a_im * b_im;
+    im += a_re * b_im + a_im * b_re;
+  }
   for (; j < n; ++j) {
     re[0] += a.re[j] * b.re[j] - a.im[j] * b.im[j];
     im[0] += a.re[j] * b.im[j] + a.im[j] * b.re[j];
@@ -130,6 +137,21 @@ void Condensed::expand(double force_factor, ComplexVector& y) const {
   for (Eigen::Index j = 0; j < l; ++j) y[r + j] = force_factor * W(j, r);
   for (Eigen::Index i = 0; i < r; ++i)
     for (Eigen::Index j = 0; j < l; ++j) y[r + j] = less_product(y[r + j], W(j, i), y[i]);
+}
+
+const ComplexMatrix& Condensed::of_observations(const Eigen::MatrixXd& c) {
+  const Eigen::Index r = Z.rows(), l = W.rows();
+  if (has_observed) return observed;
+  observed.resize(c.cols(), r + 1);
+  for (Eigen::Index k = 0; k < c.cols(); ++k) {
+    const auto c_l = c.col(k).tail(l);
+    for (Eigen::Index i = 0; i <= r; ++i) {
+      const Complex sum = l > 0 ? Complex(c_l.dot(W.re.col(i)), c_l.dot(W.im.col(i))) : Complex(0);
+      observed(k, i) = i < r ? c(i, k) - sum : sum;
+    }
+  }
+  has_observed = true;
+  return observed;
 }
 
 void Condensed::project(ComplexVector& v) const {
@@ -170,7 +192,7 @@ bool ModalCondensation::condense(const LinearParts& parts, double s, const Compl
                                  Condensed& into) {
   const ModalMatrix &M = parts.modes()->M, &C = parts.modes()->C, &K = parts.modes()->K;
   const Factors g = parts.factors(s);
-  into.has_rates = false;
+  into.has_rates = into.has_observed = false;
   into.Z.resize(r_, r_);
   into.f.resize(r_);
   into.W.resize(l_, r_ + 1 + c_.cols());
@@ -355,7 +377,7 @@ bool Condensation::solve_linear(const StructuralMatrices& of, const Factors& g) 
 bool Condensation::condense(const StructuralMatrices& of, const Factors& g, const ComplexVector& f,
                             Condensed& into) {
   ComplexMatrix& Z = into.Z;
-  into.has_rates = false;
+  into.has_rates = into.has_observed = false;
   if (elimination_) {
     elimination_->set(of, g, f, c_);
     if (!elimination_->run(pole)) return false;
@@ -397,7 +419,7 @@ UnsymmetricCondensation::UnsymmetricCondensation(int unknowns, const Eigen::Matr
       lu_(l_) {}
 
 bool UnsymmetricCondensation::condense(const ComplexMatrix& Z, const ComplexVector& f, Condensed& into) {
-  into.has_rates = false;
+  into.has_rates = into.has_observed = false;
   into.Z = Z.topLeftCorner(r_, r_);
   into.f = f.head(r_);
   if (l_ == 0) return true;

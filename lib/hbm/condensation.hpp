@@ -25,6 +25,8 @@ struct Condensed {
   /// observations x = c . y below; the last column is that of f and of the force factor.
   ComplexMatrix rates;
   bool has_rates = false;
+  ComplexMatrix observed;  // of_observations(), where it has been computed
+  bool has_observed = false;
 
   /// y = (q, l) from its q, with f times force_factor.
   void expand(double force_factor, ComplexVector& y) const;
@@ -32,6 +34,8 @@ struct Condensed {
   void project(ComplexVector& v) const;
   /// -c_l . Z_ll^-1 v_l of an observation.
   Complex observed_change(const ComplexVector& v, int observation = 0) const;
+  /// x = c . y of each column c by q, and in the last column by the force factor.
+  const ComplexMatrix& of_observations(const Eigen::MatrixXd& c);
   /// The transpose of expand() without f: c_q := c_q - (Z_ll^-1 Z_lq)^T c_l.
   void observe(ComplexVector& c) const;
 };

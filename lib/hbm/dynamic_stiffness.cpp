@@ -35,7 +35,7 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
   }
   for (int h = 0; h < harmonics.cosines(); ++h) {
     const int n = harmonics.cosine_order(h);
-    harmonics_.push_back({n, h, n > 0 ? harmonics.sine_index(n) : 0, {}});
+    harmonics_.push_back({n, h, n > 0 ? harmonics.sine_index(n) : 0, {}, ComplexVector(r_ + l_)});
   }
 }
 
@@ -43,25 +43,24 @@ bool DynamicStiffness::move_to(In p) {
   if (p.head(last_p_.size()) == last_p_) return true;
   last_p_.setConstant(std::nan(""));
   parts_.move_to(p);
-  for (Harmonic& at : harmonics_) {
-    parts_.force(at.order, v_);
+  for (Harmonic& at : harmonics_)
+    if (parts_.force_changed()) parts_.force(at.order, at.force);
+  for (Harmonic& at : harmonics_)
     if (!condense(at)) return false;
-  }
   last_p_ = p.head(last_p_.size());
   return true;
 }
 
-// With its force in v_.
 bool DynamicStiffness::condense(Harmonic& at) {
   const double s = at.order * base_frequency();
   if (!parts_.symmetric()) {
     if (!unsymmetric_) unsymmetric_.emplace(r_, responses_);
     parts_.dynamic_stiffness(at.order, Z_);
-    return unsymmetric_->condense(Z_, v_, at.condensed);
+    return unsymmetric_->condense(Z_, at.force, at.condensed);
   }
-  if (parts_.modes()) return modal_->condense(parts_, s, v_, at.condensed);
+  if (parts_.modes()) return modal_->condense(parts_, s, at.force, at.condensed);
   if (!direct_) direct_.emplace(parts_.parts(), r_, responses_);
-  return direct_->condense(parts_.matrices(), parts_.factors(s), v_, at.condensed);
+  return direct_->condense(parts_.matrices(), parts_.factors(s), at.force, at.condensed);
 }
 
 void DynamicStiffness::gather(const In& u, const Harmonic& at) const {
@@ -161,12 +160,11 @@ void DynamicStiffness::add_base(const model::Direction& d, double force_factor, 
 }
 
 void DynamicStiffness::response(In u, double force_factor, Out x, int place) const {
-  const auto direction = responses_.col(place);
-  for (const Harmonic& at : harmonics_) {
-    expand(u, at, force_factor);
-    Complex sum = 0;
-    for (Eigen::Index i = 0; i < y_.size(); ++i) sum += direction[i] * y_[i];
-    sum += force_factor * parts_.base_displacement(at.order, ground_[static_cast<std::size_t>(place)]);
+  for (Harmonic& at : harmonics_) {
+    const auto by = at.condensed.of_observations(responses_).row(place);
+    Complex sum = force_factor *
+                  (by[r_] + parts_.base_displacement(at.order, ground_[static_cast<std::size_t>(place)]));
+    for (int i = 0; i < r_; ++i) sum += by[i] * at.amplitude(u, i * size_);
     at.put(sum, 0, x);
   }
 }
@@ -186,10 +184,9 @@ Eigen::MatrixXd DynamicStiffness::motion(const Eigen::MatrixXd& P, In u, double 
 }
 
 void DynamicStiffness::response_transposed(In a, Out g, int place) const {
-  for (const Harmonic& at : harmonics_) {
-    v_ = responses_.col(place).cast<Complex>();
-    at.condensed.observe(v_);  // L^T; with a real inner product the transpose is the conjugate
-    for (int i = 0; i < r_; ++i) at.put(std::conj(v_[i]) * at.amplitude(a, 0), i * size_, g);
+  for (Harmonic& at : harmonics_) {  // L^T; with a real inner product the transpose is the conjugate
+    const auto by = at.condensed.of_observations(responses_).row(place);
+    for (int i = 0; i < r_; ++i) at.put(std::conj(by[i]) * at.amplitude(a, 0), i * size_, g);
   }
 }
 

@@ -58,6 +58,7 @@ class DynamicStiffness {
   struct Harmonic {
     int order, cosine, sine;  // the mean has no sine
     Condensed condensed;
+    ComplexVector force{};  // before condensation
 
     // X_n of the coordinate whose coefficients begin at `first`; X_0 is real.
     Complex amplitude(const In& x, int first) const {

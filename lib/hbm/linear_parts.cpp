@@ -67,7 +67,7 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   matrix_values_.assign(matrix_parts_.size(), std::nan(""));
   damping_ = model.damping;
   for (const model::Excitation& excitation : model.excitation) {
-    ForceInY force{excitation, harmonics.excited(excitation.harmonic), {}, 0};
+    ForceInY force{excitation, harmonics.excited(excitation.harmonic), {}, 0, 0};
     if (!excitation.moves_base()) force.terms.push_back({-1, {P, excitation.direction}});
     if (excitation.load.size() > 0) force.terms.push_back({-1, {P, excitation.load}});
     for (const model::LinearPart& mass : model.masses) {
@@ -90,7 +90,13 @@ void LinearParts::move_to(In p) {
   bool same = has_place_ && p.size() == p_.size() && equal_beside_frequency(p, p_);
   has_place_ = true;
   p_ = p;
-  for (ForceInY& force : forces_) force.given = force.of.amplitude(p);
+  force_changed_ = !same;
+  for (ForceInY& force : forces_) {
+    force.given = force.of.amplitude(p);
+    const Complex amplitude = force.of.factor(p[model::frequency]) * force.given;
+    force_changed_ = force_changed_ || amplitude != force.amplitude;
+    force.amplitude = amplitude;
+  }
   if (!same)
     for (PartInY& part : parts_) part.value = p[part.parameter];
   for (std::size_t k = 0; k < matrix_parts_.size(); ++k) {
@@ -181,7 +187,7 @@ void LinearParts::add(const ForceInY& force, Complex amplitude, ComplexVector& f
 void LinearParts::force(int n, ComplexVector& f) const {
   f.setZero();
   for (const ForceInY& force : forces_)
-    if (force.harmonic == n) add(force, force.of.factor(p_[model::frequency]) * force.given, f);
+    if (force.harmonic == n) add(force, force.amplitude, f);
 }
 
 bool LinearParts::force_rate(int n, ComplexVector& f) const {

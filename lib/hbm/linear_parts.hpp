@@ -139,6 +139,8 @@ class LinearParts {
   void dynamic_stiffness(int n, ComplexMatrix& Z) const;
   /// f of harmonic n.
   void force(int n, ComplexVector& f) const;
+  /// Whether one of them is not that of the place before.
+  bool force_changed() const { return force_changed_; }
   /// By the excitation frequency: of the factors, and of f; false where f does not have it.
   Factors factor_rates(int n) const;
   bool force_rate(int n, ComplexVector& f) const;
@@ -171,7 +173,8 @@ class LinearParts {
     model::Excitation of;
     int harmonic;  // of the base frequency
     std::vector<Term> terms;
-    Complex given;  // the amplitude as the scene gives it
+    Complex given;      // the amplitude as the scene gives it
+    Complex amplitude;  // of f: with the factor of the frequency
   };
   double value(const ForceInY::Term& term) const { return term.mass < 0 ? 1 : p_[term.mass]; }
   // P^T A P, made when it is first needed: with modes it seldom is.
@@ -193,7 +196,7 @@ class LinearParts {
   int period_;
   Eigen::Index size_;
   std::shared_ptr<const FixedInterfaceModes> modes_;
-  bool has_place_ = false, modal_ = false;
+  bool has_place_ = false, modal_ = false, force_changed_ = true;
   std::vector<ChangedPart> changes_;
   std::vector<PartInY> parts_;
   std::vector<MatrixInY> matrix_parts_;

@@ -17,7 +17,7 @@ using continuation::Needs;
 
 namespace {
 
-constexpr double worth_sharing = 100e-6;  // s, of all elements; waking the threads takes some 10 us
+constexpr double worth_sharing = 250e-6;  // s, of all elements; waking the threads takes some 10 us
 
 }  // namespace
 

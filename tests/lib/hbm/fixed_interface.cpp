@@ -141,11 +141,11 @@ TEST_CASE("with fixed-interface modes a structure on a moving ground is the same
   s.damping.push_back({"r", &scene::rayleigh_type(), {}, {0.3, 2e-4}});
   scene::Direction all;
   for (int i = 0; i < dofs; ++i) all.push_back({i, 1.0});
-  for (const int n : {0, 1, 2})
+  for (const int n : {1, 3})
     s.excitation.push_back({"g" + std::to_string(n),
                             n == 1 ? &scene::base_acceleration_type() : &scene::base_displacement_type(),
                             {all},
-                            {0.02, n > 0 ? 0.01 : 0.0},
+                            {0.02, 0.01},
                             n});
   s.responses.front().others = {{{0, 1.0}}, {{20, 1.0}, {21, -1.0}}};
   s.responses.front().frame = scene::Frame::absolute;
