@@ -7,7 +7,7 @@
 // K2) x, G and N skew-symmetric; without a rotation G and N as they stand.
 //
 // The structure may stand several times side by side: M, C and K are then block-diagonal, one block for each
-// copy, and the row i of copy k is k size() + i.
+// copy, and each name stands for the same row of all copies, with the number of the copy at its end.
 
 #include <arcslip/scene/bar.hpp>
 #include <arcslip/scene/named_file.hpp>
@@ -56,7 +56,7 @@ struct Matrices {
   MatrixFile gyroscopic{}, circulatory{};     // G and N; with a rotation per rad/s; without a path: none
   bool unsymmetric_stiffness = false, unsymmetric_damping = false;  // as the scene says
   NamedFile names{};
-  std::vector<int> rows{};                  // of all copies, from 0: of the first of Scene::dofs
+  std::vector<int> rows{};                  // with names, from 0; in Scene::dofs each has all its copies
   int copies = 1;                           // of the structure, side by side: the sectors of a full ring
   std::vector<double> stiffness_factors{};  // of the stiffness matrix in each copy; empty: 1
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not
@@ -65,6 +65,8 @@ struct Matrices {
 
   /// Rows of one copy.
   int size() const { return stiffness.matrix ? stiffness.matrix->rows : 0; }
+  /// How many of Scene::dofs, its first, are rows of the matrices.
+  std::size_t named() const { return rows.size() * static_cast<std::size_t>(copies); }
   double stiffness_factor(int copy) const {
     return stiffness_factors.empty() ? 1 : stiffness_factors[static_cast<std::size_t>(copy)];
   }
