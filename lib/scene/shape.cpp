@@ -79,14 +79,15 @@ file::KeyGroup<Shape> shape_file(const std::string& name, ShapeFile Shape::*part
 }
 
 file::KeyGroup<Shape> copy_of_matrices() {
-  const std::string allowed = "an integer from 1 to " + std::to_string(largest_copies);
-  Key key{"copy", KeyType::whole, "-", allowed, "", false, "on which it acts, where matrices have several",
-          1,      largest_copies};
+  const std::string allowed = "an integer from 1 to " + std::to_string(file::largest_copies);
+  Key key{
+      "copy", KeyType::whole,      "-", allowed, "", false, "on which it acts, where matrices have several",
+      1,      file::largest_copies};
   return {{key},
           [](const file::Reading& reading, Shape& shape) {
             const file::Location place = reading.keys.find("copy");
-            shape.copy = file::read_integer(place, 1, largest_copies, reading.faults).value_or(0);
-            if (place.node != nullptr && !reading.keys.has("shape"))
+            shape.copy = file::read_integer(place, 1, file::largest_copies, reading.faults).value_or(0);
+            if (place.node != nullptr && !reading.keys.has("shape") && !reading.keys.has("imaginary_shape"))
               reading.faults.add(place.pointer,
                                  "found a copy of matrices without \"shape\", must stand beside it: on "
                                  "which of the copies the shape acts");
@@ -119,8 +120,7 @@ class Excited final : public file::KeyedPart<Shape, PartType> {
   bool options_bring_fields() const override { return false; }
   // Without a shape a part has no options.
   Settings read_options(const file::Reading& from) const override {
-    const bool shaped =
-        from.keys.has("shape") || from.keys.has("imaginary_shape") || from.keys.has("copy");
+    const bool shaped = from.keys.has("shape") || from.keys.has("imaginary_shape") || from.keys.has("copy");
     return shaped ? KeyedPart::read_options(from) : Settings();
   }
 
