@@ -105,8 +105,8 @@ class Builder {
       one.imaginary = shape.imaginary;
       if (one.imaginary) one.direction = Direction(model_.dofs);  // what stands beside the shape is real
       one.load = shape.load;
-      for (Eigen::Index i = 0; i < shape.ground.size(); ++i)
-        if (shape.ground[i] != 0) one.direction.coeffRef(i) += shape.ground[i];
+      for (int dof = 0; dof < static_cast<int>(shape.ground.size()); ++dof)
+        if (shape.ground[dof] != 0) one.direction.coeffRef(dof) += shape.ground[dof];
       model_.excitation.push_back(std::move(one));
     }
   }

@@ -81,7 +81,7 @@ file::KeyGroup<Shape> shape_file(const std::string& name, ShapeFile Shape::*part
 file::KeyGroup<Shape> copy_of_matrices() {
   const std::string allowed = "an integer from 1 to " + std::to_string(file::largest_copies);
   Key key{
-      "copy", KeyType::whole,      "-", allowed, "", false, "on which it acts, where matrices have several",
+      "copy", KeyType::whole,      "-", allowed, "", false, "of the matrices on which the shape acts, where there are several",
       1,      file::largest_copies};
   return {{key},
           [](const file::Reading& reading, Shape& shape) {
