@@ -1,10 +1,10 @@
 #include <arcslip/model/model.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/model/placed_matrices.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/rotation.hpp>
 #include <arcslip/scene/shape.hpp>
-#include <arcslip/structure/reduction.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,6 @@ namespace arcslip::model {
 namespace {
 
 constexpr double massless = 1e-14;  // a mode: its mu relative to the largest
-
-enum class Form { symmetric, skew, general };
 
 Excitation::Kind kind_of(const scene::Part& part) {
   if (part.type == &scene::base_displacement_type()) return Excitation::Kind::base_displacement;
@@ -80,81 +78,38 @@ class Builder {
   }
 
  private:
-  // The degrees of freedom of the scene; in large structures those that it uses; then what describes the
-  // rest of the matrices: their other rows or, where they are reduced, a few coordinates.
+  // Those of the scene, or of its matrices and what stands beside them.
   void set_dofs(const scene::StopRequest& stop) {
-    if (!scene_.matrices) {
-      model_.dof_names = scene_.dofs;
-    } else if (scene_.matrices->highest_frequency > 0) {
-      add_reduced(*scene_.matrices, stop);
+    if (scene_.matrices) {
+      PlacedMatrices placed = place_matrices(scene_, stop);
+      model_.dof_names = std::move(placed.dof_names);
+      model_.unnamed_from = placed.unnamed_from;
+      model_.unnamed_to = placed.unnamed_to;
+      model_.matrices = std::move(placed.parts);
+      model_.reduction = placed.reduction;
+      dof_of_ = std::move(placed.dof_of);
+      by_speed_ = std::move(placed.by_speed);
+      shapes_ = std::move(placed.shapes);
     } else {
-      add_whole(*scene_.matrices);
+      model_.dof_names = scene_.dofs;
     }
     model_.dofs = static_cast<int>(model_.dof_names.size());
-    for (MatrixPart& part : model_.matrices) {
-      if (part.A->rows() == model_.dofs) continue;
-      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(model_.dofs, model_.dofs);
-      A.topLeftCorner(part.A->rows(), part.A->cols()) = *part.A;
-      part.A = std::make_shared<const Eigen::MatrixXd>(std::move(A));
-    }
-  }
-
-  // A shape of an excitation of the scene.
-  struct ShapeValues {
-    std::size_t excitation;
-    bool imaginary;
-    Eigen::VectorXd on_rows;  // of the matrices
-    Eigen::VectorXd load{};   // on the degrees of freedom of the model
-  };
-
-  std::vector<ShapeValues> shape_values() const {
-    std::vector<ShapeValues> all;
-    for (std::size_t i = 0; i < scene_.excitation.size(); ++i) {
-      const scene::Shape* shape = scene::shape_of(scene_.excitation[i]);
-      if (shape == nullptr) continue;
-      for (const bool imaginary : {false, true}) {
-        const scene::ShapeFile& file = imaginary ? shape->imaginary : shape->real;
-        if (!file.is_given()) continue;
-        const std::vector<double> values = file.values();
-        const auto size = static_cast<Eigen::Index>(values.size());
-        all.push_back({i, imaginary, Eigen::Map<const Eigen::VectorXd>(values.data(), size)});
-      }
-    }
-    return all;
-  }
-
-  // On all rows of the matrices: a force, or M r.
-  Eigen::VectorXd load_of(const ShapeValues& shape, const scene::SparseMatrix& M) const {
-    if (!scene::is_base_motion(*scene_.excitation[shape.excitation].type)) return shape.on_rows;
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(M.rows);
-    for (int j = 0; j < M.columns; ++j)
-      for (auto k = static_cast<std::size_t>(M.starts[static_cast<std::size_t>(j)]);
-           k < static_cast<std::size_t>(M.starts[static_cast<std::size_t>(j) + 1]); ++k)
-        load[M.row_of[k]] += M.values[k] * shape.on_rows[j];
-    return load;
   }
 
   void add_excitation(const scene::Part& part, std::size_t i) {
     const Excitation base{kind_of(part), part.harmonic, parameter(part, 0), parameter(part, 1),
                           sparse(part.directions.front())};
     if (scene::shape_of(part) == nullptr) model_.excitation.push_back(base);
-    for (const ShapeValues& shape : shapes_) {
+    for (const PlacedShape& shape : shapes_) {
       if (shape.excitation != i) continue;
       Excitation one = base;
       one.imaginary = shape.imaginary;
       if (one.imaginary) one.direction = Direction(model_.dofs);  // what stands beside the shape is real
-      one.load.setZero(model_.dofs);
-      one.load.head(shape.load.size()) = shape.load;
-      if (one.moves_base()) add_rows(shape.on_rows, one.direction);
+      one.load = shape.load;
+      for (int dof = 0; dof < static_cast<int>(shape.ground.size()); ++dof)
+        if (shape.ground[dof] != 0) one.direction.coeffRef(dof) += shape.ground[dof];
       model_.excitation.push_back(std::move(one));
     }
-  }
-
-  // Of r on the rows of the matrices what the degrees of freedom of the model have.
-  void add_rows(const Eigen::VectorXd& on_rows, Direction& r) const {
-    for (std::size_t row = 0; row < place_.size(); ++row)
-      if (const double value = on_rows[static_cast<Eigen::Index>(row)]; place_[row] >= 0 && value != 0)
-        r.coeffRef(place_[row]) += value;
   }
 
   // The parameter of the matrices that follow the speed.
@@ -168,142 +123,6 @@ class Builder {
     }
   }
 
-  double highest_speed(double highest_frequency) const {
-    if (scene_.rotation.empty() || scene_.rotation.front().options.empty()) return 0;
-    const auto& rotation = scene_.rotation.front().options.as<scene::Rotation>();
-    return rotation.engine_order > 0 ? highest_frequency / rotation.engine_order : rotation.highest_speed;
-  }
-
-  void add_matrix(LinearKind kind, int parameter, Eigen::MatrixXd A, bool symmetric = true) {
-    model_.matrices.push_back({kind, parameter, std::make_shared<const Eigen::MatrixXd>(std::move(A))});
-    model_.matrices.back().symmetric = symmetric;
-  }
-
-  // Of a rotor, value: speed or its square.
-  void add_by_speed(LinearKind kind, Eigen::MatrixXd A, bool squared) {
-    add_matrix(kind, -1, std::move(A), squared);
-    model_.matrices.back().squared = squared;
-    by_speed_.push_back(model_.matrices.size() - 1);
-  }
-
-  void add_whole(const scene::Matrices& files) {
-    const auto named = files.rows.size();
-    std::vector<int> place(static_cast<std::size_t>(files.size()), -1);
-    for (std::size_t i = 0; i < named; ++i)
-      place[static_cast<std::size_t>(files.rows[i])] = static_cast<int>(i);
-    model_.dof_names.assign(scene_.dofs.begin(), scene_.dofs.begin() + static_cast<std::ptrdiff_t>(named));
-    model_.unnamed_from = static_cast<int>(named);
-    model_.unnamed_to = files.size();
-    for (std::size_t row = 0; row < place.size(); ++row) {
-      if (place[row] >= 0) continue;
-      place[row] = static_cast<int>(model_.dof_names.size());
-      model_.dof_names.push_back("row " + std::to_string(row + 1));
-    }
-    for (std::size_t i = 0; i < scene_.dofs.size(); ++i)
-      dof_of_.push_back(static_cast<int>(i < named ? i : place.size() + i - named));
-    model_.dof_names.insert(model_.dof_names.end(), scene_.dofs.begin() + static_cast<std::ptrdiff_t>(named),
-                            scene_.dofs.end());
-    place_ = place;
-    shapes_ = shape_values();
-    for (ShapeValues& shape : shapes_) {
-      const Eigen::VectorXd load = load_of(shape, *files.mass.matrix);
-      shape.load.setZero(load.size());
-      for (std::size_t row = 0; row < place.size(); ++row)
-        shape.load[place[row]] = load[static_cast<Eigen::Index>(row)];
-    }
-    const auto whole = [&](const scene::MatrixFile& file, Form form) {
-      const scene::SparseMatrix& of = *file.matrix;
-      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(of.rows, of.columns);
-      for (std::size_t j = 0; j < place.size(); ++j)
-        for (auto k = static_cast<std::size_t>(of.starts[j]); k < static_cast<std::size_t>(of.starts[j + 1]);
-             ++k)
-          A(place[static_cast<std::size_t>(of.row_of[k])], place[j]) = of.values[k];
-      if (form == Form::symmetric) A = 0.5 * (A + A.transpose()).eval();
-      if (form == Form::skew) A = 0.5 * (A - A.transpose()).eval();
-      return A;
-    };
-    const auto add = [&](LinearKind kind, const scene::MatrixFile& file, bool unsymmetric = false) {
-      if (file.matrix)
-        add_matrix(kind, -1, whole(file, unsymmetric ? Form::general : Form::symmetric), !unsymmetric);
-    };
-    add(LinearKind::mass, files.mass);
-    add(LinearKind::spring, files.stiffness, files.unsymmetric_stiffness);
-    add(LinearKind::damper, files.damping, files.unsymmetric_damping);
-    if (files.stiffness_speed_squared.matrix)
-      add_by_speed(LinearKind::spring, whole(files.stiffness_speed_squared, Form::symmetric), true);
-    if (files.gyroscopic.matrix) add_by_speed(LinearKind::damper, whole(files.gyroscopic, Form::skew), false);
-    if (files.circulatory.matrix)
-      add_by_speed(LinearKind::circulatory, whole(files.circulatory, Form::skew), false);
-  }
-
-  void add_reduced(const scene::Matrices& files, const scene::StopRequest& stop) {
-    const std::vector<bool> used = used_dofs();
-    const auto named = files.rows.size();
-    std::vector<int> kept;
-    std::string key;
-    dof_of_.assign(scene_.dofs.size(), -1);
-    for (std::size_t i = 0; i < named; ++i) {
-      if (!used[i]) continue;
-      dof_of_[i] = static_cast<int>(kept.size());
-      kept.push_back(files.rows[i]);
-      key += std::to_string(files.rows[i]) + ' ';
-      model_.dof_names.push_back(scene_.dofs[i]);
-    }
-    const double highest = files.highest_frequency * scene::to_rad_per_s(scene_.frequency_unit);
-    structure::Purpose purpose{highest, highest_speed(highest), {}};
-    key = "reduced for " + std::to_string(highest) + " rad/s, " + std::to_string(purpose.highest_speed) +
-          " rad/s to " + key;
-    shapes_ = shape_values();
-    purpose.loads.resize(files.size(), static_cast<Eigen::Index>(shapes_.size()));
-    for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      const Eigen::VectorXd load = load_of(shapes_[k], *files.mass.matrix);
-      purpose.loads.col(static_cast<Eigen::Index>(k)) = load;
-      const std::string_view bytes(reinterpret_cast<const char*>(load.data()),
-                                   sizeof(double) * static_cast<std::size_t>(load.size()));
-      key += "with " + std::to_string(std::hash<std::string_view>()(bytes)) + ' ';
-    }
-    const auto reduced = files.derived->get<structure::Reduced>(
-        key, [&] { return structure::reduce(files, kept, purpose, stop); });
-    place_.assign(static_cast<std::size_t>(files.size()), -1);
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      place_[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
-    for (std::size_t k = 0; k < shapes_.size(); ++k)
-      shapes_[k].load = reduced->loads.col(static_cast<Eigen::Index>(k));
-    const auto coordinates = static_cast<int>(reduced->M.rows()) - static_cast<int>(kept.size());
-    model_.unnamed_from = static_cast<int>(kept.size());
-    model_.unnamed_to = model_.unnamed_from + coordinates;
-    for (int k = 1; k <= coordinates; ++k) model_.dof_names.push_back("coordinate " + std::to_string(k));
-    for (std::size_t i = named; i < scene_.dofs.size(); ++i) {
-      dof_of_[i] = static_cast<int>(model_.dof_names.size());
-      model_.dof_names.push_back(scene_.dofs[i]);
-    }
-    add_matrix(LinearKind::mass, -1, reduced->M);
-    add_matrix(LinearKind::spring, -1, reduced->K, !files.unsymmetric_stiffness);
-    if (reduced->C.size() > 0) add_matrix(LinearKind::damper, -1, reduced->C, !files.unsymmetric_damping);
-    if (reduced->K2.size() > 0) add_by_speed(LinearKind::spring, reduced->K2, true);
-    if (reduced->G.size() > 0) add_by_speed(LinearKind::damper, reduced->G, false);
-    if (reduced->N.size() > 0) add_by_speed(LinearKind::circulatory, reduced->N, false);
-    model_.reduction = {files.size(),   static_cast<int>(kept.size()), coordinates,          highest,
-                        reduced->error, reduced->free_below,           purpose.highest_speed};
-  }
-
-  std::vector<bool> used_dofs() const {
-    std::vector<bool> used(scene_.dofs.size(), false);
-    const auto use = [&](const scene::Direction& direction) {
-      for (const scene::Term& term : direction) used[static_cast<std::size_t>(term.dof)] = true;
-    };
-    const auto elements = scene::all_elements(scene_);
-    for (const auto* parts :
-         {&scene_.masses, &scene_.springs, &scene_.dampers, &scene_.excitation, &elements})
-      for (const scene::Part& part : *parts)
-        for (const scene::Direction& direction : part.directions) use(direction);
-    for (const scene::Response& response : scene_.responses) {
-      use(response.direction);
-      for (const scene::Direction& other : response.others) use(other);
-    }
-    return used;
-  }
-
   Direction sparse(const scene::Direction& direction, bool next = false) const {
     Direction d(model_.dofs);
     for (const scene::Term& term : direction)
@@ -314,7 +133,9 @@ class Builder {
 
   void add_damping(const scene::Part& part) {
     if (part.type == &scene::modal_damping_type()) {
-      add_matrix(LinearKind::damper, parameter(part, 0), modal_damping());
+      const int ratio = parameter(part, 0);
+      model_.matrices.push_back(
+          {LinearKind::damper, ratio, std::make_shared<const Eigen::MatrixXd>(modal_damping())});
       return;
     }
     if (!model_.damping) model_.damping.emplace();
@@ -415,8 +236,7 @@ class Builder {
   }
 
   const scene::Scene& scene_;
-  std::vector<int> place_;                               // in the model, of the rows of matrices; -1: none
-  std::vector<ShapeValues> shapes_;                      // of the excitations
+  std::vector<PlacedShape> shapes_;                      // of the excitations
   std::vector<std::size_t> by_speed_;                    // matrices that follow the speed of rotation
   std::vector<int> dof_of_;                              // in the model, of those of a scene with matrices
   std::unordered_map<std::string, std::string> tie_of_;  // names of ties, by their members

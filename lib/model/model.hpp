@@ -148,9 +148,9 @@ struct NamedResponse {
 
 /// How the matrices of the scene were reduced.
 struct Reduction {
-  int rows = 0;                  // of the matrices
+  int rows = 0;                  // of the matrices, in each copy
   int kept = 0;                  // of them
-  int coordinates = 0;           // beside the degrees of freedom with names
+  int coordinates = 0;           // beside the degrees of freedom with names, in the copy with most
   double highest_frequency = 0;  // rad/s
   double error = 0;              // structure::Reduced::error
   double free_below = 0;         // rad/s: natural frequencies below are not told from 0

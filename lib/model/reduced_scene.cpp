@@ -80,6 +80,10 @@ ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
   if (!scene.matrices || scene.matrices->highest_frequency == 0)
     throw NotReduced(
         "the structure is not reduced: give its matrices, its beam or its rod a \"highest_frequency\"");
+  if (scene.matrices->copies > 1)
+    throw NotReduced("the structure stands in " + std::to_string(scene.matrices->copies) +
+                     " copies: reduce one of them, without \"copies\", or one sector of a full ring, without "
+                     "\"full\": true, which may then stand in the reduced scene");
   for (const scene::Part& part : scene.excitation)
     if (scene::is_base_motion(*part.type) && scene::shape_of(part) != nullptr)
       throw NotReduced(

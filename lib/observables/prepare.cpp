@@ -35,13 +35,15 @@ std::optional<model::Reduction> reduction(const scene::Scene& scene, const scene
 std::string prepare(const scene::Scene& scene, const scene::StopRequest& stop) {
   const auto done = reduction(scene, stop);
   if (!done) return {};
+  const int copies = scene.matrices->copies;
   const auto frequency = [&](double omega) {
     return results::quantity(omega / scene::to_rad_per_s(scene.frequency_unit),
                              scene::unit_name(scene.frequency_unit));
   };
   return "the structure of " + std::to_string(done->rows) + " rows was reduced to " +
-         std::to_string(done->kept) + " of them and " + std::to_string(done->coordinates) +
-         " coordinates; error of its dynamic stiffness " + results::quantity(done->error, "-") + " up to " +
+         std::to_string(done->kept) + " of them and " + std::to_string(done->coordinates) + " coordinates" +
+         (copies > 1 ? " in each of " + std::to_string(copies) + " copies" : "") +
+         "; error of its dynamic stiffness " + results::quantity(done->error, "-") + " up to " +
          frequency(done->highest_frequency) +
          (done->highest_speed > 0 ? " and speeds up to " + results::quantity(done->highest_speed, "rad/s")
                                   : "") +

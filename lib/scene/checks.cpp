@@ -79,7 +79,17 @@ void check_shape(const Scene& scene, std::size_t i, Faults& faults) {
   if (shape->imaginary.is_given() && part.harmonic == 0)
     faults.add(child(pointer, "imaginary_shape"),
                "found an imaginary part where the harmonic is 0: what is constant has none");
-  const std::size_t rows = scene.matrices->rows.size();
+  const int copies = scene.matrices->copies;
+  if (shape->copy > copies)
+    faults.add(child(pointer, "copy"), "found " + std::to_string(shape->copy) +
+                                           ", must be an integer from 1 to " + std::to_string(copies) +
+                                           ", one of the copies of the matrices");
+  if (shape->copy == 0 && copies > 1)
+    faults.add(pointer, "found \"shape\" without \"copy\", must have it beside it, an integer from 1 to " +
+                            std::to_string(copies) +
+                            ": on which of the copies of the matrices the shape acts; \"repeat\" makes "
+                            "excitations for several");
+  const std::size_t rows = scene.matrices->named();
   for (const Term& term : part.directions.front())
     if (static_cast<std::size_t>(term.dof) < rows)
       faults.add(pointer, "found " + shown(scene.dofs[static_cast<std::size_t>(term.dof)]) +
@@ -196,7 +206,7 @@ void check_structure(const Scene& scene, Faults& faults) {
   mark(elements, true, acted_on);
   if (!scene.matrices && std::find(acted_on.begin(), acted_on.end(), true) == acted_on.end())
     return;  // reported above
-  const std::size_t rows = scene.matrices ? scene.matrices->rows.size() : 0;
+  const std::size_t rows = scene.matrices ? scene.matrices->named() : 0;
   for (std::size_t i = rows; i < acted_on.size(); ++i) {
     if (!acted_on[i]) {
       faults.add(child("/structure/dofs", i - rows),

@@ -107,7 +107,8 @@ Node cyclic() {
        {"mistuning",
         of({{"type", node("object")},
             {"additionalProperties", of({{"type", node("array")}, {"items", of_type("number")}})},
-            {"description", node("of a full ring: factors of a part's value, for each sector")}})}},
+            {"description", node("of a full ring: factors of a part's value, or of the stiffness matrix, for "
+                                 "each sector")}})}},
       {"sectors", "engine_order"}));
 }
 
@@ -358,6 +359,18 @@ Node unsymmetric() {
   return list_of(std::move(word), 1);
 }
 
+Node copies() {
+  return of({{"type", node("integer")},
+             {"minimum", node(1)},
+             {"maximum", node(largest_copies)},
+             {"default", node(Matrices{}.copies)},
+             {"description", node("of the structure, side by side")}});
+}
+
+Node above_zero() {
+  return of({{"type", node("number")}, {"exclusiveMinimum", node(0)}});
+}
+
 Node matrix_file() {
   return read_tree(matrix_file_schema(false));
 }
@@ -391,7 +404,9 @@ Node schema_of(const Catalogue& catalogue) {
                                                  {"gyroscopic", matrix_file()},
                                                  {"circulatory", matrix_file()},
                                                  {"unsymmetric", unsymmetric()},
-                                                 {"highest_frequency", of_type("number")}},
+                                                 {"highest_frequency", of_type("number")},
+                                                 {"copies", copies()},
+                                                 {"stiffness_factors", list_of(above_zero())}},
                                                 {"mass", "stiffness"}))});
   structure.push_back({"names", of_type("string")});
   structure.push_back({"rotation", rotation()});

@@ -5,6 +5,9 @@
 //
 // Of a rotor, with the speed of a rotation (rotation.hpp): M x'' + (C + speed G) x' + (K + speed N + speed^2
 // K2) x, G and N skew-symmetric; without a rotation G and N as they stand.
+//
+// The structure may stand several times side by side: M, C and K are then block-diagonal, one block for each
+// copy, and each name stands for the same row of all copies, with the number of the copy at its end.
 
 #include <arcslip/scene/bar.hpp>
 #include <arcslip/scene/named_file.hpp>
@@ -53,13 +56,20 @@ struct Matrices {
   MatrixFile gyroscopic{}, circulatory{};     // G and N; with a rotation per rad/s; without a path: none
   bool unsymmetric_stiffness = false, unsymmetric_damping = false;  // as the scene says
   NamedFile names{};
-  std::vector<int> rows{};       // from 0, of the first of Scene::dofs
-  int copies = 1;                // of the structure, side by side: the sectors of a full ring
+  std::vector<int> rows{};                  // with names, from 0; in Scene::dofs each has all its copies
+  int copies = 1;                           // of the structure, side by side: the sectors of a full ring
+  std::vector<double> stiffness_factors{};  // of the stiffness matrix in each copy; empty: 1
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not
   std::optional<Bar> bar{};      // of which they are, in place of files
   std::shared_ptr<Derived> derived = Derived::none();
 
+  /// Rows of one copy.
   int size() const { return stiffness.matrix ? stiffness.matrix->rows : 0; }
+  /// How many of Scene::dofs, its first, are rows of the matrices.
+  std::size_t named() const { return rows.size() * static_cast<std::size_t>(copies); }
+  double stiffness_factor(int copy) const {
+    return stiffness_factors.empty() ? 1 : stiffness_factors[static_cast<std::size_t>(copy)];
+  }
   bool has_damping() const { return !damping.file.path.empty(); }
   /// Whether a speed changes it.
   bool turns() const { return stiffness_speed_squared.matrix || gyroscopic.matrix || circulatory.matrix; }

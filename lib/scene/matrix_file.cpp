@@ -54,6 +54,7 @@ MatrixFile read_matrix_file(const Location& place, const std::string& wanted, co
         of_matlab
             ? read_mat_file(at.string(), text, found.variable, shown(found.file.path), reading.source.stop)
             : read_matrix_market(text, shown(found.file.path), reading.source.stop));
+    reading.source.matrices.push_back({found.file.text, found.variable, found.matrix});
   } catch (const MatrixError& error) {
     faults.add(place.pointer, error.what());
   }

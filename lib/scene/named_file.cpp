@@ -21,7 +21,8 @@ bool operator==(const Matrices& a, const Matrices& b) {
          a.stiffness_speed_squared == b.stiffness_speed_squared && a.gyroscopic == b.gyroscopic &&
          a.circulatory == b.circulatory && a.unsymmetric_stiffness == b.unsymmetric_stiffness &&
          a.unsymmetric_damping == b.unsymmetric_damping && a.names == b.names && a.rows == b.rows &&
-         a.copies == b.copies && a.highest_frequency == b.highest_frequency && a.bar == b.bar;
+         a.copies == b.copies && a.stiffness_factors == b.stiffness_factors &&
+         a.highest_frequency == b.highest_frequency && a.bar == b.bar;
 }
 
 std::vector<NamedFile*> files(Scene& scene) {

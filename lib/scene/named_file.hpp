@@ -30,18 +30,18 @@ class Derived;  // matrices.hpp
 
 namespace file {
 
-/// Context for reading named files.
+/// Context for reading named files. A file that a scene names several times is read once.
 struct FileSource {
   Folder folder{};
   StopRequest stop{};
-  std::vector<NamedFile> read{};  // already
+  mutable std::vector<NamedFile> read{};  // already
   // The matrices in texts that have been read, with the names of their variables.
   struct Known {
     std::shared_ptr<const std::string> text;
     std::string variable;
     std::shared_ptr<const SparseMatrix> matrix;
   };
-  std::vector<Known> matrices{};
+  mutable std::vector<Known> matrices{};
   std::shared_ptr<Derived> derived{};  // of them
 };
 

@@ -1,20 +1,18 @@
-// Structures from matrices in files, and the CSV file with the names of their rows.
-#include <arcslip/scene/csv_text.hpp>
+// Structures from matrices in files.
 #include <arcslip/scene/matrix_file.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
+#include <arcslip/scene/row_names.hpp>
 #include <arcslip/scene/study_keys.hpp>
 
-#include <charconv>
 #include <cmath>
-#include <unordered_map>
 
 namespace arcslip::scene::file {
 namespace {
 
 constexpr double agreeing = 1e-9;  // a(i,j) - a(j,i), relative to sqrt(a(i,i) a(j,j)) or to both
 
-constexpr int largest_whole = 500;  // rows
+constexpr int largest_whole = 500;  // rows, of all copies
 
 enum class Form { symmetric, skew, general };
 
@@ -42,11 +40,15 @@ class Places {
   std::string told_;
 };
 
-void add_without_highest(const std::string& pointer, int rows, Faults& faults) {
-  faults.add(pointer, "found matrices of " + std::to_string(rows) +
+// Where all rows cannot be degrees of freedom.
+void check_whole(const std::string& pointer, const Matrices& matrices, Faults& faults) {
+  const int copies = matrices.copies;
+  if (matrices.highest_frequency > 0 || matrices.size() <= largest_whole / copies) return;
+  faults.add(pointer, "found " + (copies > 1 ? std::to_string(copies) + " copies of " : "") + "matrices of " +
+                          std::to_string(matrices.size()) +
                           " rows without \"highest_frequency\", must have it above " +
-                          std::to_string(largest_whole) +
-                          " rows: the highest frequency of a harmonic to which the structure is reduced");
+                          std::to_string(largest_whole) + " rows" + (copies > 1 ? " in all" : "") +
+                          ": the highest frequency of a harmonic to which the structure is reduced");
 }
 
 // Faults of the files, at their keys.
@@ -55,7 +57,7 @@ class Files {
   Files(const Location& place, const Field& frequency, const FileSource& source, Faults& faults)
       : keys_(place,
               {"mass", "stiffness", "damping", "stiffness_speed_squared", "gyroscopic", "circulatory",
-               "unsymmetric", "highest_frequency"},
+               "unsymmetric", "highest_frequency", "copies", "stiffness_factors"},
               faults),
         reading_{keys_, frequency, none_, no_dofs_, faults, source},
         faults_(faults) {}
@@ -65,6 +67,7 @@ class Files {
     Matrices matrices;
     if (reading_.source.derived) matrices.derived = reading_.source.derived;
     read_unsymmetric(matrices);
+    read_copies(matrices);
     const auto form = [](bool unsymmetric) { return unsymmetric ? Form::general : Form::symmetric; };
     matrices.stiffness = read_matrix("stiffness", true, form(matrices.unsymmetric_stiffness));
     matrices.mass = read_matrix("mass", true);
@@ -84,8 +87,7 @@ class Files {
     check_rows(matrices);
     check_mass("gyroscopic", matrices.gyroscopic, *matrices.mass.matrix);
     if (matrices.unsymmetric_damping) check_mass("damping", matrices.damping, *matrices.mass.matrix);
-    if (matrices.highest_frequency == 0 && matrices.size() > largest_whole)
-      add_without_highest(keys_.pointer(), matrices.size(), faults_);
+    check_whole(keys_.pointer(), matrices, faults_);
     return matrices;
   }
 
@@ -112,6 +114,17 @@ class Files {
       else
         flag = true;
     }
+  }
+
+  void read_copies(Matrices& matrices) {
+    const Location copies = keys_.find("copies"), factors = keys_.find("stiffness_factors");
+    const auto count = read_integer(copies, 1, largest_copies, faults_);
+    if (copies.node != nullptr && !count) return;
+    matrices.copies = count.value_or(1);
+    if (factors.node != nullptr)
+      matrices.stiffness_factors =
+          read_factors(factors, matrices.copies, above_0, "a factor of the stiffness for each copy", faults_)
+              .value_or(std::vector<double>());
   }
 
   MatrixFile read_matrix(const std::string& key, bool required, Form form = Form::symmetric) {
@@ -240,53 +253,6 @@ class Files {
   Faults& faults_;
 };
 
-// The rows "name,row" after a header.
-void read_names(const Location& at, const std::string& path, std::string_view text, Matrices& matrices,
-                Dofs& dofs, Faults& faults) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
-  const std::size_t before = faults.count();
-  std::unordered_map<int, std::size_t> lines;
-  std::size_t line = 0;
-  bool header = false;
-  const auto fault = [&](const std::string& what) {
-    if (faults.full()) return faults.add({}, {});
-    faults.add(at.pointer, "line " + std::to_string(line) + " of " + shown(path) + ": " + what);
-  };
-  for (const std::string_view whole : split(text, '\n')) {
-    ++line;
-    if (trimmed(whole).empty() || trimmed(whole).front() == '#') continue;
-    const auto cells = split(whole, ',');
-    if (!header) {
-      header = cells.size() == 2 && trimmed(cells[0]) == "name" && trimmed(cells[1]) == "row";
-      if (!header) return fault("found " + shown(trimmed(whole)) + ", must be the header name,row");
-      continue;
-    }
-    if (cells.size() != 2) {
-      fault("found " + std::to_string(cells.size()) + " values, must be 2: a name and a row");
-      continue;
-    }
-    const std::string name(trimmed(cells[0]));
-    const std::string_view digits = trimmed(cells[1]);
-    int row = 0;
-    const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), row);
-    if (error != std::errc() || rest != digits.data() + digits.size() || row < 1 || row > matrices.size()) {
-      fault("found the row " + shown(digits) + ", must be an integer from 1 to " +
-            std::to_string(matrices.size()));
-    } else if (const std::string reason = objection_of_dof(name, dofs); !reason.empty()) {
-      fault("found the name " + shown(name) + ", " + reason);
-    } else if (const auto [first, is_new] = lines.emplace(row, line); !is_new) {
-      fault("found the row " + std::to_string(row) + " again, which has a name in line " +
-            std::to_string(first->second) + "; a row must have one name");
-    } else {
-      dofs.index.emplace(name, static_cast<int>(dofs.names.size()));
-      dofs.names.push_back(name);
-      matrices.rows.push_back(row - 1);
-    }
-  }
-  if (dofs.names.empty() && faults.count() == before)
-    faults.add(at.pointer, "found no names in " + shown(path) + ", must have at least one row name,row");
-}
-
 }  // namespace
 
 std::string objection_of_dof(const std::string& name, const Dofs& dofs) {
@@ -312,8 +278,7 @@ std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit,
   if (first == "beam" || first == "rod") {
     const std::size_t before = faults.count();
     auto made = read_bar(structure.find(first), first == "beam", unit, source, dofs, faults);
-    if (made && made->highest_frequency == 0 && made->size() > largest_whole)
-      add_without_highest(structure.find(first).pointer, made->size(), faults);
+    if (made) check_whole(structure.find(first).pointer, *made, faults);
     if (faults.count() > before) dofs.complete = false;
     return made;
   }
@@ -334,8 +299,13 @@ std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit,
   const auto file = read_file_of(names, wanted, reading);
   if (matrices && file && file->text) {
     matrices->names = *file;
-    read_names(names, file->path, *file->text, *matrices, dofs, faults);
+    read_row_names(names, *file, *matrices, dofs, faults);
   }
+  if (matrices && matrices->copies > 1 && structure.has("cyclic"))
+    faults.add(child(place.pointer, "copies"),
+               "found " + std::to_string(matrices->copies) +
+                   " beside \"cyclic\", must be left out: one sector has one copy, and with \"full\": true "
+                   "there are as many as sectors");
   if (faults.count() > before) dofs.complete = false;
   return matrices;
 }

@@ -61,6 +61,7 @@ inline constexpr Field wear_coefficient{.name = "wear_coefficient",
 
 /// Why a name is not allowed for a further degree of freedom; empty if it is.
 std::string objection_of_dof(const std::string& name, const Dofs& dofs);
+inline constexpr int largest_copies = 10'000;  // of matrices
 /// The matrices of "structure", if it has any, from files or of a bar; the rows with names are the first
 /// degrees of freedom.
 std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit, const FileSource& source,

@@ -124,4 +124,20 @@ const Node::List* read_list(const Location& place, std::string_view what, Faults
   return list;
 }
 
+std::optional<std::vector<double>> read_factors(const Location& place, int count, const Field& bounds,
+                                                const std::string& what, Faults& faults) {
+  const std::string wanted = "a list of " + std::to_string(count) + " numbers, " + what;
+  const std::size_t before = faults.count();
+  const Node::List* list = read_list(place, wanted, faults);
+  if (list == nullptr) return {};
+  if (list->size() != static_cast<std::size_t>(count)) {
+    faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
+    return {};
+  }
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < list->size(); ++i)
+    factors.push_back(read_number({&(*list)[i], child(place.pointer, i)}, bounds, faults).value_or(1));
+  return faults.count() == before ? std::optional(factors) : std::nullopt;
+}
+
 }  // namespace arcslip::scene::file

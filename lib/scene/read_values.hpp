@@ -55,6 +55,12 @@ inline constexpr Field any_number{.name = "value",
                                   .lower = -std::numeric_limits<double>::infinity(),
                                   .upper = std::numeric_limits<double>::infinity()};
 
+inline constexpr Field above_0{.name = "value",
+                               .unit = "-",
+                               .lower = 0,
+                               .upper = std::numeric_limits<double>::infinity(),
+                               .lower_open = true};
+
 /// These report a fault and return nothing if the value is absent or invalid.
 std::optional<double> read_number(const Location& place, const Field& bounds, Faults& faults);
 /// `why` follows the bounds in a message.
@@ -62,6 +68,9 @@ std::optional<int> read_integer(const Location& place, int lower, int upper, Fau
                                 std::string_view why = {});
 std::optional<std::string> read_string(const Location& place, std::string_view what, Faults& faults);
 const Node::List* read_list(const Location& place, std::string_view what, Faults& faults);
+/// A list of so many numbers; what: "a factor for each sector".
+std::optional<std::vector<double>> read_factors(const Location& place, int count, const Field& bounds,
+                                                const std::string& what, Faults& faults);
 
 /// The members of an object whose keys are names; duplicates are reported. None if there is no object.
 std::vector<const Member*> members(const Location& place, Faults& faults);

@@ -194,7 +194,7 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
     read_dofs(structure.find("dofs"), dofs, faults);
   scene.dofs = dofs.names;
   scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
-  const auto rows = static_cast<int>(scene.matrices ? scene.matrices->rows.size() : 0);
+  const auto rows = static_cast<int>(scene.matrices ? scene.matrices->named() : 0);
   const Location springs = structure.find("springs"), dampers = structure.find("dampers");
   const Node with_values =
       with_stiffnesses(springs, {dofs, rows, scene.masses, scene.springs, is_sound(before_parts)},
@@ -245,7 +245,7 @@ Scene read_scene(Node root, const Catalogue& catalogue, const FileSource& source
   Origins origins = repeat(root, faults);
   faults.raise();  // names of what was not repeated would be missing everywhere
   faults.set_origins(origins);
-  const Ring ring = write_out_ring(root, origins, faults);
+  const Ring ring = write_out_ring(root, source, origins, faults);
   faults.raise();
   faults.set_origins(std::move(origins));
   Scene scene = read_scene(root, ring, catalogue, source, faults);

@@ -1,5 +1,6 @@
 #include <arcslip/scene/repeat.hpp>
 
+#include <arcslip/scene/nodes.hpp>
 #include <arcslip/scene/read_values.hpp>
 
 #include <algorithm>
@@ -20,17 +21,6 @@ struct Index {
   int count = 0;
   bool cyclic = false;
 };
-
-Node* find(Node::Object& object, std::string_view key) {
-  const auto found =
-      std::find_if(object.begin(), object.end(), [&](const Member& m) { return m.key == key; });
-  return found != object.end() ? &found->value : nullptr;
-}
-
-Node* find(Node* object, std::string_view key) {
-  auto* members = object != nullptr ? std::get_if<Node::Object>(&object->value) : nullptr;
-  return members != nullptr ? find(*members, key) : nullptr;
-}
 
 bool is_repeated(const Node& item) {
   const auto* object = item.get<Node::Object>();

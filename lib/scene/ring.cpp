@@ -1,12 +1,16 @@
 #include <arcslip/scene/ring.hpp>
 
+#include <arcslip/scene/mistuning.hpp>
+#include <arcslip/scene/nodes.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/repeat.hpp>
+#include <arcslip/scene/row_names.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 namespace arcslip::scene::file {
@@ -14,19 +18,6 @@ namespace {
 
 constexpr const char* place = "/structure/cyclic";
 constexpr std::string_view index_name = "sector";
-
-Node* find(Node* object, std::string_view key) {
-  auto* members = object != nullptr ? std::get_if<Node::Object>(&object->value) : nullptr;
-  if (members == nullptr) return nullptr;
-  const auto found =
-      std::find_if(members->begin(), members->end(), [&](const Member& m) { return m.key == key; });
-  return found != members->end() ? &found->value : nullptr;
-}
-
-Node::List* list_in(Node* object, std::string_view key) {
-  Node* found = find(object, key);
-  return found != nullptr ? std::get_if<Node::List>(&found->value) : nullptr;
-}
 
 bool read_full(const Location& full, Faults& faults) {
   if (full.node == nullptr) return false;
@@ -49,11 +40,13 @@ std::optional<Cyclic> read_numbers(const Keys& keys, Faults& faults) {
 /// The entries of one sector, changed to entries that stand for all.
 class Sector {
  public:
-  Sector(Node& scene, const Cyclic& of, Faults& faults) : scene_(scene), of_(of), faults_(faults) {
-    structure_ = find(&scene, "structure");
+  Sector(Node& scene, const Cyclic& of, const FileSource& source)
+      : scene_(scene), structure_(find(&scene, "structure")), of_(of) {
+    if (find(structure_, "matrices") != nullptr) dofs_ = row_names({find(structure_, "names"), {}}, source);
     if (const Node::List* dofs = list_in(structure_, "dofs"))
       for (const Node& dof : *dofs)
         if (const auto* name = dof.get<std::string>()) dofs_.push_back(*name);
+    is_dof_.insert(dofs_.begin(), dofs_.end());
   }
 
   void repeat_parts() {
@@ -89,33 +82,11 @@ class Sector {
     }
   }
 
-  void mistune(const Node* mistuning) {
-    if (mistuning == nullptr) return;
-    const Location all{mistuning, child(place, "mistuning")};
-    const auto own = numbers();
-    for (const Member* member : members(all, faults_)) {
-      const Member& parameter = *member;
-      const Location at{&parameter.value, child(all.pointer, parameter.key)};
-      const auto found =
-          std::find_if(own.begin(), own.end(), [&](const auto& each) { return each.first == parameter.key; });
-      const auto factors = read_factors(at);
-      if (found == own.end()) {
-        std::vector<std::string> known;
-        for (const auto& each : own) known.push_back(each.first);
-        faults_.add(at.pointer, "found " + shown(parameter.key) +
-                                    ", must be one of the numbers of the sector's parts " + listed(known) +
-                                    hint(parameter.key, known));
-      } else if (factors) {
-        const double common = *found->second->get<double>();
-        Node::List each(factors->size());
-        for (std::size_t i = 0; i < each.size(); ++i) each[i].value = common * (*factors)[i];
-        Node list{std::move(each)};
-        Node::Object values(1);
-        values[0].key = "each";
-        values[0].value = std::move(list);
-        found->second->value = std::move(values);
-      }
-    }
+  // One copy of the structure for each sector.
+  void copy_matrices() {
+    if (auto* matrices = find(structure_, "matrices"); matrices != nullptr)
+      if (auto* files = std::get_if<Node::Object>(&matrices->value))
+        files->push_back({"copies", {static_cast<double>(of_.sectors)}});
   }
 
  private:
@@ -148,9 +119,7 @@ class Sector {
     }
   }
 
-  bool is_dof(const std::string& name) const {
-    return std::find(dofs_.begin(), dofs_.end(), name) != dofs_.end();
-  }
+  bool is_dof(const std::string& name) const { return is_dof_.contains(name); }
 
   void set_place(Node& at) const {
     if (auto* own = std::get_if<std::string>(&at.value)) {
@@ -210,13 +179,22 @@ class Sector {
       const auto order = static_cast<std::int64_t>(n) * of_.engine_order % of_.sectors;
       added.push_back({"engine_order", {static_cast<double>(order)}});
     }
-    if (moves_ground(entry) && find(&entry, "at") == nullptr && find(&entry, "between") == nullptr &&
-        find(&entry, "direction") == nullptr) {
+    const bool shaped = find(&entry, "shape") != nullptr;
+    if (shaped) added.push_back({"copy", {Node::Object{{"each", numbers()}}}});
+    if (moves_ground(entry) && !shaped && find(&entry, "at") == nullptr &&
+        find(&entry, "between") == nullptr && find(&entry, "direction") == nullptr) {
       Node::Object all;
       for (const std::string& dof : dofs_) all.push_back({dof, {1.0}});
       added.push_back({"direction", {std::move(all)}});
     }
     object->insert(object->end(), added.begin(), added.end());
+  }
+
+  // Of the sectors.
+  Node numbers() const {
+    Node::List all;
+    for (int i = 1; i <= of_.sectors; ++i) all.push_back({static_cast<double>(i)});
+    return {std::move(all)};
   }
 
   static bool moves_ground(Node& entry) {
@@ -226,44 +204,11 @@ class Sector {
            (*name == base_displacement_type().name() || *name == base_acceleration_type().name());
   }
 
-  std::optional<std::vector<double>> read_factors(const Location& at) {
-    const std::string wanted =
-        "a list of " + std::to_string(of_.sectors) + " numbers, a factor for each sector";
-    const std::size_t before = faults_.count();
-    const Node::List* list = read_list(at, wanted, faults_);
-    if (list == nullptr) return {};
-    if (list->size() != static_cast<std::size_t>(of_.sectors)) {
-      faults_.add(at.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
-      return {};
-    }
-    std::vector<double> factors;
-    for (std::size_t i = 0; i < list->size(); ++i)
-      factors.push_back(read_number({&(*list)[i], child(at.pointer, i)}, any_number, faults_).value_or(1));
-    return faults_.count() == before ? std::optional(factors) : std::nullopt;
-  }
-
-  // "part.field" and its place, of each number.
-  std::vector<std::pair<std::string, Node*>> numbers() {
-    std::vector<std::pair<std::string, Node*>> all;
-    for (Node::List* section : {list_in(structure_, "masses"), list_in(structure_, "springs"),
-                                list_in(structure_, "dampers"), list_in(&scene_, "elements")}) {
-      if (section == nullptr) continue;
-      for (Node& entry : *section) {
-        const Node* name = find(&entry, "name");
-        if (name == nullptr || name->get<std::string>() == nullptr) continue;
-        for (Member& member : std::get<Node::Object>(entry.value))
-          if (member.value.get<double>() != nullptr)
-            all.emplace_back(*name->get<std::string>() + '.' + member.key, &member.value);
-      }
-    }
-    return all;
-  }
-
   Node& scene_;
   Node* structure_;
   const Cyclic of_;
-  Faults& faults_;
   std::vector<std::string> dofs_;
+  std::unordered_set<std::string> is_dof_;  // these names
   std::string own_ = "{sector}", next_ = "{sector+1}";
 };
 
@@ -281,6 +226,24 @@ void put_behind(const Origins& first, Origins& then) {
   for (const auto& [list, items] : first) then.emplace(list, items);
 }
 
+// What the ring gives to the matrices and shapes of its sectors.
+void refuse_copies(Node& scene, Faults& faults) {
+  const std::string matrices = "/structure/matrices";
+  if (find(find(find(&scene, "structure"), "matrices"), "copies") != nullptr)
+    faults.add(child(matrices, "copies"),
+               "found copies in a full ring, must be left out: each sector has one");
+  if (find(find(find(&scene, "structure"), "matrices"), "stiffness_factors") != nullptr)
+    faults.add(child(matrices, "stiffness_factors"), "found factors in a full ring, must be " +
+                                                         quoted(matrices_stiffness) +
+                                                         " in \"mistuning\" of \"cyclic\"");
+  Node::List* excitation = list_in(&scene, "excitation");
+  for (std::size_t i = 0; excitation != nullptr && i < excitation->size(); ++i)
+    if (find(&(*excitation)[i], "copy") != nullptr)
+      faults.add(child(child("/excitation", i), "copy"),
+                 "found a copy in a full ring, must be left out: a shape acts on all sectors, later by the "
+                 "engine order");
+}
+
 }  // namespace
 
 std::optional<Cyclic> read_cyclic(const Location& at, Faults& faults) {
@@ -294,24 +257,27 @@ std::optional<Cyclic> read_cyclic(const Location& at, Faults& faults) {
   return read_numbers(keys, faults);
 }
 
-Ring write_out_ring(Node& scene, Origins& origins, Faults& faults) {
+Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Faults& faults) {
   Node* structure = find(&scene, "structure");
   Node* cyclic = find(structure, "cyclic");
   Faults told_later;
   if (!read_full({find(cyclic, "full"), {}}, told_later)) return {};
   const Keys keys({cyclic, place}, {"sectors", "engine_order", "full", "mistuning"}, faults);
   const auto of = read_numbers(keys, faults);
-  for (const char* key : {"matrices", "beam", "rod"})
+  for (const char* key : {"beam", "rod"})
     if (find(structure, key) != nullptr)
-      faults.add(child(place, "full"), "found true beside " + quoted(key) +
-                                           ", must be false, or the sector must be of masses and springs");
+      faults.add(child(place, "full"),
+                 "found true beside " + quoted(key) +
+                     ", must be false, or the sector must be of masses and springs, or of matrices");
   if (find(&scene, "patches") != nullptr)
     faults.add(child(place, "full"),
                "found true beside \"patches\", must be false, or the contacts must be elements");
+  refuse_copies(scene, faults);
   if (!of) return {};
-  Sector sector(scene, *of, faults);
-  sector.mistune(find(cyclic, "mistuning"));
+  mistune(scene, of->sectors, faults);
   if (faults.count() > 0) return {};
+  Sector sector(scene, *of, source);
+  sector.copy_matrices();
   sector.repeat_parts();
   sector.repeat_names();
   sector.repeat_response();

@@ -4,6 +4,7 @@
 
 #include <arcslip/scene/faults.hpp>
 #include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/named_file.hpp>
 #include <arcslip/scene/read_values.hpp>
 
 #include <optional>
@@ -23,10 +24,11 @@ struct Ring {
 /// Of a scene with "full": true, writes out all sectors, as entries with "repeat" (repeat.hpp) over an index
 /// "sector" would be: the names of degrees of freedom, parts and named responses get the number of their
 /// sector, {"next": name} is the name in the sector after it, and excitation is delayed by the engine order
-/// times its harmonic. A single response is that of sector 1. "mistuning": {"part.field": [one factor for
-/// each sector]} multiplies the values. Origins are those of repeated entries, before and afterwards. Adds
+/// times its harmonic. Matrices from files get as many "copies", and shapes one of them. A single response is
+/// that of sector 1. "mistuning": {"part.field": [one factor for each sector]} multiplies the values
+/// (mistuning.hpp). Origins are those of repeated entries, before and afterwards. Adds
 /// faults, after which the tree is not complete.
-Ring write_out_ring(Node& scene, Origins& origins, Faults& faults);
+Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Faults& faults);
 
 /// Each field "part.field" of a sector is one parameter for all sectors: a tie of this name, unless another
 /// tie has it or values differ.

@@ -78,11 +78,31 @@ file::KeyGroup<Shape> shape_file(const std::string& name, ShapeFile Shape::*part
           }};
 }
 
+file::KeyGroup<Shape> copy_of_matrices() {
+  const std::string allowed = "an integer from 1 to " + std::to_string(file::largest_copies);
+  Key key{
+      "copy", KeyType::whole,      "-", allowed, "", false, "of the matrices on which the shape acts, where there are several",
+      1,      file::largest_copies};
+  return {{key},
+          [](const file::Reading& reading, Shape& shape) {
+            const file::Location place = reading.keys.find("copy");
+            shape.copy = file::read_integer(place, 1, file::largest_copies, reading.faults).value_or(0);
+            if (place.node != nullptr && !reading.keys.has("shape") && !reading.keys.has("imaginary_shape"))
+              reading.faults.add(place.pointer,
+                                 "found a copy of matrices without \"shape\", must stand beside it: on "
+                                 "which of the copies the shape acts");
+          },
+          [](const Shape& shape, const Scene&, file::Node::Object& to) {
+            if (shape.copy > 0) to.push_back({"copy", file::node(shape.copy)});
+          }};
+}
+
 file::KeysOf<Shape> shape_keys() {
   file::KeysOf<Shape> keys;
   keys.add(shape_file("shape", &Shape::real,
                       "of the force or of the motion of the ground, on all rows of matrices"));
   keys.add(shape_file("imaginary_shape", &Shape::imaginary, "its imaginary part, as of a travelling wave"));
+  keys.add(copy_of_matrices());
   keys.check([](const file::Reading& reading, Shape& shape) {
     if (shape.imaginary.is_given() && !reading.keys.has("shape"))
       reading.faults.add(reading.keys.find("imaginary_shape").pointer,
@@ -100,8 +120,8 @@ class Excited final : public file::KeyedPart<Shape, PartType> {
   bool options_bring_fields() const override { return false; }
   // Without a shape a part has no options.
   Settings read_options(const file::Reading& from) const override {
-    return from.keys.has("shape") || from.keys.has("imaginary_shape") ? KeyedPart::read_options(from)
-                                                                      : Settings();
+    const bool shaped = from.keys.has("shape") || from.keys.has("imaginary_shape") || from.keys.has("copy");
+    return shaped ? KeyedPart::read_options(from) : Settings();
   }
 
  private:

@@ -6,7 +6,7 @@
 //
 // is the force of a pressure field, whose real and imaginary part a travelling wave has both. Of a motion of
 // the ground S is r: the ground under row i moves by A S_i, as a rigid body in the row's direction, as a
-// rule.
+// rule. Where the matrices have copies, it is on the rows of one of them.
 
 #include <arcslip/scene/matrices.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -28,6 +28,7 @@ struct ShapeFile {
 
 struct Shape {
   ShapeFile real{}, imaginary{};
+  int copy = 0;  // of the matrices, from 1; 0: not given
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 

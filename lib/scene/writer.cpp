@@ -146,6 +146,9 @@ void add_matrices(const Matrices& matrices, Node::Object& structure) {
   if (!unsymmetric.empty()) files.push_back({"unsymmetric", node(unsymmetric)});
   if (matrices.highest_frequency > 0)
     files.push_back({"highest_frequency", node(matrices.highest_frequency)});
+  if (matrices.copies > 1) files.push_back({"copies", node(matrices.copies)});
+  if (!matrices.stiffness_factors.empty())
+    files.push_back({"stiffness_factors", node(matrices.stiffness_factors)});
   structure.push_back({"matrices", {std::move(files)}});
   structure.push_back({"names", node(matrices.names.path)});
 }
@@ -227,7 +230,7 @@ Node tree(const Scene& scene) {
                          {Node::Object{{"sectors", node(scene.cyclic->sectors)},
                                        {"engine_order", node(scene.cyclic->engine_order)}}}});
   if (scene.matrices) add_matrices(*scene.matrices, structure);
-  const auto named = static_cast<std::ptrdiff_t>(scene.matrices ? scene.matrices->rows.size() : 0);
+  const auto named = static_cast<std::ptrdiff_t>(scene.matrices ? scene.matrices->named() : 0);
   const std::vector<std::string> dofs(scene.dofs.begin() + named, scene.dofs.end());
   if (named == 0 || !dofs.empty()) structure.push_back({"dofs", node(dofs)});
   structure.insert(structure.end(), {{"masses", parts_node(scene.masses, scene)},

@@ -119,7 +119,7 @@ constexpr std::array vocabulary{
     R"("over")",         R"("for_each")",  R"("stiffness")", R"("cosine")",       R"("sine")",
     R"("ground")",       R"("shooting")",  R"("newmark")",   R"("worst")",        R"("samples")",
     R"("modes")",        R"("amplitude")", R"("of")",        R"("bifurcations")", R"("sweep")",
-    R"("start")",        R"("accuracy")"};
+    R"("start")",        R"("accuracy")",  R"("copies")",    R"("copy")"};
 
 void collect(Node& node, std::vector<Node*>& all) {
   all.push_back(&node);

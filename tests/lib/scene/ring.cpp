@@ -168,8 +168,8 @@ TEST_CASE("faults of rings are told where the user wrote them") {
   check_fault(with(sector, R"("next": {"tip": -0.25})", R"("next": {"top": -0.25})"),
               "/structure/springs/2/direction/next/top",
               "found \"top\", must be one of the degrees of freedom");
-  check_fault(with(full(), "\"dofs\": [", "\"matrices\": {}, \"dofs\": ["), at + "/full",
-              "found true beside \"matrices\", must be false");
+  check_fault(with(full(), "\"dofs\": [", "\"beam\": {}, \"dofs\": ["), at + "/full",
+              "found true beside \"beam\", must be false");
   check_fault(with(full(), "\"ties\"", "\"patches\": [], \"ties\""), at + "/full",
               "found true beside \"patches\", must be false");
   check_fault(with(sector, "\"ties\"", R"("harmonics": {"order": 4, "period": 2}, "ties")"),

@@ -1,0 +1,124 @@
+#include <arcslip/scene/row_names.hpp>
+
+#include <arcslip/scene/csv_text.hpp>
+#include <arcslip/scene/study_keys.hpp>
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+
+namespace arcslip::scene::file {
+namespace {
+
+constexpr std::size_t most_names = 1'000'000;  // of all copies
+
+// Calls line(number, cells, whole) for each that is not left out, until it returns false.
+template <class Line>
+void for_each_line(std::string_view text, const Line& line) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  std::size_t number = 0;
+  for (const std::string_view whole : split(text, '\n')) {
+    ++number;
+    if (trimmed(whole).empty() || trimmed(whole).front() == '#') continue;
+    if (!line(number, split(whole, ','), trimmed(whole))) return;
+  }
+}
+
+// Row i from 1 to size, or nothing.
+std::optional<int> row_in(std::string_view digits, int size) {
+  int row = 0;
+  const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), row);
+  const bool is_row =
+      error == std::errc() && rest == digits.data() + digits.size() && row >= 1 && row <= size;
+  return is_row ? std::optional(row) : std::nullopt;
+}
+
+// What is wrong with a name, or with the names of its copies; empty if nothing is. The names are added.
+std::string add_name(const std::string& name, int copies, Dofs& dofs) {
+  const auto add = [&](const std::string& numbered) {
+    std::string objection = objection_of_dof(numbered, dofs);
+    if (!objection.empty()) return objection;
+    dofs.index.emplace(numbered, static_cast<int>(dofs.names.size()));
+    dofs.names.push_back(numbered);
+    return objection;
+  };
+  if (copies == 1) return add(name);
+  if (std::string objection = objection_of_dof(name, {}); !objection.empty()) return objection;
+  for (int copy = 1; copy <= copies; ++copy) {
+    const std::string numbered = name + std::to_string(copy);
+    if (const std::string objection = add(numbered); !objection.empty())
+      return "of which copy " + std::to_string(copy) + " is " + shown(numbered) + ", " + objection;
+  }
+  return {};
+}
+
+}  // namespace
+
+void read_row_names(const Location& at, const NamedFile& file, Matrices& matrices, Dofs& dofs,
+                    Faults& faults) {
+  const std::size_t before = faults.count();
+  std::unordered_map<int, std::size_t> lines;
+  bool header = false;
+  for_each_line(*file.text, [&](std::size_t line, const auto& cells, std::string_view whole) {
+    const auto fault = [&](const std::string& what) {
+      if (faults.full()) return faults.add({}, {});
+      faults.add(at.pointer, "line " + std::to_string(line) + " of " + shown(file.path) + ": " + what);
+    };
+    if (!header) {
+      header = cells.size() == 2 && trimmed(cells[0]) == "name" && trimmed(cells[1]) == "row";
+      if (!header) fault("found " + shown(whole) + ", must be the header name,row");
+      return header;
+    }
+    if (cells.size() != 2) {
+      fault("found " + std::to_string(cells.size()) + " values, must be 2: a name and a row");
+      return true;
+    }
+    if (matrices.copies > 1 && dofs.names.size() + static_cast<std::size_t>(matrices.copies) > most_names) {
+      fault("found more than " + std::to_string(most_names) + " names in all " +
+            std::to_string(matrices.copies) +
+            " copies together, must be at most as many: leave out those that the scene does not use");
+      return false;
+    }
+    const std::string name(trimmed(cells[0]));
+    const std::string_view digits = trimmed(cells[1]);
+    const auto row = row_in(digits, matrices.size());
+    const auto first = lines.find(row.value_or(0));
+    if (!row) {
+      fault("found the row " + shown(digits) + ", must be an integer from 1 to " +
+            std::to_string(matrices.size()));
+    } else if (first != lines.end()) {
+      fault("found the row " + std::to_string(*row) + " again, which has a name in line " +
+            std::to_string(first->second) + "; a row must have one name");
+    } else if (const std::string objection = add_name(name, matrices.copies, dofs); !objection.empty()) {
+      fault("found the name " + shown(name) + ", " + objection);
+    } else {
+      lines.emplace(*row, line);
+      matrices.rows.push_back(*row - 1);
+    }
+    return true;
+  });
+  if (dofs.names.empty() && faults.count() == before)
+    faults.add(at.pointer, "found no names in " + shown(file.path) + ", must have at least one row name,row");
+}
+
+std::vector<std::string> row_names(const Location& path, const FileSource& source) {
+  Faults told_later;
+  const Names no_names;
+  const Dofs no_dofs;
+  const Keys keys({}, {}, told_later);
+  const Parameters none({}, true, no_names);
+  const Reading reading{keys, any_number, none, no_dofs, told_later, source};
+  std::vector<std::string> names;
+  const auto file = path.node != nullptr ? read_file_of(path, "", reading) : std::nullopt;
+  if (!file || !file->text) return names;
+  bool header = true;
+  for_each_line(*file->text, [&](std::size_t, const auto& cells, std::string_view) {
+    if (!header) names.emplace_back(trimmed(cells[0]));
+    header = false;
+    return true;
+  });
+  return names;
+}
+
+}  // namespace arcslip::scene::file
