@@ -80,9 +80,15 @@ file::KeyGroup<Shape> shape_file(const std::string& name, ShapeFile Shape::*part
 
 file::KeyGroup<Shape> copy_of_matrices() {
   const std::string allowed = "an integer from 1 to " + std::to_string(file::largest_copies);
-  Key key{
-      "copy", KeyType::whole,      "-", allowed, "", false, "of the matrices on which the shape acts, where there are several",
-      1,      file::largest_copies};
+  Key key{"copy",
+          KeyType::whole,
+          "-",
+          allowed,
+          "",
+          false,
+          "of the matrices on which the shape acts, where there are several",
+          1,
+          file::largest_copies};
   return {{key},
           [](const file::Reading& reading, Shape& shape) {
             const file::Location place = reading.keys.find("copy");
