@@ -3,6 +3,7 @@
 //   frf/paper/H:N            the paper's oscillator, N harmonics
 //   frf/paper_points/finer:R the same with N = 7 and steps an R-th as long
 //   frf/paper_threads        the same with N = 7 in several threads, each with a response of its own
+//   frf/shared_elements      three contact_3d whose forces several threads share: seconds of wall time
 //   frf/duffing, frf/damped_chain, frf/nlvib_chain
 //   frf/chain/masses:n, frf/beam/elements:n, frf/contacts/of_20_masses:n, frf/ring/blades:n
 //   observed/SCENE           as the command does it: all quantities and the estimate of truncation
@@ -20,6 +21,9 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <chrono>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -126,6 +130,19 @@ void paper_threads(benchmark::State& state) {
   response(state, bench::paper(7));
 }
 
+void shared_elements(benchmark::State& state) {
+  using Clock = std::chrono::steady_clock;
+  scene::Scene scene = bench::rubbing_masses(3);
+  scene.threads.count = argument(state);
+  double least = std::numeric_limits<double>::infinity();
+  for (auto _ : state) {
+    const auto begin = Clock::now();
+    benchmark::DoNotOptimize(observables::frequency_response(scene, range_of(scene)).data());
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - begin).count());
+  }
+  state.counters["seconds"] = least;
+}
+
 void duffing(benchmark::State& state) {
   scene::Scene scene = bench::example("duffing");
   scene.harmonics.order = 7;
@@ -160,6 +177,11 @@ void ring(benchmark::State& state) {
 BENCHMARK(paper)->Name("frf/paper")->ArgName("H")->ArgsProduct({{1, 3, 7, 15, 27, 55, 101}});
 BENCHMARK(paper_points)->Name("frf/paper_points")->ArgName("finer")->ArgsProduct({{1, 2, 4, 8, 16}});
 BENCHMARK(paper_threads)->Name("frf/paper_threads")->ThreadRange(1, 4);
+BENCHMARK(shared_elements)
+    ->Name("frf/shared_elements")
+    ->ArgName("threads")
+    ->ArgsProduct({{1, 2, 4}})
+    ->UseRealTime();
 BENCHMARK(duffing)->Name("frf/duffing");
 BENCHMARK(damped_chain)->Name("frf/damped_chain");
 BENCHMARK(nlvib_chain)->Name("frf/nlvib_chain");

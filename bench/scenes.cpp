@@ -65,6 +65,32 @@ scene::Scene damped_chain() {
   return scene::read(text, catalogue());
 }
 
+scene::Scene rubbing_masses(int n) {
+  const std::string repeat = R"("repeat": {"count": )" + std::to_string(n) + R"(, "cyclic": true}, )";
+  std::string dofs, masses, springs;
+  for (const std::string axis : {"x", "y", "z"}) {
+    dofs += (dofs.empty() ? "" : ", ") + ("{" + repeat + R"("name": ")" + axis + R"({i}"})");
+    masses += (masses.empty() ? "" : ", ") +
+              ("{" + repeat + R"("name": "m)" + axis + R"({i}", "at": ")" + axis + R"({i}", "value": 1})");
+    springs += "{" + repeat + R"("name": "k)" + axis + R"({i}", "at": ")" + axis + R"({i}", "value": 1}, )";
+  }
+  std::istringstream text(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": [)" +
+                          dofs + R"(], "masses": [)" + masses + R"(],
+      "springs": [)" + springs +
+                          "{" + repeat +
+                          R"("name": "link{i}", "between": ["x{i}", "x{i+1}"], "value": 0.05}],
+      "damping": [{"name": "r", "type": "rayleigh", "alpha": 0.02, "beta": 0.02}]},
+    "elements": [{)" + repeat +
+                          R"("name": "c{i}", "type": "contact_3d", "tangential_1": {"at": "x{i}"},
+      "tangential_2": {"at": "y{i}"}, "normal": {"at": "z{i}"}, "tangential_stiffness": 0.5,
+      "normal_stiffness": 0.5, "friction_coefficient": 0.3, "normal_load": 0.4}],
+    "excitation": [{"name": "f", "at": "x1", "cosine": 1.2}, {"name": "g", "at": "y2", "sine": 1},
+                   {"name": "h", "at": "z2", "cosine": 0.5}],
+    "harmonics": {"order": 5}, "response": {"at": "x1"}, "studies": [{"kind": "frf", "from": 0.95, "to": 1.05}]})");
+  return scene::read(text, catalogue());
+}
+
 scene::Scene beam(int n) {
   return with("cantilever/beam.json", R"("elements": 40)", R"("elements": )" + std::to_string(n));
 }

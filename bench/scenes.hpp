@@ -35,6 +35,9 @@ scene::Scene chain(int n, int contacts);
 /// Six masses with a friction damper between all neighbours.
 scene::Scene damped_chain();
 
+/// n masses that move in three directions, each on a contact_3d that slips, and linked in a ring. Order 5.
+scene::Scene rubbing_masses(int n);
+
 /// examples/cantilever/beam.json with n beam elements.
 scene::Scene beam(int n);
 
