@@ -191,13 +191,12 @@ TEST_CASE("a full ring from matrices stiffens with its speed") {
 
 namespace {
 
-// A blade of thirty masses on the hub.
+// A blade of 29 stiff masses on the hub, whose damper alone is not proportional.
 Sector long_sector() {
   Sector sector{{2}, {{0, -1, 40}}, {{0, -1, 0.3}}, {}};
   for (int i = 1; i <= 29; ++i) {
-    sector.masses.push_back(0.1 + 0.01 * (i % 3));
-    sector.springs.push_back({i, i - 1, 300.0 + 20 * (i % 5)});
-    if (i % 7 == 0) sector.dampers.push_back({i, i - 1, 0.05});
+    sector.masses.push_back(0.01 + 0.001 * (i % 3));
+    sector.springs.push_back({i, i - 1, 3000.0 + 200 * (i % 5)});
   }
   return sector;
 }
@@ -211,7 +210,7 @@ TEST_CASE("reduced copies move as whole ones, within the error that is told, als
     given.excitation = R"({"name": "p", "shape": "p.mtx", "cosine": 0.3})";
     if (mistuned) given.stiffness = {1, 1.1, 0.95, 1.02, 1.1};
     const scene::Scene whole = from_matrices(given, Ring::full, folder);
-    given.keys = R"(, "highest_frequency": 15)";
+    given.keys = R"(, "highest_frequency": 14)";
     const scene::Scene less = from_matrices(given, Ring::full, folder);
     const model::Model model = model::build(less);
     REQUIRE(model.reduction);
