@@ -134,8 +134,8 @@ class Placer {
       if (!in) in = reduces_ ? reduced(files_.stiffness_factor(copy)) : whole(files_.stiffness_factor(copy));
       all_.push_back({in, coordinates});
       coordinates += in->M.rows() - kept_;
-      check_size(kept_ * copies_ + coordinates);
     }
+    check_size(kept_ * copies_ + coordinates);
     placed_.unnamed_from = static_cast<int>(kept_ * copies_);
     placed_.unnamed_to = static_cast<int>(kept_ * copies_ + coordinates);
     if (!reduces_) return;

@@ -94,17 +94,9 @@ TEST_CASE("each sector of a full ring from matrices moves as the one sector does
 
 TEST_CASE("a wave of the other sense is another motion of a ring from matrices") {
   const Folder folder = files();
-  Given given{6, 2, R"(, "gyroscopic": "G.mtx")"};
-  given.excitation =
-      R"({"name": "f", "at": "tip.z", "cosine": 1}, {"name": "g", "direction": {"hub": 1, "pad": -2}, "sine": 1})";
-  Given back = given;
-  back.order = -2;
-  given.structure = back.structure = R"(, "damping": [{"name": "none", "type": "rayleigh", "alpha": 0.001}])";
-  std::string text = scene_text(given, Ring::full), other = scene_text(back, Ring::full);
-  for (std::string* each : {&text, &other})  // a link without mirror images
-    each->replace(each->find(R"("between": ["hub", {"next": "hub"}])"), 35,
-                  R"("between": ["hub", {"next": "tip.z"}])");
-  CHECK(difference(read(text, folder), read(other, folder)) > 1e-3);
+  const scene::Scene ring = from_matrices({6, 2}, Ring::full, folder),
+                     back = from_matrices({6, -2}, Ring::full, folder);
+  CHECK(difference(ring, back) > 1e-3);
 }
 
 TEST_CASE("a full ring from matrices with mistuned parts is that of masses and springs") {
@@ -185,19 +177,18 @@ TEST_CASE("a full ring from matrices stiffens with its speed") {
     given.stiffness = by_blade;
     const scene::Scene parts = by_hand(given, {}, 0.8);
     given.structure = R"(, "rotation": {"name": "disk", "speed": 0.8, "highest_speed": 1})";
-    CHECK(difference(from_matrices(given, Ring::full, folder), parts) < 1e-9);
+    CHECK(difference(from_matrices(given, Ring::full, folder), parts) < 1e-10);
   }
 }
 
 namespace {
 
-// A blade of thirty masses on the hub.
+// A blade of 29 stiff masses on the hub, whose damper alone is not proportional.
 Sector long_sector() {
   Sector sector{{2}, {{0, -1, 40}}, {{0, -1, 0.3}}, {}};
   for (int i = 1; i <= 29; ++i) {
-    sector.masses.push_back(0.1 + 0.01 * (i % 3));
-    sector.springs.push_back({i, i - 1, 300.0 + 20 * (i % 5)});
-    if (i % 7 == 0) sector.dampers.push_back({i, i - 1, 0.05});
+    sector.masses.push_back(0.01 + 0.001 * (i % 3));
+    sector.springs.push_back({i, i - 1, 3000.0 + 200 * (i % 5)});
   }
   return sector;
 }
@@ -211,7 +202,7 @@ TEST_CASE("reduced copies move as whole ones, within the error that is told, als
     given.excitation = R"({"name": "p", "shape": "p.mtx", "cosine": 0.3})";
     if (mistuned) given.stiffness = {1, 1.1, 0.95, 1.02, 1.1};
     const scene::Scene whole = from_matrices(given, Ring::full, folder);
-    given.keys = R"(, "highest_frequency": 15)";
+    given.keys = R"(, "highest_frequency": 14)";
     const scene::Scene less = from_matrices(given, Ring::full, folder);
     const model::Model model = model::build(less);
     REQUIRE(model.reduction);

@@ -238,8 +238,9 @@ TEST_CASE("what is wrong with shapes on copies is told") {
   of(R"("at": "a1", "copy": 1, )", "/copy",
      "found a copy of matrices without \"shape\", must stand beside it");
   check_fault(
-      with(full(), R"("at": "tip.z", "cosine")", R"("shape": "p.mtx", "copy": 1, "cosine")"), files(),
-      "/excitation/0/copy",
+      with(full(), R"("direction": {"tip.z": 1, "hub": 0.4}, "cosine")",
+           R"("shape": "p.mtx", "copy": 1, "cosine")"),
+      files(), "/excitation/0/copy",
       "found a copy in a full ring, must be left out: a shape acts on all sectors, later by the engine "
       "order");
 }

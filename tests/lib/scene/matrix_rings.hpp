@@ -87,7 +87,7 @@ struct Given {
   std::string keys{};       // further ones of "matrices"
   std::string structure{};  // of "structure"
   std::string elements{};
-  std::string excitation{};  // none: a force on the tip, and one in the second harmonic on the hub
+  std::string excitation{};  // none: forces on tip and hub, and in the second harmonic on the hub
   int harmonics = 5;
   // Of each sector; empty: 1.
   std::vector<double> stiffness{}, link{}, mass{}, load{};
@@ -96,12 +96,14 @@ struct Given {
 inline const std::string friction = R"({"name": "damper", "type": "jenkins",
   "between": ["tip.z", {"next": "tip.z"}], "stiffness": 0.4, "friction_coefficient": 0.5, "normal_load": 0.9})";
 inline const std::string forces =
-    R"({"name": "f", "at": "tip.z", "cosine": 1}, {"name": "h", "at": "hub", "harmonic": 2, "cosine": 0.3, "sine": 0.1})";
+    R"({"name": "f", "direction": {"tip.z": 1, "hub": 0.4}, "cosine": 1},
+       {"name": "h", "at": "hub", "harmonic": 2, "cosine": 0.3, "sine": 0.1})";
 inline const std::string responses = R"([{"name": "tip", "at": "tip.z"}, {"name": "hub", "at": "hub"}])";
 
 enum class Ring { sector, full };
 
-/// A sector with a mass and a spring on its tip, a mass "pad" beside the matrices, and links to the next hub.
+/// A sector with a mass and a spring on its tip, a mass "pad" beside the matrices, and links to the next hub,
+/// of which one has no mirror image.
 inline std::string scene_text(const Given& given, Ring ring, const std::string& response = responses) {
   std::string cyclic = R"("sectors": )" + std::to_string(given.sectors) + R"(, "engine_order": )" +
                        std::to_string(given.order);
@@ -122,7 +124,8 @@ inline std::string scene_text(const Given& given, Ring ring, const std::string& 
          R"(}, "names": "names.csv", "dofs": ["pad"],
     "masses": [{"name": "mt", "at": "tip.z", "value": 0.05}, {"name": "mp", "at": "pad", "value": 0.2}],
     "springs": [{"name": "kt", "at": "tip.z", "value": 0.1}, {"name": "kp", "between": ["pad", "tip.z"], "value": 0.3},
-                {"name": "link", "between": ["hub", {"next": "hub"}], "value": 0.9}],
+                {"name": "link", "between": ["hub", {"next": "hub"}], "value": 0.9},
+                {"name": "skew", "between": ["tip.z", {"next": "hub"}], "value": 0.07}],
     "dampers": [{"name": "cl", "between": ["hub", {"next": "hub"}], "value": 0.01},
                 {"name": "cp", "between": ["pad", "hub"], "value": 0.02}])" +
          given.structure + R"(}, "elements": [)" + given.elements + R"(], "excitation": [)" +
@@ -148,7 +151,8 @@ struct Push {
 
 /// The full ring of masses, springs and dampers. A friction damper between tips stands for `elements`.
 inline scene::Scene by_hand(const Given& given, const Sector& sector = {}, double speed = 0,
-                            const std::vector<Push>& pushes = {{"f", 3, 1, 1, 0}, {"h", 0, 2, 0.3, 0.1}}) {
+                            const std::vector<Push>& pushes = {
+                                {"f", 3, 1, 1, 0}, {"g", 0, 1, 0.4, 0}, {"h", 0, 2, 0.3, 0.1}}) {
   std::string dofs, masses, springs, dampers, elements, excitation, tips, hubs;
   const auto factor = [](const std::vector<double>& factors, int i) {
     return factors.empty() ? 1 : factors[static_cast<std::size_t>(i - 1)];
@@ -192,6 +196,7 @@ inline scene::Scene by_hand(const Given& given, const Sector& sector = {}, doubl
     part(springs, "kt" + own, at("tip" + own), 0.1);
     part(springs, "kp" + own, between("pad" + own, "tip" + own), 0.3);
     part(springs, "link" + own, between("hub" + own, "hub" + next), 0.9 * factor(given.link, i));
+    part(springs, "skew" + own, between("tip" + own, "hub" + next), 0.07);
     part(dampers, "cl" + own, between("hub" + own, "hub" + next), 0.01);
     part(dampers, "cp" + own, between("pad" + own, "hub" + own), 0.02);
     if (!given.elements.empty())
