@@ -4,6 +4,7 @@
 #include <arcslip/scene/read_values.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,8 +70,14 @@ void mistune(Node& scene, int sectors, Faults& faults) {
     } else if (factors && of_matrices) {
       files->push_back({"stiffness_factors", list_of(*factors)});
     } else if (factors) {
-      std::vector<double> values = *factors;
-      for (double& value : values) value *= *found->second->get<double>();
+      const double common = *found->second->get<double>();
+      std::vector<double> values;
+      for (const double factor : *factors) {
+        values.push_back(common * factor);
+        if (!std::isfinite(values.back()))
+          faults.add(child(at.pointer, values.size() - 1),
+                     "found " + number_text(factor) + ", with which the value is too large for a number");
+      }
       found->second->value = Node::Object{{"each", list_of(values)}};
     }
   }

@@ -88,6 +88,7 @@ class Files {
     check_mass("gyroscopic", matrices.gyroscopic, *matrices.mass.matrix);
     if (matrices.unsymmetric_damping) check_mass("damping", matrices.damping, *matrices.mass.matrix);
     check_whole(keys_.pointer(), matrices, faults_);
+    check_factors(matrices);
     return matrices;
   }
 
@@ -229,6 +230,16 @@ class Files {
       faults_.add(child(keys_.pointer(), key), "found a matrix of " + std::to_string(file.matrix->rows) +
                                                    " rows, must have " + std::to_string(size) +
                                                    " as the stiffness matrix");
+  }
+
+  void check_factors(const Matrices& matrices) {
+    double largest = 0;
+    for (const double value : matrices.stiffness.matrix->values) largest = std::max(largest, std::abs(value));
+    for (std::size_t i = 0; i < matrices.stiffness_factors.size(); ++i)
+      if (const double factor = matrices.stiffness_factors[i]; !std::isfinite(factor * largest))
+        faults_.add(
+            child(child(keys_.pointer(), "stiffness_factors"), i),
+            "found " + number_text(factor) + ", with which the stiffness matrix is too large for a number");
   }
 
   void check_rows(const Matrices& matrices) {

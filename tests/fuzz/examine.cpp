@@ -209,7 +209,8 @@ class Examination {
       return;  // the window of another kind of study does not suit this one
     }
     const auto feeds = [](const scene::Part& part) { return part.type == &elements::van_der_pol(); };
-    feeds_ = std::any_of(s.elements.begin(), s.elements.end(), feeds);
+    feeds_ = std::any_of(s.elements.begin(), s.elements.end(), feeds) ||
+             (s.matrices && (s.matrices->circulatory.matrix || s.matrices->unsymmetric_stiffness));
     std::vector<observables::ResponseBranch> branches;
     try {
       long points = 0;
@@ -301,7 +302,7 @@ class Examination {
   }
 
   const std::string& text_;
-  bool feeds_ = false;  // an element may feed the motion
+  bool feeds_ = false;  // an element or a matrix may feed the motion
   Findings findings_;
 };
 

@@ -176,6 +176,8 @@ TEST_CASE("what is wrong with copies of matrices is told") {
   of(R"(, "copies": 2, "stiffness_factors": [1, 0])", "/stiffness_factors/1", "found 0, must be above 0");
   of(R"(, "copies": 2, "stiffness_factors": [1, "a"])", "/stiffness_factors/1",
      "found \"a\" (a string), must be a number, above 0");
+  of(R"(, "copies": 2, "stiffness_factors": [1, 1e308])", "/stiffness_factors/1",
+     "found 1e+308, with which the stiffness matrix is too large for a number");
   of(R"(, "copies": 167)", "",
      "found 167 copies of matrices of 3 rows without \"highest_frequency\", must have it above 500 rows in "
      "all");

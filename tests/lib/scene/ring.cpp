@@ -153,6 +153,8 @@ TEST_CASE("faults of rings are told where the user wrote them") {
               "found a list of 2, must be a list of 3 numbers, a factor for each sector");
   check_fault(mistuned(R"({"k.value": [1, 1, "a"]})"), at + "/mistuning/k.value/2",
               "must be a finite number");
+  check_fault(mistuned(R"({"k.value": [1, 1, -1e308]})"), at + "/mistuning/k.value/2",
+              "found -1e+308, with which the value is too large for a number");
   check_fault(mistuned(R"({"m.value": [1, -1, 1]})"), "/structure/masses/0/value",
               "for sector = 2: found -1.24, must be at least 0 kg");
   check_fault(mistuned(R"({"damper.normal_load": [1, 2, 1]})"), "/ties/load", "must have one common value");
