@@ -332,7 +332,7 @@ bool ModalCondensation::add_changes(const LinearParts& parts, const Factors& g, 
   return true;
 }
 
-Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::MatrixXd& observed)
+Condensation::Condensation(const LinearParts& parts, int unknowns, const Eigen::MatrixXd& observed)
     : r_(unknowns),
       l_(observed.rows() - unknowns),
       c_(observed.bottomRows(l_)),
@@ -345,9 +345,10 @@ Condensation::Condensation(const std::vector<PartInY>& parts, int unknowns, cons
 }
 
 // Each degree of freedom of a large structure is linked to few others, and so is each coordinate in y.
-void Condensation::choose_sparse(const std::vector<PartInY>& parts) {
+void Condensation::choose_sparse(const LinearParts& parts) {
+  if (parts.has_matrices()) return;
   std::vector<Links> links;
-  for (const PartInY& part : parts) {
+  for (const PartInY& part : parts.parts()) {
     Links& linked = links.emplace_back();
     for (const auto& [i, at_i] : part.direction.entries())
       if (i >= r_) linked.push_back(i - r_);

@@ -71,13 +71,13 @@ class ModalCondensation {
 class Condensation {
  public:
   /// The first `unknowns` coordinates remain. observed: c, a column for each observation.
-  Condensation(const std::vector<PartInY>& parts, int unknowns, const Eigen::MatrixXd& observed);
+  Condensation(const LinearParts& parts, int unknowns, const Eigen::MatrixXd& observed);
 
   /// False where Z_ll is singular to rounding.
   bool condense(const StructuralMatrices& of, const Factors& g, const ComplexVector& f, Condensed& into);
 
  private:
-  void choose_sparse(const std::vector<PartInY>& parts);
+  void choose_sparse(const LinearParts& parts);
   // W_ = Z_ll^-1 rhs_
   bool solve_linear(const StructuralMatrices& of, const Factors& g);
 

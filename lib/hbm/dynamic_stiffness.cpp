@@ -59,7 +59,7 @@ bool DynamicStiffness::condense(Harmonic& at) {
     return unsymmetric_->condense(Z_, at.force, at.condensed);
   }
   if (parts_.modes()) return modal_->condense(parts_, s, at.force, at.condensed);
-  if (!direct_) direct_.emplace(parts_.parts(), r_, responses_);
+  if (!direct_) direct_.emplace(parts_, r_, responses_);
   return direct_->condense(parts_.matrices(), parts_.factors(s), at.force, at.condensed);
 }
 

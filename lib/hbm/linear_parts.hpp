@@ -129,6 +129,8 @@ class LinearParts {
   double base_frequency() const { return base_frequency_; }  // rad/s
   Factors factors(double s) const;
   const std::vector<PartInY>& parts() const { return parts_; }
+  /// Beside those parts there are matrices, which may link any coordinates.
+  bool has_matrices() const { return !matrix_parts_.empty(); }
   /// Null where too many parts have other values than the modes; then matrices() are those of the place.
   const FixedInterfaceModes* modes() const { return modal_ ? modes_.get() : nullptr; }
   const std::vector<ChangedPart>& changes() const { return changes_; }

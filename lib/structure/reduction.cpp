@@ -143,7 +143,10 @@ class Reduction {
     // Minimum degree alone: METIS, which CHOLMOD also tries, takes SIGTERM for itself meanwhile.
     A_.cholmod().nmethods = 1;
     A_.cholmod().method[0].ordering = CHOLMOD_AMD;
-    A_.compute(K_.ii + sigma_ * M_.ii);
+    const Sparse A = K_.ii + sigma_ * M_.ii;
+    // Not every LAPACK finds a NaN.
+    if (!Eigen::Map<const VectorXd>(A.valuePtr(), A.nonZeros()).allFinite()) refuse_overflow();
+    A_.compute(A);
     listen(stop_);
     if (A_.info() == Eigen::Success) return;
     std::string where;

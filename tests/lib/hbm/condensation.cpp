@@ -235,7 +235,7 @@ TEST_CASE("a condensed equation has the solution of the full one, whatever its s
       scene::Scene scene = long_chain(row.dofs, row.linked);
       scene.excitation.front().harmonic = n;
       FullEquation full(scene);
-      hbm::Condensation condensation(full.parts.parts(), row.unknowns, full.model.response);
+      hbm::Condensation condensation(full.parts, row.unknowns, full.model.response);
       hbm::Condensed condensed;
       REQUIRE(full.condense(condensation, n, full.p, condensed));
       const std::complex<double> i(0, 1);
@@ -257,7 +257,7 @@ TEST_CASE("a condensed equation has the solution of the full one, whatever its s
 TEST_CASE("a condensed equation and what is observed change with parameters as their differences do") {
   for (const Row row : {none, few, some, dense, sparse}) {
     FullEquation full(long_chain(row.dofs, row.linked));
-    hbm::Condensation condensation(full.parts.parts(), row.unknowns, full.model.response);
+    hbm::Condensation condensation(full.parts, row.unknowns, full.model.response);
     hbm::Condensed condensed;
     Eigen::VectorXcd y = Eigen::VectorXcd::Random(row.dofs), v(row.dofs);
     const Eigen::VectorXcd q = y.head(row.unknowns);
@@ -299,7 +299,7 @@ TEST_CASE("a singular block of the linear coordinates is found, whatever its siz
     s.dampers.clear();
     for (auto& mass : s.masses) mass.values = {1.0};
     FullEquation full(s);
-    hbm::Condensation condensation(full.parts.parts(), row.unknowns, full.model.response);
+    hbm::Condensation condensation(full.parts, row.unknowns, full.model.response);
     hbm::Condensed condensed;
     // A row whose one end stands still and whose other end is free.
     const int linear = row.dofs - row.unknowns;

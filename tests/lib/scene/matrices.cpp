@@ -112,6 +112,52 @@ TEST_CASE("a structure from matrices is that of its masses and springs") {
   }
 }
 
+TEST_CASE("a long structure from matrices with dampers anywhere is that of its masses and springs") {
+  constexpr int masses = 60;
+  const auto number = [](int i) { return std::to_string(i); };
+  std::string M, K, dofs, by_mass, springs;
+  for (int i = 1; i <= masses; ++i) {
+    const std::string n = number(i), comma = i > 1 ? ", " : "";
+    M += n + " " + n + " " + number(1 + i % 3) + "\n";
+    K += n + " " + n + " " + number(i < masses ? 2000 : 1000) + "\n";
+    if (i < masses) K += number(i + 1) + " " + n + " -1000\n";
+    dofs += comma + "\"x" + n + "\"";
+    by_mass +=
+        comma + R"({"name": "m)" + n + R"(", "at": "x)" + n + R"(", "value": )" + number(1 + i % 3) + "}";
+    springs += comma + R"({"name": "k)" + n + R"(", "value": 1000, )" +
+               (i > 1 ? R"("between": ["x)" + n + R"(", "x)" + number(i - 1) + R"("]})" : R"("at": "x1"})");
+  }
+  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n60 60 ";
+  std::string names = "name,row\n";
+  for (const int i : {2, 20, 41, 42, 60}) names += "x" + number(i) + "," + number(i) + "\n";
+  const Folder folder{{"M.mtx", head + "60\n" + M},
+                      {"K.mtx", head + "119\n" + K},
+                      {"C.mtx", head + "3\n20 20 2\n42 42 2\n42 20 -2\n"},
+                      {"names.csv", names}};
+  // Beside the matrix of dampers one of the scene.
+  const std::string tip = R"({"name": "tip", "between": ["x60", "x41"], "value": 3})";
+  const auto scene = [&](const std::string& structure) {
+    return read(
+        R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {)" + structure + R"(},
+      "elements": [{"name": "d", "type": "jenkins", "at": "x2", "stiffness": 300, "friction_coefficient": 0.5,
+                    "normal_load": 0.4}],
+      "excitation": [{"name": "f", "at": "x60", "cosine": 1}],
+      "response": {"at": "x60"}, "harmonics": {"order": 5}})",
+        folder.path());
+  };
+  const scene::Scene by_parts =
+      scene(R"("dofs": [)" + dofs + R"(], "masses": [)" + by_mass + R"(], "springs": [)" + springs +
+            R"(], "dampers": [{"name": "c", "between": ["x42", "x20"], "value": 2}, )" + tip + "]");
+  const std::string from_files = R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "damping": "C.mtx")";
+  const std::string rest = R"(}, "names": "names.csv", "dampers": [)" + tip + "]";
+  SECTION("whole") {
+    check_same(by_parts, scene(from_files + rest), 1e-10);
+  }
+  SECTION("reduced") {
+    check_same(by_parts, scene(from_files + R"(, "highest_frequency": 170)" + rest), 1e-9);
+  }
+}
+
 TEST_CASE("rigid friction stops the same motions of matrices alone as of masses and springs") {
   const Folder folder = chain();
   const auto with_rigid_friction = [&](const std::string& structure) {

@@ -242,7 +242,7 @@ TEST_CASE("numbers that overflow or are none are refused") {
   CHECK(refusal(with(0, 0, 1e308), {0}, 100).find(too_large) != std::string::npos);
   CHECK(refusal(with(0, 0, none), {0}, 100).find(too_large) != std::string::npos);
   CHECK(refusal(with(0, 1, none), {0}, 100).find(too_large) != std::string::npos);
-  CHECK(refusal(with(2, 2, none), {0}, 100).find("is not positive definite") != std::string::npos);
+  CHECK(refusal(with(2, 2, none), {0}, 100).find(too_large) != std::string::npos);
   CHECK(refusal(with(2, 2, 1e308), {0}, 100).find(too_large) != std::string::npos);
   CHECK(refusal(with(0, 0, 1), {0}, 1e200).find(too_large) != std::string::npos);
   CHECK(refusal(chain({-500, 100, 100}), {0}, 1)
