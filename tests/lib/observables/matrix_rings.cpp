@@ -8,6 +8,7 @@
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/prepare.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -81,8 +82,8 @@ TEST_CASE("each sector of a full ring from matrices moves as the one sector does
       }
       CHECK(largest < 1e-10);
       if (given.keys.empty() && given.order == 2) {
-        const auto of_one = peaks(one, 0.4, 2.5), of_all = peaks(all, 0.4, 2.5);
-        REQUIRE(of_one.size() >= 2);
+        const auto of_one = peaks(one, 0.5, 1.3), of_all = peaks(all, 0.5, 1.3);
+        REQUIRE(of_one.size() >= 1);
         REQUIRE(of_all.size() == of_one.size());
         for (std::size_t i = 0; i < of_one.size(); ++i) {
           CHECK(off(of_all[i].amplitude, of_one[i].amplitude) < 1e-10);
@@ -214,6 +215,8 @@ TEST_CASE("reduced copies move as whole ones, within the error that is told, als
     if (!mistuned) CHECK(model.dofs == 5 * (3 + model.reduction->coordinates));
     CHECK(contains(observables::prepare(less, {}), "of 30 rows was reduced to 2 of them and "));
     CHECK(contains(observables::prepare(less, {}), " coordinates in each of 5 copies; error"));
+    const auto told = studies::header(less).reduction;
+    CHECK(std::any_of(told.begin(), told.end(), [](const auto& each) { return each.key == "copies"; }));
     double largest = 0;
     for (const double w : {0.6, 1.4, 2.2, 3.0, 4.5})
       largest = std::max(largest, difference(scenes::response_at(less, w), scenes::response_at(whole, w)));
