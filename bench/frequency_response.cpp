@@ -177,11 +177,7 @@ void ring(benchmark::State& state) {
 BENCHMARK(paper)->Name("frf/paper")->ArgName("H")->ArgsProduct({{1, 3, 7, 15, 27, 55, 101}});
 BENCHMARK(paper_points)->Name("frf/paper_points")->ArgName("finer")->ArgsProduct({{1, 2, 4, 8, 16}});
 BENCHMARK(paper_threads)->Name("frf/paper_threads")->ThreadRange(1, 4);
-BENCHMARK(shared_elements)
-    ->Name("frf/shared_elements")
-    ->ArgName("threads")
-    ->ArgsProduct({{1, 2, 4}})
-    ->UseRealTime();
+BENCHMARK(shared_elements)->Name("frf/shared_elements")->ArgName("threads")->ArgsProduct({{1, 2, 4}});
 BENCHMARK(duffing)->Name("frf/duffing");
 BENCHMARK(damped_chain)->Name("frf/damped_chain");
 BENCHMARK(nlvib_chain)->Name("frf/nlvib_chain");
