@@ -3,6 +3,7 @@
 #include "contains.hpp"
 
 #include "lib/scene/matrix_rings.hpp"
+#include "lib/scene/only_fault.hpp"
 
 #include <arcslip/model/model.hpp>
 #include <arcslip/model/reduced_scene.hpp>
@@ -51,14 +52,7 @@ Folder three_rows() {
 void check_fault(const std::string& whole, const Folder& folder, const std::string& pointer,
                  const std::string& part) {
   CAPTURE(whole);
-  try {
-    observables::prepare(read(whole, folder), {});
-    FAIL("no fault");
-  } catch (const scene::SceneError& error) {
-    REQUIRE(error.faults().size() == 1);
-    CHECK(error.faults()[0].pointer == pointer);
-    CHECK_THAT(error.faults()[0].message, Catch::Contains(part));
-  }
+  scene::test::check_only_fault([&] { observables::prepare(read(whole, folder), {}); }, pointer, part);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/scene/only_fault.hpp"
 
 #include <string>
 
@@ -65,14 +66,7 @@ std::string full() {
 
 void check_fault(const std::string& text, const std::string& pointer, const std::string& part) {
   CAPTURE(text);
-  try {
-    scenes::parse(text);
-    FAIL("no fault");
-  } catch (const scene::SceneError& error) {
-    REQUIRE(error.faults().size() == 1);
-    CHECK(error.faults()[0].pointer == pointer);
-    CHECK_THAT(error.faults()[0].message, Catch::Contains(part));
-  }
+  scene::test::check_only_fault([&] { scenes::parse(text); }, pointer, part);
 }
 
 }  // namespace
