@@ -86,6 +86,7 @@ class Builder {
       model_.unnamed_from = placed.unnamed_from;
       model_.unnamed_to = placed.unnamed_to;
       model_.matrices = std::move(placed.parts);
+      model_.linked = !model_.matrices.empty() && model_.matrices.front().waves;
       model_.reduction = placed.reduction;
       dof_of_ = std::move(placed.dof_of);
       by_speed_ = std::move(placed.by_speed);

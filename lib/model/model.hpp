@@ -34,6 +34,8 @@ struct Sector {
 
   double phase() const { return 2 * std::numbers::pi * engine_order / count; }  // rad
   std::complex<double> turn(int n) const;
+  /// Nodal diameters of the wave of harmonic n, 0 to count - 1.
+  int diameter(int n) const { return static_cast<int>(static_cast<long long>(n) * engine_order % count); }
 };
 
 /// A mass, damper or spring: value * d d^T on the degrees of freedom. In a sector it may reach into the next
@@ -47,15 +49,36 @@ struct LinearPart {
 /// circulatory: a stiffness without a potential, to which no proportional damping belongs.
 enum class LinearKind { mass, damper, spring, circulatory };
 
+/// A matrix of a sector that reaches into the next one, in the wave of d nodal diameters: A_own + t A_next +
+/// t* A_previous with t = exp(-2 pi i d/count), Hermitian where the structure is symmetric. Degrees of
+/// freedom without a name stand for other motions in each wave.
+class WaveMatrices {
+ public:
+  /// of_diameter: of each d from 0 to count/2, empty where no harmonic has it.
+  WaveMatrices(int count, std::vector<Eigen::MatrixXcd> of_diameter)
+      : count_(count), of_(std::move(of_diameter)) {}
+
+  /// Of d from 0 to count - 1: the wave of count - d is that of d the other way round.
+  Eigen::MatrixXcd of(int d) const {
+    return 2 * d > count_ ? of_[static_cast<std::size_t>(count_ - d)].conjugate()
+                          : of_[static_cast<std::size_t>(d)];
+  }
+
+ private:
+  int count_;
+  std::vector<Eigen::MatrixXcd> of_;
+};
+
 /// A matrix of the structure: value * A, with value = c, its parameter over `scale`, or c^2, or 1 where there
 /// is no parameter. Gyroscopic matrices are dampers with a skew-symmetric A.
 struct MatrixPart {
   LinearKind kind;
   int parameter = -1;
-  std::shared_ptr<const Eigen::MatrixXd> A;  // dofs x dofs
+  std::shared_ptr<const Eigen::MatrixXd> A;  // dofs x dofs; with waves, where all sectors move alike
   bool squared = false;
   double scale = 1;
-  bool symmetric = true;  // A is
+  bool symmetric = true;                        // A is, or Hermitian in waves
+  std::shared_ptr<const WaveMatrices> waves{};  // null: A in all of them
 
   double value(continuation::In p) const {
     const double c = parameter < 0 ? 1 : p[parameter] / scale;
@@ -169,7 +192,7 @@ struct Model {
   std::vector<MatrixPart> matrices;
   std::optional<ProportionalDamping> damping;
   std::optional<Sector> sector;
-  bool linked = false;  // masses, dampers or springs reach into the next sector
+  bool linked = false;  // masses, dampers, springs or matrices reach into the next sector
   std::vector<NonlinearPart> elements;
   std::vector<Patch> patches;
   std::vector<Excitation> excitation;

@@ -3,9 +3,10 @@
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/rotation.hpp>
 #include <arcslip/scene/shape.hpp>
-#include <arcslip/structure/reduction.hpp>
+#include <arcslip/structure/wave.hpp>
 
 #include <algorithm>
+#include <complex>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -15,8 +16,8 @@
 namespace arcslip::model {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-using structure::Reduced;
+using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXcd, Eigen::VectorXd;
+using structure::Reduced, structure::Wave, structure::WaveStructure;
 
 constexpr Index most_of_copies = 2500;  // degrees of freedom together: matrices are dense
 
@@ -39,17 +40,26 @@ scene::Matrices with_stiffness(scene::Matrices matrices, double factor) {
   return matrices;
 }
 
+// Of a closed ring among what is known of the matrices of a sector.
+std::string ring_key(const scene::Matrices& sector) {
+  std::string key = "the ring of " + std::to_string(sector.copies);
+  for (const double factor : sector.stiffness_factors) key += ' ' + scene::number_text(factor);
+  return key + ' ';
+}
+
 /// One copy of the structure: matrices and loads in its rows and coordinates.
 struct Copy {
-  std::shared_ptr<const Reduced> in;
-  Index first = 0;  // of its coordinates, behind the rows of all copies
+  std::shared_ptr<const Reduced> in;  // null: in waves
+  Index size = 0;                     // rows and coordinates
+  Index first = 0;                    // of its coordinates, behind the rows of all copies
 };
 
 class Placer {
  public:
-  Placer(const scene::Scene& scene, const scene::StopRequest& stop)
+  /// files: the matrices of the scene, or where their copies share rows those of the closed ring.
+  Placer(const scene::Scene& scene, const scene::Matrices& files, const scene::StopRequest& stop)
       : scene_(scene),
-        files_(*scene.matrices),
+        files_(files),
         reduces_(files_.highest_frequency > 0),
         copies_(files_.copies),
         stop_(stop) {}
@@ -57,10 +67,16 @@ class Placer {
   PlacedMatrices place() {
     choose_rows();
     add_shapes();
-    make_copies();
+    if (in_waves())
+      make_waves();
+    else
+      make_copies();
     name_dofs();
     add_parts();
-    place_shapes();
+    if (in_waves())
+      place_shapes_in_waves();
+    else
+      place_shapes();
     return std::move(placed_);
   }
 
@@ -69,6 +85,11 @@ class Placer {
   struct Load {
     VectorXd on_rows, load;
   };
+
+  // One sector whose matrices reach into the next one.
+  bool in_waves() const { return !files_.faces.empty(); }
+  // The copies are one structure.
+  bool is_closed_ring() const { return &files_ != &*scene_.matrices; }
 
   bool is_used(std::size_t name, const std::vector<bool>& used) const {
     const auto first = used.begin() + static_cast<std::ptrdiff_t>(name) * copies_;
@@ -89,6 +110,7 @@ class Placer {
     if (reduces_) return;
     std::vector<bool> named(static_cast<std::size_t>(files_.size()), false);
     for (const int row : rows_) named[static_cast<std::size_t>(row)] = true;
+    for (const scene::FacePair& pair : files_.faces) named[static_cast<std::size_t>(pair.beyond)] = true;
     for (int row = 0; row < files_.size(); ++row)
       if (!named[static_cast<std::size_t>(row)]) rows_.push_back(row);
   }
@@ -103,7 +125,7 @@ class Placer {
   }
 
   void add_shapes() {
-    std::map<std::tuple<const scene::SparseMatrix*, int, bool>, std::size_t> known;
+    std::map<std::tuple<const scene::SparseMatrix*, int, bool, int>, std::size_t> known;
     for (std::size_t i = 0; i < scene_.excitation.size(); ++i) {
       const scene::Shape* shape = scene::shape_of(scene_.excitation[i]);
       if (shape == nullptr) continue;
@@ -111,16 +133,20 @@ class Placer {
       for (const bool imaginary : {false, true}) {
         const scene::ShapeFile& file = imaginary ? shape->imaginary : shape->real;
         if (!file.is_given()) continue;
+        const int copy = std::max(shape->copy, 1) - 1, ring_copy = is_closed_ring() ? copy : 0;
         const auto [found, is_new] =
-            known.try_emplace({file.from.matrix.get(), file.column, moves_base}, loads_.size());
+            known.try_emplace({file.from.matrix.get(), file.column, moves_base, ring_copy}, loads_.size());
         if (is_new) {
           const std::vector<double> values = file.values();
           VectorXd on_rows = VectorXd::Map(values.data(), static_cast<Index>(values.size()));
+          if (is_closed_ring())
+            on_rows = moves_base ? structure::displacements_on_ring(*scene_.matrices, copy, on_rows)
+                                 : structure::forces_on_ring(*scene_.matrices, copy, on_rows);
           VectorXd load = moves_base ? product(*files_.mass.matrix, on_rows) : on_rows;
           loads_.push_back({std::move(on_rows), std::move(load)});
         }
         load_of_.push_back(found->second);
-        copy_of_.push_back(std::max(shape->copy, 1) - 1);
+        copy_of_.push_back(is_closed_ring() ? 0 : copy);
         placed_.shapes.push_back({i, imaginary, {}, {}});
       }
     }
@@ -132,10 +158,45 @@ class Placer {
     for (int copy = 0; copy < copies_; ++copy) {
       std::shared_ptr<const Reduced>& in = made[files_.stiffness_factor(copy)];
       if (!in) in = reduces_ ? reduced(files_.stiffness_factor(copy)) : whole(files_.stiffness_factor(copy));
-      all_.push_back({in, coordinates});
+      all_.push_back({in, in->M.rows(), coordinates});
       coordinates += in->M.rows() - kept_;
     }
     check_size(kept_ * copies_ + coordinates);
+    tell_places(coordinates);
+    for (const auto& [factor, in] : made) tell_error(in->M.rows(), in->error, in->free_below);
+  }
+
+  // Of each nodal diameter that a harmonic may have.
+  void make_waves() {
+    const int count = scene_.cyclic->sectors;
+    waves_.resize(static_cast<std::size_t>(count) / 2 + 1);
+    Index size = kept_;
+    for (int n = 0; n < count; ++n) {
+      const int diameter = wave_of(n).diameter;
+      auto& in = waves_[static_cast<std::size_t>(diameter)];
+      if (in) continue;
+      in = wave({diameter, count});
+      size = std::max(size, in->size());
+    }
+    all_.push_back({nullptr, size, 0});
+    tell_places(size - kept_);
+    for (const auto& in : waves_)
+      if (in) tell_error(in->size(), in->error, in->free_below);
+  }
+
+  // Of harmonic n, in the direction in which the waves are made; backwards: it travels the other way round.
+  struct Harmonic {
+    int diameter;
+    bool backwards;
+  };
+  Harmonic wave_of(int n) const {
+    const int count = scene_.cyclic->sectors;
+    const auto order = static_cast<int>(static_cast<long long>(n) * scene_.cyclic->engine_order % count);
+    const int diameter = order < 0 ? order + count : order;
+    return 2 * diameter > count ? Harmonic{count - diameter, true} : Harmonic{diameter, false};
+  }
+
+  void tell_places(Index coordinates) {
     placed_.unnamed_from = static_cast<int>(kept_ * copies_);
     placed_.unnamed_to = static_cast<int>(kept_ * copies_ + coordinates);
     if (!reduces_) return;
@@ -144,11 +205,14 @@ class Placer {
     told.kept = static_cast<int>(kept_);
     told.highest_frequency = highest_frequency();
     told.highest_speed = highest_speed();
-    for (const auto& [factor, in] : made) {
-      told.coordinates = std::max(told.coordinates, static_cast<int>(in->M.rows() - kept_));
-      told.error = std::max(told.error, in->error);
-      told.free_below = std::max(told.free_below, in->free_below);
-    }
+  }
+
+  void tell_error(Index size, double error, double free_below) {
+    if (!placed_.reduction) return;
+    Reduction& told = *placed_.reduction;
+    told.coordinates = std::max(told.coordinates, static_cast<int>(size - kept_));
+    told.error = std::max(told.error, error);
+    told.free_below = std::max(told.free_below, free_below);
   }
 
   double highest_frequency() const {
@@ -161,24 +225,55 @@ class Placer {
     return rotation.engine_order > 0 ? highest_frequency() / rotation.engine_order : rotation.highest_speed;
   }
 
-  std::shared_ptr<const Reduced> reduced(double factor) const {
+  static std::string bytes(const char* what, const double* from, Index count) {
+    const std::string_view all(reinterpret_cast<const char*>(from),
+                               sizeof(double) * static_cast<std::size_t>(count));
+    return what + std::to_string(std::hash<std::string_view>()(all)) + ' ';
+  }
+
+  // Of these loads, and its name among what is known of the matrices.
+  std::pair<structure::Purpose, std::string> purpose(const std::vector<std::size_t>& loads) const {
     structure::Purpose purpose{highest_frequency(), highest_speed(), {}};
     std::string key = "reduced for " + std::to_string(purpose.highest) + " rad/s, " +
                       std::to_string(purpose.highest_speed) + " rad/s to ";
     for (const int row : rows_) key += std::to_string(row) + ' ';
-    const auto add_bytes = [&](const char* what, const double* from, Index count) {
-      const std::string_view bytes(reinterpret_cast<const char*>(from),
-                                   sizeof(double) * static_cast<std::size_t>(count));
-      key += what + std::to_string(std::hash<std::string_view>()(bytes)) + ' ';
-    };
-    purpose.loads.resize(files_.size(), static_cast<Index>(loads_.size()));
-    for (std::size_t k = 0; k < loads_.size(); ++k) {
-      purpose.loads.col(static_cast<Index>(k)) = loads_[k].load;
-      add_bytes("with ", loads_[k].load.data(), loads_[k].load.size());
+    purpose.loads.resize(files_.size(), static_cast<Index>(loads.size()));
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      const VectorXd& load = loads_[loads[k]].load;
+      purpose.loads.col(static_cast<Index>(k)) = load;
+      key += bytes("with ", load.data(), load.size());
     }
-    if (factor != 1) add_bytes("of stiffness ", &factor, 1);
+    if (is_closed_ring()) key += ring_key(*scene_.matrices);
+    return {std::move(purpose), std::move(key)};
+  }
+
+  std::shared_ptr<const Reduced> reduced(double factor) const {
+    std::vector<std::size_t> all(loads_.size());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+    auto [purpose_of, key] = purpose(all);
+    if (factor != 1) key += bytes("of stiffness ", &factor, 1);
     return files_.derived->get<Reduced>(
-        key, [&] { return structure::reduce(with_stiffness(files_, factor), rows_, purpose, stop_); });
+        key, [&] { return structure::reduce(with_stiffness(files_, factor), rows_, purpose_of, stop_); });
+  }
+
+  // The loads that have the diameter of a wave.
+  std::vector<std::size_t> loads_in(int diameter) const {
+    std::vector<std::size_t> all;
+    for (std::size_t s = 0; s < placed_.shapes.size(); ++s)
+      if (wave_of(scene_.excitation[placed_.shapes[s].excitation].harmonic).diameter == diameter &&
+          std::find(all.begin(), all.end(), load_of_[s]) == all.end())
+        all.push_back(load_of_[s]);
+    return all;
+  }
+
+  std::shared_ptr<const WaveStructure> wave(const Wave& in) const {
+    const auto [purpose_of, key] = purpose(loads_in(in.diameter));
+    if (!reduces_)
+      return std::make_shared<const WaveStructure>(
+          structure::whole_wave(files_, in, rows_, purpose_of.loads));
+    return files_.derived->get<WaveStructure>(
+        key + "in the wave " + std::to_string(in.diameter) + "/" + std::to_string(in.count),
+        [&] { return structure::reduce_wave(files_, in, rows_, purpose_of, stop_); });
   }
 
   std::shared_ptr<const Reduced> whole(double factor) const {
@@ -225,7 +320,7 @@ class Placer {
         names.push_back(
             scene_.dofs[name * static_cast<std::size_t>(copies_) + static_cast<std::size_t>(copy)]);
     for (int copy = 0; copy < copies_; ++copy)
-      for (Index k = kept_; k < all_[static_cast<std::size_t>(copy)].in->M.rows(); ++k)
+      for (Index k = kept_; k < all_[static_cast<std::size_t>(copy)].size; ++k)
         names.push_back((reduces_ ? "coordinate " + std::to_string(k - kept_ + 1)
                                   : "row " + std::to_string(rows_[static_cast<std::size_t>(k)] + 1)) +
                         (copies_ > 1 ? " of copy " + std::to_string(copy + 1) : ""));
@@ -239,16 +334,47 @@ class Placer {
   }
 
   void add_parts() {
-    add(LinearKind::mass, &Reduced::M);
-    add(LinearKind::spring, &Reduced::K, !files_.unsymmetric_stiffness);
-    add(LinearKind::damper, &Reduced::C, !files_.unsymmetric_damping);
-    add_by_speed(LinearKind::spring, &Reduced::K2, true);
-    add_by_speed(LinearKind::damper, &Reduced::G, false);
-    add_by_speed(LinearKind::circulatory, &Reduced::N, false);
+    add(LinearKind::mass, {&Reduced::M, &WaveStructure::M});
+    add(LinearKind::spring, {&Reduced::K, &WaveStructure::K}, !files_.unsymmetric_stiffness);
+    add(LinearKind::damper, {&Reduced::C, &WaveStructure::C}, !files_.unsymmetric_damping);
+    add_by_speed(LinearKind::spring, {&Reduced::K2, &WaveStructure::K2}, true);
+    add_by_speed(LinearKind::damper, {&Reduced::G, &WaveStructure::G}, false);
+    add_by_speed(LinearKind::circulatory, {&Reduced::N, &WaveStructure::N}, false);
+  }
+
+  struct Which {
+    MatrixXd Reduced::*of_copy;
+    MatrixXcd WaveStructure::*in_wave;
+  };
+
+  bool add(LinearKind kind, const Which& which, bool symmetric = true) {
+    const bool is_there = in_waves() ? add_waves(kind, which.in_wave) : add_blocks(kind, which.of_copy);
+    if (is_there) placed_.parts.back().symmetric = symmetric;
+    return is_there;
+  }
+
+  // Coordinates that a wave has not are beside it, with a stiffness of their own.
+  bool add_waves(LinearKind kind, MatrixXcd WaveStructure::*part) {
+    const auto dofs = static_cast<Index>(placed_.dof_names.size());
+    std::vector<MatrixXcd> of_diameter(waves_.size());
+    for (std::size_t d = 0; d < waves_.size(); ++d) {
+      if (!waves_[d]) continue;
+      const MatrixXcd& block = (*waves_[d]).*part;
+      if (block.size() == 0) return false;
+      MatrixXcd& A = of_diameter[d];
+      A.setZero(dofs, dofs);
+      A.topLeftCorner(block.rows(), block.cols()) = block;
+      if (part == &WaveStructure::K)
+        A.diagonal().segment(block.rows(), all_.front().size - block.rows()).setOnes();
+    }
+    placed_.parts.push_back({kind, -1, std::make_shared<const MatrixXd>(of_diameter.front().real())});
+    placed_.parts.back().waves =
+        std::make_shared<const WaveMatrices>(scene_.cyclic->sectors, std::move(of_diameter));
+    return true;
   }
 
   // A block for each copy.
-  bool add(LinearKind kind, MatrixXd Reduced::*part, bool symmetric = true) {
+  bool add_blocks(LinearKind kind, MatrixXd Reduced::*part) {
     if (((*all_.front().in).*part).size() == 0) return false;
     const auto dofs = static_cast<Index>(placed_.dof_names.size());
     MatrixXd A = MatrixXd::Zero(dofs, dofs);
@@ -258,13 +384,12 @@ class Placer {
         for (Index i = 0; i < block.rows(); ++i) A(place_of(copy, i), place_of(copy, j)) = block(i, j);
     }
     placed_.parts.push_back({kind, -1, std::make_shared<const MatrixXd>(std::move(A))});
-    placed_.parts.back().symmetric = symmetric;
     return true;
   }
 
   // Of a rotor, value: speed or its square.
-  void add_by_speed(LinearKind kind, MatrixXd Reduced::*part, bool squared) {
-    if (!add(kind, part, squared)) return;
+  void add_by_speed(LinearKind kind, const Which& which, bool squared) {
+    if (!add(kind, which, squared)) return;
     placed_.parts.back().squared = squared;
     placed_.by_speed.push_back(placed_.parts.size() - 1);
   }
@@ -284,6 +409,31 @@ class Placer {
       for (std::size_t k = 0; k < rows_.size(); ++k)
         shape.ground[place_of(copy, static_cast<Index>(k))] = of.on_rows[rows_[k]];
     }
+  }
+
+  // T^H f in the wave of its harmonic: complex, and of each excitation once.
+  void place_shapes_in_waves() {
+    const auto dofs = static_cast<Index>(placed_.dof_names.size());
+    std::vector<PlacedShape> all;
+    for (std::size_t i = 0; i < scene_.excitation.size(); ++i) {
+      VectorXcd sum = VectorXcd::Zero(dofs);
+      bool any = false;
+      const Harmonic harmonic = wave_of(scene_.excitation[i].harmonic);
+      const std::vector<std::size_t> known = loads_in(harmonic.diameter);
+      for (std::size_t s = 0; s < placed_.shapes.size(); ++s) {
+        if (placed_.shapes[s].excitation != i) continue;
+        const auto k = std::find(known.begin(), known.end(), load_of_[s]) - known.begin();
+        const MatrixXcd& loads = waves_[static_cast<std::size_t>(harmonic.diameter)]->loads;
+        VectorXcd load = loads.col(k);
+        if (harmonic.backwards) load = load.conjugate().eval();
+        sum.head(load.size()) += (placed_.shapes[s].imaginary ? std::complex<double>(0, 1) : 1.0) * load;
+        any = true;
+      }
+      if (!any) continue;
+      all.push_back({i, false, sum.real(), {}});
+      if (!sum.imag().isZero(0)) all.push_back({i, true, sum.imag(), {}});
+    }
+    placed_.shapes = std::move(all);
   }
 
   std::vector<bool> used_dofs() const {
@@ -316,13 +466,18 @@ class Placer {
   std::vector<std::size_t> load_of_;  // of each shape
   std::vector<int> copy_of_;          // the same
   std::vector<Copy> all_;
+  std::vector<std::shared_ptr<const WaveStructure>> waves_;  // by nodal diameter; null: no harmonic has it
   PlacedMatrices placed_;
 };
 
 }  // namespace
 
 PlacedMatrices place_matrices(const scene::Scene& scene, const scene::StopRequest& stop) {
-  return Placer(scene, stop).place();
+  const scene::Matrices& sector = *scene.matrices;
+  if (sector.faces.empty() || sector.copies == 1) return Placer(scene, sector, stop).place();
+  const auto ring =
+      sector.derived->get<scene::Matrices>(ring_key(sector), [&] { return structure::closed_ring(sector); });
+  return Placer(scene, *ring, stop).place();
 }
 
 }  // namespace arcslip::model

@@ -405,6 +405,7 @@ Node schema_of(const Catalogue& catalogue) {
                                                  {"circulatory", matrix_file()},
                                                  {"unsymmetric", unsymmetric()},
                                                  {"highest_frequency", of_type("number")},
+                                                 {"faces", of_type("string")},
                                                  {"copies", copies()},
                                                  {"stiffness_factors", list_of(above_zero())}},
                                                 {"mass", "stiffness"}))});

@@ -8,6 +8,9 @@
 //
 // The structure may stand several times side by side: M, C and K are then block-diagonal, one block for each
 // copy, and each name stands for the same row of all copies, with the number of the copy at its end.
+//
+// A sector of a ring may have rows on both of its faces (FacePair): it is then linked to the next one by rows
+// that both have, and its copies are the closed ring.
 
 #include <arcslip/scene/bar.hpp>
 #include <arcslip/scene/named_file.hpp>
@@ -50,13 +53,21 @@ class Derived {
   std::map<std::string, std::shared_ptr<const void>> all_;
 };
 
+/// Rows of a sector, from 0: what is the row `own` of the next sector is the row `beyond` of this one.
+struct FacePair {
+  int own, beyond;
+  friend bool operator==(const FacePair&, const FacePair&) = default;
+};
+
 struct Matrices {
   MatrixFile mass{}, stiffness{}, damping{};  // kg, N/m, N s/m; damping without a path: none
   MatrixFile stiffness_speed_squared{};       // N/m s^2/rad^2: K2 of K + speed^2 K2; without a path: none
   MatrixFile gyroscopic{}, circulatory{};     // G and N; with a rotation per rad/s; without a path: none
   bool unsymmetric_stiffness = false, unsymmetric_damping = false;  // as the scene says
   NamedFile names{};
-  std::vector<int> rows{};                  // with names, from 0; in Scene::dofs each has all its copies
+  std::vector<int> rows{};  // with names, from 0; in Scene::dofs each has all its copies
+  NamedFile faces_file{};   // without a path: none
+  std::vector<FacePair> faces{};
   int copies = 1;                           // of the structure, side by side: the sectors of a full ring
   std::vector<double> stiffness_factors{};  // of the stiffness matrix in each copy; empty: 1
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not

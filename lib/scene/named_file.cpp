@@ -21,8 +21,9 @@ bool operator==(const Matrices& a, const Matrices& b) {
          a.stiffness_speed_squared == b.stiffness_speed_squared && a.gyroscopic == b.gyroscopic &&
          a.circulatory == b.circulatory && a.unsymmetric_stiffness == b.unsymmetric_stiffness &&
          a.unsymmetric_damping == b.unsymmetric_damping && a.names == b.names && a.rows == b.rows &&
-         a.copies == b.copies && a.stiffness_factors == b.stiffness_factors &&
-         a.highest_frequency == b.highest_frequency && a.bar == b.bar;
+         a.faces_file == b.faces_file && a.faces == b.faces && a.copies == b.copies &&
+         a.stiffness_factors == b.stiffness_factors && a.highest_frequency == b.highest_frequency &&
+         a.bar == b.bar;
 }
 
 std::vector<NamedFile*> files(Scene& scene) {
@@ -37,6 +38,7 @@ std::vector<NamedFile*> files(Scene& scene) {
     all = {&own.stiffness.file, &own.mass.file, &own.names};
     for (MatrixFile* file : {&own.damping, &own.stiffness_speed_squared, &own.gyroscopic, &own.circulatory})
       if (!file->file.path.empty()) all.push_back(&file->file);
+    if (!own.faces_file.path.empty()) all.push_back(&own.faces_file);
   }
   for (Part& part : scene.elements) add(part.type, part.options);
   for (Part& patch : scene.patches) add(patch.type, patch.options);

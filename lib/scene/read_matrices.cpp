@@ -1,4 +1,5 @@
 // Structures from matrices in files.
+#include <arcslip/scene/face_rows.hpp>
 #include <arcslip/scene/matrix_file.hpp>
 #include <arcslip/scene/read_parts.hpp>
 #include <arcslip/scene/read_studies.hpp>
@@ -57,7 +58,7 @@ class Files {
   Files(const Location& place, const Field& frequency, const FileSource& source, Faults& faults)
       : keys_(place,
               {"mass", "stiffness", "damping", "stiffness_speed_squared", "gyroscopic", "circulatory",
-               "unsymmetric", "highest_frequency", "copies", "stiffness_factors"},
+               "unsymmetric", "highest_frequency", "faces", "copies", "stiffness_factors"},
               faults),
         reading_{keys_, frequency, none_, no_dofs_, faults, source},
         faults_(faults) {}
@@ -89,6 +90,7 @@ class Files {
     if (matrices.unsymmetric_damping) check_mass("damping", matrices.damping, *matrices.mass.matrix);
     check_whole(keys_.pointer(), matrices, faults_);
     check_factors(matrices);
+    read_faces(matrices);
     return matrices;
   }
 
@@ -126,6 +128,15 @@ class Files {
       matrices.stiffness_factors =
           read_factors(factors, matrices.copies, above_0, "a factor of the stiffness for each copy", faults_)
               .value_or(std::vector<double>());
+  }
+
+  void read_faces(Matrices& matrices) {
+    const Location place = keys_.find("faces");
+    if (place.node == nullptr) return;
+    const auto file = read_file_of(place, "a string, the path of a CSV file of own,next", reading_);
+    if (!file || !file->text) return;
+    matrices.faces_file = *file;
+    read_face_rows(place, *file, matrices, faults_);
   }
 
   MatrixFile read_matrix(const std::string& key, bool required, Form form = Form::symmetric) {
@@ -317,6 +328,10 @@ std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit,
                "found " + std::to_string(matrices->copies) +
                    " beside \"cyclic\", must be left out: one sector has one copy, and with \"full\": true "
                    "there are as many as sectors");
+  if (matrices && matrices->copies == 1 && matrices->faces_file.text && !structure.has("cyclic"))
+    faults.add(child(place.pointer, "faces"),
+               "found the faces of a sector without \"cyclic\", must be beside it, or beside \"copies\" that "
+               "make a ring");
   if (faults.count() > before) dofs.complete = false;
   return matrices;
 }

@@ -3,7 +3,6 @@
 #include <arcslip/scene/csv_text.hpp>
 #include <arcslip/scene/study_keys.hpp>
 
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -12,27 +11,6 @@ namespace arcslip::scene::file {
 namespace {
 
 constexpr std::size_t most_names = 1'000'000;  // of all copies
-
-// Calls line(number, cells, whole) for each that is not left out, until it returns false.
-template <class Line>
-void for_each_line(std::string_view text, const Line& line) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
-  std::size_t number = 0;
-  for (const std::string_view whole : split(text, '\n')) {
-    ++number;
-    if (trimmed(whole).empty() || trimmed(whole).front() == '#') continue;
-    if (!line(number, split(whole, ','), trimmed(whole))) return;
-  }
-}
-
-// Row i from 1 to size, or nothing.
-std::optional<int> row_in(std::string_view digits, int size) {
-  int row = 0;
-  const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), row);
-  const bool is_row =
-      error == std::errc() && rest == digits.data() + digits.size() && row >= 1 && row <= size;
-  return is_row ? std::optional(row) : std::nullopt;
-}
 
 // What is wrong with a name, or with the names of its copies; empty if nothing is. The names are added.
 std::string add_name(const std::string& name, int copies, Dofs& dofs) {
@@ -59,6 +37,8 @@ void read_row_names(const Location& at, const NamedFile& file, Matrices& matrice
                     Faults& faults) {
   const std::size_t before = faults.count();
   std::unordered_map<int, std::size_t> lines;
+  std::unordered_map<int, int> beyond;
+  for (const FacePair& pair : matrices.faces) beyond.emplace(pair.beyond + 1, pair.own + 1);
   bool header = false;
   for_each_line(*file.text, [&](std::size_t line, const auto& cells, std::string_view whole) {
     const auto fault = [&](const std::string& what) {
@@ -87,6 +67,10 @@ void read_row_names(const Location& at, const NamedFile& file, Matrices& matrice
     if (!row) {
       fault("found the row " + shown(digits) + ", must be an integer from 1 to " +
             std::to_string(matrices.size()));
+    } else if (const auto own = beyond.find(*row); own != beyond.end()) {
+      fault("found the row " + std::to_string(*row) + ", which is row " + std::to_string(own->second) +
+            " of the next sector by \"faces\", must be a row of this one: name that row, and say {\"next\": "
+            "name}");
     } else if (first != lines.end()) {
       fault("found the row " + std::to_string(*row) + " again, which has a name in line " +
             std::to_string(first->second) + "; a row must have one name");

@@ -146,6 +146,7 @@ void add_matrices(const Matrices& matrices, Node::Object& structure) {
   if (!unsymmetric.empty()) files.push_back({"unsymmetric", node(unsymmetric)});
   if (matrices.highest_frequency > 0)
     files.push_back({"highest_frequency", node(matrices.highest_frequency)});
+  if (matrices.faces_file.text) files.push_back({"faces", node(matrices.faces_file.path)});
   if (matrices.copies > 1) files.push_back({"copies", node(matrices.copies)});
   if (!matrices.stiffness_factors.empty())
     files.push_back({"stiffness_factors", node(matrices.stiffness_factors)});
