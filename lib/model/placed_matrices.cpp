@@ -40,11 +40,18 @@ scene::Matrices with_stiffness(scene::Matrices matrices, double factor) {
   return matrices;
 }
 
+// A name of these numbers.
+std::string bytes(const char* what, const double* from, Index count) {
+  const std::string_view all(reinterpret_cast<const char*>(from),
+                             sizeof(double) * static_cast<std::size_t>(count));
+  return what + std::to_string(std::hash<std::string_view>()(all)) + ' ';
+}
+
 // Of a closed ring among what is known of the matrices of a sector.
 std::string ring_key(const scene::Matrices& sector) {
-  std::string key = "the ring of " + std::to_string(sector.copies);
-  for (const double factor : sector.stiffness_factors) key += ' ' + scene::number_text(factor);
-  return key + ' ';
+  const auto& factors = sector.stiffness_factors;
+  return bytes(("the ring of " + std::to_string(sector.copies) + " with ").c_str(), factors.data(),
+               static_cast<Index>(factors.size()));
 }
 
 /// One copy of the structure: matrices and loads in its rows and coordinates.
@@ -223,12 +230,6 @@ class Placer {
     if (scene_.rotation.empty() || scene_.rotation.front().options.empty()) return 0;
     const auto& rotation = scene_.rotation.front().options.as<scene::Rotation>();
     return rotation.engine_order > 0 ? highest_frequency() / rotation.engine_order : rotation.highest_speed;
-  }
-
-  static std::string bytes(const char* what, const double* from, Index count) {
-    const std::string_view all(reinterpret_cast<const char*>(from),
-                               sizeof(double) * static_cast<std::size_t>(count));
-    return what + std::to_string(std::hash<std::string_view>()(all)) + ' ';
   }
 
   // Of these loads, and its name among what is known of the matrices.

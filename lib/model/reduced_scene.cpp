@@ -84,6 +84,10 @@ ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
     throw NotReduced("the structure stands in " + std::to_string(scene.matrices->copies) +
                      " copies: reduce one of them, without \"copies\", or one sector of a full ring, without "
                      "\"full\": true, which may then stand in the reduced scene");
+  if (!scene.matrices->faces.empty())
+    throw NotReduced(
+        "the sector has \"faces\" to the next one: it is reduced for each nodal diameter of a scene, not "
+        "once for all");
   for (const scene::Part& part : scene.excitation)
     if (scene::is_base_motion(*part.type) && scene::shape_of(part) != nullptr)
       throw NotReduced(

@@ -35,7 +35,8 @@ std::optional<model::Reduction> reduction(const scene::Scene& scene, const scene
 std::string prepare(const scene::Scene& scene, const scene::StopRequest& stop) {
   const auto done = reduction(scene, stop);
   if (!done) return {};
-  const int copies = scene.matrices->copies;
+  // A closed ring is reduced as one.
+  const int copies = scene.matrices->faces.empty() ? scene.matrices->copies : 1;
   const auto frequency = [&](double omega) {
     return results::quantity(omega / scene::to_rad_per_s(scene.frequency_unit),
                              scene::unit_name(scene.frequency_unit));

@@ -8,6 +8,8 @@
 namespace arcslip::scene::file {
 namespace {
 
+constexpr int most_waves = 200;  // sectors whose matrices are made for each nodal diameter
+
 bool any_value(const std::vector<Part>& parts) {
   return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.values.front() != 0; });
 }
@@ -131,14 +133,26 @@ void check_cyclic(const Scene& scene, Faults& faults) {
                          [](const Term& term) { return term.next; });
     });
   };
+  const bool has_faces = scene.matrices && !scene.matrices->faces.empty();
   for (std::size_t i = 0; i < scene.damping.size(); ++i)
     if (scene.damping[i].type == &modal_damping_type() &&
-        (is_linked(scene.masses) || is_linked(scene.springs)))
+        (is_linked(scene.masses) || is_linked(scene.springs) || has_faces))
       faults.add(
           child(child("/structure/damping", i), "type"),
           "found " + shown(scene.damping[i].type->name()) +
-              ", must be another damping where masses or springs reach into the next sector: the modes "
-              "of a ring are not those of one sector; give \"cyclic\" the key \"full\": true");
+              ", must be another damping where masses, springs or matrices reach into the next sector: the "
+              "modes of a ring are not those of one sector; give \"cyclic\" the key \"full\": true");
+  if (!has_faces) return;
+  if (scene.cyclic->sectors > most_waves)
+    faults.add("/structure/cyclic/sectors",
+               "found " + std::to_string(scene.cyclic->sectors) + ", must be at most " +
+                   std::to_string(most_waves) +
+                   " where the matrices have \"faces\": they are made for each nodal diameter");
+  for (std::size_t i = 0; i < scene.excitation.size(); ++i)
+    if (is_base_motion(*scene.excitation[i].type) && shape_of(scene.excitation[i]) != nullptr)
+      faults.add(child(child("/excitation", i), "shape"),
+                 "found a motion of the ground under a sector with \"faces\", must be the forces M r as the "
+                 "shape of a force; or give \"cyclic\" the key \"full\": true");
 }
 
 void check_excitation(const Scene& scene, Faults& faults) {

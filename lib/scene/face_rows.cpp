@@ -50,9 +50,10 @@ void read_face_rows(const Location& at, const NamedFile& file, Matrices& matrice
     constexpr const char* once = "a row must stand once";
     constexpr const char* one_face = "a row must be of one face";
     if (*first == *second)
-      fault("found the row " + std::to_string(*first) +
-            " on both faces, must be two rows: rows on the axis of the ring are fixed, or in a hub that all "
-            "sectors share");
+      fault(
+          "found the row " + std::to_string(*first) +
+          " on both faces, must be two rows; rows on the axis of the ring, which belong to all sectors, must "
+          "be left out of the matrices");
     else if (!again(*first, own, once) && !again(*first, beyond, one_face) && !again(*second, beyond, once) &&
              !again(*second, own, one_face))
       matrices.faces.push_back({*first - 1, *second - 1});

@@ -148,7 +148,8 @@ results::Header header(const scene::Scene& scene) {
                         {"coordinates", reduction->coordinates},
                         {"error", reduction->error},
                         {"highest_frequency", scene.matrices->highest_frequency, unit}};
-    if (scene.matrices->copies > 1) header.reduction.push_back({"copies", scene.matrices->copies});
+    if (scene.matrices->copies > 1 && scene.matrices->faces.empty())
+      header.reduction.push_back({"copies", scene.matrices->copies});
     if (reduction->highest_speed > 0)
       header.reduction.push_back({"highest_speed", reduction->highest_speed, "rad/s"});
   }
