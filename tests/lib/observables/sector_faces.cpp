@@ -268,7 +268,8 @@ TEST_CASE("what is wrong with the faces of a sector is told") {
   fault(with_faces({201, 2}, Ring::sector), "/structure/cyclic/sectors",
         "found 201, must be at most 200 where the matrices have \"faces\"");
   Given ground{6, 2};
-  ground.excitation = R"({"name": "g", "type": "base_acceleration", "shape": "r.mtx", "cosine": 1})";
+  ground.excitation =
+      R"({"name": "g", "type": "base_acceleration", "shape": "r.mtx", "at": "pad", "cosine": 1})";
   fault(with_faces(ground, Ring::sector), "/excitation/0/shape",
         "found a motion of the ground under a sector with \"faces\", must be the forces M r");
   std::string alone = with_faces({}, Ring::sector);

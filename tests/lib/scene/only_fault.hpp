@@ -16,6 +16,7 @@ void check_only_fault(const Read& read, const std::string& pointer, const std::s
     read();
     FAIL("no fault");
   } catch (const SceneError& error) {
+    CAPTURE(error.what());
     REQUIRE(error.faults().size() == 1);
     CHECK(error.faults()[0].pointer == pointer);
     CHECK_THAT(error.faults()[0].message, Catch::Contains(part));
