@@ -42,7 +42,7 @@ std::string text(double value) {
 class Curves {
  public:
   Curves(std::vector<std::string> kinds, const scene::Scene& scene, const CurveRange& range,
-         const ProgressCallback& report)
+         const ProgressCallback& report, double least = 0)
       : kinds_(std::move(kinds)),
         peaks_(kinds_.front() == event_kinds::peak),
         unit_(scene.frequency_unit),
@@ -51,7 +51,8 @@ class Curves {
         way_(over_parameter(scene, range.over, range.from, range.to)),
         parts_(kinds_.front(), unit_, way_),
         report_(report),
-        stability_(range.stability) {}
+        stability_(range.stability),
+        least_(least) {}
 
   std::vector<ResponseBranch> run() {
     look_at(0);
@@ -114,7 +115,10 @@ class Curves {
     const double over = way_.value(share);
     const SpecialPoints response = special_points(way_, over, window_, kinds_, [this] { return go_on(); });
     if (stopped_) return;
+    double highest = 0;
+    for (const SpecialPoint& start : response.points) highest = std::max(highest, start.amplitude);
     for (const SpecialPoint& start : response.points) {
+      if (start.amplitude < least_ * highest) continue;
       follow(start, share);
       if (stopped_) return;
     }
@@ -294,6 +298,7 @@ class Curves {
   std::vector<double> looked_at_, to_look_at_;  // shares of the range
   std::vector<Found> found_;
   StabilityRequest stability_;
+  const double least_;    // share of the highest point of a response, of those that start a curve
   bool stopped_ = false;  // by the user
   double failed_at_ = 0;
   std::string failure_, unbounded_;
@@ -303,8 +308,14 @@ class Curves {
 
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
                                             const ProgressCallback& progress) {
+  return high_resonance_peaks(scene, range, 0, progress);
+}
+
+std::vector<ResponseBranch> high_resonance_peaks(const scene::Scene& scene, const CurveRange& range,
+                                                 double share, const ProgressCallback& progress) {
   const bool phase = range.resonance == Resonance::phase;
-  return Curves({phase ? event_kinds::phase_resonance : event_kinds::peak}, scene, range, progress).run();
+  return Curves({phase ? event_kinds::phase_resonance : event_kinds::peak}, scene, range, progress, share)
+      .run();
 }
 
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRange& range,

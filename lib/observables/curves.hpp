@@ -63,6 +63,10 @@ std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const 
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
                                             const ProgressCallback& progress = {});
 
+/// Those of high peaks: a peak below this share of the highest one of its response starts no curve.
+std::vector<ResponseBranch> high_resonance_peaks(const scene::Scene& scene, const CurveRange& range,
+                                                 double share, const ProgressCallback& progress = {});
+
 /// The curves of folds in frequency over range.over, found in the same way; two folds that meet in a cusp are
 /// on one curve. Events: "cusp", "fold", where the curve turns in the parameter, "turn", where it turns in
 /// the frequency (folds in the parameter at fixed frequency start or end there), and "corner" as for peaks.

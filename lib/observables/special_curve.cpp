@@ -226,7 +226,8 @@ double add_points(const std::shared_ptr<const model::Model>& model, double over,
       if (std::find(kinds.begin(), kinds.end(), event->monitor) == kinds.end()) return true;
       Vector x(now.u.size() + 1);
       x << now.u, now.parameter;
-      found.points.push_back({{}, over, std::move(x), event->nonsmooth, event->monitor});
+      found.points.push_back(
+          {{}, over, std::move(x), event->nonsmooth, event->monitor, observer.observe(now).amplitude});
       return true;
     }
     const double last = course.back().second;

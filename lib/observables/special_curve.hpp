@@ -29,6 +29,7 @@ struct SpecialPoint {
   continuation::Vector x;                          // unknowns and frequency
   bool nonsmooth = false;
   std::string kind{};  // of event_kinds
+  double amplitude = 0;
 };
 
 struct SpecialPoints {

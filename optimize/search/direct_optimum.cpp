@@ -17,6 +17,7 @@ using continuation::text;
 namespace {
 
 constexpr double as_high = 1e-6;  // relative: no other peak is higher
+constexpr double least = 0.3;     // of the highest peak: lower ones are not followed
 
 // Of the curves of the result. Where another peak is higher at one, a sentence about it.
 std::string least_minimum(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space,
@@ -68,7 +69,7 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
     stopped = stopped || (progress && !progress(now));
     return !stopped;
   };
-  result.curves = observables::resonance_peaks(scene, range, ask);
+  result.curves = observables::high_resonance_peaks(scene, range, least, ask);
   std::string higher;
   try {
     higher = least_minimum(
