@@ -14,7 +14,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <fstream>
+#include <iterator>
 #include <numbers>
+#include <sstream>
 
 using namespace arcslip;
 using namespace matrix_rings;
@@ -56,6 +59,12 @@ std::string with_faces(Given given, Ring ring) {
                   R"(],
     "dampers")");
   return without(whole, R"({"name": "cl")", R"({"name": "cp")");
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path);
+  REQUIRE(in);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 double off(double a, double b) {
@@ -200,6 +209,40 @@ TEST_CASE("peaks of a sector with faces are those of its ring") {
     CHECK(off(one[i].amplitude, all[i].amplitude) < 1e-10);
     CHECK(off(one[i].omega, all[i].omega) < 1e-8);
   }
+}
+
+// CalculiX 2.20 with *CYCLIC SYMMETRY MODEL, of the mesh of examples/disk_sector (mesh.awk, cyclic=1).
+TEST_CASE("natural frequencies of a bladed disk by nodal diameters are those of a finite-element program") {
+  const std::string path = ARCSLIP_SOURCE_DIR "/examples/disk_sector/scene.json";
+  const std::vector<double> first{548.2099, 538.1251, 570.4716, 671.3459, 735.3208, 762.2713, 769.6992};
+  for (const bool full : {false, true})
+    for (int diameter = 0; diameter <= 6; ++diameter) {
+      CAPTURE(full, diameter);
+      std::string text = read_file(path);
+      const auto replace = [&](const std::string& piece, const std::string& by) {
+        const std::size_t at = text.find(piece);
+        REQUIRE(at != std::string::npos);
+        text.replace(at, piece.size(), by);
+      };
+      replace("\"engine_order\": 4",
+              "\"engine_order\": " + std::to_string(diameter) + (full ? ", \"full\": true" : ""));
+      replace("\"beta\": 2e-7", "\"beta\": 1e-9");
+      replace("\"normal_load\": 100", "\"normal_load\": 0");
+      replace("\"highest_frequency\": 8000", "\"highest_frequency\": 1200");
+      replace("\"order\": 7", "\"order\": 1");
+      std::istringstream in(text);
+      const scene::Scene s =
+          scene::read(in, test_catalogue::whole(), ARCSLIP_SOURCE_DIR "/examples/disk_sector");
+      const auto branches = observables::frequency_response(s, {500, 800});
+      REQUIRE(branches.size() == 1);
+      double highest = 0, at = 0;
+      for (const auto& event : branches[0].events)
+        if (event.kind == "peak" && event.point.amplitude > highest) {
+          highest = event.point.amplitude;
+          at = event.point.omega / (2 * std::numbers::pi);
+        }
+      CHECK(off(at, first[static_cast<std::size_t>(diameter)]) < 1e-7);
+    }
 }
 
 TEST_CASE("a scene with faces is written so that it is read again") {
