@@ -87,4 +87,10 @@ void ComplexSparseLU::solve_in_place(Eigen::MatrixXcd& B) const {
               pairs(B.data()), &lu_->common);
 }
 
+void ComplexSparseLU::solve_transposed_in_place(Eigen::MatrixXcd& B) const {
+  constexpr int conjugated = 0;
+  klu_z_tsolve(lu_->symbolic, lu_->numeric, static_cast<int>(B.rows()), static_cast<int>(B.cols()),
+               pairs(B.data()), conjugated, &lu_->common);
+}
+
 }  // namespace arcslip::continuation

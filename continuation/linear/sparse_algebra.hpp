@@ -25,8 +25,9 @@ class ComplexSparseLU {
   /// A has the pattern. False if a pivot is at most `least` times the largest entry of its column of A.
   bool factorize(const Matrix& A, double least);
 
-  /// B := A^-1 B, after a successful factorize().
+  /// B := A^-1 B and B := A^-T B, after a successful factorize().
   void solve_in_place(Eigen::MatrixXcd& B) const;
+  void solve_transposed_in_place(Eigen::MatrixXcd& B) const;
 
  private:
   struct Decomposition;

@@ -8,11 +8,9 @@
 namespace arcslip::hbm {
 namespace {
 
-using Sparse = continuation::ComplexSparseLU::Matrix;
-
-void put(const ComplexVector& column, Eigen::Index j, SplitMatrix& into) {
-  into.re.col(j) = column.real();
-  into.im.col(j) = column.imag();
+// Of y in its pattern, in that of l.
+ComplexSparse linear_block(const ComplexSparse& of, Eigen::Index l) {
+  return of.bottomRightCorner(l, l);
 }
 
 }  // namespace
@@ -72,23 +70,14 @@ Condensation::Condensation(const LinearParts& parts, int unknowns, const Eigen::
 
 // Each degree of freedom of a large structure is linked to few others, and so is each coordinate in y.
 void Condensation::choose_sparse(const LinearParts& parts) {
-  if (parts.has_matrices()) return;
-  std::vector<Links> links;
-  for (const PartInY& part : parts.parts()) {
-    Links& linked = links.emplace_back();
-    for (const auto& [i, at_i] : part.direction.entries())
-      if (i >= r_) linked.push_back(i - r_);
-  }
-  if (const auto pattern = sparse_pattern(l_, links)) {
-    sparse_Zll_ = *pattern;
-    sparse_lu_.emplace(sparse_Zll_);
-  }
+  sparse_Zll_ = linear_block(parts.pattern(), l_);
+  if (sparse_is_cheaper(sparse_Zll_)) sparse_lu_.emplace(sparse_Zll_);
 }
 
 bool Condensation::solve_linear(const StructuralMatrices& of, const Factors& g) {
   if (sparse_lu_) {
     for (int j = 0; j < l_; ++j)
-      for (Sparse::InnerIterator entry(sparse_Zll_, j); entry; ++entry)
+      for (ComplexSparse::InnerIterator entry(sparse_Zll_, j); entry; ++entry)
         entry.valueRef() = of.at(g, r_ + entry.row(), r_ + j);
     if (!sparse_lu_->factorize(sparse_Zll_, singular_pivot)) return false;
     W_ = rhs_;
@@ -136,50 +125,84 @@ bool Condensation::condense(const StructuralMatrices& of, const Factors& g, cons
   return true;
 }
 
-UnsymmetricCondensation::UnsymmetricCondensation(int unknowns, const Eigen::MatrixXd& observed)
+UnsymmetricCondensation::UnsymmetricCondensation(const ComplexSparse& pattern, int unknowns,
+                                                 const Eigen::MatrixXd& observed)
     : r_(unknowns),
       l_(observed.rows() - unknowns),
-      Zll_(l_, l_),
       c_(observed.bottomRows(l_).cast<Complex>()),
-      column_(l_),
-      solution_(l_),
-      lu_(l_) {}
+      W_(l_, r_ + 1),
+      V_(l_, r_ + c_.cols()),
+      lu_(0) {
+  sparse_Zll_ = linear_block(pattern, l_);
+  if (l_ > in_place_up_to && sparse_is_cheaper_than_lu(sparse_Zll_)) {
+    sparse_lu_.emplace(sparse_Zll_);
+  } else {
+    Zll_.setZero(l_, l_);
+    solution_.resize(l_);
+    lu_ = continuation::LU<Complex>(l_);
+  }
+}
 
-bool UnsymmetricCondensation::condense(const ComplexMatrix& Z, const ComplexVector& f, Condensed& into) {
-  into.has_rates = into.has_observed = false;
-  into.Z = Z.topLeftCorner(r_, r_);
+void UnsymmetricCondensation::set_blocks(const ComplexSparse& Z, const ComplexVector& f, Condensed& into) {
+  into.Z.setZero(r_, r_);
   into.f = f.head(r_);
-  if (l_ == 0) return true;
-  Zll_ = Z.bottomRightCorner(l_, l_);
+  W_.setZero();
+  V_.setZero();
+  Complex* linear = sparse_Zll_.valuePtr();
+  for (Eigen::Index j = 0; j < r_ + l_; ++j)
+    for (ComplexSparse::InnerIterator entry(Z, j); entry; ++entry) {
+      const Eigen::Index i = entry.row();
+      if (i < r_ && j < r_)
+        into.Z(i, j) = entry.value();
+      else if (j < r_)
+        W_(i - r_, j) = entry.value();
+      else if (i < r_)
+        V_(j - r_, i) = entry.value();
+      else if (sparse_lu_)
+        *linear++ = entry.value();
+      else
+        Zll_(i - r_, j - r_) = entry.value();
+    }
+  W_.col(r_) = f.tail(l_);
+  V_.rightCols(c_.cols()) = c_;
+}
+
+bool UnsymmetricCondensation::solve() {
+  if (sparse_lu_) {
+    if (!sparse_lu_->factorize(sparse_Zll_, singular_pivot)) return false;
+    sparse_lu_->solve_in_place(W_);
+    sparse_lu_->solve_transposed_in_place(V_);
+    return true;
+  }
   lu_.factorize(Zll_);
   for (Eigen::Index k = 0; k < l_; ++k)
     if (!(std::abs(lu_.pivot(k)) > singular_pivot * Zll_.col(k).cwiseAbs().maxCoeff())) return false;
+  for (Eigen::Index i = 0; i < W_.cols(); ++i) {
+    lu_.solve(W_.col(i), solution_);
+    W_.col(i) = solution_;
+  }
+  for (Eigen::Index i = 0; i < V_.cols(); ++i) {
+    lu_.solve_transposed(V_.col(i), solution_);
+    V_.col(i) = solution_;
+  }
+  return true;
+}
+
+bool UnsymmetricCondensation::condense(const ComplexSparse& Z, const ComplexVector& f, Condensed& into) {
+  into.has_rates = into.has_observed = false;
+  set_blocks(Z, f, into);
+  if (l_ == 0) return true;
+  if (!solve()) return false;
+  into.V = V_.leftCols(r_);
   into.W.resize(l_, r_ + 1 + c_.cols());
-  into.V.resize(l_, r_);
-  for (Eigen::Index i = 0; i <= r_; ++i) {
-    if (i < r_)
-      column_ = Z.col(i).tail(l_);
-    else
-      column_ = f.tail(l_);
-    lu_.solve(column_, solution_);
-    put(solution_, i, into.W);
-  }
-  for (Eigen::Index i = 0; i < r_; ++i) {
-    column_ = Z.row(i).tail(l_).transpose();
-    lu_.solve_transposed(column_, solution_);
-    into.V.col(i) = solution_;
-  }
-  for (Eigen::Index i = 0; i < c_.cols(); ++i) {
-    column_ = c_.col(i);
-    lu_.solve_transposed(column_, solution_);
-    put(solution_, r_ + 1 + i, into.W);
-  }
-  const auto Zql = Z.topRightCorner(r_, l_);
-  for (Eigen::Index k = 0; k < l_; ++k)
-    for (Eigen::Index i = 0; i < r_; ++i) {
+  into.W.re << W_.real(), V_.rightCols(c_.cols()).real();
+  into.W.im << W_.imag(), V_.rightCols(c_.cols()).imag();
+  for (Eigen::Index k = r_; k < r_ + l_; ++k)
+    for (ComplexSparse::InnerIterator entry(Z, k); entry && entry.row() < r_; ++entry) {
+      const Eigen::Index i = entry.row();
       for (Eigen::Index j = 0; j < r_; ++j)
-        into.Z(i, j) = less_product(into.Z(i, j), Zql(i, k), into.W(k, j));
-      into.f[i] = less_product(into.f[i], Zql(i, k), into.W(k, r_));
+        into.Z(i, j) = less_product(into.Z(i, j), entry.value(), W_(k - r_, j));
+      into.f[i] = less_product(into.f[i], entry.value(), W_(k - r_, r_));
     }
   return true;
 }

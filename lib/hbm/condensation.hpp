@@ -87,23 +87,31 @@ class Condensation {
   ComplexMatrix Zll_;      // of few
   std::optional<Elimination> elimination_;
   std::optional<continuation::ComplexSparseLU> sparse_lu_;
-  continuation::ComplexSparseLU::Matrix sparse_Zll_;
+  ComplexSparse sparse_Zll_;
 };
 
-/// The same without symmetry, by LU of a dense matrix. Mutable, one for each evaluator.
+/// The same without symmetry, by LU of a dense or of a sparse matrix. Mutable, one for each evaluator.
 class UnsymmetricCondensation {
  public:
-  /// observed: as of Condensation.
-  UnsymmetricCondensation(int unknowns, const Eigen::MatrixXd& observed);
+  /// pattern: of Z. observed: as of Condensation.
+  UnsymmetricCondensation(const ComplexSparse& pattern, int unknowns, const Eigen::MatrixXd& observed);
 
   /// False where Z_ll is singular to rounding.
-  bool condense(const ComplexMatrix& Z, const ComplexVector& f, Condensed& into);
+  bool condense(const ComplexSparse& Z, const ComplexVector& f, Condensed& into);
 
  private:
+  void set_blocks(const ComplexSparse& Z, const ComplexVector& f, Condensed& into);
+  // W_ := Z_ll^-1 W_, V_ := Z_ll^-T V_
+  bool solve();
+
   const Eigen::Index r_, l_;
-  ComplexMatrix Zll_, c_;
-  ComplexVector column_, solution_;
+  ComplexMatrix c_;
+  ComplexMatrix W_, V_;  // [Z_lq, f_l] and [Z_ql^T, c_l]
+  ComplexMatrix Zll_;    // where that is dense
+  ComplexVector solution_;
   continuation::LU<Complex> lu_;
+  std::optional<continuation::ComplexSparseLU> sparse_lu_;
+  ComplexSparse sparse_Zll_;
 };
 
 }  // namespace arcslip::hbm

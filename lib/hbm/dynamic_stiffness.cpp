@@ -54,7 +54,10 @@ bool DynamicStiffness::move_to(In p) {
 bool DynamicStiffness::condense(Harmonic& at) {
   const double s = at.order * base_frequency();
   if (!parts_.symmetric()) {
-    if (!unsymmetric_) unsymmetric_.emplace(r_, responses_);
+    if (!unsymmetric_) {
+      Z_ = parts_.pattern();
+      unsymmetric_.emplace(Z_, r_, responses_);
+    }
     parts_.dynamic_stiffness(at.order, Z_);
     return unsymmetric_->condense(Z_, at.force, at.condensed);
   }

@@ -87,7 +87,7 @@ class DynamicStiffness {
   mutable std::optional<ModalCondensation> modal_;
   std::optional<Condensation> direct_;  // without modes, or where too many parts differ from them
   std::optional<UnsymmetricCondensation> unsymmetric_;  // of a rotor, or linked to the next sector
-  ComplexMatrix Z_;                                     // before that
+  ComplexSparse Z_;                                     // before that
   mutable std::vector<Harmonic> harmonics_;             // their rates
   Vector last_p_;
   mutable ComplexVector y_, v_;  // a full motion, a residual of the full equation; q comes first in both

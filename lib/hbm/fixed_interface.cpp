@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace arcslip::hbm {
 namespace {
@@ -31,13 +32,15 @@ Blocks blocks(const Eigen::MatrixXd& A, const Eigen::MatrixXd& P, Eigen::Index r
 // Whether the dynamic stiffness has factors that cost far less than those of a dense matrix.
 bool is_sparse(const model::Model& model) {
   if (!model.matrices.empty()) return false;
-  std::vector<Links> links;
+  SparsityPattern links(model.dofs);
+  links.link_diagonal();
   for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
     for (const model::LinearPart& part : *parts) {
-      Links& linked = links.emplace_back();
+      std::vector<Eigen::Index> linked;
       for (model::Direction::InnerIterator x(part.direction); x; ++x) linked.push_back(x.index());
+      links.link_all(linked);
     }
-  return sparse_pattern(model.dofs, links).has_value();
+  return sparse_is_cheaper(links.matrix());
 }
 
 }  // namespace

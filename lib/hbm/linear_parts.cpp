@@ -1,5 +1,8 @@
 #include <arcslip/hbm/linear_parts.hpp>
 
+#include <arcslip/hbm/in_place_elimination.hpp>
+#include <arcslip/hbm/sparse_links.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,11 +12,37 @@ namespace {
 using Kind = model::LinearKind;
 
 constexpr double rounding = 1e-13;  // of a direction in y, relative to its largest entry
+constexpr double sparse_P = 0.1;    // share of entries that are not zero
 
 bool equal_beside_frequency(const In& a, const Eigen::VectorXd& b) {
   static_assert(model::frequency == 0);
   const auto* begin = a.data() + 1;
   return std::equal(begin, a.data() + a.size(), b.data() + 1);
+}
+
+// P^T A P. Columns of P with one entry, of which most are, add no rounding errors between coordinates that A
+// does not link.
+template <class Scalar>
+Eigen::SparseMatrix<Scalar> product(const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& A,
+                                    const Eigen::SparseMatrix<Scalar>& P) {
+  const Eigen::SparseMatrix<Scalar> in_x = A.sparseView();
+  const Eigen::SparseMatrix<Scalar> AP = in_x * P;
+  return P.transpose() * AP;
+}
+
+std::vector<Eigen::Index> coordinates_of(const DirectionInY& direction) {
+  std::vector<Eigen::Index> all;
+  for (const auto* entries : {&direction.entries(), &direction.next()})
+    for (const auto& [i, at_i] : *entries) all.push_back(i);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+double entry_at(const DirectionInY::Entries& entries, Eigen::Index i) {
+  const auto found = std::lower_bound(entries.begin(), entries.end(), i,
+                                      [](const auto& entry, Eigen::Index at) { return entry.first < at; });
+  return found != entries.end() && found->first == i ? found->second : 0;
 }
 
 }  // namespace
@@ -62,9 +91,12 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   add(Kind::mass, model.masses);
   add(Kind::damper, model.dampers);
   add(Kind::spring, model.springs);
-  for (const model::MatrixPart& part : model.matrices) matrix_parts_.push_back({part, {}});
+  for (const model::MatrixPart& part : model.matrices) matrix_parts_.push_back({part});
   if (!matrix_parts_.empty()) P_ = P;
-  matrix_values_.assign(matrix_parts_.size(), std::nan(""));
+  if (!symmetric()) {
+    set_waves(harmonics);
+    set_positions();
+  }
   damping_ = model.damping;
   for (const model::Excitation& excitation : model.excitation) {
     ForceInY force{excitation, harmonics.excited(excitation.harmonic), {}, 0, 0};
@@ -78,6 +110,68 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
     }
     forces_.push_back(std::move(force));
   }
+}
+
+void LinearParts::set_waves(const elements::Harmonics& harmonics) {
+  if (matrix_parts_.empty()) return;
+  const ComplexSparse P = P_.sparseView().cast<Complex>();
+  std::vector<int> diameters;
+  wave_of_diameter_.assign(static_cast<std::size_t>(sector_.count), -1);
+  for (int h = 0; h < harmonics.cosines(); ++h) {
+    const int diameter = sector_.diameter(harmonics.cosine_order(h));
+    int& wave = wave_of_diameter_[static_cast<std::size_t>(diameter)];
+    if (wave >= 0) continue;
+    wave = static_cast<int>(diameters.size());
+    diameters.push_back(diameter);
+  }
+  for (MatrixInY& part : matrix_parts_) {
+    if (part.of.waves)
+      for (const int diameter : diameters)
+        part.waves.push_back(product<Complex>(part.of.waves->of(diameter), P));
+    else
+      part.waves.push_back(product<Complex>(part.of.A->cast<Complex>(), P));
+    SparsityPattern links(size_);
+    for (ComplexSparse& A : part.waves) {
+      A.prune([](Eigen::Index, Eigen::Index, const Complex& value) { return value != 0.0; });
+      for (Eigen::Index j = 0; j < size_; ++j)
+        for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry) links.link(entry.row(), j);
+    }
+    const ComplexSparse all = links.matrix();
+    for (ComplexSparse& A : part.waves) {
+      if (A.nonZeros() == all.nonZeros()) continue;
+      ComplexSparse same = all;
+      for (Eigen::Index j = 0; j < size_; ++j)
+        for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry)
+          same.valuePtr()[position(all, entry.row(), j)] = entry.value();
+      A = std::move(same);
+    }
+  }
+}
+
+void LinearParts::set_positions() {
+  SparsityPattern links(size_);
+  links.link_diagonal();
+  for (const PartInY& part : parts_) links.link_all(coordinates_of(part.direction));
+  for (const MatrixInY& part : matrix_parts_)
+    for (Eigen::Index j = 0; j < size_; ++j)
+      for (ComplexSparse::InnerIterator entry(part.waves.front(), j); entry; ++entry)
+        links.link(entry.row(), j);
+  pattern_ = links.matrix();
+  std::size_t most = 0;
+  for (const PartInY& part : parts_) {
+    PartInZ& in_Z = parts_in_Z_.emplace_back();
+    const std::vector<Eigen::Index> all = coordinates_of(part.direction);
+    for (const Eigen::Index j : all) {
+      in_Z.direction.emplace_back(entry_at(part.direction.entries(), j), entry_at(part.direction.next(), j));
+      for (const Eigen::Index i : all) in_Z.positions.push_back(position(pattern_, i, j));
+    }
+    most = std::max(most, in_Z.direction.size());
+  }
+  direction_.resize(static_cast<Eigen::Index>(most));
+  for (MatrixInY& part : matrix_parts_)
+    for (Eigen::Index j = 0; j < size_; ++j)
+      for (ComplexSparse::InnerIterator entry(part.waves.front(), j); entry; ++entry)
+        part.positions.push_back(position(pattern_, entry.row(), j));
 }
 
 double LinearParts::modal_value(const PartInY& part) const {
@@ -99,17 +193,18 @@ void LinearParts::move_to(In p) {
   }
   if (!same)
     for (PartInY& part : parts_) part.value = p[part.parameter];
-  for (std::size_t k = 0; k < matrix_parts_.size(); ++k) {
-    const double value = matrix_parts_[k].of.value(p);
-    same = same && matrix_values_[k] == value;
-    matrix_values_[k] = value;
+  for (MatrixInY& part : matrix_parts_) {
+    const double value = part.of.value(p);
+    same = same && part.value == value;
+    part.value = value;
   }
   if (!same) set_values();
 }
 
 void LinearParts::set_values() {
   changes_.clear();
-  modal_ = modes_ != nullptr && !linked_;
+  if (!symmetric()) return;
+  modal_ = modes_ != nullptr;
   for (const PartInY& part : parts_) {
     if (!modal_) break;
     const double by = part.value - modal_value(part);
@@ -118,48 +213,101 @@ void LinearParts::set_values() {
   }
   for (const MatrixInY& part : matrix_parts_)
     modal_ = modal_ && part.of.parameter != model::frequency &&
-             (part.of.parameter < 0 || part.of.value(p_) == part.of.value(modes_->p));
+             (part.of.parameter < 0 || part.value == part.of.value(modes_->p));
   if (modal_) return;
   for (Eigen::MatrixXd* matrix : {&matrices_.M, &matrices_.C, &matrices_.K}) matrix->setZero(size_, size_);
-  if (!symmetric_) matrices_.N.setZero(size_, size_);
   for (const PartInY& part : parts_) {
     Eigen::MatrixXd& sum = matrices_.of(part.kind);
     for (const auto& [j, at_j] : part.direction.entries())
       for (const auto& [i, at_i] : part.direction.entries()) sum(i, j) += part.value * at_i * at_j;
   }
-  for (const MatrixInY& part : matrix_parts_) matrices_.of(part.of.kind) += part.of.value(p_) * in_y(part);
-  if (linked_) set_links();
+  for (const MatrixInY& part : matrix_parts_) matrices_.of(part.of.kind) += part.value * in_y(part);
 }
 
-// With d = d_own + t d_next, conj(d) d^T = d_own d_own^T + d_next d_next^T + t d_own d_next^T + the conjugate
-// transpose of that.
-void LinearParts::set_links() {
-  for (Eigen::MatrixXd* links : {&links_.M, &links_.C, &links_.K}) links->setZero(size_, size_);
-  for (const PartInY& part : parts_) {
-    Eigen::MatrixXd& own = matrices_.of(part.kind);
-    Eigen::MatrixXd& links = links_.of(part.kind);
-    for (const auto& [j, at_j] : part.direction.next()) {
-      for (const auto& [i, at_i] : part.direction.next()) own(i, j) += part.value * at_i * at_j;
-      for (const auto& [i, at_i] : part.direction.entries()) links(i, j) += part.value * at_i * at_j;
+ComplexSparse LinearParts::pattern() const {
+  if (!symmetric()) return pattern_;
+  SparsityPattern links(size_);
+  links.link_diagonal();
+  for (const PartInY& part : parts_) links.link_all(coordinates_of(part.direction));
+  for (const MatrixInY& part : matrix_parts_) {
+    const Eigen::MatrixXd& A = in_y(part);
+    for (Eigen::Index j = 0; j < size_; ++j)
+      for (Eigen::Index i = 0; i < size_; ++i)
+        if (A(i, j) != 0) links.link(i, j);
+  }
+  return links.matrix();
+}
+
+void LinearParts::dynamic_stiffness(int n, ComplexSparse& Z) const {
+  const Factors g = factors(n * base_frequency_);
+  const Complex t = turn(n);
+  Complex* const entries = Z.valuePtr();
+  std::fill(entries, entries + Z.nonZeros(), Complex(0));
+  const auto add = [entries](int at, Complex a, Complex b) {
+    entries[at] = less_product(entries[at], a, -b);
+  };
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Complex factor = g.of(parts_[k].kind) * parts_[k].value;
+    if (factor == 0.0) continue;
+    const auto& [direction, positions] = parts_in_Z_[k];
+    const auto m = static_cast<Eigen::Index>(direction.size());
+    Eigen::Index i = 0;
+    for (const auto& [own, next] : direction) direction_[i++] = own + t * next;
+    auto at = positions.begin();
+    for (Eigen::Index j = 0; j < m; ++j) {
+      const Complex of_column = factor * direction_[j];
+      for (i = 0; i < m; ++i) add(*at++, std::conj(direction_[i]), of_column);
     }
+  }
+  for (const MatrixInY& part : matrix_parts_) {
+    const Complex factor = g.of(part.of.kind) * part.value;
+    if (factor == 0.0) continue;
+    const Complex* value = in_wave(part, n).valuePtr();
+    for (const int at : part.positions) add(at, factor, *value++);
   }
 }
 
-void LinearParts::dynamic_stiffness(int n, ComplexMatrix& Z) const {
-  const Factors g = factors(n * base_frequency_);
-  const Complex t = turn(n);
-  Z.resize(size_, size_);
-  for (Eigen::Index j = 0; j < size_; ++j)
-    for (Eigen::Index i = 0; i < size_; ++i) {
-      Z(i, j) = matrices_.at(g, i, j);
-      if (linked_) Z(i, j) = Z(i, j) + t * links_.at(g, i, j) + std::conj(t) * links_.at(g, j, i);
-    }
-  if (!symmetric_) Z += g.circulatory * matrices_.N;
+const Eigen::MatrixXd& LinearParts::in_y(const MatrixInY& part) const {
+  if (part.A.size() > 0) return part.A;
+  const Eigen::SparseMatrix<double> P = P_.sparseView();
+  if (static_cast<double>(P.nonZeros()) > sparse_P * static_cast<double>(P.size()))
+    part.A.noalias() = P_.transpose() * (*part.of.A * P_);
+  else
+    part.A = product(*part.of.A, P);
+  return part.A;
 }
 
-const Eigen::MatrixXd& LinearParts::in_y(const MatrixInY& part) const {
-  if (part.A.size() == 0) part.A.noalias() = P_.transpose() * (*part.of.A * P_);
-  return part.A;
+const ComplexSparse& LinearParts::in_wave(const MatrixInY& part, int n) const {
+  if (part.waves.size() == 1) return part.waves.front();
+  const int wave = wave_of_diameter_[static_cast<std::size_t>(sector_.diameter(n))];
+  return part.waves[static_cast<std::size_t>(wave)];
+}
+
+void LinearParts::add_matrix_product(const MatrixInY& part, int n, Complex factor, const ComplexVector& y,
+                                     ComplexVector& v) const {
+  if (symmetric()) {
+    v.noalias() += factor * (in_y(part) * y);
+    return;
+  }
+  const ComplexSparse& A = in_wave(part, n);
+  for (Eigen::Index j = 0; j < size_; ++j) {
+    const Complex of_column = -(factor * y[j]);
+    for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry)
+      v[entry.row()] = less_product(v[entry.row()], entry.value(), of_column);
+  }
+}
+
+// y^H A y
+Complex LinearParts::matrix_form(const MatrixInY& part, int n, const ComplexVector& y) const {
+  const ComplexSparse& A = in_wave(part, n);
+  Complex sum = 0;
+  for (Eigen::Index j = 0; j < size_; ++j) {
+    Complex of_column = 0;
+    for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry)
+      of_column = less_product(of_column, entry.value(), -std::conj(y[entry.row()]));
+    sum += of_column * y[j];
+  }
+  return sum;
 }
 
 Factors LinearParts::factors(double s) const {
@@ -241,16 +389,16 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
   const Complex t = turn(n);
   v.setZero();
   const Factors g = factors(s);
-  if (k == model::frequency) add_product(factor_rates(n), t, y, v);
+  if (k == model::frequency) add_product(factor_rates(n), n, y, v);
   for (const PartInY& part : parts_)
     if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y, t), t, v);
   for (const MatrixInY& part : matrix_parts_)
-    if (part.of.parameter == k) v.noalias() += part.of.rate(p_) * g.of(part.of.kind) * (in_y(part) * y);
+    if (part.of.parameter == k) add_matrix_product(part, n, part.of.rate(p_) * g.of(part.of.kind), y, v);
   if (damping_ && s > 0) {
     const double by_alpha = k == damping_->alpha ? s : 0;
     const double by_spring = (k == damping_->beta ? s : 0) + (k == damping_->loss_factor ? 1 : 0);
     if (by_alpha != 0 || by_spring != 0)
-      add_product({Complex(0, by_alpha), 0, Complex(0, by_spring)}, t, y, v);
+      add_product({Complex(0, by_alpha), 0, Complex(0, by_spring)}, n, y, v);
   }
   const double w = p_[model::frequency];
   for (const ForceInY& force : forces_) {
@@ -265,38 +413,37 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
 }
 
 // v += (g_m M + g_c C + g_k K) y
-void LinearParts::add_product(const Factors& g, Complex turn, const ComplexVector& y,
-                              ComplexVector& v) const {
+void LinearParts::add_product(const Factors& g, int n, const ComplexVector& y, ComplexVector& v) const {
+  const Complex t = turn(n);
   if (modal_) {
     modes_->M.add_product(g.mass, y, v);
     modes_->C.add_product(g.damper, y, v);
     if (g.spring != 0.0) modes_->K.add_product(g.spring, y, v);
     for (const ChangedPart& change : changes_)
-      change.part->direction.add(g.of(change.part->kind) * change.by * change.part->direction.along(y, turn),
-                                 turn, v);
-  } else if (linked_ || matrix_parts_.empty()) {
+      change.part->direction.add(g.of(change.part->kind) * change.by * change.part->direction.along(y, t), t,
+                                 v);
+  } else if (!symmetric() || matrix_parts_.empty()) {
     for (const PartInY& part : parts_)
       if (const Complex factor = g.of(part.kind) * part.value; factor != 0.0)
-        part.direction.add(factor * part.direction.along(y, turn), turn, v);
+        part.direction.add(factor * part.direction.along(y, t), t, v);
     for (const MatrixInY& part : matrix_parts_)
-      if (const Complex factor = g.of(part.of.kind) * part.of.value(p_); factor != 0.0)
-        v.noalias() += factor * (in_y(part) * y);
+      if (const Complex factor = g.of(part.of.kind) * part.value; factor != 0.0)
+        add_matrix_product(part, n, factor, y, v);
   } else {
-    for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring, Kind::circulatory})
-      if (g.of(kind) != 0.0 && matrices_.of(kind).size() > 0)
-        v.noalias() += g.of(kind) * (matrices_.of(kind) * y);
+    for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
+      if (g.of(kind) != 0.0) v.noalias() += g.of(kind) * (matrices_.of(kind) * y);
   }
 }
 
 double LinearParts::quadratic_form(Kind kind, int n, const ComplexVector& y) const {
   double sum = 0;
-  if (!modal_ && !linked_ && !matrix_parts_.empty()) return y.dot(matrices_.of(kind) * y).real();
+  if (!modal_ && symmetric() && !matrix_parts_.empty()) return y.dot(matrices_.of(kind) * y).real();
   const Complex t = turn(n);
   if (!modal_) {
     for (const PartInY& part : parts_)
       if (part.kind == kind) sum += part.value * std::norm(part.direction.along(y, t));
     for (const MatrixInY& part : matrix_parts_)
-      if (part.of.kind == kind) sum += part.of.value(p_) * y.dot(in_y(part) * y).real();
+      if (part.of.kind == kind) sum += part.value * matrix_form(part, n, y).real();
     return sum;
   }
   const ModalMatrix& whole = kind == Kind::mass ? modes_->M : kind == Kind::damper ? modes_->C : modes_->K;
@@ -306,14 +453,15 @@ double LinearParts::quadratic_form(Kind kind, int n, const ComplexVector& y) con
   return sum;
 }
 
-// The share of skew-symmetric parts in y^H Z y: of A = S + N, y^H S y is real and y^H N y imaginary.
-Complex LinearParts::skew_form(const ComplexVector& y, double s) const {
+// The share of skew parts in y^H Z y: of A = S + N with S^H = S and N^H = -N, real or not, y^H S y is real
+// and y^H N y imaginary.
+Complex LinearParts::skew_form(int n, const ComplexVector& y) const {
   if (symmetric_) return 0;
-  const Factors g = factors(s);
+  const Factors g = factors(n * base_frequency_);
   Complex sum = 0;
   for (const MatrixInY& part : matrix_parts_)
     if (!part.of.symmetric)
-      sum += g.of(part.of.kind) * part.of.value(p_) * Complex(0, y.dot(in_y(part) * y).imag());
+      sum += g.of(part.of.kind) * part.value * Complex(0, matrix_form(part, n, y).imag());
   return sum;
 }
 
@@ -322,12 +470,12 @@ double LinearParts::damping_form(int n, const ComplexVector& y) const {
   double sum = 0;
   for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
     if (const double loss = g.of(kind).imag(); loss != 0) sum += loss * quadratic_form(kind, n, y);
-  return symmetric_ ? sum : sum + skew_form(y, n * base_frequency_).imag();
+  return symmetric_ ? sum : sum + skew_form(n, y).imag();
 }
 
 QuadraticForms LinearParts::quadratic_forms(int n, const ComplexVector& y, double force_factor) const {
   QuadraticForms forms{quadratic_form(Kind::mass, n, y), quadratic_form(Kind::spring, n, y),
-                       damping_form(n, y), skew_form(y, n * base_frequency_).real(), 0};
+                       damping_form(n, y), skew_form(n, y).real(), 0};
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n) continue;
     const Complex amplitude = force_factor * force.of.factor(p_[model::frequency]) * force.given;

@@ -13,10 +13,14 @@
 // unsymmetric; gyroscopic ones are among C.
 //
 // In a sector of a ring d = d_own + t d_next, with the turn t of that harmonic (model::Sector), adds
-// value * g conj(d) d^T: Z is linked, not symmetric, with M, C and K Hermitian.
+// value * g conj(d) d^T, and a matrix value * g A_d of its wave (model::WaveMatrices): Z is linked, not
+// symmetric, with M, C and K Hermitian but for unsymmetric matrices.
 
 #include <arcslip/hbm/fixed_interface.hpp>
 
+#include <Eigen/SparseCore>
+
+#include <cmath>
 #include <complex>
 #include <memory>
 #include <optional>
@@ -29,6 +33,7 @@ using elements::In;
 using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 using ComplexMatrix = Eigen::MatrixXcd;
+using ComplexSparse = Eigen::SparseMatrix<Complex>;
 
 /// d in y, by its nonzero entries. Rounding errors in other entries are removed: a stiff part belongs in its
 /// own row and column only, and would swamp softer ones.
@@ -84,21 +89,19 @@ struct Factors {
   }
 };
 
-/// M, C, K in y; of a sector what is within it. N: circulatory, empty where there is none.
+/// M, C, K in y, where Z is symmetric.
 struct StructuralMatrices {
-  Eigen::MatrixXd M, C, K, N;
+  Eigen::MatrixXd M, C, K;
 
   const Eigen::MatrixXd& of(model::LinearKind kind) const {
-    if (kind == model::LinearKind::circulatory) return N;
     if (kind == model::LinearKind::mass) return M;
     return kind == model::LinearKind::damper ? C : K;
   }
   Eigen::MatrixXd& of(model::LinearKind kind) {
-    if (kind == model::LinearKind::circulatory) return N;
     if (kind == model::LinearKind::mass) return M;
     return kind == model::LinearKind::damper ? C : K;
   }
-  /// An entry of Z without N.
+  /// An entry of Z.
   Complex at(const Factors& g, Eigen::Index i, Eigen::Index j) const {
     return g.combine(M(i, j), C(i, j), K(i, j));
   }
@@ -108,7 +111,7 @@ struct StructuralMatrices {
 struct QuadraticForms {
   double mass = 0, stiffness = 0;  // x^H M x, x^H K x
   double damping = 0;              // Im x^H Z x
-  double gyroscopic = 0;           // what skew-symmetric matrices add to Re x^H Z x
+  double gyroscopic = 0;           // what skew-symmetric and skew-Hermitian matrices add to Re x^H Z x
   Complex force;                   // x^H f
 };
 
@@ -128,17 +131,17 @@ class LinearParts {
   void move_to(In p);
   double base_frequency() const { return base_frequency_; }  // rad/s
   Factors factors(double s) const;
-  const std::vector<PartInY>& parts() const { return parts_; }
-  /// Beside those parts there are matrices, which may link any coordinates.
-  bool has_matrices() const { return !matrix_parts_.empty(); }
   /// Null where too many parts have other values than the modes; then matrices() are those of the place.
   const FixedInterfaceModes* modes() const { return modal_ ? modes_.get() : nullptr; }
   const std::vector<ChangedPart>& changes() const { return changes_; }
   const StructuralMatrices& matrices() const { return matrices_; }
-  /// False where masses, dampers or springs reach into the next sector, or a matrix of the structure is
-  /// unsymmetric. Z is then by this function alone.
+  /// False where masses, dampers, springs or matrices reach into the next sector, or a matrix of the
+  /// structure is unsymmetric. Z is then by dynamic_stiffness() alone.
   bool symmetric() const { return !linked_ && symmetric_; }
-  void dynamic_stiffness(int n, ComplexMatrix& Z) const;
+  /// A matrix with the entries that Z has for some harmonic and some parameters, and all of its diagonal.
+  ComplexSparse pattern() const;
+  /// Z of one of the harmonics, in a matrix with that pattern.
+  void dynamic_stiffness(int n, ComplexSparse& Z) const;
   /// f of harmonic n.
   void force(int n, ComplexVector& f) const;
   /// Whether one of them is not that of the place before.
@@ -157,7 +160,7 @@ class LinearParts {
   /// dZ/dp_k y - force_factor df/dp_k of harmonic n.
   void differentiate(int k, int n, const ComplexVector& y, double force_factor, ComplexVector& v) const;
 
-  /// y^H M y, y^H C y or y^H K y of harmonic n: of the symmetric part.
+  /// y^H M y, y^H C y or y^H K y of harmonic n: of the symmetric or Hermitian part.
   double quadratic_form(model::LinearKind kind, int n, const ComplexVector& y) const;
   /// Im y^H Z y: over pi times the order, the energy that harmonic n of the motion loses in a period.
   double damping_form(int n, const ComplexVector& y) const;
@@ -179,17 +182,31 @@ class LinearParts {
     Complex amplitude;  // of f: with the factor of the frequency
   };
   double value(const ForceInY::Term& term) const { return term.mass < 0 ? 1 : p_[term.mass]; }
-  // P^T A P, made when it is first needed: with modes it seldom is.
+  // P^T A P: where Z is symmetric in `A`, made when it is first needed, which with modes it seldom is; else
+  // in `waves`, one for each diameter of the harmonics or one for all, with entries in the same places.
   struct MatrixInY {
     model::MatrixPart of;
-    mutable Eigen::MatrixXd A;
+    mutable Eigen::MatrixXd A{};
+    std::vector<ComplexSparse> waves{};
+    std::vector<int> positions{};  // of their entries in Z
+    double value = std::nan("");   // at the last place
+  };
+  // Where the m x m entries of a part stand in Z, column by column, and d_own, d_next of its m coordinates.
+  struct PartInZ {
+    std::vector<std::pair<double, double>> direction;
+    std::vector<int> positions;
   };
   const Eigen::MatrixXd& in_y(const MatrixInY& part) const;
+  const ComplexSparse& in_wave(const MatrixInY& part, int n) const;
   Complex turn(int n) const { return linked_ ? sector_.turn(n) : 1; }
-  void add_product(const Factors& g, Complex turn, const ComplexVector& y, ComplexVector& v) const;
+  void set_waves(const elements::Harmonics& harmonics);
+  void set_positions();
+  void add_product(const Factors& g, int n, const ComplexVector& y, ComplexVector& v) const;
+  void add_matrix_product(const MatrixInY& part, int n, Complex factor, const ComplexVector& y,
+                          ComplexVector& v) const;
+  Complex matrix_form(const MatrixInY& part, int n, const ComplexVector& y) const;
   void set_values();
-  void set_links();
-  Complex skew_form(const ComplexVector& y, double s) const;
+  Complex skew_form(int n, const ComplexVector& y) const;
   double modal_value(const PartInY& part) const;
   void add(const ForceInY& force, Complex amplitude, ComplexVector& f) const;
 
@@ -202,12 +219,15 @@ class LinearParts {
   std::vector<ChangedPart> changes_;
   std::vector<PartInY> parts_;
   std::vector<MatrixInY> matrix_parts_;
-  Eigen::MatrixXd P_;                  // where there are any
-  std::vector<double> matrix_values_;  // at the last place
+  Eigen::MatrixXd P_;  // where there are any
+  // Where Z is not symmetric.
+  std::vector<PartInZ> parts_in_Z_;
+  ComplexSparse pattern_;
+  std::vector<int> wave_of_diameter_;
+  mutable ComplexVector direction_;  // of a part
   std::optional<model::ProportionalDamping> damping_;
   std::vector<ForceInY> forces_;
   StructuralMatrices matrices_;
-  StructuralMatrices links_;  // of the sector to the next: the sum of value d_own d_next^T
   Eigen::VectorXd p_;
   double base_frequency_ = -1;
 };

@@ -1,35 +1,51 @@
 #include <arcslip/hbm/sparse_links.hpp>
 
+#include <algorithm>
+#include <complex>
+
 namespace arcslip::hbm {
 namespace {
 
-constexpr double sparse_share = 0.04;  // of the multiplications of dense factors, each of which costs less
+// Shares of the entries and multiplications of dense factors up to which sparse ones cost less: measured,
+// with solutions for a few right hand sides.
+struct Shares {
+  double entries, multiplications;
+};
+constexpr Shares of_elimination{0.04, 0.04}, of_lu{0.4, 0.2};
+
+bool is_cheaper(const SparsityPattern::Matrix& pattern, Shares share) {
+  const auto n = static_cast<double>(pattern.rows());
+  return static_cast<double>(pattern.nonZeros()) <= share.entries * n * n &&
+         continuation::ComplexSparseLU(pattern).multiplications() <= share.multiplications * n * n * n / 3;
+}
 
 }  // namespace
 
-std::optional<continuation::ComplexSparseLU::Matrix> sparse_pattern(Eigen::Index n,
-                                                                    std::span<const Links> links) {
-  const auto all = static_cast<double>(n) * static_cast<double>(n);
-  std::vector<bool> is_linked(static_cast<std::size_t>(n * n), false);
-  std::vector<Eigen::Triplet<std::complex<double>>> linked;
-  const auto link = [&](Eigen::Index i, Eigen::Index j) {
-    std::vector<bool>::reference known = is_linked[static_cast<std::size_t>(i + j * n)];
-    if (!known) linked.emplace_back(i, j, 1);
-    known = true;
-  };
-  for (Eigen::Index i = 0; i < n; ++i) link(i, i);
-  for (const Links& part : links) {
-    if (static_cast<double>(part.size()) * static_cast<double>(part.size()) > sparse_share * all) return {};
-    for (const Eigen::Index j : part)
-      for (const Eigen::Index i : part) link(i, j);
+SparsityPattern::Matrix SparsityPattern::matrix() const {
+  std::vector<int> outer(1, 0), inner;
+  std::size_t entry = 0;
+  for (Eigen::Index j = 0; j < n_; ++j) {
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (is_linked_[entry++]) inner.push_back(static_cast<int>(i));
+    outer.push_back(static_cast<int>(inner.size()));
   }
-  continuation::ComplexSparseLU::Matrix pattern(n, n);
-  pattern.setFromTriplets(linked.begin(), linked.end());
-  if (static_cast<double>(pattern.nonZeros()) > sparse_share * all) return {};
-  if (continuation::ComplexSparseLU(pattern).multiplications() >
-      sparse_share * all * static_cast<double>(n) / 3)
-    return {};
-  return pattern;
+  const std::vector<std::complex<double>> zeros(inner.size());
+  return Eigen::Map<const Matrix>(n_, n_, outer.back(), outer.data(), inner.data(), zeros.data());
+}
+
+int position(const SparsityPattern::Matrix& in, Eigen::Index i, Eigen::Index j) {
+  const int* const rows = in.innerIndexPtr();
+  const int* const begin = rows + in.outerIndexPtr()[j];
+  const int* const end = rows + in.outerIndexPtr()[j + 1];
+  return static_cast<int>(std::lower_bound(begin, end, static_cast<int>(i)) - rows);
+}
+
+bool sparse_is_cheaper(const SparsityPattern::Matrix& pattern) {
+  return is_cheaper(pattern, of_elimination);
+}
+
+bool sparse_is_cheaper_than_lu(const SparsityPattern::Matrix& pattern) {
+  return is_cheaper(pattern, of_lu);
 }
 
 }  // namespace arcslip::hbm

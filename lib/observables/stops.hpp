@@ -5,11 +5,17 @@
 // 1/m = d^T M^-1 d. The motion goes on if q'' has the same sign before and after, and else stops. The
 // truncated series has the middle of both, so that it goes on if m |q''| > p. Of N harmonics q'' differs from
 // that by 1/N of the jump.
+//
+// In a ring whose sectors share masses, 1/m is the mean of D^T M_d^-1 conj(D), D = d + t next, over the waves
+// of all harmonics: that of forces on one sector, and on those that move together with it.
 
 #include <arcslip/elements/element.hpp>
 #include <arcslip/model/model.hpp>
 
 #include <Eigen/Cholesky>
+
+#include <complex>
+#include <vector>
 
 namespace arcslip::observables {
 
@@ -21,12 +27,19 @@ class Stops {
   bool at_reversals(const elements::Element& at, std::size_t element, const continuation::Vector& p);
 
  private:
-  double inertia(const model::Direction& d, const continuation::Vector& p);
+  // Of the masses: in a linked sector one for each wave, of twice the size.
+  struct Mass {
+    std::complex<double> turn;
+    double share;
+    Eigen::MatrixXd M;
+    Eigen::LDLT<Eigen::MatrixXd> factors;
+  };
+  void move_to(const continuation::Vector& p);
+  double inertia(const model::Direction& d, const model::Direction& next);
 
   const model::Model& model_;
-  continuation::Vector masses_;  // of the matrix
-  Eigen::MatrixXd M_;
-  Eigen::LDLT<Eigen::MatrixXd> factors_;
+  continuation::Vector values_;  // for which these are
+  std::vector<Mass> masses_;
 };
 
 }  // namespace arcslip::observables

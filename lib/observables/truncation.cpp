@@ -5,12 +5,11 @@
 #include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/waves.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
-#include <set>
 #include <utility>
 
 namespace arcslip::observables {
@@ -117,30 +116,16 @@ double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const 
 // Of a sector of a ring in the waves of all its harmonics, in real and imaginary parts.
 double highest_square_of_waves(const model::Model& model, const Vector& p,
                                const std::vector<double>& motions) {
-  const Eigen::Index n = model.dofs;
   double highest = 0;
-  std::set<int> diameters;
-  for (int order = 0; order < model.sector->count; ++order)
-    diameters.insert(
-        static_cast<int>(static_cast<long long>(order) * model.sector->engine_order % model.sector->count));
-  for (const int diameter : diameters) {
-    if (2 * diameter > model.sector->count) continue;  // the same wave the other way round
-    const std::complex<double> turn = model::Sector{model.sector->count, diameter}.turn(1);
-    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(2 * n, 2 * n), K = M, G;
-    if (const Eigen::MatrixXd own = skew_damping(model, p); own.size() > 0) {
-      G = M;
-      G.topLeftCorner(n, n) = G.bottomRightCorner(n, n) = own;
-    }
-    for (const auto& part : model.masses)
-      model::add_outer(p[part.parameter], part.direction, part.next, turn, M);
-    for (const auto& part : model.springs)
-      model::add_outer(p[part.parameter], part.direction, part.next, turn, K);
-    for (const model::MatrixPart& part : model.matrices) {
-      if (part.kind != model::LinearKind::mass && part.kind != model::LinearKind::spring) continue;
-      Eigen::MatrixXd& sum = part.kind == model::LinearKind::mass ? M : K;
-      const Eigen::MatrixXd even = 0.5 * part.value(p) * (*part.A + part.A->transpose());
-      sum.topLeftCorner(n, n) += even;
-      sum.bottomRightCorner(n, n) += even;
+  const bool symmetric = model::is_symmetric(model);
+  for (const int diameter : diameters(*model.sector)) {
+    const auto sum = [&](model::LinearKind kind) { return sum_in_wave(model, kind, p, diameter); };
+    const Eigen::MatrixXd M = sum(model::LinearKind::mass);
+    Eigen::MatrixXd K = sum(model::LinearKind::spring), G;
+    if (!symmetric) {
+      K = 0.5 * (K + K.transpose()).eval();
+      const Eigen::MatrixXd C = sum(model::LinearKind::damper);
+      G = 0.5 * (C - C.transpose());
     }
     for (std::size_t e = 0; e < model.elements.size(); ++e) {
       const auto& element = model.elements[e];
@@ -148,7 +133,7 @@ double highest_square_of_waves(const model::Model& model, const Vector& p,
         model::add_outer(element.law->stiffness(element.fields(p), static_cast<int>(i),
                                                 e < motions.size() ? motions[e] : 0),
                          element.directions[i], element.next.empty() ? model::Direction() : element.next[i],
-                         turn, K);
+                         turn(*model.sector, diameter), K);
     }
     highest = std::max(highest, highest_square(M, K, G));
   }

@@ -49,6 +49,9 @@ TEST_CASE("sparse complex LU solves as dense LU does, also where the diagonal is
         CHECK((dense * X - B).norm() < 1e-13 * dense.norm() * X.norm());
         const Eigen::MatrixXcd expected = solve_complex(dense, B);
         if (diagonal.real() == 2) CHECK((X - expected).norm() < 1e-10 * expected.norm());
+        Eigen::MatrixXcd transposed = B;
+        lu.solve_transposed_in_place(transposed);
+        CHECK((dense.transpose() * transposed - B).norm() < 1e-13 * dense.norm() * transposed.norm());
       }
     }
 }

@@ -29,7 +29,7 @@ TEST_CASE("elimination of the linear coordinates is that of a factorization, wit
       for (const int more : {0, 1, 2}) {
         CAPTURE(r, l, more);
         const int n = r + l;
-        hbm::StructuralMatrices of{without_diagonal(n), without_diagonal(n), without_diagonal(n), {}};
+        hbm::StructuralMatrices of{without_diagonal(n), without_diagonal(n), without_diagonal(n)};
         if (l == 1) of.M(r, r) = 1;
         const hbm::Factors g{Complex(-4, 0.3), Complex(0, 2), Complex(1, 0.1)};
         const ComplexVector f = ComplexVector::Random(n);
@@ -66,10 +66,8 @@ TEST_CASE("elimination finds a singular block of the linear coordinates") {
   for (const int l : {1, 2, 9, 40}) {
     CAPTURE(l);
     const int r = 3, n = r + l;
-    hbm::StructuralMatrices of{Eigen::MatrixXd::Zero(n, n),
-                               Eigen::MatrixXd::Zero(n, n),
-                               without_diagonal(n) + 5 * Eigen::MatrixXd::Identity(n, n),
-                               {}};
+    hbm::StructuralMatrices of{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n),
+                               without_diagonal(n) + 5 * Eigen::MatrixXd::Identity(n, n)};
     of.K.row(n - 1).tail(l) = of.K.row(r).tail(l);
     if (l == 1) of.K(r, r) = 0;
     hbm::Elimination elimination(r, l, 1);
