@@ -20,14 +20,43 @@ bool equal_beside_frequency(const In& a, const Eigen::VectorXd& b) {
   return std::equal(begin, a.data() + a.size(), b.data() + 1);
 }
 
-// P^T A P. Columns of P with one entry, of which most are, add no rounding errors between coordinates that A
-// does not link.
+// P^T A P. Columns of P with one entry, of which most are where linear coordinates are no modes, add no
+// rounding errors between coordinates that A does not link.
 template <class Scalar>
 Eigen::SparseMatrix<Scalar> product(const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& A,
-                                    const Eigen::SparseMatrix<Scalar>& P) {
-  const Eigen::SparseMatrix<Scalar> in_x = A.sparseView();
-  const Eigen::SparseMatrix<Scalar> AP = in_x * P;
-  return P.transpose() * AP;
+                                    const Eigen::MatrixXd& P) {
+  const Eigen::SparseMatrix<double> few = P.sparseView();
+  if (static_cast<double>(few.nonZeros()) > sparse_P * static_cast<double>(P.size())) {
+    const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> AP = A * P.cast<Scalar>();
+    return (P.cast<Scalar>().transpose() * AP).eval().sparseView();
+  }
+  const Eigen::SparseMatrix<Scalar> in_x = A.sparseView(), of_y = few.cast<Scalar>();
+  const Eigen::SparseMatrix<Scalar> AP = in_x * of_y;
+  return of_y.transpose() * AP;
+}
+
+// P^T A P in the wave of each diameter, or the one for all of them, with entries in the same places.
+std::vector<ComplexSparse> in_waves(const model::MatrixPart& part, const Eigen::MatrixXd& P,
+                                    const std::vector<int>& diameters) {
+  if (!part.waves) return {ComplexSparse(product(*part.A, P).cast<Complex>())};
+  std::vector<ComplexSparse> waves;
+  SparsityPattern links(P.cols());
+  for (const int diameter : diameters) {
+    ComplexSparse& A = waves.emplace_back(product(part.waves->of(diameter), P));
+    A.prune([](Eigen::Index, Eigen::Index, const Complex& value) { return value != 0.0; });
+    for (Eigen::Index j = 0; j < A.cols(); ++j)
+      for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry) links.link(entry.row(), j);
+  }
+  const ComplexSparse all = links.matrix();
+  for (ComplexSparse& A : waves) {
+    if (A.nonZeros() == all.nonZeros()) continue;
+    ComplexSparse same = all;
+    for (Eigen::Index j = 0; j < A.cols(); ++j)
+      for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry)
+        same.valuePtr()[position(all, entry.row(), j)] = entry.value();
+    A = std::move(same);
+  }
+  return waves;
 }
 
 std::vector<Eigen::Index> coordinates_of(const DirectionInY& direction) {
@@ -93,10 +122,8 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   add(Kind::spring, model.springs);
   for (const model::MatrixPart& part : model.matrices) matrix_parts_.push_back({part});
   if (!matrix_parts_.empty()) P_ = P;
-  if (!symmetric()) {
-    set_waves(harmonics);
-    set_positions();
-  }
+  if (!modes_) set_waves(harmonics);
+  if (!symmetric()) set_positions();
   damping_ = model.damping;
   for (const model::Excitation& excitation : model.excitation) {
     ForceInY force{excitation, harmonics.excited(excitation.harmonic), {}, 0, 0};
@@ -113,8 +140,6 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
 }
 
 void LinearParts::set_waves(const elements::Harmonics& harmonics) {
-  if (matrix_parts_.empty()) return;
-  const ComplexSparse P = P_.sparseView().cast<Complex>();
   std::vector<int> diameters;
   wave_of_diameter_.assign(static_cast<std::size_t>(sector_.count), -1);
   for (int h = 0; h < harmonics.cosines(); ++h) {
@@ -124,28 +149,7 @@ void LinearParts::set_waves(const elements::Harmonics& harmonics) {
     wave = static_cast<int>(diameters.size());
     diameters.push_back(diameter);
   }
-  for (MatrixInY& part : matrix_parts_) {
-    if (part.of.waves)
-      for (const int diameter : diameters)
-        part.waves.push_back(product<Complex>(part.of.waves->of(diameter), P));
-    else
-      part.waves.push_back(product<Complex>(part.of.A->cast<Complex>(), P));
-    SparsityPattern links(size_);
-    for (ComplexSparse& A : part.waves) {
-      A.prune([](Eigen::Index, Eigen::Index, const Complex& value) { return value != 0.0; });
-      for (Eigen::Index j = 0; j < size_; ++j)
-        for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry) links.link(entry.row(), j);
-    }
-    const ComplexSparse all = links.matrix();
-    for (ComplexSparse& A : part.waves) {
-      if (A.nonZeros() == all.nonZeros()) continue;
-      ComplexSparse same = all;
-      for (Eigen::Index j = 0; j < size_; ++j)
-        for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry)
-          same.valuePtr()[position(all, entry.row(), j)] = entry.value();
-      A = std::move(same);
-    }
-  }
+  for (MatrixInY& part : matrix_parts_) part.waves = in_waves(part.of, P_, diameters);
 }
 
 void LinearParts::set_positions() {
@@ -221,7 +225,10 @@ void LinearParts::set_values() {
     for (const auto& [j, at_j] : part.direction.entries())
       for (const auto& [i, at_i] : part.direction.entries()) sum(i, j) += part.value * at_i * at_j;
   }
-  for (const MatrixInY& part : matrix_parts_) matrices_.of(part.of.kind) += part.value * in_y(part);
+  for (MatrixInY& part : matrix_parts_) {
+    if (part.waves.empty()) part.waves = in_waves(part.of, P_, {});
+    matrices_.of(part.of.kind) += part.value * part.waves.front().real();
+  }
 }
 
 ComplexSparse LinearParts::pattern() const {
@@ -229,12 +236,10 @@ ComplexSparse LinearParts::pattern() const {
   SparsityPattern links(size_);
   links.link_diagonal();
   for (const PartInY& part : parts_) links.link_all(coordinates_of(part.direction));
-  for (const MatrixInY& part : matrix_parts_) {
-    const Eigen::MatrixXd& A = in_y(part);
+  for (const MatrixInY& part : matrix_parts_)
     for (Eigen::Index j = 0; j < size_; ++j)
-      for (Eigen::Index i = 0; i < size_; ++i)
-        if (A(i, j) != 0) links.link(i, j);
-  }
+      for (ComplexSparse::InnerIterator entry(part.waves.front(), j); entry; ++entry)
+        if (entry.value() != 0.0) links.link(entry.row(), j);
   return links.matrix();
 }
 
@@ -268,12 +273,7 @@ void LinearParts::dynamic_stiffness(int n, ComplexSparse& Z) const {
 }
 
 const Eigen::MatrixXd& LinearParts::in_y(const MatrixInY& part) const {
-  if (part.A.size() > 0) return part.A;
-  const Eigen::SparseMatrix<double> P = P_.sparseView();
-  if (static_cast<double>(P.nonZeros()) > sparse_P * static_cast<double>(P.size()))
-    part.A.noalias() = P_.transpose() * (*part.of.A * P_);
-  else
-    part.A = product(*part.of.A, P);
+  if (part.A.size() == 0) part.A.noalias() = P_.transpose() * (*part.of.A * P_);
   return part.A;
 }
 
@@ -285,7 +285,7 @@ const ComplexSparse& LinearParts::in_wave(const MatrixInY& part, int n) const {
 
 void LinearParts::add_matrix_product(const MatrixInY& part, int n, Complex factor, const ComplexVector& y,
                                      ComplexVector& v) const {
-  if (symmetric()) {
+  if (modal_) {
     v.noalias() += factor * (in_y(part) * y);
     return;
   }
@@ -422,22 +422,18 @@ void LinearParts::add_product(const Factors& g, int n, const ComplexVector& y, C
     for (const ChangedPart& change : changes_)
       change.part->direction.add(g.of(change.part->kind) * change.by * change.part->direction.along(y, t), t,
                                  v);
-  } else if (!symmetric() || matrix_parts_.empty()) {
+  } else {
     for (const PartInY& part : parts_)
       if (const Complex factor = g.of(part.kind) * part.value; factor != 0.0)
         part.direction.add(factor * part.direction.along(y, t), t, v);
     for (const MatrixInY& part : matrix_parts_)
       if (const Complex factor = g.of(part.of.kind) * part.value; factor != 0.0)
         add_matrix_product(part, n, factor, y, v);
-  } else {
-    for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
-      if (g.of(kind) != 0.0) v.noalias() += g.of(kind) * (matrices_.of(kind) * y);
   }
 }
 
 double LinearParts::quadratic_form(Kind kind, int n, const ComplexVector& y) const {
   double sum = 0;
-  if (!modal_ && symmetric() && !matrix_parts_.empty()) return y.dot(matrices_.of(kind) * y).real();
   const Complex t = turn(n);
   if (!modal_) {
     for (const PartInY& part : parts_)
