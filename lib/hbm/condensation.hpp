@@ -17,10 +17,11 @@ namespace arcslip::hbm {
 
 /// The equation of one harmonic, Z q = f, and what leads from it to y and back.
 struct Condensed {
-  ComplexMatrix Z;  // r x r, the Schur complement of Z_ll
-  ComplexVector f;  // r
-  SplitMatrix W;    // l x (r + 1 + observations): Z_ll^-1 [Z_lq, f_l] and Z_ll^-T c_l for each observation
-  ComplexMatrix V;  // l x r: Z_ll^-T Z_ql^T; empty where Z is symmetric, and W has it
+  ComplexMatrix Z;     // r x r, the Schur complement of Z_ll
+  ComplexVector f;     // r
+  bool forced = true;  // false: f and Z_ll^-1 f_l are known to be 0
+  SplitMatrix W;       // l x (r + 1 + observations): Z_ll^-1 [Z_lq, f_l] and Z_ll^-T c_l for each observation
+  ComplexMatrix V;     // l x r: Z_ll^-T Z_ql^T; empty where Z is symmetric, and W has it
   /// By the excitation frequency, where it has been computed: of Z and -f, a row for each, and of the
   /// observations x = c . y below; the last column is that of f and of the force factor.
   ComplexMatrix rates;
