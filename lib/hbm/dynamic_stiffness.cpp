@@ -43,8 +43,11 @@ bool DynamicStiffness::move_to(In p) {
   if (p.head(last_p_.size()) == last_p_) return true;
   last_p_.setConstant(std::nan(""));
   parts_.move_to(p);
-  for (Harmonic& at : harmonics_)
-    if (parts_.force_changed()) parts_.force(at.order, at.force);
+  for (Harmonic& at : harmonics_) {
+    if (!parts_.force_changed()) break;
+    parts_.force(at.order, at.force);
+    at.condensed.forced = (at.force.array() != 0.0).any();
+  }
   for (Harmonic& at : harmonics_)
     if (!condense(at)) return false;
   last_p_ = p.head(last_p_.size());

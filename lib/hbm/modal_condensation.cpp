@@ -106,14 +106,21 @@ bool ModalCondensation::condense(const LinearParts& parts, double s, const Compl
   into.Z.resize(r_, r_);
   into.f.resize(r_);
   into.W.resize(l_, r_ + 1 + c_.cols());
-  right_.re.col(r_) = f.tail(l_).real();
-  right_.im.col(r_) = f.tail(l_).imag();
+  const Eigen::Index columns = into.forced ? r_ + 1 : r_;
+  if (into.forced) {
+    right_.re.col(r_) = f.tail(l_).real();
+    right_.im.col(r_) = f.tail(l_).imag();
+  } else {
+    into.f.setZero();
+    into.W.re.col(r_).setZero();
+    into.W.im.col(r_).setZero();
+  }
   const bool regular = continuation::widest([&]() __attribute__((always_inline)) {
     const Terms diagonal{M.ll.data(), C.ll.data(), K.ll.data()};
     const Split inverse = column(inverse_, 0);
     combine(g, diagonal, l_, inverse);
     if (!invert(s, diagonal, l_, inverse)) return false;
-    for (Eigen::Index i = 0; i <= r_; ++i) {
+    for (Eigen::Index i = 0; i < columns; ++i) {
       const Split right = column(right_, i), W = column(into.W, i);
       if (i < r_) combine(g, {M.lq.data() + i * l_, C.lq.data() + i * l_, K.lq.data() + i * l_}, l_, right);
       multiply(right, inverse, l_, W);
@@ -143,12 +150,14 @@ void ModalCondensation::differentiate(const LinearParts& parts, int n, Condensed
   const Eigen::Index observations = c_.cols();
   const bool forced = parts.force_rate(n, f_rate_);
   at.rates.resize(r_ + observations, r_ + 1);
+  const Eigen::Index columns = at.forced || forced ? r_ + 1 : r_;
+  if (columns == r_) at.rates.col(r_).setZero();
   continuation::widest([&]() __attribute__((always_inline)) {
     const Split D = column(inverse_, 0), y = column(along_, 0), v = column(along_, 1);
     combine(g, {M.ll.data(), C.ll.data(), K.ll.data()}, l_, D);
     for (Eigen::Index i = 0; i < r_; ++i)
       combine(g, {M.lq.data() + i * l_, C.lq.data() + i * l_, K.lq.data() + i * l_}, l_, column(right_, i));
-    for (Eigen::Index b = 0; b <= r_; ++b) {
+    for (Eigen::Index b = 0; b < columns; ++b) {
       const bool of_force = b == r_;
       const Split W = column(at.W, b);
       const double sign = of_force ? 1 : -1;
@@ -186,7 +195,7 @@ void ModalCondensation::differentiate(const LinearParts& parts, int n, Condensed
       return sum;
     };
     const Complex by = change.by * g.of(change.part->kind);
-    for (Eigen::Index b = 0; b <= r_; ++b) {
+    for (Eigen::Index b = 0; b < columns; ++b) {
       const Complex force = by * along(b);
       for (Eigen::Index a = 0; a < r_; ++a) at.rates(a, b) += along(a) * force;
       for (Eigen::Index i = 0; i < observations; ++i) at.rates(r_ + i, b) += along(r_ + 1 + i) * force;
