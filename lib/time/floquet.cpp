@@ -17,7 +17,7 @@ constexpr double turn = 2 * std::numbers::pi;
 constexpr int pieces_at_least = 32;  // of smooth laws without memory in a period
 constexpr double stiffest = 800;     // rad of the fastest motion in such a piece: beyond, a law is too stiff
 constexpr double longest = 4;        // piece, rad of its fastest motion
-constexpr double resolved = 1e-7;    // what a piece may leave out of hysteresis, before orthogonality
+constexpr double resolved = 3e-7;    // what a piece may leave out of hysteresis, before orthogonality
 constexpr double shortest = 1e-9;    // rad
 constexpr double fastest_turns =
     1e12;  // of the fastest motion in a period: beyond, nothing is left of its phase
@@ -273,6 +273,7 @@ struct Floquet::Impl {
     const double fastest = fastest_with(coefficients.largest);
     if (!(fastest * piece <= stiffest)) return false;
     const double in_series = fastest_with(coefficients.sizes);
+    if (!std::isfinite(in_series + coefficients.last)) return false;
     const double most_left_out = h > shortest ? resolved * fastest / h : HUGE_VAL;
     if (h * in_series <= longest && coefficients.last <= most_left_out &&
         varying.left_out(start + from, h) <= most_left_out) {

@@ -140,8 +140,7 @@ HysteresisCourse::Values HysteresisCourse::at(double theta, double cos_theta, do
   const double sign = harmonics_.odd && std::fmod(turned, 2) != 0 ? -1 : 1;
   const double q = sign * displacement(cos_theta, sin_theta);
   const double g = section.g + std::min(std::abs(q - section.from.x) / bound_, section.length);
-  if (g >= curve_.end()) return {0, 0};
-  const double r = std::max(curve_.rate(curve_.x(g)), 0.0);
+  const double r = curve_.rate_at(g);
   return {r, section.r >= HysteresisCurve::at_bound ? r / section.r : 0};
 }
 

@@ -16,15 +16,15 @@ constexpr std::size_t most_cells = 10000;
 
 }  // namespace
 
-double HysteresisCurve::Cell::at(double s) const {
+double HysteresisCurve::Cell::x_at(double s) const {
   double sum = 0;
-  for (auto j = by_s.rbegin(); j != by_s.rend(); ++j) sum = (sum + *j) * s;
-  return x + sum;
+  for (std::size_t j = by_s.size(); j-- > 0;) sum = (sum + by_s[j] / static_cast<double>(j + 1)) * s;
+  return x + length * sum;
 }
 
-double HysteresisCurve::Cell::slope(double s) const {
+double HysteresisCurve::Cell::rate_at(double s) const {
   double sum = 0;
-  for (std::size_t j = by_s.size(); j-- > 0;) sum = sum * s + static_cast<double>(j + 1) * by_s[j];
+  for (std::size_t j = by_s.size(); j-- > 0;) sum = sum * s + by_s[j];
   return sum;
 }
 
@@ -45,7 +45,7 @@ bool HysteresisCurve::solve(const LegendreFit& fit, double sign, Cell& cell) con
   }
   const Vector b = fit.by_values * r;
   const Vector by_s = fit.powers.transpose() * b;
-  for (int j = 0; j < nodes; ++j) cell.by_s[static_cast<std::size_t>(j)] = cell.length * by_s[j] / (j + 1);
+  for (int j = 0; j < nodes; ++j) cell.by_s[static_cast<std::size_t>(j)] = by_s[j];
   return cell.length * b.tail(2).cwiseAbs().sum() <= resolved;
 }
 
@@ -60,7 +60,7 @@ HysteresisCurve::Side HysteresisCurve::tabulate(double sign) const {
       length *= 0.5;
       continue;
     }
-    const double end = cell.at(1);
+    const double end = cell.x_at(1);
     if (sign < 0 && end > 1 + settled) {
       // x comes to -1, and faster on the way: the chord ends before.
       length *= (1 - x) / (end - x);
@@ -75,14 +75,21 @@ HysteresisCurve::Side HysteresisCurve::tabulate(double sign) const {
   return side;
 }
 
+const HysteresisCurve::Cell* HysteresisCurve::cell_at(const Side& side, double size) {
+  if (size >= side.end) return nullptr;
+  return &*std::prev(std::upper_bound(side.cells.begin(), side.cells.end(), size,
+                                      [](double value, const Cell& of) { return value < of.g; }));
+}
+
 double HysteresisCurve::x(double g) const {
-  const Side& side = g < 0 ? down_ : up_;
-  const double sign = g < 0 ? -1 : 1, way = std::abs(g);
-  if (way >= side.end) return sign;
-  const auto after = std::upper_bound(side.cells.begin(), side.cells.end(), way,
-                                      [](double value, const Cell& of) { return value < of.g; });
-  const Cell& cell = *std::prev(after);
-  return sign * std::min(cell.at((way - cell.g) / cell.length), 1.0);
+  const double sign = g < 0 ? -1 : 1, size = std::abs(g);
+  const Cell* const cell = cell_at(g < 0 ? down_ : up_, size);
+  return cell ? sign * std::min(cell->x_at((size - cell->g) / cell->length), 1.0) : sign;
+}
+
+// Of x: next to a corner of the law the polynomials of r are less exact than their integrals.
+double HysteresisCurve::rate_at(double g) const {
+  return g >= end() ? 0 : std::max(rate(x(g)), 0.0);
 }
 
 double HysteresisCurve::g(double x) const {
@@ -92,11 +99,11 @@ double HysteresisCurve::g(double x) const {
   const auto after = std::upper_bound(side.cells.begin(), side.cells.end(), size,
                                       [](double value, const Cell& of) { return value < of.x; });
   const Cell& cell = *std::prev(after);
-  double low = 0, high = 1, s = (size - cell.x) / (cell.at(1) - cell.x);
+  double low = 0, high = 1, s = (size - cell.x) / (cell.x_at(1) - cell.x);
   for (int i = 0; i < most_iterations && s > 0 && s < 1; ++i) {
-    const double excess = cell.at(s) - size;
+    const double excess = cell.x_at(s) - size;
     (excess > 0 ? high : low) = s;
-    double next = s - excess / cell.slope(s);
+    double next = s - excess / (cell.length * cell.rate_at(s));
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     const double change = std::abs(next - s);
     s = next;

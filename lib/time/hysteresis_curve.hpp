@@ -27,19 +27,21 @@ class HysteresisCurve {
   double x(double g) const;
   /// The g of an x, -1 <= x <= 1.
   double g(double x) const;
+  /// r there; 0 where z is at its bound.
+  double rate_at(double g) const;
   double rate(double x) const { return law_->rate(fields_, x); }
   /// From here on x = 1.
   double end() const { return up_.end; }
 
  private:
   static constexpr int nodes = 12;
-  // |x| = x + sum_j by_s[j] s^(j + 1), s = (|g| - g)/length
+  // r = sum_j by_s[j] s^j, s = (|g| - g)/length; |x| = x + length times its integral
   struct Cell {
     double g, length, x;
     std::array<double, nodes> by_s;
 
-    double at(double s) const;
-    double slope(double s) const;  // d|x|/ds
+    double x_at(double s) const;
+    double rate_at(double s) const;
   };
   // Of x >= 0 or of x <= 0.
   struct Side {
@@ -48,6 +50,8 @@ class HysteresisCurve {
   };
 
   Side tabulate(double sign) const;
+  // Null: at the bound.
+  static const Cell* cell_at(const Side& side, double size);
   // False: it is too long for a polynomial.
   bool solve(const LegendreFit& fit, double sign, Cell& cell) const;
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_terms = 64;
 constexpr double longest = 2;       // rad of the fastest motion, in one series
 constexpr int few = 4;              // series in a row cost less than halving and squaring
-constexpr double left_out = 1e-19;  // by the first term that is left out, relative
+constexpr double left_out = 1e-17;  // by the first term that is left out, relative
 
 // The first k with x^k/k! below left_out.
 std::size_t terms_of(double x) {
@@ -37,6 +37,9 @@ Variable::Variable(const Matrix& over_mass, const Matrix& along, Eigen::Index po
   };
   onto = entries(over_mass);
   from = entries(along);
+  for (Eigen::Index b = 0; b < directions; ++b)
+    from_ends.push_back(static_cast<std::size_t>(
+        std::count_if(from.begin(), from.end(), [&](const Entry& of) { return of.direction <= b; })));
 }
 
 void Variation::set(const Matrix& K, const Matrix& C, const Matrix& G) {
@@ -98,127 +101,129 @@ std::size_t Variation::terms_of(double h, double fastest, const std::vector<Vari
 
 namespace {
 
-// Several w side by side.
 constexpr Eigen::Index lanes = 4;
 
-[[gnu::always_inline]] inline double* lane(std::vector<double>& of, Eigen::Index i) {
-  return of.data() + lanes * i;
-}
+struct Vectors {
+  using Lanes [[gnu::vector_size(sizeof(double) * lanes), gnu::aligned(sizeof(double))]] = double;
 
-[[gnu::always_inline]] inline void add(double weight, const double* from, double* __restrict to) {
-  for (Eigen::Index r = 0; r < lanes; ++r) to[r] += weight * from[r];
-}
+  [[gnu::always_inline]] static Lanes& at(double* of, Eigen::Index i) {
+    return *reinterpret_cast<Lanes*>(of + lanes * i);
+  }
 
-// The w from `start` on, 0 beyond the last one.
-void take(const Matrix& of, Eigen::Index start, std::vector<double>& into) {
-  const Eigen::Index rows = std::min(lanes, of.rows() - start);
-  for (Eigen::Index i = 0; i < of.cols(); ++i)
-    for (Eigen::Index r = 0; r < lanes; ++r) lane(into, i)[r] = r < rows ? of(start + r, i) : 0;
-}
+  // The rows from `start` on, 0 beyond the last one.
+  static void take(const Matrix& of, Eigen::Index start, std::vector<double>& into) {
+    const Eigen::Index rows = std::min(lanes, of.rows() - start);
+    into.assign(static_cast<std::size_t>(lanes * of.cols()), 0);
+    for (Eigen::Index i = 0; i < of.cols(); ++i)
+      std::copy_n(of.data() + i * of.rows() + start, rows, into.data() + lanes * i);
+  }
+  static void give(const std::vector<double>& from, Eigen::Index start, Matrix& to) {
+    const Eigen::Index rows = std::min(lanes, to.rows() - start);
+    for (Eigen::Index i = 0; i < to.cols(); ++i)
+      std::copy_n(from.data() + lanes * i, rows, to.data() + i * to.rows() + start);
+  }
 
-void give(std::vector<double>& from, Eigen::Index start, Matrix& to) {
-  const Eigen::Index rows = std::min(lanes, to.rows() - start);
-  for (Eigen::Index i = 0; i < to.cols(); ++i)
-    for (Eigen::Index r = 0; r < rows; ++r) to(start + r, i) = lane(from, i)[r];
-}
+  // Term k of D.
+  [[gnu::always_inline]] static void project(const Variable& variable, Eigen::Index k, double* of,
+                                             double* terms) {
+    const Variable::Entry* entry = variable.from.data();
+    for (Eigen::Index b = 0; b < variable.directions; ++b) {
+      const Variable::Entry* const end =
+          variable.from.data() + variable.from_ends[static_cast<std::size_t>(b)];
+      Lanes sum{};
+      for (; entry != end; ++entry) sum += entry->weight * at(of, entry->dof);
+      at(terms, k * variable.directions + b) = sum;
+    }
+  }
 
-// Of D, to the terms before.
-[[gnu::always_inline]] inline void project(const Variable& variable, std::vector<double>& of, double* into) {
-  std::fill_n(into, lanes * variable.directions, 0.0);
-  for (const Variable::Entry& entry : variable.from)
-    add(entry.weight, lane(of, entry.dof), into + lanes * entry.direction);
-}
-
-// sum += sum_j T_j (term k - j).
-[[gnu::always_inline]] inline void convolve(const Matrix& T, std::size_t k, const double* terms,
-                                            std::vector<double>& sum) {
-  const Eigen::Index directions = T.rows(), powers = T.cols() / directions;
-  const auto last = static_cast<Eigen::Index>(k);
-  for (Eigen::Index j = 0; j <= last && j < powers; ++j)
-    for (Eigen::Index b = 0; b < directions; ++b)
-      for (Eigen::Index a = 0; a < directions; ++a)
-        add(T(a, j * directions + b), terms + lanes * ((last - j) * directions + b), lane(sum, a));
-}
+  // sum += row a of sum_j T_j (term k - j).
+  [[gnu::always_inline]] static void convolve(const Matrix& T, Eigen::Index a, Eigen::Index k, double* terms,
+                                              Lanes& sum) {
+    const Eigen::Index directions = T.rows(), powers = std::min(T.cols() / directions, k + 1);
+    for (Eigen::Index b = 0; b < directions; ++b) {
+      const double* by = T.data() + b * directions + a;
+      for (Eigen::Index j = 0; j < powers; ++j, by += directions * directions)
+        sum += *by * at(terms, (k - j) * directions + b);
+    }
+  }
+};
 
 }  // namespace
 
 void Variation::series(double h, std::size_t terms, const Matrix& G, const std::vector<Variable>& variables,
                        Matrix& W, Matrix& V) {
-  const auto size = static_cast<std::size_t>(lanes * W.cols());
-  for (auto* each : {&at_.w, &at_.v, &at_.next_w, &at_.next_v, &at_.sum_w, &at_.sum_v}) each->resize(size);
-  at_.along_w.resize(variables.size());
-  at_.along_v.resize(variables.size());
+  for (Eigen::Index start = 0; start < W.rows(); start += lanes)
+    series_from(start, h, terms, G, variables, W, V);
+}
+
+void Variation::series_from(Eigen::Index start, double h, std::size_t terms, const Matrix& G,
+                            const std::vector<Variable>& variables, Matrix& W, Matrix& V) {
+  using Of = Vectors;
+  Of::take(W, start, at_.w);
+  Of::take(V, start, at_.v);
+  at_.sum_w = at_.w;
+  at_.sum_v = at_.v;
+  at_.next_w.resize(at_.w.size());
+  at_.next_v.assign(at_.v.size(), 0);
+  if (G.size() > 0) Of::take(G, start, at_.next_v);
+  at_.along.resize(variables.size());
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    const std::size_t along = most_terms * static_cast<std::size_t>(lanes * variables[i].directions);
-    at_.along_w[i].resize(along);
-    if (variables[i].B.size() > 0) at_.along_v[i].resize(along);
+    const auto size = static_cast<std::size_t>(lanes * variables[i].directions);
+    Buffers::Along& along = at_.along[i];
+    along.w.resize(terms * size);
+    if (variables[i].B.size() > 0) along.v.resize(terms * size);
+    along.sum.resize(size);
+    if (variables[i].by_memory.size() > 0) Of::take(variables[i].memory, start, along.memory);
   }
-  for (Eigen::Index start = 0; start < W.rows(); start += lanes) {
-    take(W, start, at_.w);
-    take(V, start, at_.v);
-    at_.sum_w = at_.w;
-    at_.sum_v = at_.v;
-    continuation::widest([&]() __attribute__((always_inline)) { add_terms(terms, h, start, G, variables); });
-    give(at_.sum_w, start, W);
-    give(at_.sum_v, start, V);
-  }
+  continuation::widest([&]() __attribute__((always_inline)) { add_terms(terms, h, variables); });
+  Of::give(at_.sum_w, start, W);
+  Of::give(at_.sum_v, start, V);
 }
 
-[[gnu::always_inline]] inline void Variation::add_terms(std::size_t terms, double h, Eigen::Index start,
-                                                        const Matrix& G,
+// next_v: G.
+[[gnu::always_inline]] inline void Variation::add_terms(std::size_t terms, double h,
                                                         const std::vector<Variable>& variables) {
+  using Of = Vectors;
+  using Lanes = Of::Lanes;
   const auto dofs = static_cast<Eigen::Index>(rows_.size()) - 1;
+  double *w = at_.w.data(), *v = at_.v.data(), *next_w = at_.next_w.data(), *next_v = at_.next_v.data();
   for (std::size_t k = 0; k < terms; ++k) {
-    const double factor = h / static_cast<double>(k + 1);
-    if (k == 0 && G.size() > 0)
-      take(G, start, at_.next_v);
-    else
-      std::fill(at_.next_v.begin(), at_.next_v.end(), 0.0);
+    const Entry* entry = entries_.data();
     for (Eigen::Index i = 0; i < dofs; ++i) {
-      double sum[lanes];
-      std::copy_n(lane(at_.next_v, i), lanes, sum);
-      for (std::size_t e = rows_[static_cast<std::size_t>(i)]; e < rows_[static_cast<std::size_t>(i) + 1];
-           ++e) {
-        const Entry& entry = entries_[e];
-        const double* const w = lane(at_.w, entry.column);
-        const double* const v = lane(at_.v, entry.column);
-        for (Eigen::Index r = 0; r < lanes; ++r) sum[r] -= entry.k * w[r] + entry.c * v[r];
+      Lanes sum = k == 0 ? Of::at(next_v, i) : Lanes{};
+      for (const Entry* const end = entries_.data() + rows_[static_cast<std::size_t>(i) + 1]; entry != end;
+           ++entry)
+        sum -= entry->k * Of::at(w, entry->column) + entry->c * Of::at(v, entry->column);
+      Of::at(next_v, i) = sum;
+    }
+    const auto now = static_cast<Eigen::Index>(k);
+    for (std::size_t n = 0; n < variables.size(); ++n) {
+      const Variable& variable = variables[n];
+      Buffers::Along& along = at_.along[n];
+      Of::project(variable, now, w, along.w.data());
+      const bool moving = variable.B.size() > 0, driven = now < variable.by_memory.cols();
+      if (moving) Of::project(variable, now, v, along.v.data());
+      for (Eigen::Index a = 0; a < variable.directions; ++a) {
+        Lanes sum{};
+        Of::convolve(variable.T, a, now, along.w.data(), sum);
+        if (moving) Of::convolve(variable.B, a, now, along.v.data(), sum);
+        if (driven) sum += variable.by_memory(a, now) * Of::at(along.memory.data(), 0);
+        Of::at(along.sum.data(), a) = sum;
       }
-      std::copy_n(sum, lanes, lane(at_.next_v, i));
+      for (const Variable::Entry& onto : variable.onto)
+        Of::at(next_v, onto.dof) -= onto.weight * Of::at(along.sum.data(), onto.direction);
     }
-    for (std::size_t i = 0; i < variables.size(); ++i)
-      add_variable(variables[i], k, start, at_.along_w[i].data(), at_.along_v[i].data());
-    for (Eigen::Index i = 0; i < lanes * dofs; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      at_.next_w[at] = factor * at_.v[at];
-      at_.next_v[at] *= factor;
-      at_.sum_w[at] += at_.next_w[at];
-      at_.sum_v[at] += at_.next_v[at];
+    const double factor = h / static_cast<double>(k + 1);
+    for (Eigen::Index i = 0; i < dofs; ++i) {
+      const Lanes of_w = factor * Of::at(v, i), of_v = factor * Of::at(next_v, i);
+      Of::at(next_w, i) = of_w;
+      Of::at(next_v, i) = of_v;
+      Of::at(at_.sum_w.data(), i) += of_w;
+      Of::at(at_.sum_v.data(), i) += of_v;
     }
-    at_.w.swap(at_.next_w);
-    at_.v.swap(at_.next_v);
+    std::swap(w, next_w);
+    std::swap(v, next_v);
   }
-}
-
-[[gnu::always_inline]] inline void Variation::add_variable(const Variable& variable, std::size_t k,
-                                                           Eigen::Index start, double* along_w,
-                                                           double* along_v) {
-  const auto offset = static_cast<Eigen::Index>(k) * lanes * variable.directions;
-  at_.sum.assign(static_cast<std::size_t>(lanes * variable.directions), 0.0);
-  project(variable, at_.w, along_w + offset);
-  convolve(variable.T, k, along_w, at_.sum);
-  if (variable.B.size() > 0) {
-    project(variable, at_.v, along_v + offset);
-    convolve(variable.B, k, along_v, at_.sum);
-  }
-  if (const auto j = static_cast<Eigen::Index>(k); j < variable.by_memory.cols()) {
-    const Eigen::Index rows = std::min(lanes, variable.memory.size() - start);
-    for (Eigen::Index a = 0; a < variable.directions; ++a)
-      for (Eigen::Index r = 0; r < rows; ++r)
-        lane(at_.sum, a)[r] += variable.memory[start + r] * variable.by_memory(a, j);
-  }
-  for (const Variable::Entry& entry : variable.onto)
-    add(-entry.weight, lane(at_.sum, entry.direction), lane(at_.next_v, entry.dof));
 }
 
 // The map of (w, w', G as inputs) over h/2^halvings, squared as often: from the right, as the w are rows.

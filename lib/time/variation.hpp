@@ -22,11 +22,12 @@ struct Variable {
     double weight;
   };
   Eigen::Index directions;
-  std::vector<Entry> onto, from;  // of M^-1 D and D, without zeros
-  Matrix T, B;                    // of s^j, directions x directions, side by side; B may be empty
-  Matrix by_memory;               // p_j in column j, directions x powers; empty: 0
-  Vector memory;                  // y, a number for each w
-  double size;                    // |M^-1 D| |D|
+  std::vector<Entry> onto, from;       // of M^-1 D and D, without zeros, column by column
+  std::vector<std::size_t> from_ends;  // of the columns
+  Matrix T, B;                         // of s^j, directions x directions, side by side; B may be empty
+  Matrix by_memory;                    // p_j in column j, directions x powers; empty: 0
+  Vector memory;                       // y, a number for each w
+  double size;                         // |M^-1 D| |D|
 };
 
 class Variation {
@@ -43,19 +44,23 @@ class Variation {
     Eigen::Index column;
     double k, c;
   };
+  // Several w side by side.
   struct Buffers {
-    std::vector<double> w, v, next_w, next_v, sum_w, sum_v, sum;
-    std::vector<std::vector<double>> along_w, along_v;  // of each variable, the terms so far along D
+    std::vector<double> w, v, next_w, next_v, sum_w, sum_v;  // of each degree of freedom
+    struct Along {
+      std::vector<double> w, v, sum;  // the terms so far along D; of each direction
+      std::vector<double> memory;
+    };
+    std::vector<Along> along;  // of each variable
   };
 
   std::size_t terms_of(double h, double fastest, const std::vector<Variable>& variables);
   void series(double h, std::size_t terms, const Matrix& G, const std::vector<Variable>& variables, Matrix& W,
               Matrix& V);
+  void series_from(Eigen::Index start, double h, std::size_t terms, const Matrix& G,
+                   const std::vector<Variable>& variables, Matrix& W, Matrix& V);
+  void add_terms(std::size_t terms, double h, const std::vector<Variable>& variables);
   void squared(double h, double fastest, int halvings, Matrix& W, Matrix& V);
-  void add_terms(std::size_t terms, double h, Eigen::Index start, const Matrix& G,
-                 const std::vector<Variable>& variables);
-  void add_variable(const Variable& variable, std::size_t k, Eigen::Index start, double* along_w,
-                    double* along_v);
 
   std::vector<Entry> entries_;     // of K and C, without zeros, row by row
   std::vector<std::size_t> rows_;  // where each begins; and the end

@@ -10,7 +10,7 @@ namespace arcslip::time {
 namespace {
 
 constexpr double beside_end = 1.0 / 1024;  // of a piece
-constexpr double rounding = 4e-16;         // of a coefficient by the largest one
+constexpr double negligible = 1e-13;       // coefficient, by the largest one
 
 const elements::Hysteresis* hysteresis_of(const elements::Law& law) {
   return dynamic_cast<const elements::Hysteresis*>(&law);
@@ -117,13 +117,13 @@ void VaryingCoefficients::set(Smooth& law, Piece& piece) {
   piece.sizes.damping += variable.size * variable.B.cwiseAbs().sum();
 }
 
-// By the Legendre polynomials up to the last that is not rounding, whose powers would add to it. last: grows
-// to the last two.
+// By the Legendre polynomials up to the last that is not negligible, since powers add to rounding. last:
+// grows to the last two.
 VaryingCoefficients::Values VaryingCoefficients::coefficients(const Values& at_nodes, double& last) const {
   Values b = by_values_ * at_nodes;
   last = std::max(last, b.tail<2>().cwiseAbs().sum());
-  const double negligible = rounding * b.cwiseAbs().maxCoeff();
-  for (int l = nodes - 1; l > 0 && std::abs(b[l]) <= negligible; --l) b[l] = 0;
+  const double least = negligible * b.cwiseAbs().maxCoeff();
+  for (int l = nodes - 1; l > 0 && std::abs(b[l]) <= least; --l) b[l] = 0;
   return powers_ * b;
 }
 
