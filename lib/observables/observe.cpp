@@ -126,7 +126,9 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
   stable_u_.resize(0);
   const auto refined = [&](Truncation::Reach reach) -> const Multipliers* {
     const auto motion = truncation_->refined(now, reach);
-    const bool known = motion && stability_->move_to(motion->problem, motion->at, motion->p);
+    if (!motion) return nullptr;
+    const bool known = motion->at ? stability_->move_to(motion->problem, *motion->at, motion->p)
+                                  : stability_->move_to(motion->problem, motion->u, motion->p);
     return known ? &stability_->multipliers() : nullptr;
   };
   const Multipliers* all = refined(Truncation::Reach::all);

@@ -33,6 +33,19 @@ bool same_but_frequency(const continuation::Vector& a, const continuation::Vecto
 
 bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at,
                                 const continuation::Vector& p) {
+  if (!prepare(problem, p)) return false;
+  time::courses_of(problem, at, courses_);
+  return compute(problem, p);
+}
+
+bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, continuation::In u,
+                                const continuation::Vector& p) {
+  if (!prepare(problem, p)) return false;
+  time::courses_of(problem, u, courses_);
+  return compute(problem, p);
+}
+
+bool StabilityAnalysis::prepare(const hbm::HbmProblem& problem, const continuation::Vector& p) {
   if (!same_but_frequency(p, p_)) {
     p_ = p;
     floquet_.reset();
@@ -57,8 +70,10 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, const hbm::HbmEv
       unknown_ = without.what();
     }
   }
-  if (!floquet_ && !hill_) return false;
-  time::courses_of(problem, at, courses_);
+  return floquet_ || hill_;
+}
+
+bool StabilityAnalysis::compute(const hbm::HbmProblem& problem, const continuation::Vector& p) {
   const double omega = problem.harmonics().base_frequency(p[model::frequency]);
   const bool found = hill_ ? hill_->compute(omega, problem.harmonics(), courses_)
                            : floquet_->compute(omega, problem.harmonics(), courses_);

@@ -40,6 +40,8 @@ class StabilityAnalysis {
 
   /// At the last place of an evaluator of `problem`, whose parameters are p. False: unknown().
   bool move_to(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at, const continuation::Vector& p);
+  /// At unknowns of `problem`, where no element tells of contacts: forces are not evaluated.
+  bool move_to(const hbm::HbmProblem& problem, continuation::In u, const continuation::Vector& p);
 
   const Multipliers& multipliers() const { return hill_ ? hill_->multipliers() : floquet_->multipliers(); }
   const Multipliers& half_multipliers() const {
@@ -51,6 +53,9 @@ class StabilityAnalysis {
   const std::string& unknown() const { return unknown_; }
 
  private:
+  bool prepare(const hbm::HbmProblem& problem, const continuation::Vector& p);
+  bool compute(const hbm::HbmProblem& problem, const continuation::Vector& p);
+
   continuation::Vector p_;
   bool by_hill_;
   std::optional<time::Floquet> floquet_;  // one of these

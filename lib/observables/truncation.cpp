@@ -228,9 +228,12 @@ std::optional<Truncation::Refined> Truncation::refined(const continuation::Accep
   }
   Vector p = now.p;
   p[free_] += change_.parameter;
-  const hbm::HbmEvaluator* at = wide_.look_at(base_, p);
-  if (!at) return {};
-  return Refined{wide_.problem(), *at, std::move(p)};
+  const auto& all = problem_.model().elements;
+  const bool contacts =
+      std::any_of(all.begin(), all.end(), [](const auto& e) { return e.law->tells_contact(); });
+  const hbm::HbmEvaluator* at = contacts ? wide_.look_at(base_, p) : nullptr;
+  if (contacts ? !at : !base_.allFinite() || !(p[model::frequency] > 0)) return {};
+  return Refined{wide_.problem(), base_, at, std::move(p)};
 }
 
 // Laws of the velocity that are sampled have an error below any power of the samples, once these resolve

@@ -51,7 +51,8 @@ class Truncation {
   /// The solution of more harmonics next to the point of the last estimate(), to first order.
   struct Refined {
     const hbm::HbmProblem& problem;
-    const hbm::HbmEvaluator& at;  // until the next call of estimate()
+    const continuation::Vector& u;  // until the next call of estimate()
+    const hbm::HbmEvaluator* at;    // the same; null where no element tells of contacts
     continuation::Vector p;
   };
   enum class Reach { all, half };  // of the harmonics above N

@@ -14,11 +14,14 @@ namespace arcslip::time {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr int pieces_at_least = 64;  // of such ones in a period
-constexpr double most_pieces = 200;  // into which one is divided further
+constexpr int pieces_at_least = 32;  // of smooth laws without memory in a period
+constexpr double stiffest = 800;     // rad of the fastest motion in such a piece: beyond, a law is too stiff
+constexpr double longest = 4;        // piece, rad of its fastest motion
+constexpr double resolved = 3e-7;    // what a piece may leave out of hysteresis, before orthogonality
+constexpr double shortest = 1e-9;    // rad
 constexpr double fastest_turns =
     1e12;  // of the fastest motion in a period: beyond, nothing is left of its phase
-constexpr double pieces_per_order = 2;  // of the motion's harmonics
+constexpr double pieces_per_order = 1;  // of the motion's harmonics
 constexpr double long_enough = 0.05;    // of the longest interval without a change, to begin in it
 
 // An automaton, where it acts, and what it does along the motion.
@@ -250,37 +253,42 @@ struct Floquet::Impl {
         G.noalias() -= Z.col(part.memory) * (scale * (part.over_mass * part.mode().f_z)).transpose();
   }
 
-  // False: too many pieces.
+  // False: too stiff.
   bool move_varying(double theta, double end) {
     set_modes();
+    variation.set(K, C, G);
     auto next = std::upper_bound(breaks.begin(), breaks.end(), theta);
     while (theta < end) {
       const double to = next != breaks.end() && *next < end ? *next++ : end;
-      const int coarse = static_cast<int>(std::ceil((to - theta) / piece));
-      for (int i = 0; i < coarse; ++i)
-        if (!move_piece(theta + (to - theta) * i / coarse, (to - theta) / coarse)) return false;
+      const int pieces = varying.any_smooth() ? static_cast<int>(std::ceil((to - theta) / piece)) : 1;
+      for (int i = 0; i < pieces; ++i)
+        if (!move_piece(theta + (to - theta) * i / pieces, (to - theta) / pieces)) return false;
       theta = to;
     }
     return true;
   }
 
   bool move_piece(double from, double h) {
-    const double stiffest = interpolate(from, h);
-    // With the largest coefficients at the nodes.
-    const double needed = std::ceil(h * stiffest / 2);
-    if (!(needed <= most_pieces)) return false;
-    const int fine = std::max(1, static_cast<int>(needed));
-    for (int j = 0; j < fine; ++j) {
-      const double finest = fine == 1 ? stiffest : interpolate(from + h * j / fine, h / fine);
-      variation.move(h / fine, finest, K, C, G, varying.variables(), W, V);
+    const auto coefficients = varying.interpolate(start + from, h);
+    const double fastest = fastest_with(coefficients.largest);
+    if (!(fastest * piece <= stiffest)) return false;
+    const double in_series = fastest_with(coefficients.sizes);
+    if (!std::isfinite(in_series + coefficients.last)) return false;
+    const double most_left_out = h > shortest ? resolved * fastest / h : HUGE_VAL;
+    if (h * in_series <= longest && coefficients.last <= most_left_out &&
+        varying.left_out(start + from, h) <= most_left_out) {
+      variation.move(h, rate, varying.variables(), W, V);
+      return true;
     }
+    const int shares = std::max(2, static_cast<int>(std::ceil(h * fastest / longest)));
+    for (int i = 0; i < shares; ++i)
+      if (!move_piece(from + h * i / shares, h / shares)) return false;
     return true;
   }
 
-  // Returns the rate of the fastest motion, from above, in rad/rad.
-  double interpolate(double from, double h) {
-    const auto [stiffness, damping] = varying.interpolate(start + from, h);
-    return std::sqrt(rate * rate + stiffness) + damping;
+  // rad/rad.
+  double fastest_with(const VaryingCoefficients::Rates& rates) const {
+    return std::sqrt(rate * rate + rates.stiffness) + rates.damping;
   }
 
   void pass(const Change& at, const elements::Harmonics& harmonics,

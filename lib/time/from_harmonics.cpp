@@ -43,4 +43,18 @@ void courses_of(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at,
   }
 }
 
+void courses_of(const hbm::HbmProblem& problem, elements::In u, std::vector<ElementCourse>& courses) {
+  const Eigen::Index size = problem.harmonics().size();
+  courses.resize(problem.model().elements.size());
+  Vector motion;
+  for (std::size_t e = 0; e < courses.size(); ++e) {
+    const int directions = problem.model().elements[e].law->directions();
+    const hbm::ElementMap map = problem.map_of(e);
+    motion.resize(map.size());
+    map.gather(u, motion);
+    courses[e].q = motion.head(directions * size).reshaped(size, directions);
+    courses[e].contact.clear();
+  }
+}
+
 }  // namespace arcslip::time

@@ -7,85 +7,24 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double tolerance = 1e-14;  // of x over a cell
-constexpr double at_bound = 1e-13;   // r
-constexpr double shortest = 1e-12;   // cell, in g, at a kink
-constexpr double first_length = 0.5;
-constexpr std::array<int, 5> substeps{2, 4, 6, 8, 10};
-constexpr double error_power = 1.0 / 9;
 constexpr double settled = 2e-15;  // of x, over the largest g
 constexpr double neutral = 1e-13;  // contraction of the map that is rounding
 constexpr int most_iterations = 100;
+constexpr std::size_t most_kept = 4;  // harmonics
 
 }  // namespace
 
-HysteresisCourse::Step HysteresisCourse::step(double x, double g) const {
-  std::array<double, substeps.size()> row{};
-  const double first = rate(x);
-  double error = 0;
-  for (std::size_t j = 0; j < substeps.size(); ++j) {
-    const int n = substeps[j];
-    const double h = g / n;
-    double before = x, now = x + h * first;
-    for (int i = 1; i < n; ++i) {
-      const double next = before + 2 * h * rate(now);
-      before = now;
-      now = next;
-    }
-    double value = 0.5 * (now + before + h * rate(now));
-    for (std::size_t k = 1; k <= j; ++k) {
-      const double ratio = static_cast<double>(n) / substeps[j - k];
-      const double finer = value + (value - row[k - 1]) / (ratio * ratio - 1);
-      row[k - 1] = value;
-      error = std::abs(finer - value);
-      value = finer;
-    }
-    row[j] = value;
-  }
-  return {row.back(), error};
-}
-
-// From x over a section, whose cells are appended.
-double HysteresisCourse::march(double x, Section& section) {
-  section.cell = cells_.size();
-  section.r = rate(x);
-  section.saturated = HUGE_VAL;
-  double g = 0, length = first_length;
-  cells_.push_back({g, x});
-  while (g < section.length) {
-    const double r = rate(x);
-    if (!(r >= at_bound)) {
-      section.saturated = g;
-      return 1;
-    }
-    length = std::min(length, section.length - g);
-    if (x < 0) length = std::min(length, -x / r);  // not beyond 0: r falls on the way
-    Step end = step(x, length);
-    while (!(end.error <= tolerance) && length > shortest) {
-      const double shorter = 0.8 * std::pow(tolerance / end.error, error_power);
-      length *= shorter > 0.1 ? std::min(shorter, 0.5) : 0.1;  // overflow: 0.1
-      end = step(x, length);
-    }
-    g += length;
-    x = std::min(x < 0 && end.x > -settled ? 0.0 : end.x, 1.0);
-    if (section.length - g <= settled * section.length) break;
-    cells_.push_back({g, x});
-    length *= std::clamp(0.8 * std::pow(tolerance / std::max(end.error, 1e-30), error_power), 1.0, 4.0);
-  }
-  return x;
-}
-
 double HysteresisCourse::around(double x, double& by_x) {
-  cells_.clear();
   turns_.clear();
   by_x = 1;
   for (std::size_t k = 0; k < sections_.size(); ++k) {
     Section& section = sections_[k];
-    x = march(x, section);
-    const double before = section.saturated < HUGE_VAL ? 0 : rate(x);
-    const double phi = section.r >= at_bound ? before / section.r : 0;
-    const double theta = k + 1 < sections_.size() ? sections_[k + 1].from.theta : sections_[0].from.theta;
-    turns_.push_back({within(theta), before, rate(-x), phi});
+    section.g = curve_.g(x);
+    section.r = curve_.rate(x);
+    x = curve_.x(section.end());
+    const double before = is_at_bound(section) ? 0 : curve_.rate(x);
+    const double phi = section.r >= HysteresisCurve::at_bound ? before / section.r : 0;
+    turns_.push_back({within(end_of(k).theta), before, curve_.rate(-x), phi});
     by_x *= -phi;
     x = -x;
   }
@@ -115,75 +54,94 @@ double HysteresisCourse::within(double theta) const {
   return rest < 0 ? rest + span : rest;
 }
 
-bool HysteresisCourse::follow(const elements::Hysteresis& law, std::span<const double> fields,
-                              const elements::Harmonics& harmonics, elements::In q) {
+// A place of a branch and its truncation estimate take turns.
+elements::Reversals& HysteresisCourse::reversals_of(const elements::Harmonics& harmonics) {
+  const auto kept = std::find_if(reversals_.begin(), reversals_.end(),
+                                 [&](const auto& each) { return each.first == harmonics; });
+  if (kept != reversals_.end()) return kept->second;
+  if (reversals_.size() == most_kept) reversals_.erase(reversals_.begin());
+  return reversals_.emplace_back(harmonics, harmonics).second;
+}
+
+bool HysteresisCourse::follow(const elements::Harmonics& harmonics, elements::In q) {
   sections_.clear();
   turns_.clear();
   breaks_.clear();
   if (!q.allFinite()) return false;
-  law_ = &law;
-  fields_.assign(fields.begin(), fields.end());
-  bound_ = law.bound(fields);
   q_ = q;
-  if (!reversals_ || !(harmonics == harmonics_)) reversals_.emplace(harmonics);
   harmonics_ = harmonics;
-  const auto& found = reversals_->find(q_);
+  elements::Reversals& reversals = reversals_of(harmonics);
+  const auto& found = reversals.find(q_);
   if (found.empty()) return true;
   if (found.size() % 2 != (harmonics.odd ? 1 : 0)) return false;
+  for (const elements::Reversal& each : found) sections_.push_back({each, 0});
   double low = found.front().x, high = low, longest = 0;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const double to =
-        k + 1 < found.size() ? found[k + 1].x : (harmonics.odd ? -found.front().x : found.front().x);
-    sections_.push_back({found[k], std::abs(to - found[k].x) / bound_, 0, 0});
-    if (!(sections_.back().length < HUGE_VAL)) return false;
-    longest = std::max(longest, sections_.back().length);
-    low = std::min({low, found[k].x, to});
-    high = std::max({high, found[k].x, to});
+  for (std::size_t k = 0; k < sections_.size(); ++k) {
+    Section& section = sections_[k];
+    const double to = end_of(k).x;
+    section.length = std::abs(to - section.from.x) / bound_;
+    if (!(section.length < HUGE_VAL)) return false;
+    longest = std::max(longest, section.length);
+    low = std::min({low, section.from.x, to});
+    high = std::max({high, section.from.x, to});
   }
   // As if z were q less its middle: q_0 is a minimum where q grows next.
-  const double to = sections_.size() > 1 ? sections_[1].from.x : (harmonics.odd ? -found[0].x : found[0].x);
-  const double way = to > found[0].x ? 1 : -1;
-  const double guess = std::clamp(way * (found[0].x - 0.5 * (low + high)) / bound_, -1.0, 1.0);
+  const double first = sections_[0].from.x, way = end_of(0).x > first ? 1 : -1;
+  const double guess = std::clamp(way * (first - 0.5 * (low + high)) / bound_, -1.0, 1.0);
   const double x = periodic(guess, std::min(longest, 1.0));
   double by_x = 0;
   around(x, by_x);
-  locate();
+  locate(reversals);
   return true;
 }
 
-void HysteresisCourse::locate() {
+elements::Reversal HysteresisCourse::end_of(std::size_t section) const {
+  if (section + 1 < sections_.size()) return sections_[section + 1].from;
+  const elements::Reversal& first = sections_[0].from;
+  return {first.theta + harmonics_.span(), harmonics_.odd ? -first.x : first.x};
+}
+
+void HysteresisCourse::locate(const elements::Reversals& reversals) {
   for (std::size_t k = 0; k < sections_.size(); ++k) {
-    const bool last = k + 1 == sections_.size();
     const Section& section = sections_[k];
-    const elements::Reversal& first = sections_[0].from;
-    const elements::Reversal next =
-        last ? elements::Reversal{first.theta + harmonics_.span(), harmonics_.odd ? -first.x : first.x}
-             : sections_[k + 1].from;
-    const std::size_t end = last ? cells_.size() : sections_[k + 1].cell;
-    const double way = next.x > section.from.x ? bound_ : -bound_;
-    for (std::size_t i = section.cell + 1; i < end; ++i)
-      breaks_.push_back(
-          within(reversals_->crossing(q_, section.from, next, section.from.x + way * cells_[i].g)));
+    const elements::Reversal to = end_of(k);
+    const double way = to.x > section.from.x ? bound_ : -bound_;
+    for (const double on_curve : {0.0, curve_.end()}) {
+      const double g = on_curve - section.g;
+      if (g > 0 && g < section.length)
+        breaks_.push_back(within(reversals.crossing(q_, section.from, to, section.from.x + way * g)));
+    }
   }
 }
 
-HysteresisCourse::Values HysteresisCourse::at(double theta) const {
-  if (sections_.empty()) return {rate(0), 1};
-  const double first = sections_.front().from.theta;
-  const double at = first + within(theta - first);
+// Of q, by Horner's rule.
+double HysteresisCourse::displacement(double c, double s) const {
+  const int sines = harmonics_.sines();
+  const double* const a = q_.data() + (harmonics_.odd ? 0 : 1);
+  const double* const b = q_.data() + harmonics_.cosines();
+  const double step_c = harmonics_.odd ? (c - s) * (c + s) : c, step_s = harmonics_.odd ? 2 * c * s : s;
+  double re = 0, im = 0;
+  for (int j = sines - 1; j >= 0; --j) {
+    const double next = re * step_c - im * step_s + a[j];
+    im = re * step_s + im * step_c - b[j];
+    re = next;
+  }
+  return (harmonics_.odd ? 0 : q_[0]) + re * c - im * s;
+}
+
+HysteresisCourse::Values HysteresisCourse::at(double theta, double cos_theta, double sin_theta) const {
+  if (sections_.empty()) return {curve_.rate(0), 1};
+  const double first = sections_.front().from.theta, span = harmonics_.span();
+  const double turned = std::floor((theta - first) / span);  // an antisymmetric motion changes its sign
+  const double at = theta - turned * span;
   const auto after = std::upper_bound(sections_.begin(), sections_.end(), at,
                                       [](double angle, const Section& of) { return angle < of.from.theta; });
   const Section& section = after == sections_.begin() ? sections_.front() : *std::prev(after);
-  const double q = elements::series_values(harmonics_, q_, at).x;
-  const double g = std::min(std::abs(q - section.from.x) / bound_, section.length);
-  if (g >= section.saturated) return {0, 0};
-  const auto from = cells_.begin() + static_cast<std::ptrdiff_t>(section.cell);
-  const auto to =
-      after == sections_.end() ? cells_.end() : cells_.begin() + static_cast<std::ptrdiff_t>(after->cell);
-  const Cell& cell = *std::prev(
-      std::upper_bound(from + 1, to, g, [](double value, const Cell& of) { return value < of.g; }));
-  const double r = std::max(rate(step(cell.x, g - cell.g).x), 0.0);
-  return {r, section.r >= at_bound ? r / section.r : 0};
+  const double sign = harmonics_.odd && std::fmod(turned, 2) != 0 ? -1 : 1;
+  const double q = sign * displacement(cos_theta, sin_theta);
+  const double g = section.g + std::min(std::abs(q - section.from.x) / bound_, section.length);
+  const double r = curve_.rate_at(g);
+  return {r, section.r >= HysteresisCurve::at_bound ? r / section.r : 0};
 }
 
 }  // namespace arcslip::time

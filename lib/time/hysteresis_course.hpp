@@ -15,14 +15,12 @@
 // z' = r q' vanishes there on both sides, so that dz has no jump. Where r < 1e-13 the memory is at its bound,
 // and r = phi = 0.
 //
-// x(g) is marched in cells by extrapolation of the midpoint rule to order 10 (Gragg 1965; Hairer, Norsett &
-// Wanner 1993, section II.9), each as long as leaves an error below 1e-14. A cell ends where x passes 0.
+// All sections are parts of one curve x(g) (hysteresis_curve.hpp).
 
-#include <arcslip/elements/hysteresis.hpp>
 #include <arcslip/elements/reversals.hpp>
+#include <arcslip/time/hysteresis_curve.hpp>
 
-#include <optional>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace arcslip::time {
@@ -37,48 +35,44 @@ class HysteresisCourse {
     double theta, before, after, phi;
   };
 
+  /// The law must outlive this.
+  HysteresisCourse(const elements::Hysteresis& law, std::span<const double> fields)
+      : curve_(law, fields), bound_(law.bound(fields)) {}
+
   /// q: coefficients. False: not finite. A motion that is constant has no reversals, and z = 0.
-  bool follow(const elements::Hysteresis& law, std::span<const double> fields,
-              const elements::Harmonics& harmonics, elements::In q);
+  bool follow(const elements::Harmonics& harmonics, elements::In q);
 
   /// At any angle, rad.
-  Values at(double theta) const;
+  Values at(double theta, double cos_theta, double sin_theta) const;
   /// The reversals in one span of the harmonics, in any order.
   const std::vector<Turn>& turns() const { return turns_; }
-  /// Angles between which r and phi are smooth and resolved by polynomials of a low order, in any order; in
-  /// [0, span).
+  /// Angles between which r and phi are smooth, and monotone from one reversal to the next: where z passes 0
+  /// and where it comes to its bound; in any order, in [0, span).
   const std::vector<double>& breaks() const { return breaks_; }
 
  private:
-  struct Cell {
-    double g, x;
-  };
   struct Section {
     elements::Reversal from;
-    double length, r;      // in g; r at its start
-    std::size_t cell;      // the first
-    double saturated = 0;  // g from which on z is at its bound
-  };
-  struct Step {
-    double x, error;
+    double length;        // of q, over b
+    double g = 0, r = 0;  // at its start: on the curve
+    double end() const { return g + length; }
   };
 
-  double rate(double x) const { return law_->rate(fields_, x); }
-  Step step(double x, double g) const;
-  double march(double x, Section& section);
+  elements::Reversals& reversals_of(const elements::Harmonics& harmonics);
+  elements::Reversal end_of(std::size_t section) const;
+  bool is_at_bound(const Section& section) const { return section.end() >= curve_.end(); }
   double around(double x, double& by_x);
   double periodic(double guess, double scale);
-  void locate();
+  void locate(const elements::Reversals& reversals);
   double within(double theta) const;
+  double displacement(double cos_theta, double sin_theta) const;
 
-  const elements::Hysteresis* law_ = nullptr;
-  std::vector<double> fields_;
-  double bound_ = 1;
+  HysteresisCurve curve_;
+  double bound_;
+  std::vector<std::pair<elements::Harmonics, elements::Reversals>> reversals_;  // the last ones used
   elements::Harmonics harmonics_;
-  std::optional<elements::Reversals> reversals_;
   Eigen::VectorXd q_;
   std::vector<Section> sections_;
-  std::vector<Cell> cells_;
   std::vector<Turn> turns_;
   std::vector<double> breaks_;
 };

@@ -368,7 +368,8 @@ bool LinearPhases::move(double time) {
     position_ = X_.leftCols(n);
     velocity_ = X_.rightCols(n);
     if (!driven) driven_.resize(0, 0);
-    variation_.move(time, now_->fastest, now_->K, damping_, driven_, {}, position_, velocity_);
+    variation_.set(now_->K, damping_, driven_);
+    variation_.move(time, now_->fastest, {}, position_, velocity_);
     X_.leftCols(n) = position_;
     X_.rightCols(n) = velocity_;
     return true;

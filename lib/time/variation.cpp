@@ -1,5 +1,7 @@
 #include <arcslip/time/variation.hpp>
 
+#include <arcslip/continuation/linear/widest.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,7 @@ namespace {
 constexpr std::size_t most_terms = 64;
 constexpr double longest = 2;       // rad of the fastest motion, in one series
 constexpr int few = 4;              // series in a row cost less than halving and squaring
-constexpr double left_out = 1e-19;  // by the first term that is left out, relative
+constexpr double left_out = 1e-17;  // by the first term that is left out, relative
 
 // The first k with x^k/k! below left_out.
 std::size_t terms_of(double x) {
@@ -21,8 +23,10 @@ std::size_t terms_of(double x) {
 
 }  // namespace
 
-Variable::Variable(const Matrix& over_mass, const Matrix& along, std::size_t powers, bool moving)
-    : T(powers, Matrix::Zero(along.cols(), along.cols())), size(over_mass.norm() * along.norm()) {
+Variable::Variable(const Matrix& over_mass, const Matrix& along, Eigen::Index powers, bool moving)
+    : directions(along.cols()),
+      T(Matrix::Zero(along.cols(), powers * along.cols())),
+      size(over_mass.norm() * along.norm()) {
   if (moving) B = T;
   const auto entries = [](const Matrix& of) {
     std::vector<Entry> all;
@@ -33,124 +37,206 @@ Variable::Variable(const Matrix& over_mass, const Matrix& along, std::size_t pow
   };
   onto = entries(over_mass);
   from = entries(along);
+  for (Eigen::Index b = 0; b < directions; ++b)
+    from_ends.push_back(static_cast<std::size_t>(
+        std::count_if(from.begin(), from.end(), [&](const Entry& of) { return of.direction <= b; })));
 }
 
-void Variation::move(double h, double fastest, const Matrix& K, const Matrix& C, const Matrix& G,
-                     const std::vector<Variable>& variables, Matrix& W, Matrix& V) {
-  if (!(h > 0)) return;
-  take(K, C);
-  const double pieces = std::max(1.0, std::ceil(h * fastest / longest));
-  if (!variables.empty() || pieces <= 1) return series(h, fastest, G, variables, W, V);
-  if (pieces > few) return squared(h, fastest, std::ilogb(pieces) + 1, G, W, V);
-  for (int i = 0; i < static_cast<int>(pieces); ++i) series(h / pieces, fastest, G, variables, W, V);
-}
-
-void Variation::take(const Matrix& K, const Matrix& C) {
-  rows_.resize(static_cast<std::size_t>(K.rows()));
+void Variation::set(const Matrix& K, const Matrix& C, const Matrix& G) {
+  entries_.clear();
+  rows_.clear();
   for (Eigen::Index i = 0; i < K.rows(); ++i) {
-    auto& row = rows_[static_cast<std::size_t>(i)];
-    row.clear();
+    rows_.push_back(entries_.size());
     for (Eigen::Index j = 0; j < K.cols(); ++j)
-      if (K(i, j) != 0 || C(i, j) != 0) row.push_back({j, K(i, j), C(i, j)});
+      if (K(i, j) != 0 || C(i, j) != 0) entries_.push_back({j, K(i, j), C(i, j)});
   }
+  rows_.push_back(entries_.size());
+  G_ = G;
 }
 
-void Variation::series(double h, double fastest, const Matrix& G, const std::vector<Variable>& variables,
-                       Matrix& W, Matrix& V) {
-  const std::size_t terms = terms_of(h * fastest);
-  const Eigen::Index starts = W.rows();
-  w_ = W;
-  v_ = V;
-  next_w_.resizeLike(W);
-  next_v_.resizeLike(V);
-  along_w_.resize(variables.size());
-  along_v_.resize(variables.size());
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    const auto columns = static_cast<Eigen::Index>(most_terms) * variables[i].T.front().rows();
-    along_w_[i].resize(starts, columns);
-    if (!variables[i].B.empty()) along_v_[i].resize(starts, columns);
+void Variation::move(double h, double fastest, const std::vector<Variable>& variables, Matrix& W, Matrix& V) {
+  if (!(h > 0)) return;
+  if (!variables.empty()) return series(h, terms_of(h, fastest, variables), G_, variables, W, V);
+  const double pieces = std::max(1.0, std::ceil(h * fastest / longest));
+  if (pieces > few) return squared(h, fastest, std::ilogb(pieces) + 1, W, V);
+  for (int i = 0; i < static_cast<int>(pieces); ++i)
+    series(h / pieces, time::terms_of(h * fastest / pieces), G_, variables, W, V);
+}
+
+// Until the terms of a bound are negligible, w'' = fastest^2 w + sum_j |T_j| s^j w + ...: as many in a row as
+// one depends on.
+std::size_t Variation::terms_of(double h, double fastest, const std::vector<Variable>& variables) {
+  by_w_.clear();
+  by_v_.clear();
+  const auto add = [](const Matrix& coefficients, const Variable& of, std::vector<double>& to) {
+    const auto powers = static_cast<std::size_t>(coefficients.cols() / of.directions);
+    to.resize(std::max(to.size(), powers), 0);
+    for (std::size_t j = 0; j < powers; ++j)
+      to[j] += of.size * coefficients.middleCols(static_cast<Eigen::Index>(j) * of.directions, of.directions)
+                             .cwiseAbs()
+                             .sum();
+  };
+  for (const Variable& variable : variables) {
+    add(variable.T, variable, by_w_);
+    add(variable.B, variable, by_v_);
   }
-  for (std::size_t k = 0; k < terms; ++k) {
+  double square = fastest * fastest;
+  for (const double each : by_w_) square += each;
+  const double rate = std::sqrt(square);
+  if (rate == 0) return 2;
+  size_w_.assign(1, 1);  // of rate w
+  size_v_.assign(1, 1);
+  std::size_t small = 0;
+  for (std::size_t k = 0; small <= by_w_.size() && k + 1 < most_terms; ++k) {
     const double factor = h / static_cast<double>(k + 1);
-    next_w_ = factor * v_;
-    for (Eigen::Index i = 0; i < W.cols(); ++i) {
-      double* const next = next_v_.col(i).data();
-      for (Eigen::Index r = 0; r < starts; ++r) next[r] = k == 0 && G.size() > 0 ? G(r, i) : 0;
-      for (const Entry& entry : rows_[static_cast<std::size_t>(i)]) {
-        const double* const w = w_.col(entry.column).data();
-        const double* const v = v_.col(entry.column).data();
-        for (Eigen::Index r = 0; r < starts; ++r) next[r] -= entry.k * w[r] + entry.c * v[r];
-      }
-    }
-    for (std::size_t i = 0; i < variables.size(); ++i)
-      add_variable(variables[i], k, along_w_[i], along_v_[i]);
-    next_v_ *= factor;
-    W += next_w_;
-    V += next_v_;
-    w_.swap(next_w_);
-    v_.swap(next_v_);
+    double v = fastest * fastest / rate * size_w_[k];
+    for (std::size_t j = 0; j <= k && j < by_w_.size(); ++j) v += by_w_[j] / rate * size_w_[k - j];
+    for (std::size_t j = 0; j <= k && j < by_v_.size(); ++j) v += by_v_[j] * size_v_[k - j];
+    size_w_.push_back(factor * rate * size_v_[k]);
+    size_v_.push_back(factor * v);
+    small = std::max(size_w_.back(), size_v_.back()) > left_out ? 0 : small + 1;
   }
+  return std::max<std::size_t>(size_w_.size() - small, 2);
 }
 
 namespace {
 
-// into.col(offset + direction) = of D.
-void project(const Variable& variable, const Matrix& of, Eigen::Index offset, Matrix& into) {
-  into.middleCols(offset, variable.T.front().rows()).setZero();
-  for (const Variable::Entry& entry : variable.from) {
-    const double* const from = of.col(entry.dof).data();
-    double* const to = into.col(offset + entry.direction).data();
-    for (Eigen::Index r = 0; r < of.rows(); ++r) to[r] += entry.weight * from[r];
-  }
-}
+constexpr Eigen::Index lanes = 4;
 
-// sum += sum_j (term k - j) T_j^T.
-void convolve(const std::vector<Matrix>& T, std::size_t k, const Matrix& terms, Matrix& sum) {
-  for (std::size_t j = 0; j <= k && j < T.size(); ++j) {
-    const Matrix& by = T[j];
-    for (Eigen::Index b = 0; b < by.cols(); ++b) {
-      const double* const from = terms.col(static_cast<Eigen::Index>(k - j) * by.cols() + b).data();
-      for (Eigen::Index a = 0; a < by.rows(); ++a) {
-        const double weight = by(a, b);
-        if (weight == 0) continue;
-        double* const to = sum.col(a).data();
-        for (Eigen::Index r = 0; r < sum.rows(); ++r) to[r] += weight * from[r];
-      }
+struct Vectors {
+  using Lanes [[gnu::vector_size(sizeof(double) * lanes), gnu::aligned(sizeof(double))]] = double;
+
+  [[gnu::always_inline]] static Lanes& at(double* of, Eigen::Index i) {
+    return *reinterpret_cast<Lanes*>(of + lanes * i);
+  }
+
+  // The rows from `start` on, 0 beyond the last one.
+  static void take(const Matrix& of, Eigen::Index start, std::vector<double>& into) {
+    const Eigen::Index rows = std::min(lanes, of.rows() - start);
+    into.assign(static_cast<std::size_t>(lanes * of.cols()), 0);
+    for (Eigen::Index i = 0; i < of.cols(); ++i)
+      std::copy_n(of.data() + i * of.rows() + start, rows, into.data() + lanes * i);
+  }
+  static void give(const std::vector<double>& from, Eigen::Index start, Matrix& to) {
+    const Eigen::Index rows = std::min(lanes, to.rows() - start);
+    for (Eigen::Index i = 0; i < to.cols(); ++i)
+      std::copy_n(from.data() + lanes * i, rows, to.data() + i * to.rows() + start);
+  }
+
+  // Term k of D.
+  [[gnu::always_inline]] static void project(const Variable& variable, Eigen::Index k, double* of,
+                                             double* terms) {
+    const Variable::Entry* entry = variable.from.data();
+    for (Eigen::Index b = 0; b < variable.directions; ++b) {
+      const Variable::Entry* const end =
+          variable.from.data() + variable.from_ends[static_cast<std::size_t>(b)];
+      Lanes sum{};
+      for (; entry != end; ++entry) sum += entry->weight * at(of, entry->dof);
+      at(terms, k * variable.directions + b) = sum;
     }
   }
-}
+
+  // sum += row a of sum_j T_j (term k - j).
+  [[gnu::always_inline]] static void convolve(const Matrix& T, Eigen::Index a, Eigen::Index k, double* terms,
+                                              Lanes& sum) {
+    const Eigen::Index directions = T.rows(), powers = std::min(T.cols() / directions, k + 1);
+    for (Eigen::Index b = 0; b < directions; ++b) {
+      const double* by = T.data() + b * directions + a;
+      for (Eigen::Index j = 0; j < powers; ++j, by += directions * directions)
+        sum += *by * at(terms, (k - j) * directions + b);
+    }
+  }
+};
 
 }  // namespace
 
-void Variation::add_variable(const Variable& variable, std::size_t k, Matrix& along_w, Matrix& along_v) {
-  const Eigen::Index directions = variable.T.front().rows();
-  const Eigen::Index offset = static_cast<Eigen::Index>(k) * directions;
-  project(variable, w_, offset, along_w);
-  sum_.setZero(w_.rows(), directions);
-  convolve(variable.T, k, along_w, sum_);
-  if (!variable.B.empty()) {
-    project(variable, v_, offset, along_v);
-    convolve(variable.B, k, along_v, sum_);
+void Variation::series(double h, std::size_t terms, const Matrix& G, const std::vector<Variable>& variables,
+                       Matrix& W, Matrix& V) {
+  for (Eigen::Index start = 0; start < W.rows(); start += lanes)
+    series_from(start, h, terms, G, variables, W, V);
+}
+
+void Variation::series_from(Eigen::Index start, double h, std::size_t terms, const Matrix& G,
+                            const std::vector<Variable>& variables, Matrix& W, Matrix& V) {
+  using Of = Vectors;
+  Of::take(W, start, at_.w);
+  Of::take(V, start, at_.v);
+  at_.sum_w = at_.w;
+  at_.sum_v = at_.v;
+  at_.next_w.resize(at_.w.size());
+  at_.next_v.assign(at_.v.size(), 0);
+  if (G.size() > 0) Of::take(G, start, at_.next_v);
+  at_.along.resize(variables.size());
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const auto size = static_cast<std::size_t>(lanes * variables[i].directions);
+    Buffers::Along& along = at_.along[i];
+    along.w.resize(terms * size);
+    if (variables[i].B.size() > 0) along.v.resize(terms * size);
+    along.sum.resize(size);
+    if (variables[i].by_memory.size() > 0) Of::take(variables[i].memory, start, along.memory);
   }
-  if (const auto j = static_cast<Eigen::Index>(k); j < variable.by_memory.cols())
-    sum_.noalias() += variable.memory * variable.by_memory.col(j).transpose();
-  for (const Variable::Entry& entry : variable.onto) {
-    const double* const from = sum_.col(entry.direction).data();
-    double* const to = next_v_.col(entry.dof).data();
-    for (Eigen::Index r = 0; r < sum_.rows(); ++r) to[r] -= entry.weight * from[r];
+  continuation::widest([&]() __attribute__((always_inline)) { add_terms(terms, h, variables); });
+  Of::give(at_.sum_w, start, W);
+  Of::give(at_.sum_v, start, V);
+}
+
+// next_v: G.
+[[gnu::always_inline]] inline void Variation::add_terms(std::size_t terms, double h,
+                                                        const std::vector<Variable>& variables) {
+  using Of = Vectors;
+  using Lanes = Of::Lanes;
+  const auto dofs = static_cast<Eigen::Index>(rows_.size()) - 1;
+  double *w = at_.w.data(), *v = at_.v.data(), *next_w = at_.next_w.data(), *next_v = at_.next_v.data();
+  for (std::size_t k = 0; k < terms; ++k) {
+    const Entry* entry = entries_.data();
+    for (Eigen::Index i = 0; i < dofs; ++i) {
+      Lanes sum = k == 0 ? Of::at(next_v, i) : Lanes{};
+      for (const Entry* const end = entries_.data() + rows_[static_cast<std::size_t>(i) + 1]; entry != end;
+           ++entry)
+        sum -= entry->k * Of::at(w, entry->column) + entry->c * Of::at(v, entry->column);
+      Of::at(next_v, i) = sum;
+    }
+    const auto now = static_cast<Eigen::Index>(k);
+    for (std::size_t n = 0; n < variables.size(); ++n) {
+      const Variable& variable = variables[n];
+      Buffers::Along& along = at_.along[n];
+      Of::project(variable, now, w, along.w.data());
+      const bool moving = variable.B.size() > 0, driven = now < variable.by_memory.cols();
+      if (moving) Of::project(variable, now, v, along.v.data());
+      for (Eigen::Index a = 0; a < variable.directions; ++a) {
+        Lanes sum{};
+        Of::convolve(variable.T, a, now, along.w.data(), sum);
+        if (moving) Of::convolve(variable.B, a, now, along.v.data(), sum);
+        if (driven) sum += variable.by_memory(a, now) * Of::at(along.memory.data(), 0);
+        Of::at(along.sum.data(), a) = sum;
+      }
+      for (const Variable::Entry& onto : variable.onto)
+        Of::at(next_v, onto.dof) -= onto.weight * Of::at(along.sum.data(), onto.direction);
+    }
+    const double factor = h / static_cast<double>(k + 1);
+    for (Eigen::Index i = 0; i < dofs; ++i) {
+      const Lanes of_w = factor * Of::at(v, i), of_v = factor * Of::at(next_v, i);
+      Of::at(next_w, i) = of_w;
+      Of::at(next_v, i) = of_v;
+      Of::at(at_.sum_w.data(), i) += of_w;
+      Of::at(at_.sum_v.data(), i) += of_v;
+    }
+    std::swap(w, next_w);
+    std::swap(v, next_v);
   }
 }
 
 // The map of (w, w', G as inputs) over h/2^halvings, squared as often: from the right, as the w are rows.
-void Variation::squared(double h, double fastest, int halvings, const Matrix& G, Matrix& W, Matrix& V) {
-  const Eigen::Index n = W.cols(), inputs = G.size() > 0 ? n : 0, size = 2 * n + inputs;
+void Variation::squared(double h, double fastest, int halvings, Matrix& W, Matrix& V) {
+  const Eigen::Index n = W.cols(), inputs = G_.size() > 0 ? n : 0, size = 2 * n + inputs;
   map_w_.setZero(size, n);
   map_v_.setZero(size, n);
   map_w_.topRows(n).setIdentity();
   map_v_.middleRows(n, n).setIdentity();
   input_.setZero(inputs > 0 ? size : 0, inputs);
   input_.bottomRows(inputs).setIdentity();
-  series(std::ldexp(h, -halvings), fastest, input_, {}, map_w_, map_v_);
+  series(std::ldexp(h, -halvings), time::terms_of(std::ldexp(h, -halvings) * fastest), input_, {}, map_w_,
+         map_v_);
   map_.setZero(size, size);
   map_.leftCols(n) = map_w_;
   map_.middleCols(n, n) = map_v_;
@@ -162,7 +248,7 @@ void Variation::squared(double h, double fastest, int halvings, const Matrix& G,
   state_.resize(W.rows(), size);
   state_.leftCols(n) = W;
   state_.middleCols(n, n) = V;
-  if (inputs > 0) state_.rightCols(n) = G;
+  if (inputs > 0) state_.rightCols(n) = G_;
   moved_.noalias() = state_ * map_;
   W = moved_.leftCols(n);
   V = moved_.middleCols(n, n);

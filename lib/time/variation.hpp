@@ -4,7 +4,7 @@
 //   w'' = -C w' - K w + G - sum_j s^j D (T_j D^T w + B_j D^T w' + p_j y),     0 <= s <= 1
 //
 // over an angle h, with a constant y; C, K, D: with M^-1 and the powers of omega in them. Several w run
-// together: a row for each, a column for each degree of freedom, so that a sparse K costs its nonzeros.
+// together: a row for each, a column for each degree of freedom; a sparse K costs its nonzeros.
 
 #include <arcslip/time/equation_of_motion.hpp>
 
@@ -15,44 +15,58 @@ namespace arcslip::time {
 /// Coefficients that change over the piece.
 struct Variable {
   /// over_mass, along: M^-1 D and D, dofs x directions; moving: with B.
-  Variable(const Matrix& over_mass, const Matrix& along, std::size_t powers, bool moving);
+  Variable(const Matrix& over_mass, const Matrix& along, Eigen::Index powers, bool moving);
 
   struct Entry {
     Eigen::Index dof, direction;
     double weight;
   };
-  std::vector<Entry> onto, from;  // of M^-1 D and D, without zeros
-  std::vector<Matrix> T, B;       // of s^j, directions x directions
-  Matrix by_memory;               // p_j in column j, directions x powers; empty: 0
-  Vector memory;                  // y, a number for each w
-  double size;                    // |M^-1 D| |D|
+  Eigen::Index directions;
+  std::vector<Entry> onto, from;       // of M^-1 D and D, without zeros, column by column
+  std::vector<std::size_t> from_ends;  // of the columns
+  Matrix T, B;                         // of s^j, directions x directions, side by side; B may be empty
+  Matrix by_memory;                    // p_j in column j, directions x powers; empty: 0
+  Vector memory;                       // y, a number for each w
+  double size;                         // |M^-1 D| |D|
 };
 
 class Variation {
  public:
-  /// Moves W and its derivative V by h. G: as W, constant; empty: 0. fastest: an upper bound of the
-  /// frequencies of the piece, rad/rad; h fastest <= 2 where coefficients change.
-  void move(double h, double fastest, const Matrix& K, const Matrix& C, const Matrix& G,
-            const std::vector<Variable>& variables, Matrix& W, Matrix& V);
+  /// G: as W, constant; empty: 0.
+  void set(const Matrix& K, const Matrix& C, const Matrix& G);
+  /// Moves W and its derivative V by h. fastest: an upper bound of the frequencies of the piece without the
+  /// variables, rad/rad. With these, h is a few rad of the fastest motion at most, their coefficients of s^j
+  /// taken with their sizes.
+  void move(double h, double fastest, const std::vector<Variable>& variables, Matrix& W, Matrix& V);
 
  private:
   struct Entry {
     Eigen::Index column;
     double k, c;
   };
+  // Several w side by side.
+  struct Buffers {
+    std::vector<double> w, v, next_w, next_v, sum_w, sum_v;  // of each degree of freedom
+    struct Along {
+      std::vector<double> w, v, sum;  // the terms so far along D; of each direction
+      std::vector<double> memory;
+    };
+    std::vector<Along> along;  // of each variable
+  };
 
-  void take(const Matrix& K, const Matrix& C);
-  void series(double h, double fastest, const Matrix& G, const std::vector<Variable>& variables, Matrix& W,
+  std::size_t terms_of(double h, double fastest, const std::vector<Variable>& variables);
+  void series(double h, std::size_t terms, const Matrix& G, const std::vector<Variable>& variables, Matrix& W,
               Matrix& V);
-  void squared(double h, double fastest, int halvings, const Matrix& G, Matrix& W, Matrix& V);
+  void series_from(Eigen::Index start, double h, std::size_t terms, const Matrix& G,
+                   const std::vector<Variable>& variables, Matrix& W, Matrix& V);
+  void add_terms(std::size_t terms, double h, const std::vector<Variable>& variables);
+  void squared(double h, double fastest, int halvings, Matrix& W, Matrix& V);
 
-  void add_variable(const Variable& variable, std::size_t k, Matrix& along_w, Matrix& along_v);
-
-  std::vector<std::vector<Entry>> rows_;  // of K and C, without zeros
-  Matrix w_, v_, next_w_, next_v_;        // terms
-  std::vector<Matrix> along_w_,
-      along_v_;  // of each variable, the terms so far along D: starts x directions each
-  Matrix sum_;   // of one variable
+  std::vector<Entry> entries_;     // of K and C, without zeros, row by row
+  std::vector<std::size_t> rows_;  // where each begins; and the end
+  Matrix G_;
+  Buffers at_;
+  std::vector<double> by_w_, by_v_, size_w_, size_v_;  // of the sizes of terms
   Matrix map_, twice_, map_w_, map_v_, input_, state_, moved_;
 };
 

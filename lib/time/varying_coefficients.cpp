@@ -9,21 +9,8 @@
 namespace arcslip::time {
 namespace {
 
-// Gauss-Legendre nodes on [0, 1].
-std::array<double, 4> gauss_nodes() {
-  const double a = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(6.0 / 5)),
-               b = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(6.0 / 5));
-  return {0.5 * (1 - b), 0.5 * (1 - a), 0.5 * (1 + a), 0.5 * (1 + b)};
-}
-
-// Row j: the coefficients of s^j by the values at the nodes.
-Eigen::Matrix4d interpolation() {
-  const auto at = gauss_nodes();
-  Eigen::Matrix4d powers;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) powers(i, j) = std::pow(at[static_cast<std::size_t>(i)], j);
-  return powers.inverse();
-}
+constexpr double beside_end = 1.0 / 1024;  // of a piece
+constexpr double negligible = 1e-13;       // coefficient, by the largest one
 
 const elements::Hysteresis* hysteresis_of(const elements::Law& law) {
   return dynamic_cast<const elements::Hysteresis*>(&law);
@@ -31,7 +18,8 @@ const elements::Hysteresis* hysteresis_of(const elements::Law& law) {
 
 }  // namespace
 
-VaryingCoefficients::VaryingCoefficients() : at_(gauss_nodes()), along_(interpolation()) {}
+VaryingCoefficients::VaryingCoefficients()
+    : fit_(nodes), by_values_(fit_.by_values), powers_(fit_.powers.transpose()) {}
 
 bool VaryingCoefficients::takes(const elements::Law& law) {
   return law.memory() == 0 || hysteresis_of(law);
@@ -47,10 +35,17 @@ void VaryingCoefficients::add(const TimeElement& element, int index, Matrix over
     Vector q = Vector::Zero(1), z = q;
     element.law->begin(element.fields, q, z, at);
     variables_.back().by_memory.setZero(1, nodes);
-    hystereses_.push_back({&element, index, variable, law, at.f_q(0, 0), at.f_z(0, 0), {}});
+    hystereses_.push_back(
+        {&element, index, variable, at.f_q(0, 0), at.f_z(0, 0), HysteresisCourse(*law, element.fields)});
     return;
   }
-  smooth_.push_back({&element, index, variable, moving, {element.law->directions(), 0}, {}, {}});
+  smooth_.push_back({&element,
+                     index,
+                     variable,
+                     moving,
+                     {element.law->directions(), 0},
+                     variables_.back().T,
+                     variables_.back().B});
 }
 
 bool VaryingCoefficients::follow(double omega, const elements::Harmonics& harmonics,
@@ -59,9 +54,7 @@ bool VaryingCoefficients::follow(double omega, const elements::Harmonics& harmon
   harmonics_ = harmonics;
   elements_ = &elements;
   for (Hysteretic& law : hystereses_)
-    if (!law.course.follow(*law.law, law.element->fields, harmonics,
-                           elements[static_cast<std::size_t>(law.index)].q.col(0)))
-      return false;
+    if (!law.course.follow(harmonics, elements[static_cast<std::size_t>(law.index)].q.col(0))) return false;
   return true;
 }
 
@@ -72,59 +65,100 @@ void VaryingCoefficients::pass(std::size_t hysteresis, std::size_t turn, const M
   y.noalias() += (at.before - at.after) * (W * directions_[hystereses_[hysteresis].variable]);
 }
 
-VaryingCoefficients::Rates VaryingCoefficients::interpolate(double theta, double h) {
-  Rates rates{0, 0};
-  for (Smooth& law : smooth_) set(law, theta, h, rates);
-  for (Hysteretic& law : hystereses_) set(law, theta, h, rates);
-  return rates;
+VaryingCoefficients::Piece VaryingCoefficients::interpolate(double theta, double h) {
+  for (int i = 0; i < nodes; ++i) {
+    const double angle = theta + h * fit_.nodes[i];
+    cos_[i] = std::cos(angle);
+    sin_[i] = std::sin(angle);
+  }
+  Piece piece{{}, {}, 0};
+  for (Smooth& law : smooth_) set(law, piece);
+  for (Hysteretic& law : hystereses_) set(law, theta, h, piece);
+  return piece;
 }
 
-void VaryingCoefficients::set(Smooth& law, double theta, double h, Rates& rates) {
+// Of matrices side by side, one at each node, to one for each power of s.
+void VaryingCoefficients::replace(const Matrix& at_nodes, double scale, Matrix& by_powers) {
+  const Eigen::Index size = at_nodes.rows();
+  legendre_.setZero(size, nodes * size);
+  by_powers.setZero();
+  for (int l = 0; l < nodes; ++l) {
+    auto of = legendre_.middleCols(l * size, size);
+    for (int i = 0; i < nodes; ++i) of += scale * by_values_(l, i) * at_nodes.middleCols(i * size, size);
+    for (int j = 0; j <= l; ++j) by_powers.middleCols(j * size, size) += powers_(j, l) * of;
+  }
+}
+
+void VaryingCoefficients::set(Smooth& law, Piece& piece) {
   const Matrix& motion = (*elements_)[static_cast<std::size_t>(law.index)].q;
-  q_.resize(motion.cols());
+  const Eigen::Index size = motion.cols();
+  q_.resize(size);
   double most_T = 0, most_B = 0;
-  for (std::size_t i = 0; i < nodes; ++i) {
-    const double angle = theta + h * at_[i];
-    const double c = std::cos(angle), s = std::sin(angle);
-    for (Eigen::Index k = 0; k < motion.cols(); ++k) {
-      const auto values = elements::series_values(harmonics_, motion.col(k), c, s);
+  for (int i = 0; i < nodes; ++i) {
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const auto values = elements::series_values(harmonics_, motion.col(k), cos_[i], sin_[i]);
       q_[k] = values.x;
       law.at.v[k] = omega_ * values.d1;
     }
     law.element->law->begin(law.element->fields, q_, none_, law.at);
-    law.T[i] = law.at.f_q;
-    most_T = std::max(most_T, law.T[i].cwiseAbs().sum());
+    law.T.middleCols(i * size, size) = law.at.f_q;
+    most_T = std::max(most_T, law.at.f_q.cwiseAbs().sum());
     if (!law.moving) continue;
-    law.B[i] = law.at.f_v;
-    most_B = std::max(most_B, law.B[i].cwiseAbs().sum());
+    law.B.middleCols(i * size, size) = law.at.f_v;
+    most_B = std::max(most_B, law.at.f_v.cwiseAbs().sum());
   }
   Variable& variable = variables_[law.variable];
-  for (std::size_t j = 0; j < nodes; ++j) {
-    variable.T[j].setZero();
-    if (law.moving) variable.B[j].setZero();
-    for (std::size_t i = 0; i < nodes; ++i) {
-      const double weight = along_(static_cast<int>(j), static_cast<int>(i));
-      variable.T[j] += weight / (omega_ * omega_) * law.T[i];
-      if (law.moving) variable.B[j] += weight / omega_ * law.B[i];
-    }
-  }
-  rates.stiffness += variable.size * most_T / (omega_ * omega_);
-  rates.damping += variable.size * most_B / omega_;
+  piece.largest.stiffness += variable.size * most_T / (omega_ * omega_);
+  piece.largest.damping += variable.size * most_B / omega_;
+  replace(law.T, 1 / (omega_ * omega_), variable.T);
+  piece.sizes.stiffness += variable.size * variable.T.cwiseAbs().sum();
+  if (!law.moving) return;
+  replace(law.B, 1 / omega_, variable.B);
+  piece.sizes.damping += variable.size * variable.B.cwiseAbs().sum();
 }
 
-void VaryingCoefficients::set(Hysteretic& law, double theta, double h, Rates& rates) {
-  Eigen::Vector4d T, by_memory;
-  for (std::size_t i = 0; i < nodes; ++i) {
-    const auto [r, phi] = law.course.at(theta + h * at_[i]);
-    T[static_cast<Eigen::Index>(i)] = law.f_q + law.f_z * r;
-    by_memory[static_cast<Eigen::Index>(i)] = law.f_z * phi;
-  }
+// By the Legendre polynomials up to the last that is not negligible, since powers add to rounding. last:
+// grows to the last two.
+VaryingCoefficients::Values VaryingCoefficients::coefficients(const Values& at_nodes, double& last) const {
+  Values b = by_values_ * at_nodes;
+  last = std::max(last, b.tail<2>().cwiseAbs().sum());
+  const double least = negligible * b.cwiseAbs().maxCoeff();
+  for (int l = nodes - 1; l > 0 && std::abs(b[l]) <= least; --l) b[l] = 0;
+  return powers_ * b;
+}
+
+void VaryingCoefficients::set(Hysteretic& law, double theta, double h, Piece& piece) {
   const double scale = 1 / (omega_ * omega_);
+  Values T, by_memory;
+  for (int i = 0; i < nodes; ++i) {
+    const auto [r, phi] = law.course.at(theta + h * fit_.nodes[i], cos_[i], sin_[i]);
+    T[i] = scale * (law.f_q + law.f_z * r);
+    by_memory[i] = scale * law.f_z * phi;
+  }
+  double last = 0;
   Variable& variable = variables_[law.variable];
-  for (std::size_t j = 0; j < nodes; ++j)
-    variable.T[j](0, 0) = scale * along_.row(static_cast<Eigen::Index>(j)).dot(T);
-  variable.by_memory.noalias() = scale * (along_ * by_memory).transpose();
-  rates.stiffness += variable.size * scale * T.cwiseAbs().maxCoeff();
+  piece.largest.stiffness += variable.size * T.cwiseAbs().maxCoeff();
+  variable.T = coefficients(T, last).transpose();
+  variable.by_memory = coefficients(by_memory, last).transpose();
+  piece.sizes.stiffness += variable.size * variable.T.cwiseAbs().sum();
+  piece.last += variable.size * last;
+}
+
+double VaryingCoefficients::left_out(double theta, double h) const {
+  double largest = 0;
+  for (const double s : {beside_end, 1 - beside_end}) {
+    const double angle = theta + h * s, c = std::cos(angle), sine = std::sin(angle);
+    double sum = 0;
+    for (const Hysteretic& law : hystereses_) {
+      const Variable& variable = variables_[law.variable];
+      double T = 0;
+      for (int j = nodes - 1; j >= 0; --j) T = T * s + variable.T(0, j);
+      const double r = law.course.at(angle, c, sine).r;
+      sum += variable.size * std::abs((law.f_q + law.f_z * r) / (omega_ * omega_) - T);
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest;
 }
 
 }  // namespace arcslip::time

@@ -6,15 +6,15 @@
 //   hysteretic               T = f_q + f_z r, and f_z phi y of the memory's own disturbance y
 //                            (hysteresis_course.hpp)
 //
-// each replaced on a piece by the polynomial of degree 3 through its values at the four nodes of Gauss and
-// Legendre. What is left out is orthogonal to polynomials of degree 3: an error of order 8 in the length of a
-// piece, where the coefficient is smooth.
+// each replaced on a piece by the polynomial of degree 7 through its values at the eight nodes of Gauss and
+// Legendre. What is left out is orthogonal to polynomials of degree 7: an error of order 16 in the length of
+// a piece, where the coefficient is smooth.
 
 #include <arcslip/elements/hysteresis.hpp>
 #include <arcslip/time/hysteresis_course.hpp>
+#include <arcslip/time/legendre_fit.hpp>
 #include <arcslip/time/variation.hpp>
 
-#include <array>
 #include <vector>
 
 namespace arcslip::time {
@@ -41,38 +41,53 @@ class VaryingCoefficients {
   /// Passes the reversal of a course with the variations W, starts x dofs.
   void pass(std::size_t hysteresis, std::size_t turn, const Matrix& W);
 
-  /// On the piece of length h from an angle theta, rad. Returns a bound of what T and B add to the fastest
-  /// motion: squared rate by T, and rate by B, in rad/rad.
+  /// Whether there are laws without memory, which may change fast anywhere.
+  bool any_smooth() const { return !smooth_.empty(); }
+
+  /// Bounds of what T and B add to the fastest motion, squared rate by T, and rate by B, in rad/rad.
   struct Rates {
-    double stiffness, damping;
+    double stiffness = 0, damping = 0;
   };
-  Rates interpolate(double theta, double h);
+  struct Piece {
+    Rates largest;  // at the nodes
+    Rates sizes;    // of the coefficients of s^j, all together
+    double last;    // of the last two Legendre polynomials of hysteretic laws, squared rate
+  };
+  /// On the piece of length h from an angle theta, rad.
+  Piece interpolate(double theta, double h);
+  /// What the last interpolate() leaves out of hysteretic laws next to the ends of its piece, where a sharp
+  /// yield may lie beyond the nodes: squared rate.
+  double left_out(double theta, double h) const;
   const std::vector<Variable>& variables() const { return variables_; }
 
  private:
-  static constexpr std::size_t nodes = 4;
+  static constexpr int nodes = 8;
+  using Values = Eigen::Matrix<double, nodes, 1>;
+  using Square = Eigen::Matrix<double, nodes, nodes>;
   struct Smooth {
     const TimeElement* element;
     int index;
     std::size_t variable;
     bool moving;  // its force depends on velocities
     elements::StepEnd at;
-    std::array<Matrix, nodes> T, B;  // at the nodes
+    Matrix T, B;  // side by side
   };
   struct Hysteretic {
     const TimeElement* element;
     int index;
     std::size_t variable;
-    const elements::Hysteresis* law;
     double f_q, f_z;
     HysteresisCourse course;
   };
 
-  void set(Smooth& law, double theta, double h, Rates& rates);
-  void set(Hysteretic& law, double theta, double h, Rates& rates);
+  void set(Smooth& law, Piece& piece);
+  void set(Hysteretic& law, double theta, double h, Piece& piece);
+  void replace(const Matrix& at_nodes, double scale, Matrix& by_powers);
+  Values coefficients(const Values& at_nodes, double& last) const;
 
-  const std::array<double, nodes> at_;  // of a piece from 0 to 1
-  const Eigen::Matrix4d along_;         // row j: the coefficients of s^j by the values at the nodes
+  const LegendreFit fit_;
+  const Square by_values_, powers_;
+  Values cos_, sin_;  // of the angles of the nodes
   std::vector<Variable> variables_;
   std::vector<Matrix> directions_;  // of variables_
   std::vector<Smooth> smooth_;
@@ -81,6 +96,7 @@ class VaryingCoefficients {
   elements::Harmonics harmonics_;
   const std::vector<ElementCourse>* elements_ = nullptr;
   Vector q_, none_;
+  Matrix legendre_;
 };
 
 }  // namespace arcslip::time
