@@ -323,6 +323,27 @@ TEST_CASE("where there is no peak in the window, the study says so") {
   CHECK(branches[0].stop.message.find("no resonance peak was found at damper.normal_load = 0.1") == 0);
 }
 
+TEST_CASE("peaks below a share of the highest one beside them start no curve, and others all of theirs") {
+  const scene::Scene s =
+      scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+    "dofs": ["a", "b"], "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1}],
+    "springs": [{"name": "ka", "at": "a", "value": 100}, {"name": "kb", "between": ["b", "a"], "value": 100}],
+    "dampers": [{"name": "c", "between": ["b", "a"], "value": 0.3}]},
+    "excitation": [{"name": "f", "at": "b", "cosine": 1}], "harmonics": {"order": 1}, "response": {"at": "b"}})");
+  const CurveRange range{"f.cosine", 1, 2, 4, 20};
+  const auto all = observables::resonance_peaks(s, range);
+  REQUIRE(all.size() == 2);
+  // The same at all forces.
+  const double low = all[1].points.front().amplitude / all[0].points.front().amplitude;
+  REQUIRE(low < 0.9);
+  const auto above = observables::high_resonance_peaks(s, range, 1.001 * low),
+             below = observables::high_resonance_peaks(s, range, 0.999 * low);
+  REQUIRE(above.size() == 1);
+  CHECK(above[0].points.back().amplitude == all[0].points.back().amplitude);
+  REQUIRE(below.size() == 2);
+  CHECK(below[1].points.back().amplitude == all[1].points.back().amplitude);
+}
+
 TEST_CASE("a study of peaks ends with the callback, and no other curve is begun") {
   const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
     return observables::resonance_peaks(at.scene, over_load(0.1, 10), tell);
