@@ -67,6 +67,7 @@ scene::Matrices closed_ring(const scene::Matrices& sector) {
   whole.copies = 1;
   whole.stiffness_factors.clear();
   whole.faces.clear();
+  whole.derived = scene::Derived::none();  // what is derived from the sector may hold the ring itself
   return whole;
 }
 

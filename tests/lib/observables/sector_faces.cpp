@@ -16,6 +16,7 @@
 #include <complex>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <numbers>
 #include <sstream>
 
@@ -265,6 +266,18 @@ TEST_CASE("a scene with faces is written so that it is read again") {
   CHECK(contains(observables::prepare(s, {}), "of 5 rows was reduced to 2 of them and "));
   CHECK_THROWS_WITH(model::reduced_scene(s, folder.path(), {}),
                     Catch::Contains("it is reduced for each nodal diameter of a scene"));
+}
+
+TEST_CASE("what is kept of a closed ring goes with its scene") {
+  const Folder folder = files(two_faces(), names);
+  folder.write("faces.csv", pair);
+  std::weak_ptr<scene::Derived> kept;
+  {
+    const scene::Scene s = read(with_faces({6, 2, reduced}, Ring::full), folder);
+    CHECK(model::build(s).dofs > 18);
+    kept = s.matrices->derived;
+  }
+  CHECK(kept.expired());
 }
 
 TEST_CASE("what is wrong with the faces of a sector is told") {

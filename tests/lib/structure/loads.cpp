@@ -63,6 +63,8 @@ Difference difference(const scene::Matrices& of, const std::vector<int>& kept,
     K_reduced += speed * speed * reduced.K2;
   }
   if (of.gyroscopic.matrix) {
+    if (C.size() == 0) C.setZero(M.rows(), M.cols());
+    if (C_reduced.size() == 0) C_reduced.setZero(reduced.M.rows(), reduced.M.cols());
     C += speed * in_order(of.gyroscopic);
     C_reduced += speed * reduced.G;
   }
