@@ -4,6 +4,7 @@
 
 #include <klu.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -13,6 +14,8 @@ namespace arcslip::continuation {
 namespace {
 
 using Complex = std::complex<double>;
+
+constexpr double suspicious = 1e-8;  // of the largest entry of its column: a pivot
 
 // The layout of KLU: pairs, real part first, like std::complex.
 double* pairs(Complex* of) {
@@ -73,13 +76,36 @@ bool ComplexSparseLU::factorize(const Matrix& A, double least) {
   d.check_memory();
   if (!d.numeric || d.common.status != KLU_OK) return false;
   const auto* pivots = static_cast<const Complex*>(d.numeric->Udiag);
+  bool is_suspicious = false;
   for (int k = 0; k < d.symbolic->n; ++k) {
     double largest = 0;
     for (Matrix::InnerIterator entry(M, d.symbolic->Q[k]); entry; ++entry)
       largest = std::max(largest, std::abs(entry.value()));
     if (!(std::abs(pivots[k]) > least * largest)) return false;
+    is_suspicious = is_suspicious || std::abs(pivots[k]) < suspicious * largest;
   }
-  return true;
+  return !is_suspicious || !grows(1 / least);
+}
+
+// The last pivot of a nearly singular matrix is its smallest singular value over the last entries of the
+// singular vectors, which may be small.
+bool ComplexSparseLU::grows(double most) {
+  const Matrix& M = lu_->A;
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(M.rows());
+  for (Eigen::Index j = 0; j < M.outerSize(); ++j)
+    for (Matrix::InnerIterator entry(M, j); entry; ++entry)
+      rows[entry.row()] = std::max(rows[entry.row()], std::abs(entry.value()));
+  Eigen::MatrixXcd x(M.rows(), 1);
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+    x(i, 0) = std::polar(rows[i], static_cast<double>(i) * static_cast<double>(i));  // of no symmetry
+  solve_in_place(x);
+  for (Eigen::Index j = 0; j < M.outerSize(); ++j) {
+    double largest = 0;
+    for (Matrix::InnerIterator entry(M, j); entry; ++entry)
+      largest = std::max(largest, std::abs(entry.value()));
+    if (!(std::abs(x(j, 0)) * largest < most)) return true;
+  }
+  return false;
 }
 
 void ComplexSparseLU::solve_in_place(Eigen::MatrixXcd& B) const {

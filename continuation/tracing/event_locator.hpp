@@ -92,7 +92,8 @@ class EventLocator {
   LocatedEvent nearer_end(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) const;
   LocatedEvent kink_event(const Monitor& monitor, const PassedKink& corner) const;
   std::optional<PassedKink> division(const CurvePoint& from, double length);
-  std::optional<PassedKink> locate_corner(const CurvePoint& from, double length, const Vector& towards);
+  bool locate_corner(const CurvePoint& from, double length, CurvePoint& kink);
+  bool pass(PassedKink& corner, double length, const Vector& towards);
   bool look_beyond(const CurvePoint& kink, double way, bool is_next_to_it, const Vector& towards,
                    CurvePoint& beyond);
   bool is_event(std::size_t monitor, const LocatedEvent& found);
@@ -103,6 +104,7 @@ class EventLocator {
   struct LocatedCorner {
     Vector from;
     PassedKink corner;
+    bool has_beyond;  // the branch was found beyond it
   };
 
   using Find = std::optional<LocatedEvent> (EventLocator::*)(std::size_t, const CurvePoint&,

@@ -164,31 +164,42 @@ bool EventLocator::look_beyond(const CurvePoint& kink, double way, bool is_next_
 }
 
 std::optional<PassedKink> EventLocator::corner(const CurvePoint& from, double length, const Vector& towards) {
-  if (from.orientation == 0) return locate_corner(from, length, towards);
-  for (const LocatedCorner& each : located_)
-    if (each.from == from.v && each.corner.before.arclength - from.arclength < length) return each.corner;
-  auto found = locate_corner(from, length, towards);
-  if (found) located_.push_back({from.v, *found});
-  return found;
+  const auto known = std::find_if(located_.begin(), located_.end(), [&](const LocatedCorner& each) {
+    return each.from == from.v && each.corner.before.arclength - from.arclength < length;
+  });
+  if (known != located_.end() && known->has_beyond && from.orientation != 0) return known->corner;
+  LocatedCorner found{from.v, {}, false};
+  if (known != located_.end())
+    found.corner.before = known->corner.before;
+  else if (!locate_corner(from, length, found.corner.before))
+    return std::nullopt;
+  found.has_beyond = pass(found.corner, length, towards);
+  if (known != located_.end())
+    *known = found;
+  else
+    located_.push_back(found);
+  return found.has_beyond ? std::optional(found.corner) : std::nullopt;
 }
 
-std::optional<PassedKink> EventLocator::locate_corner(const CurvePoint& from, double length,
-                                                      const Vector& towards) {
-  PassedKink corner;
+bool EventLocator::locate_corner(const CurvePoint& from, double length, CurvePoint& kink) {
   Correction correction;
-  if (!locate_kink(probe(), from, length, corner.before, correction)) return std::nullopt;
+  if (!locate_kink(probe(), from, length, kink, correction)) return false;
   if (correction.converged)
-    probe().move_to(corner.before.v);
-  else if (!probe().linearize(corner.before.v, probe().border_row(from.tangent)))  // it is `from` itself
-    return std::nullopt;
-  evaluate(monitors_, probe(), corner.before);
+    probe().move_to(kink.v);
+  else if (!probe().linearize(kink.v, probe().border_row(from.tangent)))  // it is `from` itself
+    return false;
+  evaluate(monitors_, probe(), kink);
+  return true;
+}
+
+bool EventLocator::pass(PassedKink& corner, double length, const Vector& towards) {
   for (const double share : just_beyond) {
     if (!look_beyond(corner.before, share * length, share == just_beyond[0], towards, corner.beyond))
       continue;
     evaluate(monitors_, probe(), corner.beyond);
-    return corner;
+    return true;
   }
-  return std::nullopt;
+  return false;
 }
 
 bool EventLocator::looks_for_kinks() const {

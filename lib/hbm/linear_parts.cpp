@@ -1,6 +1,7 @@
 #include <arcslip/hbm/linear_parts.hpp>
 
 #include <arcslip/hbm/in_place_elimination.hpp>
+#include <arcslip/hbm/matrices_in_waves.hpp>
 #include <arcslip/hbm/sparse_links.hpp>
 
 #include <algorithm>
@@ -11,52 +12,10 @@ namespace {
 
 using Kind = model::LinearKind;
 
-constexpr double rounding = 1e-13;  // of a direction in y, relative to its largest entry
-constexpr double sparse_P = 0.1;    // share of entries that are not zero
-
 bool equal_beside_frequency(const In& a, const Eigen::VectorXd& b) {
   static_assert(model::frequency == 0);
   const auto* begin = a.data() + 1;
   return std::equal(begin, a.data() + a.size(), b.data() + 1);
-}
-
-// P^T A P. Columns of P with one entry, of which most are where linear coordinates are no modes, add no
-// rounding errors between coordinates that A does not link.
-template <class Scalar>
-Eigen::SparseMatrix<Scalar> product(const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& A,
-                                    const Eigen::MatrixXd& P) {
-  const Eigen::SparseMatrix<double> few = P.sparseView();
-  if (static_cast<double>(few.nonZeros()) > sparse_P * static_cast<double>(P.size())) {
-    const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> AP = A * P.cast<Scalar>();
-    return (P.cast<Scalar>().transpose() * AP).eval().sparseView();
-  }
-  const Eigen::SparseMatrix<Scalar> in_x = A.sparseView(), of_y = few.cast<Scalar>();
-  const Eigen::SparseMatrix<Scalar> AP = in_x * of_y;
-  return of_y.transpose() * AP;
-}
-
-// P^T A P in the wave of each diameter, or the one for all of them, with entries in the same places.
-std::vector<ComplexSparse> in_waves(const model::MatrixPart& part, const Eigen::MatrixXd& P,
-                                    const std::vector<int>& diameters) {
-  if (!part.waves) return {ComplexSparse(product(*part.A, P).cast<Complex>())};
-  std::vector<ComplexSparse> waves;
-  SparsityPattern links(P.cols());
-  for (const int diameter : diameters) {
-    ComplexSparse& A = waves.emplace_back(product(part.waves->of(diameter), P));
-    A.prune([](Eigen::Index, Eigen::Index, const Complex& value) { return value != 0.0; });
-    for (Eigen::Index j = 0; j < A.cols(); ++j)
-      for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry) links.link(entry.row(), j);
-  }
-  const ComplexSparse all = links.matrix();
-  for (ComplexSparse& A : waves) {
-    if (A.nonZeros() == all.nonZeros()) continue;
-    ComplexSparse same = all;
-    for (Eigen::Index j = 0; j < A.cols(); ++j)
-      for (ComplexSparse::InnerIterator entry(A, j); entry; ++entry)
-        same.valuePtr()[position(all, entry.row(), j)] = entry.value();
-    A = std::move(same);
-  }
-  return waves;
 }
 
 std::vector<Eigen::Index> coordinates_of(const DirectionInY& direction) {
@@ -75,33 +34,6 @@ double entry_at(const DirectionInY::Entries& entries, Eigen::Index i) {
 }
 
 }  // namespace
-
-DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x,
-                           const model::Direction& next) {
-  const auto in_y = [&P](const model::Direction& of) {
-    Eigen::VectorXd d = Eigen::VectorXd::Zero(P.cols());
-    for (model::Direction::InnerIterator x(of); x; ++x) d += x.value() * P.row(x.index()).transpose();
-    return d;
-  };
-  const auto fill = [](const Eigen::VectorXd& d, double least, Entries& entries) {
-    for (Eigen::Index i = 0; i < d.size(); ++i)
-      if (d[i] != 0 && std::abs(d[i]) >= least) entries.emplace_back(i, d[i]);
-  };
-  const Eigen::VectorXd d = in_y(in_x);
-  double largest = d.cwiseAbs().maxCoeff();
-  if (next.size() > 0) {
-    const Eigen::VectorXd e = in_y(next);
-    largest = std::max(largest, e.cwiseAbs().maxCoeff());
-    fill(e, rounding * largest, next_);
-  }
-  fill(d, rounding * largest, entries_);
-}
-
-DirectionInY::DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x) {
-  const Eigen::VectorXd d = P.transpose() * in_x;
-  for (Eigen::Index i = 0; i < d.size(); ++i)
-    if (d[i] != 0) entries_.emplace_back(i, d[i]);
-}
 
 LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
                          const elements::Harmonics& harmonics,
@@ -152,7 +84,7 @@ void LinearParts::set_waves(const elements::Harmonics& harmonics) {
   for (MatrixInY& part : matrix_parts_) part.waves = in_waves(part.of, P_, diameters);
 }
 
-void LinearParts::set_positions() {
+ComplexSparse LinearParts::links() const {
   SparsityPattern links(size_);
   links.link_diagonal();
   for (const PartInY& part : parts_) links.link_all(coordinates_of(part.direction));
@@ -160,7 +92,11 @@ void LinearParts::set_positions() {
     for (Eigen::Index j = 0; j < size_; ++j)
       for (ComplexSparse::InnerIterator entry(part.waves.front(), j); entry; ++entry)
         links.link(entry.row(), j);
-  pattern_ = links.matrix();
+  return links.matrix();
+}
+
+void LinearParts::set_positions() {
+  pattern_ = links();
   std::size_t most = 0;
   for (const PartInY& part : parts_) {
     PartInZ& in_Z = parts_in_Z_.emplace_back();
@@ -232,15 +168,7 @@ void LinearParts::set_values() {
 }
 
 ComplexSparse LinearParts::pattern() const {
-  if (!symmetric()) return pattern_;
-  SparsityPattern links(size_);
-  links.link_diagonal();
-  for (const PartInY& part : parts_) links.link_all(coordinates_of(part.direction));
-  for (const MatrixInY& part : matrix_parts_)
-    for (Eigen::Index j = 0; j < size_; ++j)
-      for (ComplexSparse::InnerIterator entry(part.waves.front(), j); entry; ++entry)
-        if (entry.value() != 0.0) links.link(entry.row(), j);
-  return links.matrix();
+  return symmetric() ? links() : pattern_;
 }
 
 void LinearParts::dynamic_stiffness(int n, ComplexSparse& Z) const {

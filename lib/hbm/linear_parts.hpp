@@ -16,9 +16,8 @@
 // value * g conj(d) d^T, and a matrix value * g A_d of its wave (model::WaveMatrices): Z is linked, not
 // symmetric, with M, C and K Hermitian but for unsymmetric matrices.
 
+#include <arcslip/hbm/direction_in_y.hpp>
 #include <arcslip/hbm/fixed_interface.hpp>
-
-#include <Eigen/SparseCore>
 
 #include <cmath>
 #include <complex>
@@ -30,41 +29,6 @@
 namespace arcslip::hbm {
 
 using elements::In;
-using Complex = std::complex<double>;
-using ComplexVector = Eigen::VectorXcd;
-using ComplexMatrix = Eigen::MatrixXcd;
-using ComplexSparse = Eigen::SparseMatrix<Complex>;
-
-/// d in y, by its nonzero entries. Rounding errors in other entries are removed: a stiff part belongs in its
-/// own row and column only, and would swamp softer ones.
-class DirectionInY {
- public:
-  using Entries = std::vector<std::pair<Eigen::Index, double>>;
-
-  DirectionInY(const Eigen::MatrixXd& P, const model::Direction& in_x, const model::Direction& next = {});
-  /// Of a force on all rows, with every entry.
-  DirectionInY(const Eigen::MatrixXd& P, const Eigen::VectorXd& in_x);
-
-  const Entries& entries() const { return entries_; }
-  const Entries& next() const { return next_; }
-  /// d . y
-  Complex along(const ComplexVector& y, Complex turn) const {
-    Complex sum = 0;
-    for (const auto& [i, at_i] : entries_) sum += at_i * y[i];
-    if (!next_.empty())
-      for (const auto& [i, at_i] : next_) sum += turn * (at_i * y[i]);
-    return sum;
-  }
-  /// v += amount conj(d)
-  void add(Complex amount, Complex turn, ComplexVector& v) const {
-    for (const auto& [i, at_i] : entries_) v[i] += amount * at_i;
-    if (!next_.empty())
-      for (const auto& [i, at_i] : next_) v[i] += amount * std::conj(turn) * at_i;
-  }
-
- private:
-  Entries entries_, next_;
-};
 
 struct PartInY {
   model::LinearKind kind;
@@ -200,6 +164,7 @@ class LinearParts {
   const ComplexSparse& in_wave(const MatrixInY& part, int n) const;
   Complex turn(int n) const { return linked_ ? sector_.turn(n) : 1; }
   void set_waves(const elements::Harmonics& harmonics);
+  ComplexSparse links() const;
   void set_positions();
   void add_product(const Factors& g, int n, const ComplexVector& y, ComplexVector& v) const;
   void add_matrix_product(const MatrixInY& part, int n, Complex factor, const ComplexVector& y,

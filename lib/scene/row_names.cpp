@@ -1,6 +1,6 @@
 #include <arcslip/scene/row_names.hpp>
 
-#include <arcslip/scene/csv_text.hpp>
+#include <arcslip/scene/csv_pairs.hpp>
 #include <arcslip/scene/study_keys.hpp>
 
 #include <optional>
@@ -39,45 +39,30 @@ void read_row_names(const Location& at, const NamedFile& file, Matrices& matrice
   std::unordered_map<int, std::size_t> lines;
   std::unordered_map<int, int> beyond;
   for (const FacePair& pair : matrices.faces) beyond.emplace(pair.beyond + 1, pair.own + 1);
-  bool header = false;
-  for_each_line(*file.text, [&](std::size_t line, const auto& cells, std::string_view whole) {
-    const auto fault = [&](const std::string& what) {
-      if (faults.full()) return faults.add({}, {});
-      faults.add(at.pointer, "line " + std::to_string(line) + " of " + shown(file.path) + ": " + what);
-    };
-    if (!header) {
-      header = cells.size() == 2 && trimmed(cells[0]) == "name" && trimmed(cells[1]) == "row";
-      if (!header) fault("found " + shown(whole) + ", must be the header name,row");
-      return header;
-    }
-    if (cells.size() != 2) {
-      fault("found " + std::to_string(cells.size()) + " values, must be 2: a name and a row");
-      return true;
-    }
+  CsvPairs pairs(at, file, "name", "row", "a name and a row", faults);
+  pairs.read([&](std::string_view text, std::string_view digits) {
     if (matrices.copies > 1 && dofs.names.size() + static_cast<std::size_t>(matrices.copies) > most_names) {
-      fault("found more than " + std::to_string(most_names) + " names in all " +
-            std::to_string(matrices.copies) +
-            " copies together, must be at most as many: leave out those that the scene does not use");
+      pairs.fault("found more than " + std::to_string(most_names) + " names in all " +
+                  std::to_string(matrices.copies) +
+                  " copies together, must be at most as many: leave out those that the scene does not use");
       return false;
     }
-    const std::string name(trimmed(cells[0]));
-    const std::string_view digits = trimmed(cells[1]);
-    const auto row = row_in(digits, matrices.size());
-    const auto first = lines.find(row.value_or(0));
-    if (!row) {
-      fault("found the row " + shown(digits) + ", must be an integer from 1 to " +
-            std::to_string(matrices.size()));
-    } else if (const auto own = beyond.find(*row); own != beyond.end()) {
-      fault("found the row " + std::to_string(*row) + ", which is row " + std::to_string(own->second) +
-            " of the next sector by \"faces\", must be a row of this one: name that row, and say {\"next\": "
-            "name}");
+    const std::string name(text);
+    const auto row = pairs.row(digits, matrices.size());
+    if (!row) return true;
+    const auto first = lines.find(*row);
+    if (const auto own = beyond.find(*row); own != beyond.end()) {
+      pairs.fault(
+          "found the row " + std::to_string(*row) + ", which is row " + std::to_string(own->second) +
+          " of the next sector by \"faces\", must be a row of this one: name that row, and say {\"next\": "
+          "name}");
     } else if (first != lines.end()) {
-      fault("found the row " + std::to_string(*row) + " again, which has a name in line " +
-            std::to_string(first->second) + "; a row must have one name");
+      pairs.fault("found the row " + std::to_string(*row) + " again, which has a name in line " +
+                  std::to_string(first->second) + "; a row must have one name");
     } else if (const std::string objection = add_name(name, matrices.copies, dofs); !objection.empty()) {
-      fault("found the name " + shown(name) + ", " + objection);
+      pairs.fault("found the name " + shown(name) + ", " + objection);
     } else {
-      lines.emplace(*row, line);
+      lines.emplace(*row, pairs.number());
       matrices.rows.push_back(*row - 1);
     }
     return true;

@@ -44,7 +44,24 @@ std::string least_minimum(const scene::Scene& scene, const OptimumProblem& probl
   return higher;
 }
 
+// Each sample that sticks or slips is a kink of a response: no curve of peaks is smooth.
+bool has_sampled_friction(const scene::Scene& scene) {
+  const bool slides = !scene.patches.empty() || std::any_of(scene.elements.begin(), scene.elements.end(),
+                                                            observables::is_friction_part);
+  return slides && scene.harmonics.friction == scene::Friction::sampled;
+}
+
 }  // namespace
+
+std::vector<observables::ResponseBranch> curves_of_peaks(const scene::Scene& scene,
+                                                         const OptimumProblem& problem,
+                                                         const observables::ProgressCallback& progress) {
+  if (has_sampled_friction(scene)) return {};
+  const DesignVariable& over = problem.over.front();
+  return observables::high_resonance_peaks(
+      scene, {over.name, over.lower, over.upper, problem.frequency_from, problem.frequency_to}, least,
+      progress);
+}
 
 DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem,
                              const observables::ProgressCallback& progress) {
@@ -53,12 +70,8 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
   if (!problem.cases.empty() || !problem.scatter.empty())
     throw OptionsError("the direct method supports neither cases nor scatter");
   const DesignSpace space(scene, problem);
-  const observables::CurveRange range{problem.over[0].name, problem.over[0].lower, problem.over[0].upper,
-                                      problem.frequency_from, problem.frequency_to};
   DirectOptimum result;
-  const bool slides = !scene.patches.empty() || std::any_of(scene.elements.begin(), scene.elements.end(),
-                                                            observables::is_friction_part);
-  if (slides && scene.harmonics.friction == scene::Friction::sampled) {
+  if (has_sampled_friction(scene)) {
     result.message =
         "curves of peaks are continued with exact friction only: with sampled friction a response has a kink "
         "wherever a sample changes between stick and slip";
@@ -69,7 +82,7 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
     stopped = stopped || (progress && !progress(now));
     return !stopped;
   };
-  result.curves = observables::high_resonance_peaks(scene, range, least, ask);
+  result.curves = curves_of_peaks(scene, problem, ask);
   std::string higher;
   try {
     higher = least_minimum(

@@ -149,4 +149,11 @@ struct DirectOptimum {
 DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem,
                              const observables::ProgressCallback& progress = {});
 
+/// Its curves: of the resonance peaks over the only parameter, without those below 0.3 of the highest peak
+/// wherever they are looked for; none with sampled friction. The cases and limits of the problem do not
+/// count.
+std::vector<observables::ResponseBranch> curves_of_peaks(const scene::Scene& scene,
+                                                         const OptimumProblem& problem,
+                                                         const observables::ProgressCallback& progress = {});
+
 }  // namespace arcslip::optimize

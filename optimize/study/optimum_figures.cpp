@@ -59,7 +59,7 @@ void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> re
 // A line for each case that has a curve, whatever the cases set.
 struct CaseLines {
   results::FigureData data;
-  std::vector<const LoadCaseResult*> cases;  // of the lines
+  std::vector<LoadCaseResult> cases;  // of the lines
 };
 
 CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, const OptimumResult& result,
@@ -87,14 +87,17 @@ CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, co
         of_case.push_back(value.first);
       }
     studies::LineOfBranches& line = lines.emplace_back();
-    line.line = {.label = case_label(scene, problem, each),
+    LoadCaseResult shown = each;
+    if (curves.all_places) shown.of = problem.cases.size();  // without its place
+    const bool single = result.curves.size() == 1;           // nothing to tell it from
+    line.line = {.label = single ? "" : case_label(scene, problem, shown),
                  .heading = studies::assignment(scene, set),
                  .set = std::move(set)};
     if (each.weight != 1)
       line.line.label +=
           (weighted ? ", times " : ", weight ") + results::shortest(to_four_digits(each.weight));
     for (const ResponseBranch& branch : own) line.branches.push_back(&branch);
-    found.cases.push_back(&each);
+    found.cases.push_back(std::move(shown));
   }
   results::FigureData& data = found.data;
   data = studies::figures_of(scene, kind, std::move(lines));
@@ -103,7 +106,7 @@ CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, co
   if (alike && !names.empty())
     for (const std::string& own : names.front()) data.parameters.push_back(studies::label_of(scene, own));
   for (std::size_t i = 0; !alike && i < data.lines.size(); ++i)  // no common title: each line with names
-    data.lines[i].label = case_text(scene, problem, *found.cases[i]);
+    data.lines[i].label = case_text(scene, problem, found.cases[i]);
   return found;
 }
 
@@ -120,7 +123,8 @@ double height(const results::FigureLine& line, std::size_t column, double at) {
   return highest;
 }
 
-// The criterion: its curve, computed from the lines, with the optimum and its tolerance ranges.
+// The criterion: its curve, computed from the lines, with the optimum and its tolerance ranges. A single line
+// is the criterion itself.
 void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseLines& lines) {
   results::FigureData& data = lines.data;
   const bool mean = result.problem.criterion == Criterion::mean;
@@ -130,7 +134,7 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseL
     for (const auto& part : line.parts)
       for (const auto& record : part) places.insert(record[0]);
   double sum = 0;
-  for (const LoadCaseResult* each : lines.cases) sum += each->weight;
+  for (const LoadCaseResult& each : lines.cases) sum += each.weight;
   results::FigureLine criterion;
   const std::string best = value_label(scene, result.problem, result.optimum.design[0]);
   criterion.label = (mean ? "mean, least at " : "worst, least at ") + best;
@@ -145,15 +149,17 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseL
     double value = 0;
     for (std::size_t i = 0; i < data.lines.size(); ++i) {
       const double own = height(data.lines[i], amplitude, at);
-      value = mean ? value + lines.cases[i]->weight * own / sum : std::max(value, own);
+      value = mean ? value + lines.cases[i].weight * own / sum : std::max(value, own);
     }
     if (std::isfinite(value)) curve.push_back(record(at, value));
   }
-  criterion.marks.push_back(
-      {observables::event_kinds::minimum, record(result.optimum.design[0], result.optimum.amplitude), best});
-  criterion.bands = bands(result.optimum);
   for (results::FigureLine& line : data.lines) line.marks.clear();
-  data.lines.push_back(std::move(criterion));
+  const bool single = data.lines.size() == 1 && result.optimum.cases[result.curves.front().of].weight == 1;
+  if (!single) data.lines.push_back(std::move(criterion));
+  results::FigureLine& of_criterion = data.lines.back();
+  of_criterion.marks.push_back(
+      {observables::event_kinds::minimum, record(result.optimum.design[0], result.optimum.amplitude), best});
+  of_criterion.bands = bands(result.optimum);
 }
 
 void add(results::FigureData data, const std::string& name, std::vector<results::FigureData>& all) {

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace arcslip::optimize {
 namespace {
@@ -46,30 +47,56 @@ std::vector<observables::ResponseBranch> responses(scene::Scene scene, const Opt
   return branches;
 }
 
-// Of the highest cases.
+scene::Scene with_values(scene::Scene scene, const LoadCaseResult& of) {
+  for (const auto* values : {&of.set, &of.scatter})
+    for (const auto& [name, value] : *values) scene::set(scene, name, value);
+  return scene;
+}
+
+// Whether the response of a case is at one of the places of which the scene's is the largest.
+bool is_one_of_places(const scene::Scene& scene, const OptimumProblem& problem, const LoadCaseResult& of) {
+  if (of.of >= problem.cases.size() || !problem.cases[of.of].response) return false;
+  const scene::Direction& own = *problem.cases[of.of].response;
+  const scene::Response& response = scene.responses.front();
+  const auto& others = response.others;
+  return !others.empty() &&
+         (own == response.direction || std::find(others.begin(), others.end(), own) != others.end());
+}
+
+// The cases with curves of their own: the highest, and of those that differ in the place alone the highest.
+std::vector<CaseCurves> cases_shown(const scene::Scene& scene, const OptimumProblem& problem,
+                                    const std::vector<LoadCaseResult>& cases) {
+  std::vector<std::size_t> order(cases.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto height = [&](std::size_t c) { return cases[c].weight * cases[c].amplitude; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
+  std::vector<CaseCurves> shown;
+  for (const std::size_t c : order) {
+    const bool place = is_one_of_places(scene, problem, cases[c]);
+    const bool again = place && std::any_of(shown.begin(), shown.end(), [&](const CaseCurves& before) {
+                         const LoadCaseResult& other = cases[before.of];
+                         return before.all_places && other.set == cases[c].set &&
+                                other.scatter == cases[c].scatter && other.weight == cases[c].weight;
+                       });
+    if (!again && shown.size() < most_shown) shown.push_back({.of = c, .all_places = place});
+  }
+  std::sort(shown.begin(), shown.end(), [](const auto& a, const auto& b) { return a.of < b.of; });
+  return shown;
+}
+
 std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const OptimumProblem& problem,
                                         const Optimum& optimum,
                                         const observables::ProgressCallback& progress) {
-  const auto& cases = optimum.cases;
-  std::vector<std::size_t> shown(cases.size());
-  std::iota(shown.begin(), shown.end(), std::size_t{0});
-  if (shown.size() > most_shown) {
-    const auto height = [&](std::size_t c) { return cases[c].weight * cases[c].amplitude; };
-    std::stable_sort(shown.begin(), shown.end(),
-                     [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
-    shown.resize(most_shown);
-    std::sort(shown.begin(), shown.end());
-  }
   std::vector<CaseCurves> all;
-  for (const std::size_t c : shown) {
+  for (CaseCurves curves : cases_shown(scene, problem, optimum.cases)) {
     if (!progress({})) break;
-    CaseCurves& curves = all.emplace_back(CaseCurves{c});
-    const scene::Scene in_case = scene_of(scene, problem, cases[c]);
-    if (problem.over.size() == 1)
-      curves.peaks =
-          direct_optimum(in_case, {problem.over, problem.frequency_from, problem.frequency_to}, progress)
-              .curves;
+    const LoadCaseResult& each = optimum.cases[curves.of];
+    const scene::Scene in_case =
+        curves.all_places ? with_values(scene, each) : scene_of(scene, problem, each);
+    if (problem.over.size() == 1) curves.peaks = curves_of_peaks(in_case, problem, progress);
     curves.responses = responses(in_case, problem, optimum.design, 1, progress);
+    all.push_back(std::move(curves));
   }
   return all;
 }
@@ -121,7 +148,7 @@ class Teller {
 
 // Adds the curves of figures and the direct method, as long as the watch allows; otherwise the result is
 // not complete.
-void add_curves(OptimumResult& result, const scene::Scene& with, bool limited, bool alone, Watch& watch,
+void add_curves(OptimumResult& result, const scene::Scene& with, const OptimumExtent& extent, Watch& watch,
                 Teller& teller) {
   const observables::ProgressCallback ask = [&](const observables::Progress&) { return watch.go_on(); };
   const auto begin = [&](const char* phase) {
@@ -129,7 +156,8 @@ void add_curves(OptimumResult& result, const scene::Scene& with, bool limited, b
     teller.begin(phase);
   };
   const bool bounded = std::isfinite(result.optimum.amplitude);
-  if (result.has_cases() && bounded) {
+  const bool limited = !result.problem.limits.empty() || !result.problem.linear_limits.empty();
+  if (extent.curves && result.has_cases() && bounded) {
     begin("the curves of the cases");
     result.curves = curves_of_cases(with, result.problem, result.optimum, ask);
   }
@@ -139,7 +167,7 @@ void add_curves(OptimumResult& result, const scene::Scene& with, bool limited, b
   }
   begin("the responses at the optimum");
   for (const double factor : around)
-    if (!result.has_cases() && bounded && (factor == 1 || alone) && watch.go_on()) {
+    if (!result.has_cases() && bounded && (factor == 1 || extent.alone) && watch.go_on()) {
       auto more = responses(with, result.problem, result.optimum.design, factor, ask);
       std::move(more.begin(), more.end(), std::back_inserter(result.responses));
     }
@@ -177,8 +205,7 @@ double OptimumResult::difference_of_amplitude() const {
 }
 
 scene::Scene scene_of(scene::Scene scene, const OptimumProblem& problem, const LoadCaseResult& of) {
-  for (const auto* values : {&of.set, &of.scatter})
-    for (const auto& [name, value] : *values) scene::set(scene, name, value);
+  scene = with_values(std::move(scene), of);
   if (of.of < problem.cases.size())
     if (const auto& response = problem.cases[of.of].response)
       scene.responses = {{.direction = *response, .frame = scene.responses.front().frame}};
@@ -236,17 +263,16 @@ void check_limits(const scene::Scene& scene, const OptimumProblem& problem) {
 }
 
 OptimumResult optimum_study(const scene::Scene& given, const OptimumSettings& settings,
-                            const observables::ProgressCallback& progress, bool alone, int threads) {
+                            const observables::ProgressCallback& progress, const OptimumExtent& extent) {
   scene::Scene scene = given;
   const std::size_t load_cases =
       std::max<std::size_t>(1, settings.problem.cases.size()) * (1 + 2 * settings.problem.scatter.size());
-  scene.threads.count = studies::threads_for_each(threads, load_cases);
+  scene.threads.count = studies::threads_for_each(extent.threads, load_cases);
   Teller teller(progress, scene, "search");
   OptimumOptions options = options_of(settings.search);
-  options.threads = threads;
+  options.threads = extent.threads;
   options.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
   options.go_on = [&] { return teller.again(); };
-  const bool limited = !settings.problem.limits.empty() || !settings.problem.linear_limits.empty();
   OptimumResult result;
   result.problem = with_distinct_cases(settings.problem);
   Watch watch(options.seconds, options.go_on);
@@ -254,8 +280,7 @@ OptimumResult optimum_study(const scene::Scene& given, const OptimumSettings& se
   result.status = result.optimum.status;
   result.stop = result.optimum.stop;
   watch.begin(teller.phase());
-  if (watch.go_on() && !result.optimum.design.empty())
-    add_curves(result, scene, limited, alone, watch, teller);
+  if (watch.go_on() && !result.optimum.design.empty()) add_curves(result, scene, extent, watch, teller);
   if (watch.stopped() && result.status == observables::Status::complete) end_early(result, watch);
   return result;
 }

@@ -44,8 +44,10 @@ struct OptimumCurveResult {
 
 /// Curves of a case for figures.
 struct CaseCurves {
-  std::size_t of = 0;                                    // of Optimum::cases
-  std::vector<observables::ResponseBranch> peaks{};      // over the bounds, with one design parameter
+  std::size_t of = 0;                                // of Optimum::cases
+  bool all_places = false;                           // where the response is the largest of several places:
+                                                     // of all, and `of` is the case of the highest
+  std::vector<observables::ResponseBranch> peaks{};  // over the bounds, with one design parameter
   std::vector<observables::ResponseBranch> responses{};  // over the frequency, at the optimum
 };
 
@@ -60,7 +62,7 @@ struct OptimumResult {
   /// Over the frequency, for a single case: at half, once and twice the optimum, or only once for
   /// several results.
   std::vector<observables::ResponseBranch> responses{};
-  std::vector<CaseCurves> curves{};  // of the twelve highest of several cases, in their order
+  std::vector<CaseCurves> curves{};  // of the twelve highest of several cases
 
   /// Whether the problem has cases or scatter.
   bool has_cases() const { return optimize::has_cases(problem); }
@@ -84,13 +86,18 @@ OptimumSettings with_places(const scene::Scene& scene, OptimumSettings settings)
 /// Throws OptionsError for a limit on an unknown observable, and as optimum() does for an invalid design.
 void check_limits(const scene::Scene& scene, const OptimumProblem& problem);
 
-/// The search, over distinct cases, with the curves for its figures. alone: with responses at half and twice
-/// the optimum. threads: OptimumOptions::threads. progress: called throughout, in all phases (`phase`), with
-/// the number of evaluations
-/// (`points`) and the lowest amplitude (`best`) so far; false stops. Throws as optimum() does.
+/// What a study does beside its search.
+struct OptimumExtent {
+  bool curves = true;  // of the cases, for figures
+  bool alone = true;   // the only result: with responses at half and twice the optimum
+  int threads = 1;     // OptimumOptions::threads
+};
+
+/// The search, over distinct cases. progress: called throughout, in all phases (`phase`), with the number of
+/// evaluations (`points`) and the lowest amplitude (`best`) so far; false stops. Throws as optimum() does.
 OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
-                            const observables::ProgressCallback& progress = {}, bool alone = true,
-                            int threads = 1);
+                            const observables::ProgressCallback& progress = {},
+                            const OptimumExtent& extent = {});
 
 /// The same for settings with "along": the curve of optima. Throws as optimum_curve() does.
 OptimumCurveResult optimum_curve_study(const scene::Scene& scene, const OptimumSettings& settings,

@@ -5,6 +5,7 @@
 #include <arcslip/continuation/linear/sparse_algebra.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace {
@@ -67,6 +68,27 @@ TEST_CASE("sparse complex LU tells a singular matrix, to the pivot that is asked
   CHECK_FALSE(lu.factorize(A, 1e-10));
   A.coeffRef(20, 20) = std::nan("");
   CHECK_FALSE(lu.factorize(A, least));
+}
+
+TEST_CASE("sparse complex LU tells a singular matrix whatever the order and the scales of rows and columns") {
+  for (const int n : {10, 80, 81, 500, 2000})
+    for (const int mode : {1, 2, 3, n / 3, n / 2, n - 1})
+      for (const double decades : {0.0, 6.0}) {
+        CAPTURE(n, mode, decades);
+        const double zero = 2 * std::cos(std::numbers::pi * mode / (n + 1));  // an eigenvalue of the chain
+        const auto scaled = [&](double diagonal) {
+          Sparse A = chain(n, diagonal);
+          for (int j = 0; j < n; ++j)
+            for (Sparse::InnerIterator entry(A, j); entry; ++entry)
+              entry.valueRef() *= std::exp2(std::round(decades * std::sin(entry.row()) / std::log10(2))) *
+                                  std::exp2(std::round(decades * std::cos(3 * j) / std::log10(2)));
+          return A;
+        };
+        ComplexSparseLU lu(scaled(2));
+        CHECK_FALSE(lu.factorize(scaled(zero), least));
+        CHECK(lu.factorize(scaled(zero + 1e-9), least));
+        CHECK(lu.factorize(scaled(zero - 1e-9), least));
+      }
 }
 
 TEST_CASE("a chain of n masses takes some n multiplications, not n^3") {

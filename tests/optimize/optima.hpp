@@ -13,7 +13,7 @@ inline std::vector<arcslip::optimize::OptimumResult> of(const arcslip::scene::Sc
                                                         const arcslip::scene::ValueLists& lists) {
   using namespace arcslip;
   const auto compute = [&](const studies::Case& at, const results::ProgressCallback& progress) {
-    return std::vector{optimize::optimum_study(at.scene, settings, progress, at.alone)};
+    return std::vector{optimize::optimum_study(at.scene, settings, progress, {.alone = at.alone})};
   };
   return studies::for_each<optimize::OptimumResult>(scene, lists, compute);
 }

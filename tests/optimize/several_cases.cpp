@@ -4,6 +4,7 @@
 
 #include "optimize/row.hpp"
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/optimize/search/load_cases.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
@@ -92,6 +93,43 @@ TEST_CASE("a response at several places is optimized as one case for each of the
       optimize::with_places(s, settings),
       "the optimum cannot be continued over \"f.cosine\" where the response is the largest of 3 "
       "places (\"max_of\"); optimize at single values of it");
+}
+
+TEST_CASE("the figures of several places show their envelope, for each setting of the other cases") {
+  scene::Scene s = row(3, 2, 5);
+  s.responses = {{.direction = {{0, 1}}, .others = {{{1, 1}}, {{2, 1}}}}};
+  optimize::OptimumSettings settings;
+  settings.problem = over_loads(1, 5, 45);
+  const auto found = optimize::optimum_study(s, optimize::with_places(s, settings));
+  CHECK(found.status == observables::Status::complete);
+  REQUIRE(found.optimum.cases.size() == 3);
+  REQUIRE(found.curves.size() == 1);
+  const auto& curves = found.curves.front();
+  CHECK(curves.all_places);
+  double highest = 0, lowest = 1;
+  for (const auto& event : curves.responses.at(0).events)
+    if (event.kind == observables::event_kinds::peak) highest = std::max(highest, event.point.amplitude);
+  // The responses are shown at the optimum to four digits.
+  CHECK(highest == Approx(found.optimum.amplitude).epsilon(1e-4));
+  // The optimum lies on a curve of peaks: there is none where it does not.
+  const double load = found.optimum.design[0];
+  for (const auto& curve : curves.peaks)
+    for (std::size_t i = 1; i < curve.points.size(); ++i) {
+      const auto &a = curve.points[i - 1], &b = curve.points[i];
+      if ((a.over - load) * (b.over - load) > 0 || a.over == b.over) continue;
+      const double t = (load - a.over) / (b.over - a.over);
+      lowest =
+          std::min(lowest, std::abs(((1 - t) * a.amplitude + t * b.amplitude) / found.optimum.amplitude - 1));
+    }
+  CHECK(lowest < 1e-2);
+  const auto without = optimize::optimum_study(s, optimize::with_places(s, settings), {}, {.curves = false});
+  CHECK(without.curves.empty());
+  CHECK(without.status == found.status);
+  CHECK(without.optimum.design == found.optimum.design);
+  settings.problem.cases = {{{{"f.cosine", 1}}, 1}, {{{"f.cosine", 1.5}}, 1}};
+  const auto levels = optimize::optimum_study(s, optimize::with_places(s, settings));
+  CHECK(levels.optimum.cases.size() == 6);
+  CHECK(levels.curves.size() == 2);
 }
 
 TEST_CASE("the mean over cases with several peaks each is least where frequency responses say so") {

@@ -1,5 +1,7 @@
 #include "catch.hpp"
 
+#include "lib/hbm/answers.hpp"
+
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/elements/jenkins.hpp>
@@ -179,27 +181,7 @@ TEST_CASE("a large structure responds the same as parts or matrices, sparse or d
       model::Model model = model::build(long_chain(dofs, linked));
       if (matrices) model = in_matrices(model);
       CHECK(is_sparse(model) == (matrices || !linked));  // a spring of 0 is no entry of a matrix
-      hbm::DynamicStiffness stiffness(model, hbm::coordinates(model), model.harmonics);
-      Vector p = model::defaults(model);
-      const int c = model.harmonics.size();
-      Vector all(0);
-      for (const double omega : {0.5, 20.0, 95.0, 300.0}) {
-        p[model::frequency] = omega;
-        REQUIRE(stiffness.move_to(p));
-        Vector u(c), x(c), g(c), dR(c), dx(c);
-        stiffness.force(u);
-        stiffness.solve(u);
-        stiffness.response(u, 1, x);
-        stiffness.response_transposed(x, g);
-        stiffness.parameter_derivative(model::frequency, u, 1, dR);
-        stiffness.response_derivative(model::frequency, u, 1, dx);
-        const auto forms = stiffness.quadratic_forms(1, u, 1);
-        all.conservativeResize(all.size() + 4 * c + 3);
-        all.tail(4 * c + 3) << x / x.norm(), g / g.norm(), dR / dR.norm(), dx / dx.norm(),
-            forms.mass / x.squaredNorm(), forms.stiffness / x.squaredNorm() / 1e4,
-            stiffness.viscous_energy(u, 1) / forms.damping;
-      }
-      found.push_back(all);
+      found.push_back(scenes::answers(model, hbm::coordinates(model)));
     }
   for (const Vector& other : found) CHECK((found[0] - other).norm() < 1e-10 * found[0].norm());
 }
@@ -323,7 +305,7 @@ TEST_CASE("a condensed equation and what is observed change with parameters as t
 }
 
 TEST_CASE("a singular block of the linear coordinates is found, whatever its size") {
-  for (const Row row : {few, some, dense}) {
+  for (const Row row : {few, some, dense, sparse}) {
     CAPTURE(row.dofs);
     scene::Scene s = long_chain(row.dofs, row.linked);
     s.dampers.clear();

@@ -2,21 +2,16 @@
 // by entry.
 #include "catch.hpp"
 
-#include "lib/hbm/scenes.hpp"
+#include "lib/hbm/reaching.hpp"
 
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/hbm/sparse_links.hpp>
-#include <arcslip/observables/stops.hpp>
 #include <arcslip/observables/truncation.hpp>
 
 #include <Eigen/Dense>
 
 #include <cmath>
 #include <complex>
-#include <memory>
 #include <numbers>
-#include <numeric>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,94 +19,16 @@ using namespace arcslip;
 using continuation::Needs;
 using continuation::Vector;
 using model::LinearKind;
+using scenes::in_matrices, scenes::Reaching, scenes::ring;
 using std::numbers::pi;
 
 namespace {
 
 using Complex = std::complex<double>;
 
-// A disk, a blade and its tip in each sector, with parts of every kind to the next one.
-scene::Scene ring(int sectors, int order, const std::string& elements, bool odd = false) {
-  return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
-    "cyclic": {"sectors": )" +
-                       std::to_string(sectors) + R"(, "engine_order": )" + std::to_string(order) + R"(},
-    "dofs": ["disk", "blade", "tip"],
-    "masses": [{"name": "md", "at": "disk", "value": 2}, {"name": "mb", "at": "blade", "value": 0.9},
-               {"name": "mt", "at": "tip", "value": 0.7},
-               {"name": "mn", "direction": {"tip": 0.6, "next": {"blade": 0.3}}, "value": 0.2}],
-    "springs": [{"name": "kd", "at": "disk", "value": 1.5}, {"name": "kb", "between": ["blade", "disk"], "value": 1.1},
-                {"name": "kt", "between": ["tip", "blade"], "value": 1.3},
-                {"name": "kn", "between": ["disk", {"next": "disk"}], "value": 0.8},
-                {"name": "ks", "between": [{"next": "disk"}, "blade"], "value": 0.3}],
-    "dampers": [{"name": "cd", "at": {"next": "disk"}, "value": 0.04},
-                {"name": "cs", "direction": {"tip": 1, "next": {"disk": -0.7}}, "value": 0.05}],
-    "damping": [{"name": "all", "type": "rayleigh", "alpha": 0.02, "beta": 0.03},
-                {"name": "loss", "type": "loss_factor", "loss_factor": 0.01}]},
-    "elements": [)" + elements +
-                       R"(],
-    "excitation": [)" + (odd ? "" : R"({"name": "mean", "at": "tip", "harmonic": 0, "cosine": 0.4},
-                   {"name": "f2", "at": "disk", "harmonic": 2, "cosine": 0.2},)") +
-                       R"(
-                   {"name": "f1", "at": "tip", "cosine": 1, "sine": 0.3},
-                   {"name": "f3", "direction": {"tip": 1, "disk": -2}, "harmonic": 3, "sine": 0.5}],
-    "harmonics": {"order": 3}, "response": {"at": "tip"}})");
-}
-
 const std::string friction = R"({"name": "j", "type": "jenkins", "between": ["tip", {"next": "tip"}],
   "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": 0.9},
   {"name": "c", "type": "cubic_spring", "direction": {"tip": 0.5, "next": {"tip": -1}}, "stiffness": 0.2})";
-
-// A matrix of a ring, of one sector and between neighbours, in its waves.
-struct Reaching {
-  Eigen::MatrixXd own, next, previous;
-
-  static Reaching of(const Eigen::VectorXd& d, const Eigen::VectorXd& next) {
-    return {d * d.transpose() + next * next.transpose(), d * next.transpose(), next * d.transpose()};
-  }
-  // sign 1: symmetric, -1: skew-symmetric, 0: neither.
-  static Reaching random(int dofs, int sign) {
-    Reaching all{Eigen::MatrixXd::Random(dofs, dofs), 0.4 * Eigen::MatrixXd::Random(dofs, dofs),
-                 0.4 * Eigen::MatrixXd::Random(dofs, dofs)};
-    if (sign == 0) return all;
-    all.own = (all.own + sign * all.own.transpose()).eval();
-    all.previous = sign * all.next.transpose();
-    return all;
-  }
-  Eigen::MatrixXcd in_wave(int diameter, int count) const {
-    const Complex t = std::polar(1.0, -2 * pi * diameter / count);
-    return own.cast<Complex>() + t * next + std::conj(t) * previous;
-  }
-  model::MatrixPart part(LinearKind kind, int parameter, int count, bool symmetric = true) const {
-    std::vector<Eigen::MatrixXcd> of_diameter;
-    for (int d = 0; 2 * d <= count; ++d) of_diameter.push_back(in_wave(d, count));
-    model::MatrixPart made{kind, parameter, std::make_shared<const Eigen::MatrixXd>(own + next + previous)};
-    made.symmetric = symmetric;
-    made.waves = std::make_shared<const model::WaveMatrices>(count, std::move(of_diameter));
-    return made;
-  }
-};
-
-// The same model with every part, or every second one, as a matrix in waves.
-model::Model in_matrices(model::Model model, int of_which) {
-  const auto move = [&](LinearKind kind, std::vector<model::LinearPart>& parts) {
-    std::vector<model::LinearPart> rest;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      if ((k + parts.size()) % static_cast<std::size_t>(of_which) > 0) {
-        rest.push_back(parts[k]);
-        continue;
-      }
-      const Vector next = parts[k].next.size() > 0 ? Vector(parts[k].next) : Vector::Zero(model.dofs);
-      model.matrices.push_back(
-          Reaching::of(parts[k].direction, next).part(kind, parts[k].parameter, model.sector->count));
-    }
-    parts = rest;
-  };
-  move(LinearKind::mass, model.masses);
-  move(LinearKind::damper, model.dampers);
-  move(LinearKind::spring, model.springs);
-  model.linked = true;
-  return model;
-}
 
 // A sector with random matrices of all kinds, and what they are in the ring.
 struct Random {
@@ -374,187 +291,4 @@ TEST_CASE("the highest natural frequency of a sector with gyroscopic matrices is
     }
     CHECK(observables::highest_natural_frequency(model, p) == Approx(highest).epsilon(1e-11));
   }
-}
-
-namespace {
-
-// A row of masses in each sector, linked in some places to the next one, with one of them seen by an element,
-// and gyroscopic forces between neighbours. dense: the same with matrices of zeros that link all of them.
-model::Model long_sector(int dofs, int sectors, int order, bool reach, bool matrices, bool dense) {
-  std::string names, masses, springs, dampers;
-  const auto add = [](std::string& to, const std::string& what) { to += (to.empty() ? "" : ", ") + what; };
-  for (int i = 0; i < dofs; ++i) {
-    const std::string n = std::to_string(i), before = std::to_string(i - 1);
-    const std::string along =
-        i > 0 ? R"("between": ["x)" + n + R"(", "x)" + before + R"("])" : std::string(R"("at": "x0")");
-    add(names, "\"x" + n + "\"");
-    add(masses, R"({"name": "m)" + n + R"(", "at": "x)" + n + R"(", "value": )" +
-                    std::to_string(1 + 0.3 * (i % 3)) + "}");
-    add(springs, R"({"name": "k)" + n + R"(", )" + along + R"(, "value": 1e4})");
-    add(dampers, R"({"name": "c)" + n + R"(", )" + along + R"(, "value": 2})");
-    if (i % 10 == 3 && reach)
-      add(springs, R"({"name": "n)" + n + R"(", "between": ["x)" + n + R"(", {"next": "x)" +
-                       std::to_string(i - 3) + R"("}], "value": 3e3})");
-  }
-  const std::string last = "\"x" + std::to_string(dofs - 1) + "\"";
-  model::Model model =
-      model::build(scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
-    "cyclic": {"sectors": )" + std::to_string(sectors) +
-                                 R"(, "engine_order": )" + std::to_string(order) + R"(},
-    "dofs": [)" + names + R"(], "masses": [)" +
-                                 masses + R"(], "springs": [)" + springs + R"(], "dampers": [)" + dampers +
-                                 R"(]}, "elements": [{"name": "j", "type": "jenkins", "at": )" + last +
-                                 R"(, "stiffness": 1e3, "friction_coefficient": 0.5, "normal_load": 2}],
-    "excitation": [{"name": "f", "at": "x)" +
-                                 std::to_string(dofs / 2) + R"(", "cosine": 1}],
-    "harmonics": {"order": 5}, "response": {"at": "x)" +
-                                 std::to_string(dofs / 3) + R"("}})"));
-  if (matrices) model = in_matrices(model, 1);
-  Reaching G{Eigen::MatrixXd::Zero(dofs, dofs), Eigen::MatrixXd::Zero(dofs, dofs),
-             Eigen::MatrixXd::Zero(dofs, dofs)};
-  for (int i = 0; i + 1 < dofs; ++i) G.own(i, i + 1) = 3, G.own(i + 1, i) = -3;
-  if (reach) G.next(3, 5) = 2, G.previous(5, 3) = -2;
-  model.matrices.push_back(G.part(LinearKind::damper, -1, sectors, false));
-  if (!reach) model.matrices.back().waves = nullptr;
-  if (dense) {
-    model.matrices.push_back({LinearKind::spring, model::frequency,
-                              std::make_shared<const Eigen::MatrixXd>(Eigen::MatrixXd::Ones(dofs, dofs))});
-    model.matrices.back().scale = 1e300;
-  }
-  return model;
-}
-
-Eigen::Index nonzeros(const model::Model& model) {
-  const hbm::Coordinates c = hbm::coordinates(model, 1);
-  const hbm::LinearParts parts(model, c.P, model.harmonics);
-  return parts.pattern().nonZeros();
-}
-
-}  // namespace
-
-TEST_CASE("a large sector responds the same whether its matrices are taken as sparse or as dense") {
-  constexpr int dofs = 60;
-  for (const bool reach : {false, true})
-    for (const bool matrices : {false, true}) {
-      CAPTURE(reach, matrices);
-      std::vector<Vector> found;
-      for (const bool dense : {false, true}) {
-        const model::Model model = long_sector(dofs, 7, 2, reach, matrices, dense);
-        const hbm::Coordinates coordinates = hbm::coordinates(model, 1);
-        const hbm::ComplexSparse pattern = hbm::LinearParts(model, coordinates.P, model.harmonics).pattern();
-        const hbm::ComplexSparse of_linear = pattern.bottomRightCorner(dofs - 1, dofs - 1);
-        CHECK(hbm::sparse_is_cheaper_than_lu(of_linear) == !dense);
-        hbm::DynamicStiffness stiffness(model, coordinates, model.harmonics);
-        Vector p = model::defaults(model);
-        const int c = model.harmonics.size();
-        Vector all(0);
-        for (const double omega : {0.5, 20.0, 95.0, 300.0}) {
-          p[model::frequency] = omega;
-          REQUIRE(stiffness.move_to(p));
-          Vector u(c), x(c), g(c), dR(c), dx(c);
-          stiffness.force(u);
-          stiffness.solve(u);
-          stiffness.response(u, 1, x);
-          stiffness.response_transposed(x, g);
-          stiffness.parameter_derivative(model::frequency, u, 1, dR);
-          stiffness.response_derivative(model::frequency, u, 1, dx);
-          all.conservativeResize(all.size() + 4 * c);
-          all.tail(4 * c) << x / x.norm(), g / g.norm(), dR / dR.norm(), dx / dx.norm();
-        }
-        found.push_back(all);
-      }
-      CHECK((found[0] - found[1]).norm() < 1e-10);
-    }
-}
-
-TEST_CASE("coordinates that no element sees are links of the structure and nothing else") {
-  constexpr int dofs = 60;
-  const model::Model model = long_sector(dofs, 7, 2, true, true, false);
-  // Each mass with its neighbours, and six links to the next sector and back beside that of the gyroscopic
-  // one.
-  CHECK(nonzeros(model) == dofs + 2 * (dofs - 1) + 2 * 6 + 2);
-}
-
-TEST_CASE("an undamped resonance of the linear coordinates of a large sector is found, sparse or dense") {
-  constexpr int dofs = 60;
-  for (const bool dense : {false, true}) {
-    model::Model model = long_sector(dofs, 7, 0, false, false, dense);
-    model.dampers.clear();
-    model.matrices.front().parameter = static_cast<int>(model.parameters.size());
-    model.parameters.push_back({"speed", "-", 0, 1, 0, 1});
-    for (auto& mass : model.masses) model.parameters[static_cast<std::size_t>(mass.parameter)].value = 1;
-    hbm::DynamicStiffness stiffness(model, hbm::coordinates(model, 1), model.harmonics);
-    Vector p = model::defaults(model);
-    // 59 masses between two walls, for the last one stands still.
-    p[model::frequency] = 2 * 100 * std::sin(pi / 2 * 7 / dofs);
-    CHECK_FALSE(stiffness.move_to(p));
-    p[model::frequency] *= 1 + 1e-6;
-    CHECK(stiffness.move_to(p));
-  }
-}
-
-namespace {
-
-// Friction that jumps by a given ratio to the bend of its motion.
-class Jump : public elements::Element {
- public:
-  explicit Jump(double ratio) : ratio_(ratio) {}
-  void move_to(elements::In, std::span<const double>, bool) override {}
-  const Eigen::VectorXd& force() const override { return none_; }
-  const Eigen::MatrixXd& jacobian() const override { return no_rates_; }
-  void field_derivative(int, elements::Out dF) const override { dF.setZero(); }
-  double jump_over_bend() const override { return ratio_; }
-
- private:
-  double ratio_;
-  Eigen::VectorXd none_;
-  Eigen::MatrixXd no_rates_;
-};
-
-}  // namespace
-
-namespace {
-
-const std::string between = R"({"name": "j", "type": "jenkins", "between": ["tip", {"next": "blade"}],
-  "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": 0.9})";
-
-}  // namespace
-
-TEST_CASE(
-    "motions of a sector that shares masses stop below the inertia of the ring, of all that stop at once") {
-  for (const int sectors : {2, 5, 6})
-    for (const int order : {0, 1, 2, 3})
-      for (const bool matrices : {false, true}) {
-        CAPTURE(sectors, order, matrices);
-        model::Model model = model::build(ring(sectors, order, between));
-        if (matrices) model = in_matrices(model, 2);
-        const Vector p = model::defaults(model);
-        // In the ring.
-        const int n = model.dofs, shift = sectors / std::gcd(order, sectors);
-        Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n * sectors, n * sectors);
-        const model::Model of_parts = model::build(ring(sectors, order, between));
-        Vector force = Vector::Zero(n * sectors), first = force;
-        for (int j = 0; j < sectors; ++j) {
-          const auto here = Eigen::seqN(j * n, n), next = Eigen::seqN((j + 1) % sectors * n, n);
-          const auto in_ring = [&](const model::Direction& d, const model::Direction& of_next) {
-            Vector whole = Vector::Zero(n * sectors);
-            whole(here) += Vector(d);
-            if (of_next.size() > 0) whole(next) += Vector(of_next);
-            return whole;
-          };
-          for (const auto& mass : of_parts.masses) {
-            const Vector d = in_ring(mass.direction, mass.next);
-            M += p[mass.parameter] * d * d.transpose();
-          }
-          const Vector d = in_ring(model.elements[0].directions[0], model.elements[0].next[0]);
-          if (j == 0) first = d;
-          if (j % shift == 0) force += d;
-        }
-        const double expected = 1 / first.dot(M.ldlt().solve(force));
-        observables::Stops stops(model);
-        Vector at = p;
-        at[model::frequency] = 2;
-        CHECK(stops.at_reversals(Jump(4 * expected * (1 + 1e-12)), 0, at));
-        CHECK_FALSE(stops.at_reversals(Jump(4 * expected * (1 - 1e-12)), 0, at));
-      }
 }
