@@ -16,10 +16,36 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double suspicious = 1e-8;  // of the largest entry of its column: a pivot
+constexpr int equilibrations = 20;
 
 // The layout of KLU: pairs, real part first, like std::complex.
 double* pairs(Complex* of) {
   return reinterpret_cast<double*>(of);
+}
+
+struct Scales {
+  Eigen::VectorXd rows, columns;
+};
+
+// With which the largest entry of each row and of each column is about 1 (Ruiz 2001).
+Scales equilibration(const ComplexSparseLU::Matrix& A) {
+  Scales scales{Eigen::VectorXd::Ones(A.rows()), Eigen::VectorXd::Ones(A.cols())};
+  const auto halve = [](Eigen::VectorXd& scale, const Eigen::VectorXd& largest) {
+    for (Eigen::Index i = 0; i < scale.size(); ++i)
+      if (largest[i] > 0) scale[i] /= std::sqrt(largest[i]);
+  };
+  for (int k = 0; k < equilibrations; ++k) {
+    Eigen::VectorXd of_rows = Eigen::VectorXd::Zero(A.rows()), of_columns = Eigen::VectorXd::Zero(A.cols());
+    for (Eigen::Index j = 0; j < A.outerSize(); ++j)
+      for (ComplexSparseLU::Matrix::InnerIterator entry(A, j); entry; ++entry) {
+        const double size = std::abs(entry.value()) * scales.rows[entry.row()] * scales.columns[j];
+        of_rows[entry.row()] = std::max(of_rows[entry.row()], size);
+        of_columns[j] = std::max(of_columns[j], size);
+      }
+    halve(scales.rows, of_rows);
+    halve(scales.columns, of_columns);
+  }
+  return scales;
 }
 
 }  // namespace
@@ -89,23 +115,15 @@ bool ComplexSparseLU::factorize(const Matrix& A, double least) {
 
 // The last pivot of a nearly singular matrix is its smallest singular value over the last entries of the
 // singular vectors, which may be small.
-bool ComplexSparseLU::grows(double most) {
-  const Matrix& M = lu_->A;
-  Eigen::VectorXd rows = Eigen::VectorXd::Zero(M.rows());
-  for (Eigen::Index j = 0; j < M.outerSize(); ++j)
-    for (Matrix::InnerIterator entry(M, j); entry; ++entry)
-      rows[entry.row()] = std::max(rows[entry.row()], std::abs(entry.value()));
-  Eigen::MatrixXcd x(M.rows(), 1);
-  for (Eigen::Index i = 0; i < x.rows(); ++i)
-    x(i, 0) = std::polar(rows[i], static_cast<double>(i) * static_cast<double>(i));  // of no symmetry
-  solve_in_place(x);
-  for (Eigen::Index j = 0; j < M.outerSize(); ++j) {
-    double largest = 0;
-    for (Matrix::InnerIterator entry(M, j); entry; ++entry)
-      largest = std::max(largest, std::abs(entry.value()));
-    if (!(std::abs(x(j, 0)) * largest < most)) return true;
+bool ComplexSparseLU::grows(double most) const {
+  const Scales scales = equilibration(lu_->A);
+  Eigen::MatrixXcd x(scales.rows.size(), 1);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    const auto k = static_cast<double>(i);
+    x(i, 0) = std::polar(1 / scales.rows[i], k * k);  // of no symmetry
   }
-  return false;
+  solve_in_place(x);
+  return !((x.col(0).cwiseAbs().array() / scales.columns.array()) < most).all();
 }
 
 void ComplexSparseLU::solve_in_place(Eigen::MatrixXcd& B) const {

@@ -23,9 +23,8 @@ class ComplexSparseLU {
   double multiplications() const;
 
   /// A has the pattern. False if a pivot is at most `least` times the largest entry of its column of A, or if
-  /// A^-1 shows what the pivots hide: where one is suspicious, and x = A^-1 b of a generic b, with entries as
-  /// large as those of their rows, has x_j max_i |A_ij| >= 1 / least. Both are independent of the scales of
-  /// rows and columns, the latter also of their order.
+  /// A^-1 shows what the pivots hide: where one is suspicious, and, with rows and columns scaled to a largest
+  /// entry of 1, A^-1 b of a generic b with entries of size 1 has one of 1 / least.
   bool factorize(const Matrix& A, double least);
 
   /// B := A^-1 B and B := A^-T B, after a successful factorize().
@@ -33,7 +32,7 @@ class ComplexSparseLU {
   void solve_transposed_in_place(Eigen::MatrixXcd& B) const;
 
  private:
-  bool grows(double most);
+  bool grows(double most) const;
 
   struct Decomposition;
   std::unique_ptr<Decomposition> lu_;
