@@ -272,11 +272,9 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
     return studies::run_items(
         scene, study, options, described_optima(scene, settings.problem), schema, sink,
         [&](const studies::Case& at, const results::ProgressCallback& progress) {
-          return std::vector{
-              optimum_study(at.scene, settings, progress,
-                            {.curves = options.figures,
-                             .alone = at.alone,
-                             .threads = at.alone ? options.threads : 1})};
+          return std::vector{optimum_study(
+              at.scene, settings, progress,
+              {.curves = options.figures, .alone = at.alone, .threads = at.alone ? options.threads : 1})};
         },
         [](std::span<const OptimumResult> optima) { return std::optional(truncation_of(optima)); },
         [&](std::span<const OptimumResult> optima) { return figures_of(scene, optima); });
