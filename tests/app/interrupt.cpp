@@ -112,7 +112,8 @@ std::string chain(int dofs) {
   scene["excitation"] = {{{"name", "f"}, {"at", "x" + std::to_string(dofs / 2)}, {"cosine", 1}}};
   scene["harmonics"] = {{"order", 7}};
   scene["response"] = {{"at", last}};
-  scene["studies"] = {{{"name", "frf"}, {"kind", "frf"}, {"from", 1}, {"to", 100}}};  // ends long after the last signal
+  // Ends long after the last signal.
+  scene["studies"] = {{{"name", "frf"}, {"kind", "frf"}, {"from", 1}, {"to", 100}}};
   return scene.dump();
 }
 
