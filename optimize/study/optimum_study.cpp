@@ -53,14 +53,26 @@ scene::Scene with_values(scene::Scene scene, const LoadCaseResult& of) {
   return scene;
 }
 
-// Whether the response of a case is at one of the places of which the scene's is the largest.
-bool is_one_of_places(const scene::Scene& scene, const OptimumProblem& problem, const LoadCaseResult& of) {
-  if (of.of >= problem.cases.size() || !problem.cases[of.of].response) return false;
-  const scene::Direction& own = *problem.cases[of.of].response;
-  const scene::Response& response = scene.responses.front();
-  const auto& others = response.others;
-  return !others.empty() &&
-         (own == response.direction || std::find(others.begin(), others.end(), own) != others.end());
+// Whether two cases differ in their response alone.
+bool differ_in_place(const LoadCaseResult& a, const LoadCaseResult& b) {
+  return a.set == b.set && a.scatter == b.scatter && a.weight == b.weight;
+}
+
+// Whether a case is one of those for all places of which the scene's response is the largest, with the same
+// values: their largest is then the envelope.
+bool is_one_of_all_places(const scene::Scene& scene, const OptimumProblem& problem,
+                          const std::vector<LoadCaseResult>& cases, const LoadCaseResult& of) {
+  std::vector<scene::Direction> places = scene.responses.front().others;
+  if (places.empty()) return false;
+  places.push_back(scene.responses.front().direction);
+  const auto is_at = [&](const LoadCaseResult& each, const scene::Direction& place) {
+    return each.of < problem.cases.size() && problem.cases[each.of].response == place;
+  };
+  return std::any_of(places.begin(), places.end(), [&](auto& place) { return is_at(of, place); }) &&
+         std::all_of(places.begin(), places.end(), [&](auto& place) {
+           return std::any_of(cases.begin(), cases.end(),
+                              [&](auto& each) { return is_at(each, place) && differ_in_place(each, of); });
+         });
 }
 
 // The cases with curves of their own: the highest, and of those that differ in the place alone the highest.
@@ -73,11 +85,9 @@ std::vector<CaseCurves> cases_shown(const scene::Scene& scene, const OptimumProb
                    [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
   std::vector<CaseCurves> shown;
   for (const std::size_t c : order) {
-    const bool place = is_one_of_places(scene, problem, cases[c]);
+    const bool place = is_one_of_all_places(scene, problem, cases, cases[c]);
     const bool again = place && std::any_of(shown.begin(), shown.end(), [&](const CaseCurves& before) {
-                         const LoadCaseResult& other = cases[before.of];
-                         return before.all_places && other.set == cases[c].set &&
-                                other.scatter == cases[c].scatter && other.weight == cases[c].weight;
+                         return before.all_places && differ_in_place(cases[before.of], cases[c]);
                        });
     if (!again && shown.size() < most_shown) shown.push_back({.of = c, .all_places = place});
   }

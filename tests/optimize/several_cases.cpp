@@ -9,6 +9,7 @@
 #include <arcslip/optimize/search/multipliers.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -130,6 +131,20 @@ TEST_CASE("the figures of several places show their envelope, for each setting o
   const auto levels = optimize::optimum_study(s, optimize::with_places(s, settings));
   CHECK(levels.optimum.cases.size() == 6);
   CHECK(levels.curves.size() == 2);
+  // A case at one of the places alone shows that place, not the envelope.
+  const auto& all = found.optimum.cases;
+  const auto lowest_case = std::min_element(
+      all.begin(), all.end(), [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
+  REQUIRE(lowest_case->amplitude < 0.99 * found.optimum.amplitude);
+  const int mass = static_cast<int>(lowest_case - all.begin());
+  settings.problem.cases = {{{}, 1, scene::Direction{{mass, 1}}}};
+  const auto one = optimize::optimum_study(s, optimize::with_places(s, settings));
+  REQUIRE(one.curves.size() == 1);
+  CHECK_FALSE(one.curves.front().all_places);
+  double shown = 0;
+  for (const auto& event : one.curves.front().responses.at(0).events)
+    if (event.kind == observables::event_kinds::peak) shown = std::max(shown, event.point.amplitude);
+  CHECK(shown == Approx(one.optimum.amplitude).epsilon(1e-4));
 }
 
 TEST_CASE("the mean over cases with several peaks each is least where frequency responses say so") {
