@@ -191,7 +191,7 @@ TEST_CASE("where there is nothing else, nothing is found") {
   CHECK(deflate(*polynomial({-1, 1}), p, {}, {}).empty());
 }
 
-TEST_CASE("attempts that cannot be evaluated or linearized end; the next guess is tried") {
+TEST_CASE("attempts that cannot be evaluated or linearized end, and the next guess is tried") {
   const auto problem = from_functions(1, {parameter("p", 0)}, [](In u, In, Out F) {
     if (u[0] < -2) throw std::runtime_error("below -2");
     F[0] = std::sqrt(u[0]) * (u[0] - 4) * (u[0] - 9);

@@ -224,7 +224,7 @@ TEST_CASE("settings compare by value, and are those of their own kind alone") {
   CHECK(scene::Settings() == scene::Settings());
 }
 
-TEST_CASE("what a study is over, or gives values to, is told; only lists can be dropped") {
+TEST_CASE("what a study is over, or gives values to, is told, and only lists can be dropped") {
   const scene::Scene scene = scene_with_all_kinds();
   const auto names = [&](std::size_t i) {
     std::set<std::string> all;
@@ -234,13 +234,13 @@ TEST_CASE("what a study is over, or gives values to, is told; only lists can be 
   };
   CHECK(names(0).empty());
   CHECK(names(2) == std::set<std::string>{"damper.normal_load"});
-  CHECK(names(6) == std::set<std::string>{"damper.normal_load", "force.cosine"});
-  CHECK(names(7) ==
+  CHECK(names(7) == std::set<std::string>{"damper.normal_load", "force.cosine"});
+  CHECK(names(8) ==
         std::set<std::string>{"damper.normal_load", "force.cosine", "damper.friction_coefficient"});
   scene::Scene dropped = scene;
   for (const char* parameter : {"damper.friction_coefficient", "force.cosine", "damper.normal_load"})
-    scene::drop(dropped.studies[7], parameter);
-  const auto& problem = dropped.studies[7].settings.as<optimize::OptimumSettings>().problem;
+    scene::drop(dropped.studies[8], parameter);
+  const auto& problem = dropped.studies[8].settings.as<optimize::OptimumSettings>().problem;
   CHECK(problem.scatter.empty());
   CHECK(problem.cases[0].set.empty());
   CHECK(problem.over.size() == 1);
