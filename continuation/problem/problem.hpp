@@ -117,8 +117,11 @@ class Problem {
 
   virtual std::unique_ptr<Evaluator> evaluator() const = 0;
 
-  /// Whether evaluating F alone costs much less than factorizing J, so that chord steps pay.
+  /// Whether evaluating F alone costs much less than factorizing J.
   virtual bool cheap_residual() const { return true; }
+
+  /// Whether chord steps pay: not where J comes with F at little more than the cost of F.
+  virtual bool chord_pays() const { return cheap_residual(); }
 
   /// The preferred linear solver. Null: the default for the kind of its Jacobian.
   virtual std::unique_ptr<LinearSolver> linear_solver() const;

@@ -275,7 +275,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
   };
   double before = 0;                          // size of the correction that led to v
   std::optional<std::uint64_t> piece_before;  // of F, where that began, if it was small
-  if (keep_factors && options_.chord && problem_.cheap_residual()) {
+  if (keep_factors && options_.chord && problem_.chord_pays()) {
     if (!chord(v, result) && !result.evaluated) return result;
     before = result.last;
   }

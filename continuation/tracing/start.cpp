@@ -123,6 +123,7 @@ class ScaledProblem final : public Problem {
   bool metric(In v, Out Mv) const override { return problem_->metric(v, Mv); }
   std::unique_ptr<Evaluator> evaluator() const override { return problem_->evaluator(); }
   bool cheap_residual() const override { return problem_->cheap_residual(); }
+  bool chord_pays() const override { return problem_->chord_pays(); }
   std::unique_ptr<LinearSolver> linear_solver() const override { return problem_->linear_solver(); }
 
  private:

@@ -6,6 +6,9 @@
 namespace arcslip::hbm {
 namespace {
 
+constexpr Eigen::Index quick_factors =
+    100;  // linear coordinates, of which a dense matrix takes a millisecond
+
 Eigen::MatrixXd observed(const model::Model& model, const Eigen::MatrixXd& P) {
   Eigen::MatrixXd responses(P.cols(), 1 + static_cast<Eigen::Index>(model.others.size()));
   responses.col(0) = P.transpose() * model.response;
@@ -24,6 +27,8 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       size_(harmonics.size()),
       responses_(observed(model, coordinates.P)),
       ground_(1 + model.others.size(), model::Direction(model.dofs)),
+      takes_long_(!coordinates.modes && coordinates.linear() > quick_factors),
+      stop_(model.stop),
       parts_(model, coordinates.P, harmonics, coordinates.modes),
       last_p_(Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""))),
       y_(r_ + l_),
@@ -49,7 +54,7 @@ bool DynamicStiffness::move_to(In p) {
     at.condensed.forced = (at.force.array() != 0.0).any();
   }
   for (Harmonic& at : harmonics_)
-    if (!condense(at)) return false;
+    if ((takes_long_ && scene::is_asked(stop_)) || !condense(at)) return false;
   last_p_ = p.head(last_p_.size());
   return true;
 }

@@ -29,6 +29,11 @@ Blocks blocks(const Eigen::MatrixXd& A, const Eigen::MatrixXd& P, Eigen::Index r
   return in_y;
 }
 
+// Not above x > 0: in units of it, modes have the same digits in all units of a scene that are powers of two.
+double power_of_two(double x) {
+  return x > 0 && std::isfinite(x) ? std::ldexp(1.0, std::ilogb(x)) : 1.0;
+}
+
 // Whether the dynamic stiffness has factors that cost far less than those of a dense matrix.
 bool is_sparse(const model::Model& model) {
   if (!model.matrices.empty()) return false;
@@ -74,7 +79,7 @@ double ModalMatrix::form(const Eigen::VectorXcd& y) const {
 }
 
 // With B = K + s^2 M definite, which it is for floating and for massless coordinates as well: M v = mu B v,
-// and in its modes M is mu and K is 1 - s^2 mu.
+// and in its modes, times the unit of B, M is mu and K is 1 - s^2 mu.
 std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Model& model,
                                                                  const Eigen::MatrixXd& P, int unknowns,
                                                                  double frequency) {
@@ -90,11 +95,13 @@ std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Mo
   const Blocks M = in_y(model::LinearKind::mass), C = in_y(model::LinearKind::damper),
                K = in_y(model::LinearKind::spring);
   const double shift = frequency * frequency;
-  const auto [mu, V] = continuation::symmetric_modes(M.ll, K.ll + shift * M.ll);
+  const Eigen::MatrixXd B = K.ll + shift * M.ll;
+  const double unit = power_of_two(B.cwiseAbs().maxCoeff());
+  const auto [mu, V] = continuation::symmetric_modes(M.ll / unit, B / unit);
   if (mu.size() == 0 || !mu.allFinite() || !V.allFinite()) return {};
   if (mu.minCoeff() < -indefinite * mu.maxCoeff() || shift * mu.maxCoeff() > 1 + indefinite) return {};
-  modes->M = {M.qq, V.transpose() * M.lq, mu.cwiseMax(0.0)};
-  modes->K = {K.qq, V.transpose() * K.lq, Eigen::VectorXd((1 - shift * modes->M.ll.array()).cwiseMax(0.0))};
+  modes->M = {M.qq, V.transpose() * M.lq, unit * mu.cwiseMax(0.0)};
+  modes->K = {K.qq, V.transpose() * K.lq, unit * (1 - shift * mu.array().max(0.0)).max(0.0).matrix()};
   modes->C = {C.qq, V.transpose() * C.lq, {}};
   Eigen::MatrixXd damping = V.transpose() * C.ll * V;
   modes->C.ll = damping.diagonal();

@@ -12,6 +12,8 @@ using continuation::Needs;
 
 namespace {
 
+// From so many linear coordinates, and up to so many unknowns, a residual costs about as much as with J.
+constexpr int many_linear = 20, few_unknowns = 40;
 constexpr double worth_sharing = 250e-6;  // s, of all elements; waking the threads takes some 10 us
 
 }  // namespace
@@ -197,6 +199,10 @@ std::unique_ptr<HbmEvaluator> HbmProblem::hbm_evaluator() const {
 
 std::unique_ptr<continuation::Evaluator> HbmProblem::evaluator() const {
   return hbm_evaluator();
+}
+
+bool HbmProblem::chord_pays() const {
+  return coordinates_.linear() < many_linear || size() > few_unknowns;
 }
 
 Vector HbmProblem::scales() const {

@@ -97,6 +97,8 @@ class HbmProblem final : public continuation::Problem {
   Vector scales() const override;
   std::unique_ptr<continuation::Evaluator> evaluator() const override;
   std::unique_ptr<HbmEvaluator> hbm_evaluator() const;
+  /// Not where condensing the linear coordinates costs more than the Jacobian of the others.
+  bool chord_pays() const override;
 
   const model::Model& model() const { return *model_; }
   std::shared_ptr<const model::Model> shared_model() const { return model_; }

@@ -6,6 +6,7 @@
 #include <arcslip/continuation/problem/problem.hpp>
 #include <arcslip/elements/law.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/stop_request.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -206,6 +207,9 @@ struct Model {
   std::optional<Reduction> reduction;  // of its matrices
   int force_harmonic = 1;              // lowest of the excitation: the fundamental
   int threads = 1;                     // of the scene
+  /// Asked within evaluations that take long, those with factors of large matrices: an evaluation that is
+  /// stopped fails.
+  scene::StopRequest stop{};
 };
 
 /// From a validated scene. The matrices of a large structure are reduced to the rows that the scene uses

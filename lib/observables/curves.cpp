@@ -48,7 +48,7 @@ class Curves {
         unit_(scene.frequency_unit),
         to_rad_per_s_(scene::to_rad_per_s(unit_)),
         window_{range.frequency_from * to_rad_per_s_, range.frequency_to * to_rad_per_s_},
-        way_(over_parameter(scene, range.over, range.from, range.to)),
+        way_(over_parameter(scene, range.over, range.from, range.to, [this] { return !go_on(); })),
         parts_(kinds_.front(), unit_, way_),
         report_(report),
         stability_(range.stability),

@@ -116,6 +116,12 @@ std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const mo
 
 }  // namespace
 
+std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::StopRequest stop) {
+  auto model = std::make_shared<model::Model>(model::build(scene));
+  model->stop = std::move(stop);
+  return model;
+}
+
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on) {
   const auto found = problem_at(model, omega, frequency_scale, go_on);
@@ -142,6 +148,7 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
             "let a "
             "contact that sticks hold it, with \"offset\": \"static\""};
   const auto u = hbm::steady_state(problem, p, go_on);
+  if (!u && go_on && !go_on()) return {problem, {}, "stopped by the caller"};
   if (!u) {
     return {
         problem,

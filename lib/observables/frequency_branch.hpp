@@ -36,6 +36,9 @@ struct FirstResponse {
 /// computation is then aborted, and its result is invalid.
 using GoOn = std::function<bool()>;
 
+/// Of a scene whose matrices are small or reduced (prepare.hpp). stop: Model::stop.
+std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::StopRequest stop);
+
 /// At omega with the model's own parameters. frequency_scale: of the problem.
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on = {});

@@ -38,7 +38,7 @@ class Sweep {
         watched_{.stability = stability_of(range), .branch_points = all_},
         limits_(range.limits),
         progress_(progress),
-        model_(std::make_shared<const model::Model>(model::build(scene))) {}
+        model_(model_of(scene, [this] { return !go_on(); })) {}
 
   std::vector<ResponseBranch> run() {
     std::vector<TracedBranch> pieces;

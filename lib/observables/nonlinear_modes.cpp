@@ -60,7 +60,7 @@ class Modes {
       : unit_(scene.frequency_unit),
         range_(range),
         progress_(progress),
-        model_(std::make_shared<const model::Model>(model::build(scene))),
+        model_(model_of(scene, [this] { return !go_on(); })),
         free_(std::make_shared<const model::Model>(hbm::without_excitation(*model_))) {
     if (range.mode < 1 || !(range.from > 0) || !(range.from < range.to))
       throw std::invalid_argument("a mode needs a number from 1 on and amplitudes 0 < from < to");

@@ -50,10 +50,12 @@ std::shared_ptr<const model::Model> OverParameter::at(double value) const {
   return moved;
 }
 
-OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to) {
+OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to,
+                             scene::StopRequest stop) {
   scene::set(scene, over, to);
   scene::set(scene, over, from);
   model::Model model = model::build(scene);
+  model.stop = std::move(stop);
   OverParameter result;
   result.name = over;
   result.index = model::parameter_index(model, over);

@@ -35,7 +35,9 @@ struct OverParameter {
   std::shared_ptr<const model::Model> at(double value) const;
 };
 
-/// Throws scene::ParameterError if the scene has no parameter `over`, or the range exceeds its bounds.
-OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to);
+/// Throws scene::ParameterError if the scene has no parameter `over`, or the range exceeds its bounds. stop:
+/// Model::stop.
+OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to,
+                             scene::StopRequest stop = {});
 
 }  // namespace arcslip::observables

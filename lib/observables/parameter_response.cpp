@@ -40,7 +40,7 @@ std::string text(double value) {
 class Traces {
  public:
   Traces(const scene::Scene& scene, const ParameterRange& range, const ProgressCallback& report)
-      : way_(over_parameter(scene, range.over, range.from, range.to)),
+      : way_(over_parameter(scene, range.over, range.from, range.to, [this] { return !go_on(); })),
         unit_(scene.frequency_unit),
         omega_(range.frequency * scene::to_rad_per_s(unit_)),
         stability_(range.stability),

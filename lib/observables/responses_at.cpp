@@ -75,7 +75,7 @@ class Points {
       : scene_(scene),
         settings_(settings),
         omega_(settings.frequency * scene::to_rad_per_s(scene.frequency_unit)),
-        model_(std::make_shared<const model::Model>(model::build(scene))),
+        model_(model_of(scene, [this] { return !go_on(); })),
         report_(report) {
     progress_.frequency = settings.frequency;
     progress_.item = "response";

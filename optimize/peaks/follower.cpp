@@ -38,6 +38,7 @@ class DesignProblem final : public Problem {
     return std::make_unique<AtDesign>(point_, equations_->evaluator());
   }
   bool cheap_residual() const override { return equations_->cheap_residual(); }
+  bool chord_pays() const override { return equations_->chord_pays(); }
   std::unique_ptr<LinearSolver> linear_solver() const override { return equations_->linear_solver(); }
 
  private:

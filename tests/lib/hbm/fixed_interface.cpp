@@ -26,18 +26,18 @@ enum class Damping { none, proportional, few_dampers };
 
 /// A chain with two friction dampers, a massless and a floating degree of freedom, forces in harmonics 1
 /// and 3.
-scene::Scene chain(Damping damping) {
+scene::Scene chain(Damping damping, int length = dofs) {
   scene::Scene s;
   const auto part = [](const std::string& name, const scene::PartType& type, scene::Direction along,
                        double value) {
     return scene::Part{name, &type, {std::move(along)}, {value}};
   };
-  for (int i = 0; i < dofs; ++i) {
+  for (int i = 0; i < length; ++i) {
     const std::string n = std::to_string(i);
     s.dofs.push_back("x" + n);
-    const scene::Direction along = i > 0 && i + 1 < dofs ? scene::Direction{{i, 1.0}, {i - 1, -1.0}}
-                                   : i > 0               ? scene::Direction{}
-                                                         : scene::Direction{{i, 1.0}};
+    const scene::Direction along = i > 0 && i + 1 < length ? scene::Direction{{i, 1.0}, {i - 1, -1.0}}
+                                   : i > 0                 ? scene::Direction{}
+                                                           : scene::Direction{{i, 1.0}};
     if (i != 9) s.masses.push_back(part("m" + n, scene::mass_type(), {{i, 1.0}}, 1 + 0.3 * (i % 3)));
     if (along.empty()) continue;  // the last one has no spring
     s.springs.push_back(part("k" + n, scene::spring_type(), along, 1e4 + 300 * (i % 7)));
@@ -52,7 +52,7 @@ scene::Scene chain(Damping damping) {
     s.excitation.push_back(
         {"f" + std::to_string(n), &scene::force_type(), {{{7 * n, 1.0}, {20, 0.3}}}, {1.0 / n, 0.4}, n});
   s.harmonics.order = 3;
-  s.response() = {{dofs - 4, 1.0}, {2, -0.5}};
+  s.response() = {{length - 4, 1.0}, {2, -0.5}};
   return s;
 }
 
@@ -134,6 +134,44 @@ TEST_CASE("with fixed-interface modes a structure is the same, for proportional 
       CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
     }
   }
+}
+
+TEST_CASE("fixed-interface modes have the same digits in units of mass and force 512 times as large") {
+  scene::Scene s = chain(Damping::proportional);
+  const Structure one(s, true);
+  for (auto* parts : {&s.masses, &s.springs, &s.dampers})
+    for (scene::Part& part : *parts) part.values[0] *= 512;
+  const Structure other(s, true);
+  const auto &modes = *one.coordinates.modes, &heavier = *other.coordinates.modes;
+  CHECK(modes.of_linear == heavier.of_linear);
+  for (const auto of :
+       {&hbm::FixedInterfaceModes::M, &hbm::FixedInterfaceModes::C, &hbm::FixedInterfaceModes::K}) {
+    CHECK((512 * (modes.*of).ll).eval() == (heavier.*of).ll);
+    CHECK((512 * (modes.*of).lq).eval() == (heavier.*of).lq);
+  }
+}
+
+TEST_CASE("an evaluation with large factors asks for a stop before each harmonic, and fails after one") {
+  const auto model = std::make_shared<model::Model>(model::build(chain(Damping::few_dampers, 140)));
+  int asked = 0, most = 1;
+  model->stop = [&] { return ++asked > most; };
+  const hbm::Coordinates coordinates = hbm::coordinates(*model, 0);
+  hbm::DynamicStiffness stiffness(*model, coordinates, model->harmonics);
+  Vector p = model::defaults(*model);
+  p[model::frequency] = typical;
+  CHECK_FALSE(stiffness.move_to(p));
+  CHECK(asked == 2);
+  most = 4;
+  REQUIRE(stiffness.move_to(p));
+  CHECK(asked == 4);
+  model->stop = {};
+  hbm::DynamicStiffness unasked(*model, coordinates, model->harmonics);
+  REQUIRE(unasked.move_to(p));
+  const Vector u = Vector::Random(coordinates.unknowns * model->harmonics.size());
+  Vector R(u.size()), expected(u.size());
+  stiffness.residual(u, 1, R);
+  unasked.residual(u, 1, expected);
+  CHECK(R == expected);
 }
 
 TEST_CASE("with fixed-interface modes a structure on a moving ground is the same, at all of its places") {
