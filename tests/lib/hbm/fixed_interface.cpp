@@ -141,7 +141,10 @@ TEST_CASE("fixed-interface modes have the same digits in units of mass and force
   const Structure one(s, true);
   for (auto* parts : {&s.masses, &s.springs, &s.dampers})
     for (scene::Part& part : *parts) part.values[0] *= 512;
+  for (scene::Part& jenkins : s.elements)
+    for (const int field : {0, 2}) jenkins.values[static_cast<std::size_t>(field)] *= 512;
   const Structure other(s, true);
+  REQUIRE((one.coordinates.modes && other.coordinates.modes));
   const auto &modes = *one.coordinates.modes, &heavier = *other.coordinates.modes;
   CHECK(modes.of_linear == heavier.of_linear);
   for (const auto of :
