@@ -6,8 +6,8 @@
 namespace arcslip::hbm {
 namespace {
 
-constexpr Eigen::Index quick_factors =
-    100;  // linear coordinates, of which a dense matrix takes a millisecond
+// Linear coordinates of which the factors of a dense matrix take some tenths of a millisecond.
+constexpr Eigen::Index quick_factors = 100;
 
 Eigen::MatrixXd observed(const model::Model& model, const Eigen::MatrixXd& P) {
   Eigen::MatrixXd responses(P.cols(), 1 + static_cast<Eigen::Index>(model.others.size()));
