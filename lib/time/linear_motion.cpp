@@ -11,6 +11,7 @@
 namespace arcslip::time {
 namespace {
 
+constexpr double long_term = 5e7;   // multiplications by the stiffness in a term of the series: some 20 ms
 constexpr double massless = 1e-13;  // smallest eigenvalue of M scaled to a unit diagonal
 
 void require_mass(const EquationOfMotion& equation) {
@@ -145,8 +146,10 @@ void LinearMotion::expand_force_by_omega(double t, double h) {
   mass_.solve_in_place(by_omega_);
 }
 
-void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g,
-                          bool by_omega) {
+bool LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g,
+                          bool by_omega, const std::function<bool()>& stop) {
+  const double multiplications = static_cast<double>(stiffness_.size()) * static_cast<double>(X.cols());
+  const bool takes_long = stop && multiplications > long_term;
   t_ = t;
   h_ = h;
   expand_force(t, h);
@@ -154,6 +157,7 @@ void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, 
   X_[0] = X;
   V_[0] = V;
   for (std::size_t k = 0; k < order; ++k) {
+    if (takes_long && stop()) return false;
     const double factor = h / static_cast<double>(k + 1);
     X_[k + 1] = factor * V_[k];
     Matrix& next = V_[k + 1];
@@ -170,6 +174,7 @@ void LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, 
     }
     next *= factor;
   }
+  return true;
 }
 
 void LinearMotion::at(double s, Matrix& X, Matrix& V) const {

@@ -20,6 +20,7 @@
 #include <arcslip/time/equation_of_motion.hpp>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace arcslip::time {
@@ -45,8 +46,10 @@ class LinearMotion {
   void set_stiffness(std::size_t a, const Matrix& stiffness);
 
   /// The series from t over h <= longest(). X, V: dofs x columns; g: a row for each direction of each
-  /// automaton, N. by_omega: the last column is the variation with omega.
-  void expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g, bool by_omega = false);
+  /// automaton, N. by_omega: the last column is the variation with omega. stop: asked before each term where
+  /// one takes long; if it is true, the result is false, and there is no series.
+  bool expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g, bool by_omega = false,
+              const std::function<bool()>& stop = {});
 
   /// X and V at s.
   void at(double s, Matrix& X, Matrix& V) const;

@@ -118,7 +118,10 @@ bool March::find(double to) {
   if (reason_ != EndReason::reached) return false;
   end_ = std::min(t_ + linear_.longest(), to);
   h_ = end_ - t_;  // of the rounded time, or the force would lead or lag by more with every piece
-  linear_.expand(t_, h_, X_, V_, g_, with_omega_);
+  if (!linear_.expand(t_, h_, X_, V_, g_, with_omega_, limits_.stop)) {
+    reason_ = EndReason::stopped;
+    return false;
+  }
   locate();
   return true;
 }

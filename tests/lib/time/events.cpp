@@ -286,6 +286,20 @@ TEST_CASE(
   CHECK(relative_defect(motion.energy) < 1e-12);
 }
 
+TEST_CASE("a map of many degrees of freedom asks whether to go on within a piece") {
+  EquationOfMotion equation = masses(Vector::Ones(300));
+  equation.K.setIdentity();
+  equation.forces.push_back({Vector::Ones(300), 1, 1.0, 0});
+  EventLimits limits;
+  int asked = 0;
+  limits.stop = [&] { return ++asked == 3; };
+  EventDriven events(equation, limits);
+  const auto map = events.map(at_rest(equation), 1);
+  CHECK_FALSE(map.done);
+  CHECK(asked == 3);
+  CHECK(map.message.find("stopped by the caller at 0 s") == 0);
+}
+
 TEST_CASE("a motion that grows beyond all numbers ends as not finite") {
   EventDriven integrator(oscillator(1, 0, -100));  // a negative spring
   const auto motion = integrator.integrate({Vector::Ones(1), Vector::Zero(1), Vector()}, 0, 1000);
