@@ -72,7 +72,7 @@ struct Floquet::Impl {
       stiffnesses.push_back({part.directions, {}});
       for (const auto& mode : part.automaton.modes) stiffnesses.back().stiffnesses.push_back(mode.f_q);
     }
-    fastest_mode = fastest(equation, stiffnesses);
+    fastest_mode = fastest(equation, stiffnesses).value();
     over_mass_K = mass.solve(equation.K);
     over_mass_C = mass.solve(equation.C);
     for (Part& part : parts) part.over_mass = mass.solve(part.directions);

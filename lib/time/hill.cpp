@@ -40,7 +40,7 @@ struct Hill::Impl {
         throw NoVariation("Hill's method is for laws without memory: that of \"" + element.name +
                           "\" makes its spectrum fragment");
     std::vector<LinearMotion::Part> none;
-    fastest_mode = fastest(equation, none);
+    fastest_mode = fastest(equation, none).value();
     continuation::Cholesky mass;
     mass.factorize(equation.M);
     over_mass_K = mass.solve(equation.K);

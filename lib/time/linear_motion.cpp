@@ -27,10 +27,10 @@ void require_mass(const EquationOfMotion& equation) {
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal[i] > 0)) fail(i);
   const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
-  const auto modes = continuation::symmetric_modes(scale.asDiagonal() * equation.M * scale.asDiagonal());
-  if (modes.values[0] > massless) return;
+  const Matrix scaled = scale.asDiagonal() * equation.M * scale.asDiagonal();
+  if (continuation::symmetric_eigenvalues(scaled)[0] > massless) return;
   Eigen::Index i = 0;
-  (scale.asDiagonal() * modes.V.col(0)).cwiseAbs().maxCoeff(&i);
+  (scale.asDiagonal() * continuation::symmetric_modes(scaled).V.col(0)).cwiseAbs().maxCoeff(&i);
   fail(i);
 }
 
@@ -66,7 +66,12 @@ double largest_skew(const continuation::Cholesky& mass, const LinearMotion::Part
 
 }  // namespace
 
-double fastest(const EquationOfMotion& equation, const std::vector<LinearMotion::Part>& parts) {
+std::optional<double> fastest(const EquationOfMotion& equation, const std::vector<LinearMotion::Part>& parts,
+                              const std::function<bool()>& stop) {
+  const auto stopped = [&, n = static_cast<double>(equation.dofs())] {
+    return stop && n * n * n > long_term && stop();
+  };
+  if (stopped()) return {};
   require_mass(equation);
   continuation::Cholesky mass;
   mass.factorize(equation.M);
@@ -75,16 +80,26 @@ double fastest(const EquationOfMotion& equation, const std::vector<LinearMotion:
   for (const LinearMotion::Part& part : parts) {
     stiffest += part.directions * bound(part, 1) * part.directions.transpose();
     softest += part.directions * bound(part, -1) * part.directions.transpose();
+    if (stopped()) return {};
     skew += largest_skew(mass, part);
   }
   // Whatever the modes, the symmetric part of K' lies between these two.
-  return std::sqrt(std::max(largest_over(mass, softest), largest_over(mass, stiffest)) + skew) +
-         largest_over(mass, equation.C);
+  double most = 0;
+  for (const Matrix* K : {&softest, &stiffest}) {
+    if (stopped()) return {};
+    most = std::max(most, largest_over(mass, *K));
+  }
+  if (stopped()) return {};
+  return std::sqrt(most + skew) + largest_over(mass, equation.C);
 }
 
-LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts)
+LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts,
+                           const std::function<bool()>& stop)
     : equation_(equation), parts_(std::move(parts)) {
-  double most = fastest(equation, parts_);
+  const auto highest = fastest(equation, parts_, stop);
+  stopped_ = !highest;
+  if (stopped_) return;
+  double most = *highest;
   const int n = equation.dofs();
   mass_.factorize(equation.M);
   stiffness_ = mass_.solve(equation.K);
@@ -108,6 +123,7 @@ LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> p
 }
 
 void LinearMotion::set_stiffness(std::size_t a, const Matrix& stiffness) {
+  if (stopped_) return;
   if (in_modes_[a] == stiffness) return;
   in_modes_[a] = stiffness;
   stiffness_ = mass_.solve(equation_.K);  // anew: a sum that grows and shrinks would gather rounding

@@ -21,6 +21,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace arcslip::time {
@@ -36,8 +37,12 @@ class LinearMotion {
     std::vector<Matrix> stiffnesses;
   };
 
-  /// Throws SingularMass, with the degree of freedom.
-  LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts);
+  /// Throws SingularMass, with the degree of freedom. stop: asked before each decomposition that takes long;
+  /// if it is true, stopped() is, and there is no motion.
+  LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts,
+               const std::function<bool()>& stop = {});
+
+  bool stopped() const { return stopped_; }
 
   /// Longest h, s; infinite where nothing changes.
   double longest() const { return longest_; }
@@ -84,6 +89,7 @@ class LinearMotion {
   Matrix circulatory_;             // N; empty: none
   std::vector<Matrix> over_mass_;  // M^-1 D of each part
   std::vector<Matrix> in_modes_;   // their stiffness now
+  bool stopped_ = false;
   double longest_ = 0, t_ = 0, h_ = 0;
   std::vector<Matrix> X_, V_;    // order + 1
   Matrix force_, acceleration_;  // dofs x (order + 1): f_k, M^-1 f_k
@@ -92,7 +98,9 @@ class LinearMotion {
 };
 
 /// An upper bound of the angular frequencies of the free structure, rad/s, damping included, whatever the
-/// modes of the automata. Throws SingularMass, with the degree of freedom.
-double fastest(const EquationOfMotion& equation, const std::vector<LinearMotion::Part>& parts);
+/// modes of the automata. Throws SingularMass, with the degree of freedom. stop: as for LinearMotion; none:
+/// stopped.
+std::optional<double> fastest(const EquationOfMotion& equation, const std::vector<LinearMotion::Part>& parts,
+                              const std::function<bool()>& stop = {});
 
 }  // namespace arcslip::time

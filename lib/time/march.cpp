@@ -57,7 +57,7 @@ March::March(const EquationOfMotion& equation, const EventLimits& limits)
     : equation_(equation),
       limits_(limits),
       contacts_(contacts_of(equation)),
-      linear_(equation, parts_of(contacts_)) {
+      linear_(equation, parts_of(contacts_), limits.stop) {
   std::size_t most = 0;
   for (const Contact& contact : contacts_) most = std::max(most, contact.along.size());
   displacement_.resize(most);
@@ -111,6 +111,10 @@ void March::enter(Contact& contact) {
 
 bool March::find(double to) {
   if (!(t_ < to)) return false;
+  if (linear_.stopped()) {
+    reason_ = EndReason::stopped;
+    return false;
+  }
   if (events_ >= limits_.events) reason_ = EndReason::events;
   if (pieces_++ >= limits_.pieces || !(t_ + linear_.longest() > t_)) reason_ = EndReason::pieces;
   if (!X_.allFinite() || !V_.allFinite()) reason_ = EndReason::not_finite;

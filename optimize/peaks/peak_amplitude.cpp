@@ -60,6 +60,10 @@ PeakAmplitude::PeakAmplitude(std::shared_ptr<const model::Model> model, std::vec
     throw OptionsError(
         continuation::text("the response is the largest of ", 1 + model_->others.size(),
                            " places, each of which needs a load case of its own (with_places())"));
+  if (!go_on_) return;
+  auto with = std::make_shared<model::Model>(*model_);
+  with->stop = [on = stoppable_, go_on = go_on_] { return *on && !go_on(); };
+  model_ = std::move(with);
 }
 
 PeakAmplitude::~PeakAmplitude() = default;
@@ -79,6 +83,7 @@ Vector PeakAmplitude::parameters(std::span<const double> design) const {
 
 // Traces a response and locates all peaks, smooth ones as resonances and others as kinks.
 PeakState PeakAmplitude::response(std::span<const double> design, observables::Steps steps) {
+  const Stoppable stoppable(*this);
   PeakState found;
   found.design.assign(design.begin(), design.end());
   ++work_.responses;

@@ -31,6 +31,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace arcslip::optimize {
@@ -97,8 +98,9 @@ class Follower;
 
 class PeakAmplitude {
  public:
-  /// over: indices of parameters of the model. go_on: called at each step of each response; if it returns
-  /// false, at() and trace() throw Interrupted, and this object must not be used any more.
+  /// over: indices of parameters of the model. go_on: called at each step of each response, and within
+  /// evaluations that take long (Model::stop); if it returns false, at() and trace() throw Interrupted, and
+  /// this object must not be used any more, except to observe an earlier state.
   PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
                 const observables::FrequencyWindow& window, observables::GoOn go_on = {},
                 Watched watched = {});
@@ -168,6 +170,22 @@ class PeakAmplitude {
     continuation::Vector gradient;
   };
 
+  /// While one is there, evaluations that take long are given up after a stop: at() and trace() then throw.
+  /// Without one they are not, so that the best design is observed after a stop as well.
+  class Stoppable {
+   public:
+    explicit Stoppable(const PeakAmplitude& peaks)
+        : on_(peaks.stoppable_), before_(std::exchange(*on_, true)) {}
+    Stoppable(const Stoppable&) = delete;
+    Stoppable& operator=(const Stoppable&) = delete;
+    ~Stoppable() { *on_ = before_; }
+
+   private:
+    std::shared_ptr<bool> on_;
+    bool before_;
+  };
+
+  const std::shared_ptr<bool> stoppable_ = std::make_shared<bool>(false);  // shared with the model's stop
   std::shared_ptr<const model::Model> model_;
   std::vector<int> over_;
   observables::FrequencyWindow window_;

@@ -54,6 +54,7 @@ bool PeakAmplitude::came_up() const {
 
 const PeakState& PeakAmplitude::at(std::span<const double> design) {
   if (std::equal(design.begin(), design.end(), state_.design.begin(), state_.design.end())) return state_;
+  const Stoppable stoppable(*this);
   double most = 0;
   for (std::size_t k = 0; k < traced_.size(); ++k)
     most = std::max(most, std::abs(way(traced_[k], design[k])));
@@ -78,6 +79,7 @@ void PeakAmplitude::move_to(std::span<const double> design, std::vector<Peak>&& 
 
 bool PeakAmplitude::follow_to(std::span<const double> design, std::span<const std::size_t> needed) {
   if (std::equal(design.begin(), design.end(), state_.design.begin(), state_.design.end())) return true;
+  const Stoppable stoppable(*this);
   std::vector<Peak> moved = state_.peaks;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     if (moved[i].kind != PeakKind::kink && follow(i, design, moved[i])) continue;

@@ -7,6 +7,7 @@
 #include "lib/observables/reference.hpp"
 #include "optimize/row.hpp"
 
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
 #include <cmath>
@@ -311,4 +312,49 @@ TEST_CASE("second derivatives at the ends of the window and at corners") {
   const Design corner = {0.69, 0.494, 0.343, 0.572, 2, 0.463};
   CHECK(hessian_error(peaks, corner) < 1e-5);
   REQUIRE(peaks.trace(corner).peaks[peaks.state().highest].kind == PeakKind::corner);
+}
+
+TEST_CASE("large factors are given up after a stop, and the best design is observed all the same") {
+  constexpr int length = 120;
+  scene::Scene s;
+  for (int i = 0; i < length; ++i) {
+    const std::string n = std::to_string(i);
+    s.dofs.push_back("x" + n);
+    s.masses.push_back({"m" + n, &scene::mass_type(), {{{i, 1.0}}}, {1}});
+    const scene::Direction along =
+        i > 0 ? scene::Direction{{i, 1.0}, {i - 1, -1.0}} : scene::Direction{{i, 1.0}};
+    s.springs.push_back({"k" + n, &scene::spring_type(), {along}, {1e4}});
+    s.dampers.push_back({"c" + n, &scene::damper_type(), {along}, {5.0 + i % 7}});  // no modes
+  }
+  s.elements.push_back({"d", &elements::jenkins(), {{{60, 1.0}}}, {1e3, 0.5, 2}});
+  s.excitation.push_back({"f", &scene::force_type(), {{{7, 1.0}}}, {1, 0}, 1});
+  s.harmonics.order = 3;
+  s.response() = {{60, 1.0}};
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  long asked = 0, last = 1'000'000;
+  PeakAmplitude peaks(model, {model::parameter_index(*model, "d.normal_load")}, {1, 1.4},
+                      [&] { return ++asked < last; });
+  const optimize::PeakState first = peaks.trace(Design{2.0});
+  REQUIRE(first.complete);
+  CHECK(asked >= 2 * peaks.work().factorizations);  // before each of two harmonics
+  const auto problem = peaks.problem();
+  const auto before = peaks.observe(first, problem);
+  const long all = asked;
+  for (const bool follow : {false, true})
+    for (const long more : {1L, 2L, 5L, all / 2}) {
+      CAPTURE(follow, more);
+      last = 1'000'000;
+      PeakAmplitude other(model, {model::parameter_index(*model, "d.normal_load")}, {1, 1.4},
+                          [&] { return ++asked < last; });
+      other.trace(Design{2.0});
+      asked = 0;
+      last = more;
+      if (follow && more > 5) continue;  // it is done by then
+      CHECK_THROWS_AS(follow ? other.at(Design{2.1}) : other.trace(Design{2.1}), optimize::Interrupted);
+      CHECK(asked <= more + 40);  // a step that fails is tried again, shorter
+    }
+  asked = 0;
+  const auto after = peaks.observe(first, problem);
+  CHECK(asked == 0);
+  CHECK(after.amplitude == before.amplitude);
 }

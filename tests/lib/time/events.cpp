@@ -300,6 +300,29 @@ TEST_CASE("a map of many degrees of freedom asks whether to go on within a piece
   CHECK(map.message.find("stopped by the caller at 0 s") == 0);
 }
 
+TEST_CASE("before each decomposition of many degrees of freedom it is asked whether to go on") {
+  constexpr int n = 400;
+  EquationOfMotion equation = masses(Vector::LinSpaced(n, 1, 2));
+  equation.K.setIdentity();
+  equation.forces.push_back({Vector::Ones(n), 1, 1.0, 0});
+  int asked = 0, last = 1;
+  EventLimits limits;
+  limits.stop = [&] { return ++asked == last; };
+  for (; last <= 4; ++last) {  // of M, of two stiffnesses and of C
+    asked = 0;
+    EventDriven events(equation, limits);
+    const auto motion = events.integrate(at_rest(equation), 0, 1);
+    CAPTURE(last);
+    CHECK(motion.reason == EndReason::stopped);
+    CHECK(motion.time == 0);
+    CHECK(asked == last);
+  }
+  asked = 0;
+  EventDriven events(equation, limits);
+  CHECK(asked == 4);
+  CHECK(events.integrate(at_rest(equation), 0, 1).reason == EndReason::reached);
+}
+
 TEST_CASE("a motion that grows beyond all numbers ends as not finite") {
   EventDriven integrator(oscillator(1, 0, -100));  // a negative spring
   const auto motion = integrator.integrate({Vector::Ones(1), Vector::Zero(1), Vector()}, 0, 1000);
