@@ -97,9 +97,6 @@ void tell_end(const continuation::BranchStop& stop, double from, double upper, s
   }
 }
 
-namespace {
-
-// The modes of a large structure take seconds, in which nothing is asked. Null after a stop.
 std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const model::Model>& model,
                                                   double omega, double frequency_scale, const GoOn& go_on) {
   const scene::StopRequest stop = [&] { return !go_on(); };
@@ -113,8 +110,6 @@ std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const mo
     return {};
   }
 }
-
-}  // namespace
 
 std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::StopRequest stop) {
   auto model = std::make_shared<model::Model>(model::build(scene));
@@ -196,6 +191,29 @@ std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Obse
   return monitors;
 }
 
+namespace {
+
+FrequencyBranch traced(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u, double from,
+                       const continuation::Options& options, const Record& record, int direction, Steps steps,
+                       const Watched& watched) {
+  const auto observer = std::make_shared<Observer>(problem);
+  continuation::Observer each;
+  if (record)
+    each = [&](const continuation::Accepted& now, const continuation::Event* event) {
+      return record(*observer, now, event);
+    };
+  auto monitors = frequency_monitors(observer, steps, watched);
+  if (watched.phase) monitors.push_back(phase_resonance_monitor(observer, direction));
+  const Vector p = hbm::parameters_at(*problem, from);
+  FrequencyBranch found{problem, continuation::trace(problem, {u, p, model::frequency, direction}, options,
+                                                     std::move(monitors), each)};
+  found.unknown_stability = observer->unknown_stability();
+  speak_of_scene(problem->model(), p, found.branch);
+  return found;
+}
+
+}  // namespace
+
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record,
                                  int direction, Steps steps, const GoOn& go_on, const Watched& watched) {
@@ -210,22 +228,17 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
     none.branch.stop = {continuation::StopReason::start_failed, from, 0, first.failure};
     return none;
   }
-  const auto& problem = first.problem;
-  const continuation::Options options = frequency_options(window, steps, go_on);
-  const auto observer = std::make_shared<Observer>(problem);
-  continuation::Observer each;
-  if (record)
-    each = [&](const continuation::Accepted& now, const continuation::Event* event) {
-      return record(*observer, now, event);
-    };
-  auto monitors = frequency_monitors(observer, steps, watched);
-  if (watched.phase) monitors.push_back(phase_resonance_monitor(observer, direction));
-  const Vector p = hbm::parameters_at(*problem, from);
-  FrequencyBranch traced{problem, continuation::trace(problem, {*first.u, p, model::frequency, direction},
-                                                      options, std::move(monitors), each)};
-  traced.unknown_stability = observer->unknown_stability();
-  speak_of_scene(*model, p, traced.branch);
-  return traced;
+  return traced(first.problem, *first.u, from, frequency_options(window, steps, go_on), record, direction,
+                steps, watched);
+}
+
+FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProblem>& problem,
+                                      const FrequencyWindow& window, double from, double to, const Vector& u,
+                                      const Record& record, int direction, Steps steps, const GoOn& go_on,
+                                      const Watched& watched) {
+  continuation::Options options = frequency_options(window, steps, go_on);
+  (to > from ? options.upper : options.lower) = to;
+  return traced(problem, u, from, options, record, direction, steps, watched);
 }
 
 }  // namespace arcslip::observables

@@ -39,6 +39,12 @@ using GoOn = std::function<bool()>;
 /// Of a scene whose matrices are small or reduced (prepare.hpp). stop: Model::stop.
 std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::StopRequest stop);
 
+/// With the displacement 1 m, and modes, where there are any, about omega; they take seconds for a large
+/// structure, in which go_on is asked. Null after a stop. frequency_scale: of the problem.
+std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const model::Model>& model,
+                                                  double omega, double frequency_scale,
+                                                  const GoOn& go_on = {});
+
 /// At omega with the model's own parameters. frequency_scale: of the problem.
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on = {});
@@ -84,5 +90,12 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
                                  const FrequencyWindow& window, double from, const Record& record = {},
                                  int direction = 1, Steps steps = Steps::curve, const GoOn& go_on = {},
                                  const Watched& watched = {});
+
+/// A part of such a branch, with the steps of the whole window: from a response u of `problem` at
+/// omega = `from`, or one close by, to where the branch reaches omega = `to` or an end of the window.
+FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProblem>& problem,
+                                      const FrequencyWindow& window, double from, double to,
+                                      const continuation::Vector& u, const Record& record, int direction,
+                                      Steps steps, const GoOn& go_on, const Watched& watched);
 
 }  // namespace arcslip::observables

@@ -3,6 +3,7 @@
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/refined_parts.hpp>
 #include <arcslip/observables/shooting_response.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace arcslip::observables {
 namespace {
@@ -18,12 +20,38 @@ using continuation::StopReason;
 using continuation::Vector;
 
 constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
+constexpr double most_refined = 0.8;    // of the points: beyond, the whole branch is traced anew
+constexpr double same_response = 40;    // times the error allowed: the estimate is at least |dx|/20
 
 // Branches that leave others are found by it.
 StabilityRequest stability_of(const FrequencyRange& range) {
   StabilityRequest request = range.stability;
   request.wanted = request.wanted || range.branches == Branches::all;
   return request;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+double largest_amplitude(const ResponseBranch& branch, std::size_t first, std::size_t last) {
+  double largest = 0;
+  for (std::size_t i = first; i <= last; ++i) largest = std::max(largest, branch.points[i].amplitude);
+  for (const ResponseEvent& event : branch.events)
+    if (event.after >= first && event.after < last) largest = std::max(largest, event.point.amplitude);
+  return largest;
+}
+
+double largest_amplitude(const ResponseBranch& branch) {
+  return largest_amplitude(branch, 0, branch.points.size() - 1);
+}
+
+// The largest difference of a coefficient of the response, m.
+double distance(const ResponsePoint& a, const ResponsePoint& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.coefficients.size(); ++i)
+    most = std::max(most, std::abs(a.coefficients[i] - b.coefficients[i]));
+  return most;
 }
 
 // One branch over the window [from, to], with the data to continue beyond an unbounded peak.
@@ -56,6 +84,42 @@ class Sweep {
     return branches;
   }
 
+  std::optional<RefinedResponse> refined(std::span<const ResponseBranch> coarse, double accuracy) {
+    if (all_ || coarse.size() != 1) return {};
+    const ResponseBranch& branch = coarse.front();
+    if (branch.status != Status::complete || branch.stop.reason != reasons::boundary) return {};
+    const double largest = largest_amplitude(branch), allowed = accuracy * largest;
+    const std::vector<Part> parts = parts_to_refine(branch, allowed);
+    std::size_t count = 0;
+    for (const Part& part : parts) count += part.last - part.first + 1;
+    const auto of_all = static_cast<double>(count) / static_cast<double>(branch.points.size());
+    if (parts.empty() || of_all > most_refined) return {};
+    const auto unscaled = problem_at(model_, lower_, upper_ - lower_, [this] { return go_on(); });
+    if (!unscaled) return {};
+    const auto& at_first = branch.points.front().unknowns;
+    const double size =
+        Eigen::Map<const Vector>(at_first.data(), static_cast<Eigen::Index>(at_first.size())).norm();
+    const auto problem = std::make_shared<const hbm::HbmProblem>(*unscaled, size > 0 ? size : 1);
+    std::vector<ResponseBranch> traced;
+    double change = 0;
+    for (const Part& part : parts) {
+      auto found = trace_part(problem, branch, part);
+      if (!found) return {};
+      for (const auto& [i, now] :
+           {std::pair(part.first, &found->points.front()), std::pair(part.last, &found->points.back())}) {
+        const ResponsePoint before = in_harmonics(branch.points[i], branch, *found);
+        const bool is_inner = i > 0 && i + 1 < branch.points.size();  // there its estimate is small
+        if (is_inner && distance(before, *now) > same_response * allowed) return {};
+        change = std::max(change, std::abs(now->amplitude - before.amplitude));
+      }
+      change = std::max(
+          change, std::abs(largest_amplitude(*found) - largest_amplitude(branch, part.first, part.last)));
+      traced.push_back(std::move(*found));
+    }
+    RefinedResponse all{{with_parts(branch, parts, std::move(traced))}, change / largest};
+    return all;
+  }
+
  private:
   Following following() {
     return {.window = {lower_, upper_},
@@ -73,13 +137,34 @@ class Sweep {
 
   TracedBranch trace_from(double from) {
     const auto began = std::chrono::steady_clock::now();
-    ResponseBranch result = described(*model_);
+    Course course{described(*model_), {}, from, {}};
+    ResponseBranch& result = course.result;
+    told_ = {.frequency = from / unit_};
+    if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
+      end_unbounded(result, on_it, {{from, HUGE_VAL}});
+      return {std::move(result), nullptr, {}};
+    }
+    auto traced = frequency_branch(
+        model_, {lower_, upper_}, from, recording(course), 1, Steps::curve, [this] { return go_on(); },
+        watched_);
+    result.unknown_stability = traced.unknown_stability;
+    result.solver.unknowns = traced.problem->size();
+    finish(traced, from, course);
+    result.solver.seconds = seconds_since(began);
+    return {std::move(result), traced.problem, std::move(traced.branch.events)};
+  }
 
-    std::vector<std::pair<double, double>> course;  // frequency, |u| in scales
-    double last = from;
+  // What is recorded along a branch.
+  struct Course {
+    ResponseBranch result;
+    std::vector<std::pair<double, double>> sizes;  // frequency, |u| in scales
+    double last;                                   // frequency
     Unboundedness growth;
-    const auto record = [&](Observer& observer, const continuation::Accepted& now,
-                            const continuation::Event* event) {
+  };
+
+  Record recording(Course& course) {
+    return [&](Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
+      ResponseBranch& result = course.result;
       if (event) {
         result.events.push_back({event->monitor, event->nonsmooth, event->located,
                                  observer.observe(now, held_by(*event), true), event->after});
@@ -87,32 +172,42 @@ class Sweep {
         return true;
       }
       const double omega = now.p[model::frequency];
-      const bool was_within = course.empty() || course.back().second <= beyond_display;
-      course.emplace_back(omega, now.u.norm() / observer.problem().displacement());
-      if (was_within && course.back().second > beyond_display) {
-        growth = unboundedness(observer.problem(), now.p, now.u);
-        if (growth.unbounded) return false;
+      const bool was_within = course.sizes.empty() || course.sizes.back().second <= beyond_display;
+      course.sizes.emplace_back(omega, now.u.norm() / observer.problem().displacement());
+      if (was_within && course.sizes.back().second > beyond_display) {
+        course.growth = unboundedness(observer.problem(), now.p, now.u);
+        if (course.growth.unbounded) return false;
       }
       result.points.push_back(observer.observe(now));
-      told_.points = static_cast<long>(course.size());
+      told_.points = static_cast<long>(course.sizes.size());
       told_.frequency = omega / unit_;
-      told_.step = (omega - last) / unit_;
+      told_.step = (omega - course.last) / unit_;
       told_.share_done = std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0);
-      last = omega;
+      course.last = omega;
       return go_on();
     };
-    told_ = {.frequency = from / unit_};
-    if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
-      end_unbounded(result, on_it, {{from, HUGE_VAL}});
-      return {std::move(result), nullptr, {}};
-    }
-    auto traced = frequency_branch(
-        model_, {lower_, upper_}, from, record, 1, Steps::curve, [this] { return go_on(); }, watched_);
-    result.unknown_stability = traced.unknown_stability;
-    result.solver.unknowns = traced.problem->size();
-    finish(result, traced, from, growth, course);
-    result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    return {std::move(result), traced.problem, std::move(traced.branch.events)};
+  }
+
+  // A part of a branch of fewer harmonics; nothing if it does not reach the end of that part.
+  std::optional<ResponseBranch> trace_part(const std::shared_ptr<const hbm::HbmProblem>& problem,
+                                           const ResponseBranch& branch, const Part& part) {
+    const auto began = std::chrono::steady_clock::now();
+    const ResponsePoint& first = branch.points[part.first];
+    const double to = branch.points[part.last].omega;
+    const int direction = branch.points[part.first + 1].omega > first.omega ? 1 : -1;
+    Course course{described(*model_), {}, first.omega, {}};
+    const ResponsePoint start = in_harmonics(first, branch, course.result);
+    const Eigen::Map<const Vector> u(start.unknowns.data(), static_cast<Eigen::Index>(start.unknowns.size()));
+    const auto traced = frequency_branch_part(
+        problem, {lower_, upper_}, first.omega, to, u, recording(course), direction, Steps::curve,
+        [this] { return go_on(); }, watched_);
+    const auto& stop = traced.branch.stop;
+    if (stop.reason != StopReason::boundary || stop.value != to) return {};
+    course.result.unknown_stability = traced.unknown_stability;
+    course.result.solver.unknowns = problem->size();
+    add(traced.branch.counts, course.result.solver);
+    course.result.solver.seconds = seconds_since(began);
+    return std::move(course.result);
   }
 
   // Reports progress and checks for a stop, also between points, with the numbers of the last one.
@@ -121,12 +216,12 @@ class Sweep {
     return !stopped_;
   }
 
-  void finish(ResponseBranch& result, const FrequencyBranch& traced, double from, const Unboundedness& growth,
-              const std::vector<std::pair<double, double>>& course) {
+  void finish(const FrequencyBranch& traced, double from, Course& course) {
+    ResponseBranch& result = course.result;
     const continuation::Branch& branch = traced.branch;
     add(branch.counts, result.solver);
-    if (growth.unbounded) {
-      end_unbounded(result, growth, course);
+    if (course.growth.unbounded) {
+      end_unbounded(result, course.growth, course.sizes);
       return;
     }
     const bool is_through = branch.stop.reason == StopReason::boundary && branch.stop.value == upper_;
@@ -135,8 +230,8 @@ class Sweep {
     tell_end(branch.stop, from, upper_, frequency_unit_, result);
     if (is_through && !result.doubt.empty()) result.stop.message += "; " + result.doubt;
     if (result.stop.reason != reasons::boundary && branch.stop.reason != StopReason::start_failed &&
-        !growth.message.empty())
-      result.stop.message += "; " + growth.message;
+        !course.growth.message.empty())
+      result.stop.message += "; " + course.growth.message;
   }
 
   // The peak at infinity, and the frequency at which the branch is resumed beyond the pole.
@@ -176,6 +271,13 @@ std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const 
                                                const ProgressCallback& progress) {
   if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, progress)};
   return Sweep(scene, range, progress).run();
+}
+
+std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const FrequencyRange& range,
+                                                std::span<const ResponseBranch> coarse, double accuracy,
+                                                const ProgressCallback& progress) {
+  if (range.method == ResponseMethod::shooting) return {};
+  return Sweep(scene, range, progress).refined(coarse, accuracy);
 }
 
 }  // namespace arcslip::observables

@@ -8,6 +8,8 @@
 #include <arcslip/results/progress.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace arcslip::observables {
@@ -37,5 +39,21 @@ struct FrequencyRange {
 /// is reported with its reason. Throws std::invalid_argument unless from < to. Threads may share the scene.
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
                                                const ProgressCallback& progress = {});
+
+/// A response of which parts have more harmonics than others (ResponsePoint::order).
+struct RefinedResponse {
+  std::vector<ResponseBranch> branches;
+  double change = 0;  // of the amplitude by the harmonics added, at the ends of the parts and where it is
+                      // largest in them, relative to the largest amplitude of all
+};
+
+/// From the branches of a scene with fewer harmonics, those of `scene`, where only parts are traced anew:
+/// those in which the truncation estimate exceeds accuracy times the largest amplitude, or is flagged
+/// (refined_parts.hpp). Nothing where all has to be traced anew: with all branches, by shooting, for a
+/// response that does not reach the end of its window, where these parts are most of it, where another
+/// response is found at the end of a part, and after a stop by the callback.
+std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const FrequencyRange& range,
+                                                std::span<const ResponseBranch> coarse, double accuracy,
+                                                const ProgressCallback& progress = {});
 
 }  // namespace arcslip::observables

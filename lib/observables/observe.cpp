@@ -217,6 +217,7 @@ ResponsePoint Observer::motion(const hbm::HbmEvaluator& at, continuation::In u,
     point.coefficients.push_back(n == 0 ? 0.0 : x_[h.sine_index(n)]);
   }
   point.unknowns.assign(u.data(), u.data() + u.size());
+  point.order = h.order;
   return point;
 }
 

@@ -143,6 +143,8 @@ struct ResponsePoint {
   ForceComponents forces{};
   MotionMaxima maxima{};
   std::optional<Stability> stability{};  // if requested and known
+  int order = 0;  // N of the harmonics kept, of the base frequency; 0: those of the whole branch. Where the
+                  // branch has more, their coefficients and unknowns are 0
 
   double energy_total() const { return energy_friction + energy_viscous; }
   /// Share of friction in the dissipated energy, 0 to 100; no_value without dissipation, or where the

@@ -37,6 +37,7 @@ KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, st
             asked.stability = drawn == BranchKind::bifurcations;
             if constexpr (requires { range.stability; }) asked.stability = range.stability;
             if constexpr (requires { range.branches; }) {
+              asked.order = scene.harmonics.accuracy > 0 && range.method != decltype(range.method)::shooting;
               asked.leaving = range.branches == decltype(range.branches)::all;
               asked.stability = asked.stability || asked.leaving;
             }

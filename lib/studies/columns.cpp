@@ -109,6 +109,9 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
             return r < response.responses.size() ? &response.responses[r] : nullptr;
           },
           table);
+  if (asked.order)
+    table.add({"order"}, "", "highest harmonic kept at this point, of those of the motion's period",
+              [](const ResponsePoint& response) { return response.order; });
   if (asked.coefficients)
     table.add({"coefficients"}, "m", "Fourier coefficients a_n, b_n of the response, for each harmonic",
               [](const ResponsePoint& response) { return response.coefficients; });

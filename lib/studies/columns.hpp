@@ -24,6 +24,7 @@ struct Asked {
   bool mode = false;          // of modes
   bool stability = false;     // Floquet multipliers
   bool leaving = false;       // of branches that leave others
+  bool order = false;         // of the harmonics, where it may differ from point to point
 };
 
 /// The quantities of responses of a scene, by element in an object "elements", by patch in "patches".

@@ -96,7 +96,7 @@ void OrderSelection::set_order(scene::Scene& scene) const {
 // no_value if there is nothing to compare with.
 double OrderSelection::error_by_change(const Truncation& found) const {
   if (orders_.empty() || last_.failed || last_.landmarks.size() != found.landmarks.size()) return no_value;
-  double change = std::abs(found.amplitude - last_.amplitude) / found.amplitude;
+  double change = std::fmax(std::abs(found.amplitude - last_.amplitude) / found.amplitude, found.change);
   for (std::size_t i = 0; i < found.landmarks.size(); ++i) {
     const double difference = std::abs(found.landmarks[i].value - last_.landmarks[i].value);
     if (difference > 0) change = std::max(change, difference / found.landmarks[i].size);

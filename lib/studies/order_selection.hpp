@@ -37,6 +37,7 @@ struct Truncation {
   double estimate = observables::no_value;  // the largest change of an amplitude, m; no_value: not known
   bool flagged = false;                     // the estimate may be far too low
   std::vector<Landmark> landmarks{};
+  double change = observables::no_value;  // of an amplitude where only parts were computed anew, relative
 };
 
 /// Of all branches of one combination. estimated: their points have estimates.

@@ -111,15 +111,29 @@ inline results::Schema with_set(const scene::Scene& scene, const scene::Study& s
 template <class Item>
 using TruncationOf = std::function<std::optional<Truncation>(std::span<const Item> items)>;
 
+/// Items of more harmonics, where only parts of them had to be computed anew.
+template <class Item>
+struct Refined {
+  std::vector<Item> items;
+  double change = 0;  // Truncation::change
+};
+
+/// From the items of fewer harmonics, those of the scene of a case; nothing: compute() has to do it.
+template <class Item>
+using Refine =
+    std::function<std::optional<Refined<Item>>(const Case& at, std::span<const Item> coarse, double accuracy,
+                                               const results::ProgressCallback& progress)>;
+
 /// StudyType::run() by functions: compute() of one combination, which other threads may call as well,
-/// truncation_of(items) where the scene asks for an accuracy, figures(items). Items are kept only if figures
-/// are requested.
+/// truncation_of(items) and refine() where the scene asks for an accuracy, figures(items). Items are kept
+/// only if figures are requested.
 template <class Item, class Compute, class FiguresOf>
 std::vector<results::FigureData> run_items(const scene::Scene& scene, const scene::Study& study,
                                            const scene::RunOptions& options, const Described<Item>& described,
                                            std::size_t schema, results::Sink& sink, const Compute& compute,
                                            const std::type_identity_t<TruncationOf<Item>>& truncation_of,
-                                           const FiguresOf& figures_of) {
+                                           const FiguresOf& figures_of,
+                                           const std::type_identity_t<Refine<Item>>& refine = {}) {
   struct Computed {
     std::vector<Item> items;
     std::optional<OrderSelection> selection;
@@ -137,18 +151,28 @@ std::vector<results::FigureData> run_items(const scene::Scene& scene, const scen
     for (bool first = true;; first = false) {
       found.selection->set_order(with);
       bool goes_on = true;
-      std::vector<Item> items = compute(Case{with, at.alone}, [&](results::Progress now) {
+      const auto tell = [&](results::Progress now) {
         now.order = with.harmonics.order;
         goes_on = !progress || progress(now);
         return goes_on;
-      });
+      };
+      const Case higher{with, at.alone};
+      std::optional<Refined<Item>> refined;
+      if (refine && !first) refined = refine(higher, found.items, at.scene.harmonics.accuracy, tell);
+      std::vector<Item> items;
+      if (refined)
+        items = std::move(refined->items);
+      else if (goes_on)
+        items = compute(higher, tell);
       if (!goes_on && !first) {
         found.selection->give_up();
         return found;
       }
       found.items = std::move(items);
       found.harmonics = with.harmonics;
-      if (!found.selection->rises(truncation_of(found.items).value())) return found;
+      Truncation truncation = truncation_of(found.items).value();
+      if (refined) truncation.change = refined->change;
+      if (!found.selection->rises(truncation)) return found;
     }
   };
   std::vector<Item> kept;
@@ -182,6 +206,9 @@ struct KindOf {
   bool coefficients = true;  // whether the option of that name changes the results
   bool timed = false;        // its results are times: one combination after the other
   std::optional<Truncation> (*truncation)(const S& settings, std::span<const Item> items) = nullptr;
+  std::optional<Refined<Item>> (*refine)(const Case& at, const S& settings, std::span<const Item> coarse,
+                                         double accuracy,
+                                         const results::ProgressCallback& progress) = nullptr;
 };
 
 template <class S, class Item>
@@ -209,7 +236,12 @@ class StudyOf : public scene::file::KeyedStudy<S> {
         kind_.truncation == nullptr
             ? TruncationOf<Item>()
             : [&](std::span<const Item> items) { return kind_.truncation(settings, items); },
-        [&](std::span<const Item> items) { return kind_.figures(scene, items); });
+        [&](std::span<const Item> items) { return kind_.figures(scene, items); },
+        kind_.refine == nullptr
+            ? Refine<Item>()
+            : [&](const Case& at, std::span<const Item> coarse, double accuracy,
+                  const results::ProgressCallback&
+                      progress) { return kind_.refine(at, settings, coarse, accuracy, progress); });
   }
 
  private:
