@@ -17,6 +17,7 @@ struct ParameterRange {
   std::string over;
   double from = 0, to = 0, frequency = 0;
   StabilityRequest stability{};  // of the points, and their bifurcations
+  ResponseMethod method = ResponseMethod::harmonic_balance;
   friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
 };
 
@@ -44,7 +45,8 @@ struct BifurcationRange {
 };
 
 /// The branches over a parameter at one frequency, one for each response found at range.from; with a cubic
-/// spring there may be several. Events: "fold" in that parameter, "maximum" and "minimum" of the amplitude.
+/// spring there may be several; by shooting the one of shooting_response.hpp. Events: "fold" in that
+/// parameter, "maximum" and "minimum" of the amplitude.
 /// Throws scene::ParameterError for an unknown parameter or a range beyond its bounds.
 std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const ParameterRange& range,
                                                const ProgressCallback& progress = {});

@@ -1,8 +1,13 @@
 #include <arcslip/observables/over_parameter.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/study_branches.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace arcslip::observables {
 namespace {
@@ -11,6 +16,13 @@ constexpr double points_in_range = 150;             // at least, from end to end
 constexpr double largest_relative_step = 1.0 / 12;  // of the parameter
 constexpr double smallest_step = 1e-2;              // of the largest at the low end of the range
 constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
+
+std::string text(double value) {
+  std::ostringstream s;
+  s.precision(8);
+  s << value;
+  return s.str();
+}
 
 }  // namespace
 
@@ -68,6 +80,27 @@ OverParameter over_parameter(scene::Scene scene, const std::string& over, double
       result.has_one_sign() ? mean : std::min(width, std::numeric_limits<double>::max());
   result.model = std::make_shared<const model::Model>(std::move(model));
   return result;
+}
+
+void tell_end(const OverParameter& way, const continuation::BranchStop& stop, const std::string& doubt,
+              ResponseBranch& result) {
+  result.status = status_of(stop.reason);
+  result.stop = {reason_of(stop.reason), stop.value, stop.limit, stop.message};
+  if (stop.reason != continuation::StopReason::boundary) return;
+  result.stop.limit = way.to;
+  if (stop.value == way.to) {
+    result.doubt = doubt;
+    result.stop.message = "reached the end of the range at " + way.name + " = " + text(way.to) +
+                          (doubt.empty() ? "" : "; " + doubt);
+    return;
+  }
+  result.status = Status::stopped;
+  double farthest = way.from;
+  for (const auto& event : result.events)
+    if (event.kind == event_kinds::fold && way.direction() * (event.point.over - farthest) > 0)
+      farthest = event.point.over;
+  result.stop.message = "turned back at " + way.name + " = " + text(farthest) +
+                        " and left the range at its start, " + text(way.from);
 }
 
 }  // namespace arcslip::observables

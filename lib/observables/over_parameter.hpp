@@ -1,8 +1,10 @@
 #pragma once
 // A model with a continuation parameter `over`, its range, and suitable steps.
 
+#include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/model/model.hpp>
+#include <arcslip/observables/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <memory>
@@ -39,5 +41,10 @@ struct OverParameter {
 /// Model::stop.
 OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to,
                              scene::StopRequest stop = {});
+
+/// The status and stop of a branch over the parameter, once its events are there. doubt: of one that reaches
+/// the end of the range.
+void tell_end(const OverParameter& way, const continuation::BranchStop& stop, const std::string& doubt,
+              ResponseBranch& result);
 
 }  // namespace arcslip::observables

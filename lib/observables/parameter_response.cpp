@@ -4,11 +4,12 @@
 #include <arcslip/observables/over_parameter.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/responses_at.hpp>
+#include <arcslip/observables/shooting_response.hpp>
 #include <arcslip/observables/study_branches.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <sstream>
 
 namespace arcslip::observables {
 namespace {
@@ -27,13 +28,6 @@ continuation::Monitor extreme_monitor(const char* kind, Crossing crossing,
                                 crossing, [observer](const Accepted&) { return observer->last_amplitude(); }};
   monitor.divides_at_kinks = observer->problem().model().settings.friction == scene::Friction::exact;
   return monitor;
-}
-
-std::string text(double value) {
-  std::ostringstream s;
-  s.precision(8);
-  s << value;
-  return s.str();
 }
 
 // The branches over one parameter at one frequency, each from a different response at the start of the range.
@@ -93,7 +87,7 @@ class Traces {
     ResponseBranch result = described(*way_.model, way_.name);
     result.status = Status::failed;
     result.stop = {reasons::start_failed, way_.from, 0,
-                   what + " at " + way_.name + " = " + text(way_.from) + " and " +
+                   what + " at " + way_.name + " = " + results::shortest(way_.from) + " and " +
                        frequency_text(omega_, unit_) + ": " + why};
     return result;
   }
@@ -135,36 +129,13 @@ class Traces {
     auto branch = continuation::trace(problem, {u, p, way_.index, way_.direction()}, options,
                                       std::move(monitors), record);
     result.unknown_stability = observer->unknown_stability();
-    for (std::size_t i = at.size(); i-- > 0;)
-      if ((result.events[i].kind == event_kinds::maximum || result.events[i].kind == event_kinds::minimum) &&
-          !departs(course, at[i], result.events[i].point.amplitude))
-        result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
+    drop_extrema_of_rounding(course, at, result);
     speak_of_scene(*way_.model, p, branch);
-    finish(result, branch, doubt_of_rounding(*way_.model, p, branch.counts));
+    tell_end(way_, branch.stop, doubt_of_rounding(*way_.model, p, branch.counts), result);
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return branch;
-  }
-
-  void finish(ResponseBranch& result, const continuation::Branch& branch, const std::string& doubt) const {
-    result.status = status_of(branch.stop.reason);
-    result.stop = {reason_of(branch.stop.reason), branch.stop.value, branch.stop.limit, branch.stop.message};
-    if (branch.stop.reason != StopReason::boundary) return;
-    result.stop.limit = way_.to;
-    if (branch.stop.value == way_.to) {
-      result.doubt = doubt;
-      result.stop.message = "reached the end of the range at " + way_.name + " = " + text(way_.to) +
-                            (doubt.empty() ? "" : "; " + doubt);
-      return;
-    }
-    result.status = Status::stopped;
-    double farthest = way_.from;
-    for (const auto& event : result.events)
-      if (event.kind == event_kinds::fold && way_.direction() * (event.point.over - farthest) > 0)
-        farthest = event.point.over;
-    result.stop.message = "turned back at " + way_.name + " = " + text(farthest) +
-                          " and left the range at its start, " + text(way_.from);
   }
 
   OverParameter way_;
@@ -180,6 +151,7 @@ class Traces {
 
 std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const ParameterRange& range,
                                                const ProgressCallback& progress) {
+  if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, progress)};
   return Traces(scene, range, progress).run();
 }
 

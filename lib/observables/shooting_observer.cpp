@@ -74,6 +74,7 @@ ResponsePoint ShootingObserver::observe(const Accepted& now) {
   const time::EventDrivenMotion motion = at.motion();
   ResponsePoint point;
   point.omega = now.p[model::frequency];
+  if (!is_over_frequency()) point.over = now.parameter;
   point.amplitude = motion.amplitude;
   point.phase = no_value;
   point.forces = without_forces();
@@ -96,7 +97,7 @@ double ShootingObserver::amplitude_slope(const Accepted& now) {
   amplitude_ = orbit.amplitude;
   const Eigen::Index n = now.u.size();
   return orbit.amplitude_by.head(n).dot(now.tangent.head(n)) +
-         orbit.amplitude_by[n] * problem_->model().harmonics.base_frequency(1) * now.tangent[n];
+         evaluator_of(now).amplitude_derivative(free_) * now.tangent[n];
 }
 
 const std::vector<std::complex<double>>& ShootingObserver::multipliers(const Accepted& now) {
@@ -110,10 +111,19 @@ const std::vector<std::complex<double>>& ShootingObserver::multipliers(const Acc
 
 std::vector<continuation::Monitor> shooting_monitors(const std::shared_ptr<ShootingObserver>& observer,
                                                      const StabilityRequest& watched) {
-  std::vector<continuation::Monitor> monitors{
-      {event_kinds::peak, [observer](const Accepted& now) { return observer->amplitude_slope(now); },
-       continuation::Crossing::falling, [observer](const Accepted&) { return observer->last_amplitude(); }},
-      continuation::fold_monitor()};
+  using continuation::Crossing;
+  const auto extreme = [&](const char* kind, Crossing crossing) {
+    return continuation::Monitor{
+        kind, [observer](const Accepted& now) { return observer->amplitude_slope(now); }, crossing,
+        [observer](const Accepted&) { return observer->last_amplitude(); }};
+  };
+  std::vector<continuation::Monitor> monitors;
+  if (observer->is_over_frequency())
+    monitors = {extreme(event_kinds::peak, Crossing::falling)};
+  else
+    monitors = {extreme(event_kinds::maximum, Crossing::falling),
+                extreme(event_kinds::minimum, Crossing::rising)};
+  monitors.push_back(continuation::fold_monitor());
   if (!watched) return monitors;
   observer->watch_stability(watched);
   for (auto& monitor :

@@ -14,11 +14,13 @@
 
 namespace arcslip::observables {
 
-/// Observes the points of a branch over the frequency. One for each thread.
+/// Observes the points of a branch over the frequency, or over another parameter. One for each thread.
 class ShootingObserver {
  public:
-  explicit ShootingObserver(std::shared_ptr<const time::ShootingProblem> problem)
-      : problem_(std::move(problem)) {}
+  explicit ShootingObserver(std::shared_ptr<const time::ShootingProblem> problem, int free = model::frequency)
+      : problem_(std::move(problem)), free_(free) {}
+
+  bool is_over_frequency() const { return free_ == model::frequency; }
 
   ResponsePoint observe(const continuation::Accepted& now);
 
@@ -38,13 +40,15 @@ class ShootingObserver {
                     ResponsePoint& point) const;
 
   std::shared_ptr<const time::ShootingProblem> problem_;
+  int free_;
   StabilityRequest stability_{};
   double amplitude_ = 0;
   continuation::Matrix monodromy_;  // of the multipliers
   std::vector<std::complex<double>> multipliers_;
 };
 
-/// Peaks, and with `watched` losses of stability and branch points.
+/// Peaks, or over another parameter than the frequency maxima and minima; folds; and with `watched` losses of
+/// stability and branch points.
 std::vector<continuation::Monitor> shooting_monitors(const std::shared_ptr<ShootingObserver>& observer,
                                                      const StabilityRequest& watched);
 

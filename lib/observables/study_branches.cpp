@@ -1,5 +1,7 @@
 #include <arcslip/observables/study_branches.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -38,6 +40,14 @@ bool departs(const std::vector<std::pair<double, double>>& course, double arclen
   const auto first = after - course.begin() > neighbours ? after - neighbours : course.begin();
   const auto last = course.end() - after > neighbours ? after + neighbours : course.end();
   return std::any_of(first, after, differs) && std::any_of(after, last, differs);
+}
+
+void drop_extrema_of_rounding(const std::vector<std::pair<double, double>>& course,
+                              const std::vector<double>& at, ResponseBranch& result) {
+  for (std::size_t i = at.size(); i-- > 0;)
+    if ((result.events[i].kind == event_kinds::maximum || result.events[i].kind == event_kinds::minimum) &&
+        !departs(course, at[i], result.events[i].point.amplitude))
+      result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/method_key.hpp>
 #include <arcslip/studies/stability_keys.hpp>
 
 #include <array>
@@ -19,19 +20,12 @@ constexpr int most_doublings = 6, most_branches = 10'000, most_searches = 1000;
 constexpr std::array<scene::file::Word<Branches>, 2> branch_words = {
     {{"one", Branches::one}, {"all", Branches::all}}};
 
-constexpr std::array<scene::file::Word<ResponseMethod>, 2> method_words = {
-    {{"harmonic_balance", ResponseMethod::harmonic_balance}, {"shooting", ResponseMethod::shooting}}};
-
-// Shooting follows one branch, and its multipliers are those of its own map.
+// Shooting follows one branch.
 void check_shooting(const scene::file::Reading& reading, FrequencyRange& range) {
-  if (range.method != ResponseMethod::shooting) return;
-  if (range.branches == Branches::all)
+  check_method(reading, range);
+  if (range.method == ResponseMethod::shooting && range.branches == Branches::all)
     reading.faults.add(reading.keys.find("branches").pointer,
                        "found \"all\" beside the method \"shooting\", which follows one branch");
-  if (range.stability.by_hill)
-    reading.faults.add(reading.keys.find("stability").pointer,
-                       "found \"hill\" beside the method \"shooting\", whose multipliers are exact: must be "
-                       "true or false");
 }
 
 /// A limit of all branches; without them it is not written.
@@ -47,9 +41,7 @@ scene::file::KeyGroup<FrequencyRange> limit(scene::file::KeyGroup<BranchLimits> 
 scene::file::KeysOf<FrequencyRange> keys() {
   scene::file::KeysOf<FrequencyRange> keys;
   keys.add(scene::file::frequency_range(&FrequencyRange::from, &FrequencyRange::to));
-  keys.add(scene::file::word("method", &FrequencyRange::method, method_words,
-                             "harmonic balance, or the exact motions in time by shooting, of scenes that are "
-                             "piecewise linear and have no degree of freedom without mass"));
+  add_method_key(keys);
   add_stability_keys(keys, stability_help);
   keys.add(
       scene::file::word("branches", &FrequencyRange::branches, branch_words,
@@ -67,12 +59,24 @@ scene::file::KeysOf<FrequencyRange> keys() {
   return keys;
 }
 
+KindOf<FrequencyRange, observables::ResponseBranch> kind() {
+  auto kind = branch_kind<observables::frequency_response, BranchKind::responses>(
+      "frf", "frequency responses, with their peaks and folds", keys());
+  kind.refine =
+      [](const Case& at, const FrequencyRange& range, std::span<const observables::ResponseBranch> coarse,
+         double accuracy,
+         const results::ProgressCallback& progress) -> std::optional<Refined<observables::ResponseBranch>> {
+    auto refined = observables::refined_response(at.scene, range, coarse, accuracy, progress);
+    if (!refined) return std::nullopt;
+    return Refined<observables::ResponseBranch>{std::move(refined->branches), refined->change};
+  };
+  return kind;
+}
+
 }  // namespace
 
 const scene::StudyType& frf() {
-  static const StudyOf<FrequencyRange, observables::ResponseBranch> type(
-      branch_kind<observables::frequency_response, BranchKind::responses>(
-          "frf", "frequency responses, with their peaks and folds", keys()));
+  static const StudyOf<FrequencyRange, observables::ResponseBranch> type(kind());
   return type;
 }
 

@@ -1,6 +1,7 @@
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/method_key.hpp>
 #include <arcslip/studies/stability_keys.hpp>
 
 namespace arcslip::studies {
@@ -12,7 +13,9 @@ scene::file::KeysOf<ParameterRange> keys() {
   scene::file::KeysOf<ParameterRange> keys;
   keys.add(scene::file::range_over(&ParameterRange::over, &ParameterRange::from, &ParameterRange::to));
   keys.add(scene::file::one_frequency(&ParameterRange::frequency, "the excitation frequency"));
+  add_method_key(keys);
   add_stability_keys(keys, stability_help);
+  keys.check(check_method<ParameterRange>);
   return keys;
 }
 

@@ -94,6 +94,7 @@ struct Orbit {
   Vector by_omega;           // d end/domega, of resting sliders that of the offset; empty if not requested
   std::uint64_t phases = 0;  // of contact: equal numbers where each contact goes through the same ones
   double amplitude = 0;      // max |response|, m
+  double amplitude_time = 0, extreme = 0;  // where it is, s, and the response there, m
   Eigen::RowVectorXd amplitude_by;  // its derivative by (x, x', z) of the start and by omega, if requested
 };
 
@@ -115,6 +116,9 @@ class EventDriven {
 
   /// From 0 to `to`, with derivatives, for shooting.
   PeriodMap map(const MotionState& start, double to);
+
+  /// The response at time t of the motion from 0, m; NaN if it is not integrated to there.
+  double response(const MotionState& start, double t);
 
   /// Over equation().period(), which moves with omega. derivatives: with those, and the monodromy matrix.
   Orbit orbit(const MotionState& start, bool derivatives);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace arcslip::time {
@@ -154,9 +155,11 @@ Orbit EventDriven::orbit(const MotionState& start, bool derivatives) {
     if (s_end > 0)
       extremes.visit_observed(march_->piece(), s_end, -A, A, [&](double s, double x) {
         if (std::abs(x) <= orbit.amplitude) return;
-        orbit.amplitude = std::abs(x);
-        if (!derivatives) return;
         const double t = march_->time() + s * march_->h();
+        orbit.amplitude = std::abs(x);
+        orbit.amplitude_time = t;
+        orbit.extreme = x;
+        if (!derivatives) return;
         const Eigen::RowVectorXd by = march_->piece().along(equation_.response, s);
         orbit.amplitude_by = (x < 0 ? -1 : 1) * by.tail(by.size() - 1);
         orbit.amplitude_by.tail(1).array() += (x < 0 ? -1 : 1) * equation_.base_by_omega(t);
@@ -177,6 +180,14 @@ Orbit EventDriven::orbit(const MotionState& start, bool derivatives) {
     slider.derivative.conservativeResize(size);
   }
   return orbit;
+}
+
+double EventDriven::response(const MotionState& start, double t) {
+  march_->begin(start, 0, Columns::motion);
+  while (march_->find(t)) march_->finish();
+  if (march_->reason() != EndReason::reached) return std::numeric_limits<double>::quiet_NaN();
+  const MotionState end = march_->state();
+  return equation_.observed(t, end.x, end.v).x;
 }
 
 }  // namespace arcslip::time

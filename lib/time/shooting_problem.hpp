@@ -43,6 +43,8 @@ class ShootingEvaluator final : public continuation::Evaluator {
   const Orbit& orbit();
   /// Largest |response| there, m.
   double amplitude() const { return orbit_.amplitude; }
+  /// Its derivative by parameter k at a fixed start, at the last place with derivatives.
+  double amplitude_derivative(int k) const;
   /// From there over the period, with events, energies and shares of stick.
   EventDrivenMotion motion() { return integrator_->integrate(unstacked_start(), 0, equation().period()); }
   const EquationOfMotion& equation() const { return integrator_->equation(); }
@@ -50,6 +52,8 @@ class ShootingEvaluator final : public continuation::Evaluator {
  private:
   void set_parameters(continuation::In p);
   MotionState unstacked_start() const;
+  /// (F, A) differentiated by a parameter other than the frequency, A as |response| at a fixed instant.
+  const Vector& by_difference(int k) const;
 
   const ShootingProblem& problem_;
   Vector X_, p_;
@@ -58,8 +62,12 @@ class ShootingEvaluator final : public continuation::Evaluator {
   Vector F_;
   continuation::Jacobian J_;
   Vector by_frequency_;  // at the last place with J
+  double amplitude_by_frequency_ = 0;
   Vector X_of_J_, p_of_J_;
   std::uint64_t piece_of_J_ = 0;
+  double instant_of_J_ = 0, extreme_of_J_ = 0;  // of the largest |response|: s, m
+  mutable int differentiated_by_ = -1;          // at that place; -1: by none
+  mutable Vector by_difference_;
 };
 
 class ShootingProblem final : public continuation::Problem {

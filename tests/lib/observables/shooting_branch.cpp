@@ -1,10 +1,11 @@
-// Branches of exact periodic motions over the frequency, against closed forms,
+// Branches of exact periodic motions over the frequency and over other parameters, against closed forms,
 // tests/reference/exact_1dof.json and the numbers of NLvib's example 03.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/reference.hpp"
 
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 
 #include <algorithm>
@@ -37,6 +38,16 @@ ResponseBranch complete(const scene::Scene& s, double from, double to) {
   CAPTURE(branch.stop.message);
   REQUIRE(branch.status == Status::complete);
   return branch;
+}
+
+/// Over a parameter at one frequency.
+ResponseBranch shot_over(const scene::Scene& s, const std::string& over, double from, double to,
+                         double frequency, const observables::ProgressCallback& progress = {}) {
+  auto branches = observables::parameter_response(
+      s, {over, from, to, frequency, true, ResponseMethod::shooting}, progress);
+  REQUIRE(branches.size() == 1);
+  CHECK(branches[0].over == over);
+  return branches[0];
 }
 
 std::vector<ResponseEvent> events(const ResponseBranch& branch, const std::string& kind) {
@@ -235,4 +246,103 @@ TEST_CASE("a branch by shooting is stopped by its caller") {
   CHECK(branch[0].status == Status::stopped);
   CHECK(branch[0].stop.reason.code == "user");
   CHECK(branch[0].points.size() == 5);
+}
+
+TEST_CASE("over a parameter, a linear oscillator by shooting has its closed form") {
+  const auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.3, "sine": 0.4}], "response": {"at": "x"}})");
+  const double w = 1.1, c = 0.05;
+  for (const bool down : {false, true}) {  // across the resonance at k = w^2
+    const auto branch = shot_over(s, "k.value", down ? 2.0 : 0.6, down ? 0.6 : 2.0, w);
+    CAPTURE(branch.stop.message);
+    REQUIRE(branch.status == Status::complete);
+    CHECK(branch.stop.message ==
+          std::string("reached the end of the range at k.value = ") + (down ? "0.6" : "2"));
+    CHECK(branch.points.size() > 100);
+    for (const auto& point : branch.points) {
+      CHECK(point.omega == w);
+      CHECK(error(point.amplitude, 0.5 / std::hypot(point.over - w * w, c * w)) < 1e-10);
+      REQUIRE(point.stability);
+      CHECK(error(std::abs(point.stability->multipliers.at(0)), std::exp(-c * std::acos(-1.0) / w)) < 1e-10);
+    }
+    REQUIRE(branch.events.size() == 1);
+    CHECK(branch.events[0].kind == "maximum");
+    CHECK(error(branch.events[0].point.over, w * w) < 1e-8);
+  }
+}
+
+TEST_CASE("over the load, the paper's amplitudes and its optimum are exact on branches by shooting") {
+  for (const auto& row : reference::exact("fixed_frequency")) {
+    const double hertz = row["frequency_hz"], load = row["normal_load"];
+    CAPTURE(hertz, load);
+    const auto branch = shot_over(scenes::paper(15, 1), "damper.normal_load", 0.6 * load, load, hertz);
+    REQUIRE(branch.status == Status::complete);
+    CHECK(error(branch.points.back().amplitude, row["amplitude"]) < 1e-10);
+    CHECK(std::abs(branch.points.back().elements.at(0).stick_percent - row["stick_percent"].get<double>()) <
+          1e-6);
+  }
+  // Where the peak is least, its amplitude is stationary in the load at a fixed frequency as well.
+  for (const auto& row : reference::exact("optima")) {
+    const double damping = row["c"], load = row["normal_load"], hertz = row["frequency_hz"];
+    if (damping == 0) continue;  // other responses are unbounded
+    CAPTURE(damping);
+    auto s = scenes::paper(15, 1);
+    scene::set(s, "c.value", damping);
+    const auto branch = shot_over(s, "damper.normal_load", 1, 30, hertz);
+    REQUIRE(branch.status == Status::complete);
+    const auto stationary = events(branch, "maximum");
+    REQUIRE(stationary.size() == 1);
+    const auto& point = stationary[0].point;
+    CHECK(error(point.over, load) < 1e-6);
+    CHECK(error(point.amplitude, row["amplitude"]) < 1e-9);
+    CHECK(std::abs(point.elements.at(0).stick_percent - row["stick_percent"].get<double>()) < 1e-4);
+  }
+}
+
+TEST_CASE(
+    "over the force, a mass at a stop has the folds by many harmonics, and the doublings over the "
+    "frequency") {
+  const double w = 0.7;
+  const auto branch = shot_over(two_masses_and_stop(stop), "force.cosine", 0.02, 0.3, w);
+  CAPTURE(branch.stop.message);
+  REQUIRE(branch.status == Status::complete);
+  auto series = two_masses_and_stop(stop);
+  series.harmonics.order = 120;
+  const auto by_series = observables::parameter_response(series, {"force.cosine", 0.02, 0.3, w, true});
+  REQUIRE_FALSE(by_series.empty());
+  for (const char* kind : {"fold", "maximum", "minimum"}) {
+    const auto here = events(branch, kind), there = events(by_series[0], kind);
+    CAPTURE(kind, here.size(), there.size());
+    REQUIRE(here.size() == there.size());
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      CAPTURE(here[i].point.over, there[i].point.over);
+      CHECK(error(here[i].point.over, there[i].point.over) < 1e-6);
+      CHECK(error(here[i].point.amplitude, there[i].point.amplitude) < 1e-6);
+    }
+  }
+  CHECK(events(branch, "fold").size() == 2);
+  const auto doublings = events(branch, "period_doubling");
+  REQUIRE(doublings.size() == 1);
+  auto s = two_masses_and_stop(stop);
+  scene::set(s, "force.cosine", doublings[0].point.over);
+  double nearest = HUGE_VAL;
+  for (const auto& event : events(complete(s, 0.57, 0.9), "period_doubling"))
+    nearest = std::min(nearest, std::abs(event.point.omega - w));
+  CHECK(nearest < 1e-7);
+}
+
+TEST_CASE("over a parameter, a branch by shooting that cannot be, or is stopped, tells why") {
+  const auto failed =
+      shot_over(two_masses_and_stop(R"({"name": "s", "type": "cubic_spring", "at": "x1", "stiffness": 1})"),
+                "force.cosine", 0.1, 0.2, 0.6);
+  CHECK(failed.status == Status::failed);
+  CHECK(failed.stop.reason.code == "not_piecewise_linear");
+  CHECK_THROWS_AS(shot_over(two_masses_and_stop(stop), "force.cosin", 0.1, 0.2, 0.6), scene::ParameterError);
+  const auto stopped = shot_over(two_masses_and_stop(stop), "force.cosine", 0.1, 0.2, 0.6,
+                                 [](const observables::Progress& progress) { return progress.points < 5; });
+  CHECK(stopped.status == Status::stopped);
+  CHECK(stopped.stop.reason.code == "user");
+  CHECK(stopped.points.size() == 5);
 }

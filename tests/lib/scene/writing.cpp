@@ -137,7 +137,7 @@ TEST_CASE("a study over a parameter is written with its parameter and its freque
   for (
       const char* line :
       {R"({"name": "trace", "kind": "trace", "over": "n.stiffness", "from": -2, "to": 3, "frequency": 0.1,)",
-       R"("for_each": {"load": [1, 2]}})",
+       R"("method": "harmonic_balance", "stability": false, "for_each": {"load": [1, 2]}})",
        R"({"name": "peaks", "kind": "peaks", "over": "load", "from": 0, "to": 1e+300,)",
        R"("frequency": [0.1, 0.3333333333333333], "stability": false, "resonance": "amplitude", "for_each": {}})",
        R"({"name": "turns", "kind": "folds", "over": "d1.friction_coefficient", "from": 0.1, "to": 0.5,)",
