@@ -125,7 +125,8 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
 }
 
 Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega) {
-  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  constexpr double at_rest = 0;  // without modes, which cost more than two evaluations
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1, at_rest);
   const continuation::Vector p = hbm::parameters_at(problem, omega * (1 + beside));
   const continuation::Vector u = hbm::linear_response(problem, p);
   const double off =

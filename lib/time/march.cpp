@@ -14,7 +14,8 @@ namespace {
 // Of a sum of size 1 after all the operations behind it.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
-constexpr long between_questions = 16;  // whether to go on, in pieces
+constexpr long between_questions = 16;  // whether to go on, in pieces,
+constexpr double long_piece = 1e7;      // and before each of more multiplications: some 10 ms
 
 std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
   std::vector<Contact> contacts;
@@ -118,7 +119,10 @@ bool March::find(double to) {
   if (events_ >= limits_.events) reason_ = EndReason::events;
   if (pieces_++ >= limits_.pieces || !(t_ + linear_.longest() > t_)) reason_ = EndReason::pieces;
   if (!X_.allFinite() || !V_.allFinite()) reason_ = EndReason::not_finite;
-  if (limits_.stop && pieces_ % between_questions == 0 && limits_.stop()) reason_ = EndReason::stopped;
+  const double multiplications =
+      2.0 * LinearMotion::order * static_cast<double>(X_.rows()) * static_cast<double>(X_.size());
+  const bool asks = multiplications > long_piece || pieces_ % between_questions == 0;
+  if (asks && limits_.stop && limits_.stop()) reason_ = EndReason::stopped;
   if (reason_ != EndReason::reached) return false;
   end_ = std::min(t_ + linear_.longest(), to);
   h_ = end_ - t_;  // of the rounded time, or the force would lead or lag by more with every piece
