@@ -39,16 +39,22 @@ std::vector<bool> may_end(const ResponseBranch& branch) {
   return may;
 }
 
-// Whether the last point of a part is beyond all others of it, above or below.
-bool is_left_at_last(const std::vector<ResponsePoint>& points, const Part& part) {
-  const double last = points[part.last].omega;
+// A part whose last point may move on, with the range of the frequencies before that point.
+struct Growing {
+  Part part;
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
-  for (std::size_t i = part.first; i < part.last; ++i) {
-    lowest = std::min(lowest, points[i].omega);
-    highest = std::max(highest, points[i].omega);
+
+  void go_to(const std::vector<ResponsePoint>& points, std::size_t last) {
+    for (; part.last < last; ++part.last) {
+      lowest = std::min(lowest, points[part.last].omega);
+      highest = std::max(highest, points[part.last].omega);
+    }
   }
-  return last > highest || last < lowest;
-}
+  // Whether the last point is beyond all others, above or below.
+  bool is_left(const std::vector<ResponsePoint>& points) const {
+    return points[part.last].omega > highest || points[part.last].omega < lowest;
+  }
+};
 
 // The events that lie between two points.
 template <class Between>
@@ -91,8 +97,7 @@ ResponsePoint in_harmonics(ResponsePoint point, const ResponseBranch& from, cons
 
 std::vector<Part> parts_to_refine(const ResponseBranch& branch, double allowed) {
   const std::size_t n = branch.points.size();
-  std::vector<Part> parts;
-  if (n == 0) return parts;
+  if (n == 0) return {};
   std::vector<bool> more(n);
   const auto needs_more = [&](const ResponsePoint& point) {
     return point.truncation_flagged || !(std::abs(point.truncation_estimate) <= allowed);
@@ -101,17 +106,19 @@ std::vector<Part> parts_to_refine(const ResponseBranch& branch, double allowed) 
   for (const ResponseEvent& event : branch.events)
     if (needs_more(event.point)) more[event.after] = more[std::min(event.after + 1, n - 1)] = true;
   const std::vector<bool> may = may_end(branch);
+  std::vector<Growing> growing;
   for (std::size_t i = 0; i < n; ++i) {
     if (!more[i]) continue;
-    Part part{i > neighbours ? i - neighbours : 0, std::min(i + neighbours, n - 1)};
-    while (!may[part.first]) --part.first;
-    if (!parts.empty() && part.first <= parts.back().last + apart) {
-      part = {parts.back().first, std::max(parts.back().last, part.last)};
-      parts.pop_back();
-    }
-    while (part.last + 1 < n && !(may[part.last] && is_left_at_last(branch.points, part))) ++part.last;
-    parts.push_back(part);
+    std::size_t first = i > neighbours ? i - neighbours : 0;
+    while (!may[first]) --first;
+    if (growing.empty() || first > growing.back().part.last + apart) growing.push_back({{first, first}});
+    Growing& last = growing.back();
+    last.go_to(branch.points, std::min(i + neighbours, n - 1));
+    while (last.part.last + 1 < n && !(may[last.part.last] && last.is_left(branch.points)))
+      last.go_to(branch.points, last.part.last + 1);
   }
+  std::vector<Part> parts;
+  for (const Growing& each : growing) parts.push_back(each.part);
   return parts;
 }
 
