@@ -114,12 +114,13 @@ const Vector& ShootingEvaluator::by_difference(int k) const {
     by_difference_ = quotient->weight[0] * values[0] + quotient->weight[1] * values[1];
     if (quotient->here != 0 && values_at(0, values[0])) by_difference_ += quotient->here * values[0];
   } else {
-    // Where a phase of contact is just born, as at the onset of slip, the derivative is almost that beside it.
+    // Where a phase of contact is just born, as at the onset of slip, the derivative is almost that beside
+    // it.
     const double h = step_at_birth * step;
     if (!values_at(h, values[0]) || !values_at(-h, values[1]))
       throw std::runtime_error("there is no motion beside \"" +
-                               problem_.parameters()[static_cast<std::size_t>(k)].name + "\" = " +
-                               std::to_string(p_of_J_[k]));
+                               problem_.parameters()[static_cast<std::size_t>(k)].name +
+                               "\" = " + std::to_string(p_of_J_[k]));
     by_difference_ = (values[0] - values[1]) / (2 * h);
   }
   differentiated_by_ = k;
