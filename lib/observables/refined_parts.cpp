@@ -1,6 +1,7 @@
 #include <arcslip/observables/refined_parts.hpp>
 
 #include <arcslip/elements/harmonics.hpp>
+#include <arcslip/observables/study_branches.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -65,16 +66,6 @@ void append_events(const std::vector<ResponseEvent>& events, const Between& betw
     to.push_back(event);
     to.back().after = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(event.after) + shift);
   }
-}
-
-void add(const SolverSummary& of, SolverSummary& to) {
-  to.points += of.points;
-  to.rejected_steps += of.rejected_steps;
-  to.residuals += of.residuals;
-  to.jacobians += of.jacobians;
-  to.factorizations += of.factorizations;
-  to.solves += of.solves;
-  to.seconds += of.seconds;
 }
 
 }  // namespace
@@ -147,6 +138,7 @@ ResponseBranch with_parts(const ResponseBranch& branch, const std::vector<Part>&
         whole.events);
     std::move(refined[k].points.begin(), refined[k].points.end(), std::back_inserter(whole.points));
     add(refined[k].solver, whole.solver);
+    if (whole.unknown_stability.empty()) whole.unknown_stability = refined[k].unknown_stability;
     next = parts[k].last + 1;
   }
   keep_until(branch.points.size());

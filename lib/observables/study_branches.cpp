@@ -44,16 +44,33 @@ bool departs(const std::vector<std::pair<double, double>>& course, double arclen
 
 void drop_extrema_of_rounding(const std::vector<std::pair<double, double>>& course,
                               const std::vector<double>& at, ResponseBranch& result) {
+  std::vector<bool> drops(at.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const std::string& kind = result.events[i].kind;
+    if (kind != event_kinds::maximum && kind != event_kinds::minimum) continue;
+    const double amplitude = result.events[i].point.amplitude;
+    const double side = kind == event_kinds::maximum ? 1 : -1;
+    const auto is_beyond = [&](double other) {
+      return side * (amplitude - other) >= -constant * std::abs(amplitude);
+    };
+    const auto next = std::upper_bound(course.begin(), course.end(), at[i],
+                                       [](double s, const auto& point) { return s < point.first; });
+    const bool follows_event = i > 0 && (next == course.begin() || at[i - 1] >= (next - 1)->first);
+    const bool precedes_event = i + 1 < at.size() && (next == course.end() || at[i + 1] <= next->first);
+    const bool before = follows_event ? is_beyond(result.events[i - 1].point.amplitude)
+                                      : next == course.begin() || is_beyond((next - 1)->second);
+    const bool after = precedes_event ? is_beyond(result.events[i + 1].point.amplitude)
+                                      : next == course.end() || is_beyond(next->second);
+    drops[i] = !before || !after || !departs(course, at[i], amplitude);
+  }
   for (std::size_t i = at.size(); i-- > 0;)
-    if ((result.events[i].kind == event_kinds::maximum || result.events[i].kind == event_kinds::minimum) &&
-        !departs(course, at[i], result.events[i].point.amplitude))
-      result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
+    if (drops[i]) result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
 namespace {
 
-template <class To>
-void add_to(To& to, const continuation::Counts& counts) {
+template <class To, class Counts>
+void add_to(To& to, const Counts& counts) {
   to.points += counts.points;
   to.rejected_steps += counts.rejected_steps;
   to.residuals += counts.residuals;
@@ -70,6 +87,11 @@ void add(const continuation::Counts& counts, SolverSummary& to) {
 
 void add(const continuation::Counts& counts, continuation::Counts& to) {
   add_to(to, counts);
+}
+
+void add(const SolverSummary& part, SolverSummary& to) {
+  add_to(to, part);
+  to.seconds += part.seconds;
 }
 
 Status status_of(StopReason reason) {

@@ -21,12 +21,14 @@ ResponseBranch described(const model::Model& model, const std::string& over = {}
 /// arclength and amplitude of the points of the branch.
 bool departs(const std::vector<std::pair<double, double>>& course, double arclength, double amplitude);
 
-/// Without the maxima and minima that do not depart. at: the arclengths of the events.
+/// Without the maxima and minima that do not depart, or that a neighbouring point or event is beyond. at: the
+/// arclengths of the events.
 void drop_extrema_of_rounding(const std::vector<std::pair<double, double>>& course,
                               const std::vector<double>& at, ResponseBranch& result);
 
 void add(const continuation::Counts& counts, SolverSummary& to);
 void add(const continuation::Counts& counts, continuation::Counts& to);
+void add(const SolverSummary& part, SolverSummary& to);  // with its time
 
 Status status_of(continuation::StopReason reason);
 

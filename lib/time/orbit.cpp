@@ -171,7 +171,7 @@ Orbit EventDriven::orbit(const MotionState& start, bool derivatives) {
   map.end = march_->state();
   map.resting = ranges.resting();
   orbit.phases = phases.number(map.resting);
-  if (!derivatives) return orbit;
+  if (!derivatives || march_->piece().stopped()) return orbit;
   map.monodromy = march_->monodromy();
   orbit.by_omega = march_->by_omega(-period / equation_.omega);
   for (RestingSlider& slider : map.resting) {
