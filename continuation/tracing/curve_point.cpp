@@ -12,7 +12,8 @@ constexpr double least_slope = 0.1;    // of a tangent relative to the first one
 constexpr double farther = 8;          // factor after a prediction short of the end of the piece
 constexpr double farthest_cubic = 8;   // of the interval of its two points
 constexpr double first_margin = 1e-2;
-constexpr double chord_share = 1e-3;  // accuracy of the end of the piece on a chord
+constexpr double chord_share = 1e-3;      // accuracy of the end of the piece on a chord
+constexpr double retry_share = 1.0 / 32;  // of the distance from which a correction failed, to try it anew
 constexpr int most_kink_corrections = 60;
 constexpr int most_blind_aims = 40;  // where no prediction leaves the piece
 
@@ -90,6 +91,11 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
   double margin = first_margin, predicted = 0, error = 0;
   bool error_of_cubic = false;
   Vector beyond;  // the branch at `upper`, or nothing
+  // Where a correction fails, the branch may be in the piece for all that: `upper` is then tried anew from
+  // nearby, before it is taken for its end. Back to what was found outside, if it is inside.
+  double failed_from = 0;  // distance
+  double outside_at = length;
+  Vector branch_outside;
   bool factors_fit = false;
   int blind_aims = 0;
   kink = from;
@@ -151,7 +157,8 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
     const bool stays = inside == upper;
     if (stays && ++blind_aims > most_blind_aims) return false;
     const bool at_end = stays && blind_aims == 1 && upper == length;  // whether the piece ends at all
-    const double aim = at_end ? upper : stays ? blind_aim() : inside - margin * (inside - lower);
+    const bool anew = stays && failed_from > 0 && upper - lower < retry_share * failed_from;
+    const double aim = at_end || anew ? upper : stays ? blind_aim() : inside - margin * (inside - lower);
     prediction.at(aim, v);
     const Correction at = with.correct(v, row, factors_fit);
     factors_fit = at.converged && inside_at();
@@ -159,10 +166,17 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
       upper = aim;
       ahead = upper - lower;
       beyond = at.converged ? v : Vector();
+      failed_from = at.converged ? 0 : ahead;
+      if (at.converged) outside_at = upper, branch_outside = v;
       error = 0;
       continue;
     }
     if (at_end) return false;
+    if (anew) {
+      upper = outside_at;
+      beyond = branch_outside;
+      failed_from = 0;
+    }
     error = stays ? 0 : prediction.error(aim - lower);
     error_of_cubic = prediction.is_cubic();
     predicted = outside;

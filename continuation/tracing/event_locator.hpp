@@ -93,6 +93,7 @@ class EventLocator {
   LocatedEvent kink_event(const Monitor& monitor, const PassedKink& corner) const;
   std::optional<PassedKink> division(const CurvePoint& from, double length);
   bool locate_corner(const CurvePoint& from, double length, CurvePoint& kink);
+  void take_limits(const CurvePoint& from, double length, CurvePoint& kink);
   bool pass(PassedKink& corner, double length, const Vector& towards);
   bool look_beyond(const CurvePoint& kink, double way, bool is_next_to_it, const Vector& towards,
                    CurvePoint& beyond);

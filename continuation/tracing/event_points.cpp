@@ -189,7 +189,29 @@ bool EventLocator::locate_corner(const CurvePoint& from, double length, CurvePoi
   else if (!probe().linearize(kink.v, probe().border_row(from.tangent)))  // it is `from` itself
     return false;
   evaluate(monitors_, probe(), kink);
+  if (changes_sign(from, kink)) take_limits(from, length, kink);
   return true;
+}
+
+// What is of no length at a kink, as a phase that is just born, may have any derivative there to rounding:
+// the derivatives before the kink are limits. A monitor that changes its sign only at the kink itself has the
+// value just before it.
+void EventLocator::take_limits(const CurvePoint& from, double length, CurvePoint& kink) {
+  Corrector& probe = this->probe();
+  const double way = just_beyond[0] * length;
+  CurvePoint before = kink;
+  before.v -= way * from.tangent;
+  if (!(kink.arclength - from.arclength > way) ||
+      !probe.correct(before.v, probe.border_row(from.tangent), false).converged || !settle(probe, before) ||
+      before.piece != kink.piece)
+    return;
+  if (before.orientation != kink.orientation) before.reverse();
+  evaluate(monitors_, probe, before);
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (!changes(m, from, kink, Crossing::any) || changes(m, from, before, Crossing::any)) continue;
+    kink.monitors[m] = before.monitors[m];
+    kink.tangent = before.tangent;
+  }
 }
 
 bool EventLocator::pass(PassedKink& corner, double length, const Vector& towards) {

@@ -33,16 +33,6 @@ EquationOfMotion::Observed EquationOfMotion::observed(double t, const Vector& x,
   return at;
 }
 
-double EquationOfMotion::base_by_omega(double t) const {
-  double sum = 0;
-  for (const BaseMotion& part : base) {
-    const double angle = part.harmonic * omega * t, c = std::cos(angle), s = std::sin(angle);
-    sum += part.cosine_rate * c + part.sine_rate * s;
-    sum += part.harmonic * t * (part.sine * c - part.cosine * s);
-  }
-  return sum;
-}
-
 void EquationOfMotion::add(std::string name, std::shared_ptr<const elements::Law> law,
                            std::vector<double> fields, Matrix directions) {
   elements.push_back({std::move(name), std::move(law), std::move(fields), std::move(directions), memory});
@@ -84,17 +74,13 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
   }
   for (const model::Excitation& part : model.excitation) {
     const int n = model.harmonics.excited(part.harmonic);
-    const double w = p[model::frequency], w_by_omega = model.harmonics.period;
+    const double w = p[model::frequency];
     const Vector g = model::shape(model, part, p);
     const std::complex<double> given = part.amplitude(p);
     equation.forces.push_back({g, n, given.real(), -given.imag()});
-    if (const double rate = part.factor_rate(w); rate != 0)
-      equation.forces.back().by_omega = rate * w_by_omega / part.factor(w) * g;
     const double along = model.absolute ? part.direction.dot(model.response) : 0;
-    const double moved = along * part.displacement(w), rate = along * part.displacement_rate(w) * w_by_omega;
-    if (moved != 0)
-      equation.base.push_back(
-          {n, moved * given.real(), -moved * given.imag(), rate * given.real(), -rate * given.imag()});
+    const double moved = along * part.displacement(w);
+    if (moved != 0) equation.base.push_back({n, moved * given.real(), -moved * given.imag()});
   }
   equation.response = model.response;
   equation.dof_names = model.dof_names;

@@ -35,14 +35,12 @@ struct HarmonicForce {
   Vector direction;
   int harmonic = 1;
   double cosine = 0, sine = 0;  // N
-  Vector by_omega{};            // dd/domega; empty: 0
 };
 
 /// cosine cos n omega t + sine sin n omega t: of the ground, along the response.
 struct BaseMotion {
   int harmonic = 1;
-  double cosine = 0, sine = 0;            // m
-  double cosine_rate = 0, sine_rate = 0;  // by omega
+  double cosine = 0, sine = 0;  // m
 };
 
 struct EquationOfMotion {
@@ -67,8 +65,6 @@ struct EquationOfMotion {
     double x, v;
   };
   Observed observed(double t, const Vector& x, const Vector& v) const;
-  /// The derivative of the ground's part of the observed displacement by omega, at a fixed t.
-  double base_by_omega(double t) const;
   /// With its memory after that of the elements before.
   void add(std::string name, std::shared_ptr<const elements::Law> law, std::vector<double> fields,
            Matrix directions);

@@ -20,6 +20,7 @@
 // those of what it follows from there on; the forces are continuous, so that nothing jumps. Source:
 // docs/theory/09-event-driven.md.
 
+#include <arcslip/time/equation_rates.hpp>
 #include <arcslip/time/period_map.hpp>
 #include <arcslip/time/time_history.hpp>
 
@@ -88,14 +89,13 @@ struct EventDrivenMotion {
   TimeHistory history;        // at the requested instants
 };
 
-/// One period of the motion from a state at t = 0, for branches over omega.
+/// One period of the motion from a state at t = 0, for branches over a parameter.
 struct Orbit {
   PeriodMap map;
-  Vector by_omega;           // d end/domega, of resting sliders that of the offset; empty if not requested
-  std::uint64_t phases = 0;  // of contact: equal numbers where each contact goes through the same ones
-  double amplitude = 0;      // max |response|, m
-  double amplitude_time = 0, extreme = 0;  // where it is, s, and the response there, m
-  Eigen::RowVectorXd amplitude_by;  // its derivative by (x, x', z) of the start and by omega, if requested
+  Vector by_parameter;              // d end/dp, of resting sliders that of the offset; empty if not requested
+  std::uint64_t phases = 0;         // of contact: equal numbers where each contact goes through the same ones
+  double amplitude = 0;             // max |response|, m
+  Eigen::RowVectorXd amplitude_by;  // its derivative by (x, x', z) of the start and by p, if requested
 };
 
 class March;
@@ -117,11 +117,9 @@ class EventDriven {
   /// From 0 to `to`, with derivatives, for shooting.
   PeriodMap map(const MotionState& start, double to);
 
-  /// The response at time t of the motion from 0, m; NaN if it is not integrated to there.
-  double response(const MotionState& start, double t);
-
-  /// Over equation().period(), which moves with omega. derivatives: with those, and the monodromy matrix.
-  Orbit orbit(const MotionState& start, bool derivatives);
+  /// Over equation().period(), which moves with omega. by: with the derivatives by the start and by the
+  /// parameter of these rates; null: without derivatives.
+  Orbit orbit(const MotionState& start, const EquationRates* by = nullptr);
 
  private:
   const EquationOfMotion equation_;

@@ -109,6 +109,7 @@ LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> p
     over_mass_.push_back(mass_.solve(part.directions));
     const Eigen::Index d = part.directions.cols();
     in_modes_.push_back(Matrix::Zero(d, d));
+    mode_rates_.emplace_back();
   }
   for (const HarmonicForce& force : equation.forces) most = std::max(most, force.harmonic * equation.omega);
   longest_ = most > 0 ? 1 / most : std::numeric_limits<double>::infinity();
@@ -116,14 +117,24 @@ LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> p
   V_.resize(order + 1);
   force_.setZero(n, order + 1);
   acceleration_.setZero(n, order + 1);
-  by_omega_.setZero(n, order + 1);
+  force_rate_.setZero(n, order + 1);
   hilbert_ = Matrix::NullaryExpr(order + 1, order + 1, [](Eigen::Index i, Eigen::Index j) {
     return 1.0 / static_cast<double>(i + j + 1);
   });
 }
 
-void LinearMotion::set_stiffness(std::size_t a, const Matrix& stiffness) {
+void LinearMotion::vary(const EquationRates* rates) {
+  rates_ = rates;
+  if (stopped_ || !rates) return;
+  const auto over_mass = [&](const Matrix& A) { return A.size() > 0 ? Matrix(mass_.solve(A)) : Matrix(); };
+  mass_rate_ = over_mass(rates->M);
+  damping_rate_ = over_mass(rates->C);
+  stiffness_rate_ = over_mass(rates->K);
+}
+
+void LinearMotion::set_stiffness(std::size_t a, const Matrix& stiffness, const Matrix* rate) {
   if (stopped_) return;
+  mode_rates_[a] = rate && !rate->isZero(0) ? *rate : Matrix();
   if (in_modes_[a] == stiffness) return;
   in_modes_[a] = stiffness;
   stiffness_ = mass_.solve(equation_.K);  // anew: a sum that grows and shrinks would gather rounding
@@ -146,30 +157,52 @@ void LinearMotion::expand_force(double t, double h) {
   mass_.solve_in_place(acceleration_);
 }
 
-void LinearMotion::expand_force_by_omega(double t, double h) {
-  by_omega_.setZero();
-  for (const HarmonicForce& part : equation_.forces) {
+void LinearMotion::expand_force_rate(double t, double h) {
+  force_rate_.setZero();
+  // visit(k, c, c before) for each term of c exp(i n omega (t + s h)).
+  const auto each_term = [&](const HarmonicForce& part, auto&& visit) {
     const double rate = part.harmonic * equation_.omega;
     std::complex<double> before,
         c = std::complex<double>(part.cosine, -part.sine) * std::polar(1.0, rate * t);
     for (int k = 0; k <= order; ++k) {
-      by_omega_.col(k) -= part.harmonic * (t * c.imag() + h * before.imag()) * part.direction;
-      if (part.by_omega.size() > 0) by_omega_.col(k) += c.real() * part.by_omega;
+      visit(k, c, before);
       before = c;
       c *= std::complex<double>(0, rate * h / (k + 1));
     }
-  }
-  mass_.solve_in_place(by_omega_);
+  };
+  if (rates_->omega != 0)
+    for (const HarmonicForce& part : equation_.forces)
+      each_term(part, [&](int k, std::complex<double> c, std::complex<double> before) {
+        force_rate_.col(k) -=
+            rates_->omega * part.harmonic * (t * c.imag() + h * before.imag()) * part.direction;
+      });
+  for (const HarmonicForce& part : rates_->forces)
+    each_term(part, [&](int k, std::complex<double> c, std::complex<double>) {
+      force_rate_.col(k) += c.real() * part.direction;
+    });
+  mass_.solve_in_place(force_rate_);
+}
+
+// Term k of what drives the variation with the parameter; next: x''_k of the motion in its first column.
+void LinearMotion::add_rate(std::size_t k, Matrix& next) const {
+  auto last = next.rightCols(1);
+  last += force_rate_.col(static_cast<Eigen::Index>(k));
+  if (mass_rate_.size() > 0) last.noalias() -= mass_rate_ * next.col(0);
+  if (damping_rate_.size() > 0) last.noalias() -= damping_rate_ * V_[k].col(0);
+  if (stiffness_rate_.size() > 0) last.noalias() -= stiffness_rate_ * X_[k].col(0);
+  for (std::size_t a = 0; a < parts_.size(); ++a)
+    if (mode_rates_[a].size() > 0)
+      last.noalias() -= over_mass_[a] * (mode_rates_[a] * (parts_[a].directions.transpose() * X_[k].col(0)));
 }
 
 bool LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g,
-                          bool by_omega, const std::function<bool()>& stop) {
+                          const std::function<bool()>& stop) {
   const double multiplications = static_cast<double>(stiffness_.size()) * static_cast<double>(X.cols());
   const bool takes_long = stop && multiplications > long_term;
   t_ = t;
   h_ = h;
   expand_force(t, h);
-  if (by_omega) expand_force_by_omega(t, h);
+  if (rates_) expand_force_rate(t, h);
   X_[0] = X;
   V_[0] = V;
   for (std::size_t k = 0; k < order; ++k) {
@@ -180,7 +213,6 @@ bool LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, 
     next.noalias() = -stiffness_ * X_[k];
     next.noalias() -= damping_ * V_[k];
     next.col(0) += acceleration_.col(static_cast<Eigen::Index>(k));
-    if (by_omega) next.rightCols(1) += by_omega_.col(static_cast<Eigen::Index>(k));
     if (k == 0) {
       Eigen::Index row = 0;
       for (const Matrix& D : over_mass_) {
@@ -188,6 +220,7 @@ bool LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, 
         row += D.cols();
       }
     }
+    if (rates_) add_rate(k, next);
     next *= factor;
   }
   return true;

@@ -12,12 +12,10 @@
 // particular solution nor a matrix exponential.
 //
 // Several columns run together: the first is the motion, the others, without the force, its variations. The
-// last one may be that with omega, at a fixed t, which the derivative of the force drives:
-//
-//   d/domega (c cos n omega t + s sin n omega t) = n t (s cos n omega t - c sin n omega t)
+// last one may be that with a parameter, at a fixed t, which the motion itself drives (equation_rates.hpp).
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/time/equation_of_motion.hpp>
+#include <arcslip/time/equation_rates.hpp>
 
 #include <array>
 #include <functional>
@@ -47,13 +45,18 @@ class LinearMotion {
   /// Longest h, s; infinite where nothing changes.
   double longest() const { return longest_; }
 
-  /// The stiffness of automaton a in its mode, part of the structure.
-  void set_stiffness(std::size_t a, const Matrix& stiffness);
+  /// From now on the last column is the variation with a parameter; null: it is as the others. The rates must
+  /// outlive its use.
+  void vary(const EquationRates* rates);
+
+  /// The stiffness of automaton a in its mode, part of the structure, and its derivative by that parameter;
+  /// null: 0.
+  void set_stiffness(std::size_t a, const Matrix& stiffness, const Matrix* rate = nullptr);
 
   /// The series from t over h <= longest(). X, V: dofs x columns; g: a row for each direction of each
-  /// automaton, N. by_omega: the last column is the variation with omega. stop: asked before each term where
-  /// one takes long; if it is true, the result is false, and there is no series.
-  bool expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g, bool by_omega = false,
+  /// automaton, N. stop: asked before each term where one takes long; if it is true, the result is false, and
+  /// there is no series.
+  bool expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g,
               const std::function<bool()>& stop = {});
 
   /// X and V at s.
@@ -80,7 +83,8 @@ class LinearMotion {
 
  private:
   void expand_force(double t, double h);
-  void expand_force_by_omega(double t, double h);
+  void expand_force_rate(double t, double h);
+  void add_rate(std::size_t k, Matrix& next) const;
 
   const EquationOfMotion& equation_;
   continuation::Cholesky mass_;
@@ -93,8 +97,11 @@ class LinearMotion {
   double longest_ = 0, t_ = 0, h_ = 0;
   std::vector<Matrix> X_, V_;    // order + 1
   Matrix force_, acceleration_;  // dofs x (order + 1): f_k, M^-1 f_k
-  Matrix by_omega_;              // the same: M^-1 df_k/domega
-  Matrix hilbert_;               // 1/(i + j + 1)
+  const EquationRates* rates_ = nullptr;
+  Matrix mass_rate_, damping_rate_, stiffness_rate_;  // over M, of the structure; empty: 0
+  std::vector<Matrix> mode_rates_;                    // of the stiffness in its mode; empty: 0
+  Matrix force_rate_;                                 // dofs x (order + 1): of f_k, over M
+  Matrix hilbert_;                                    // 1/(i + j + 1)
 };
 
 /// An upper bound of the angular frequencies of the free structure, rad/s, damping included, whatever the

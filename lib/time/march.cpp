@@ -65,11 +65,11 @@ March::March(const EquationOfMotion& equation, const EventLimits& limits)
   velocity_.resize(most);
 }
 
-void March::begin(const MotionState& start, double time, Columns carried) {
+void March::begin(const MotionState& start, double time, Columns carried, const EquationRates* by) {
   const Eigen::Index n = equation_.dofs(), memory = equation_.memory;
   const bool derivatives = carried != Columns::motion;
-  with_omega_ = carried == Columns::start_and_omega;
-  const Eigen::Index columns = derivatives ? 1 + 2 * n + memory + (with_omega_ ? 1 : 0) : 1;
+  const Eigen::Index columns = derivatives ? 1 + 2 * n + memory + (by ? 1 : 0) : 1;
+  linear_.vary(by);
   X_.setZero(n, columns);
   V_.setZero(n, columns);
   Z_.setZero(memory, columns);
@@ -89,7 +89,14 @@ void March::begin(const MotionState& start, double time, Columns carried) {
     Z_.col(0).segment(element.memory, own) = z;
   }
   g_.setZero(contacts_.empty() ? 0 : contacts_.back().row + contacts_.back().directions.cols(), columns);
-  for (Contact& contact : contacts_) {
+  std::size_t of_element = 0;  // automaton
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    Contact& contact = contacts_[i];
+    of_element = i > 0 && contacts_[i - 1].element == contact.element ? of_element + 1 : 0;
+    const ElementRates* rates = by ? &by->elements[static_cast<std::size_t>(contact.element)] : nullptr;
+    const bool changes = rates && !rates->automata.empty();
+    contact.rates = changes ? &rates->automata[of_element] : nullptr;
+    contact.slider_rates = changes && contact.slider >= 0 ? &rates->sliders[of_element] : nullptr;
     contact.now = 0;
     enter(contact);
   }
@@ -107,7 +114,13 @@ void March::enter(Contact& contact) {
   g.setZero();
   g.col(0) = -mode.f_0;
   if (contact.memory >= 0 && mode.rests) g.noalias() -= mode.f_z * Z_.row(contact.memory);
-  linear_.set_stiffness(static_cast<std::size_t>(&contact - contacts_.data()), mode.f_q);
+  const elements::Mode* rates = contact.mode_rates();
+  if (rates) {
+    g.rightCols(1) -= rates->f_0;
+    if (contact.memory >= 0 && mode.rests) g.rightCols(1) -= rates->f_z * Z_(contact.memory, 0);
+  }
+  linear_.set_stiffness(static_cast<std::size_t>(&contact - contacts_.data()), mode.f_q,
+                        rates ? &rates->f_q : nullptr);
 }
 
 bool March::find(double to) {
@@ -126,7 +139,7 @@ bool March::find(double to) {
   if (reason_ != EndReason::reached) return false;
   end_ = std::min(t_ + linear_.longest(), to);
   h_ = end_ - t_;  // of the rounded time, or the force would lead or lag by more with every piece
-  if (!linear_.expand(t_, h_, X_, V_, g_, with_omega_, limits_.stop)) {
+  if (!linear_.expand(t_, h_, X_, V_, g_, limits_.stop)) {
     reason_ = EndReason::stopped;
     return false;
   }
@@ -209,6 +222,17 @@ void March::settle(const Contact& contact) {
     guard_rate += by_q * d.dot(V_.col(0));
     change_.noalias() += by_q * d.transpose() * X_;
   }
+  if (const elements::Mode* rates = contact.mode_rates()) {
+    const elements::Guard& guard = rates->leaves[static_cast<std::size_t>(leaving_ - mode.leaves.data())];
+    const Vector q = contact.directions.transpose() * X_.col(0);
+    const double by_mode = rates->z_q.dot(q.transpose()) + rates->z_0;
+    z[z.size() - 1] += by_mode;
+    if (!at_rest) {
+      const double memory = mode.z_q.dot(q.transpose()) + mode.z_0;
+      change_[z.size() - 1] += (guard.q.size() > 0 ? guard.q.dot(q.transpose()) : 0) + guard.z * memory +
+                               leaving_->z * by_mode + guard.c;
+    }
+  }
   if (rate != 0 && guard_rate != 0) z.tail(z.size() - 1) -= rate / guard_rate * change_.tail(z.size() - 1);
   z[0] += mode.z_0;
 }
@@ -249,7 +273,7 @@ Matrix March::monodromy() const {
   return M;
 }
 
-Vector March::by_omega(double rate) const {
+Vector March::by_parameter(double rate) const {
   const Eigen::Index n = X_.rows(), memory = Z_.rows(), last = X_.cols() - 1;
   Vector end(2 * n + memory);
   end.head(n) = X_.col(last) + rate * V_.col(0);
@@ -258,6 +282,9 @@ Vector March::by_omega(double rate) const {
   for (const Contact& contact : contacts_)
     if (contact.follows())
       end[2 * n + contact.memory] = contact.mode().z_q.dot(contact.directions.transpose() * end.head(n));
+  for (const Contact& contact : contacts_)
+    if (const elements::Mode* rates = contact.mode_rates(); rates && contact.follows())
+      end[2 * n + contact.memory] += rates->z_q.dot(contact.directions.transpose() * X_.col(0)) + rates->z_0;
   return end;
 }
 

@@ -22,19 +22,25 @@ struct Contact {
   int now = 0;                // index of the mode
   // Between its bounds: elements::Law::slider_room().
   std::optional<double> room{};
+  const elements::Automaton* rates = nullptr;  // by the parameter of the variation; null: none changes
+  const ElementRates::Slider* slider_rates = nullptr;
 
   const elements::Mode& mode() const { return automaton.modes[static_cast<std::size_t>(now)]; }
+  const elements::Mode* mode_rates() const {
+    return rates ? &rates->modes[static_cast<std::size_t>(now)] : nullptr;
+  }
   bool follows() const { return memory >= 0 && !mode().rests; }
 };
 
-/// What a march carries: the motion; its change with x, x' and z of the start; and that with omega.
-enum class Columns { motion, start, start_and_omega };
+/// What a march carries: the motion; its change with x, x' and z of the start; and that with a parameter.
+enum class Columns { motion, start, start_and_parameter };
 
 class March {
  public:
   March(const EquationOfMotion& equation, const EventLimits& limits);
 
-  void begin(const MotionState& start, double time, Columns columns);
+  /// by: the rates of the parameter, which outlive the march.
+  void begin(const MotionState& start, double time, Columns columns, const EquationRates* by = nullptr);
 
   /// Finds the next piece, from time() over s() * h(), at most to `to`. False where the march has to end:
   /// reason().
@@ -57,8 +63,8 @@ class March {
   MotionState state() const;
   double size() const;       // |(x, x'/omega)|
   Matrix monodromy() const;  // 2 dofs + memory
-  /// d(x, x', z)/d omega where the march ended, at an instant that moves by `rate` with omega.
-  Vector by_omega(double rate) const;
+  /// d(x, x', z)/dp where the march ended, at an instant that moves by `rate` with the parameter.
+  Vector by_parameter(double rate) const;
   /// z, and f along the first direction, where the element is at q.
   double memory(const Contact& contact, const Vector& q) const;
   double force(const Contact& contact, const Vector& q) const;
@@ -77,7 +83,6 @@ class March {
   LinearMotion linear_;
   Matrix X_, V_, Z_, g_;  // dofs, dofs, memory, directions; times columns
   Eigen::RowVectorXd change_;
-  bool with_omega_ = false;
   double t_ = 0, from_ = 0, h_ = 0, s_ = 0, end_ = 0;
   std::optional<ContactEvent> event_;
   std::size_t switching_ = 0;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace arcslip::time {
@@ -37,16 +36,23 @@ class Ranges {
       }
       if (!range.resting()) continue;
       const Vector &lower = contacts[i].lower, &upper = contacts[i].upper;
+      const ElementRates::Slider* rates = contacts[i].slider_rates;
       extremes_.visit(piece, lower, march_.s(), -INFINITY, range.high, [&](double s, double bound) {
-        if (bound > range.high) range.high = bound, range.dhigh = piece.along(lower, s);
+        if (!(bound > range.high)) return;
+        range.high = bound;
+        range.dhigh = piece.along(lower, s);
+        if (rates) range.dhigh.tail<1>()[0] += piece.along(rates->lower, s)[0] - rates->room;
       });
       extremes_.visit(piece, upper, march_.s(), range.low, INFINITY, [&](double s, double bound) {
-        if (bound < range.low) range.low = bound, range.dlow = piece.along(upper, s);
+        if (!(bound < range.low)) return;
+        range.low = bound;
+        range.dlow = piece.along(upper, s);
+        if (rates) range.dlow.tail<1>()[0] += piece.along(rates->upper, s)[0] + rates->room;
       });
     }
   }
 
-  // Derivatives without that of the motion itself: by the start, and by omega if it is carried.
+  // Derivatives without that of the motion itself: by the start, and by a parameter if that is carried.
   std::vector<RestingSlider> resting() const {
     std::vector<RestingSlider> all;
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
@@ -138,9 +144,9 @@ PeriodMap EventDriven::map(const MotionState& start, double to) {
   return map;
 }
 
-Orbit EventDriven::orbit(const MotionState& start, bool derivatives) {
+Orbit EventDriven::orbit(const MotionState& start, const EquationRates* by) {
   const double period = equation_.period();
-  march_->begin(start, 0, derivatives ? Columns::start_and_omega : Columns::motion);
+  march_->begin(start, 0, by ? Columns::start_and_parameter : Columns::motion, by);
   Ranges ranges(*march_);
   Phases phases(*march_);
   Extremes extremes;
@@ -155,14 +161,11 @@ Orbit EventDriven::orbit(const MotionState& start, bool derivatives) {
     if (s_end > 0)
       extremes.visit_observed(march_->piece(), s_end, -A, A, [&](double s, double x) {
         if (std::abs(x) <= orbit.amplitude) return;
-        const double t = march_->time() + s * march_->h();
         orbit.amplitude = std::abs(x);
-        orbit.amplitude_time = t;
-        orbit.extreme = x;
-        if (!derivatives) return;
-        const Eigen::RowVectorXd by = march_->piece().along(equation_.response, s);
-        orbit.amplitude_by = (x < 0 ? -1 : 1) * by.tail(by.size() - 1);
-        orbit.amplitude_by.tail(1).array() += (x < 0 ? -1 : 1) * equation_.base_by_omega(t);
+        if (!by) return;
+        Eigen::RowVectorXd x_by = march_->piece().along(equation_.response, s);
+        x_by.tail<1>()[0] += by->base_at(equation_, march_->time() + s * march_->h());
+        orbit.amplitude_by = (x < 0 ? -1 : 1) * x_by.tail(x_by.size() - 1);
       });
     march_->finish();
   }
@@ -171,23 +174,15 @@ Orbit EventDriven::orbit(const MotionState& start, bool derivatives) {
   map.end = march_->state();
   map.resting = ranges.resting();
   orbit.phases = phases.number(map.resting);
-  if (!derivatives || march_->piece().stopped()) return orbit;
+  if (!by || march_->piece().stopped()) return orbit;
   map.monodromy = march_->monodromy();
-  orbit.by_omega = march_->by_omega(-period / equation_.omega);
+  orbit.by_parameter = march_->by_parameter(-period / equation_.omega * by->omega);
   for (RestingSlider& slider : map.resting) {
     const Eigen::Index size = map.monodromy.cols();
-    orbit.by_omega[2 * equation_.dofs() + slider.slider] = slider.derivative[size];
+    orbit.by_parameter[2 * equation_.dofs() + slider.slider] = slider.derivative[size];
     slider.derivative.conservativeResize(size);
   }
   return orbit;
-}
-
-double EventDriven::response(const MotionState& start, double t) {
-  march_->begin(start, 0, Columns::motion);
-  while (march_->find(t)) march_->finish();
-  if (march_->reason() != EndReason::reached) return std::numeric_limits<double>::quiet_NaN();
-  const MotionState end = march_->state();
-  return equation_.observed(t, end.x, end.v).x;
 }
 
 }  // namespace arcslip::time

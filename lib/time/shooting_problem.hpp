@@ -5,12 +5,10 @@
 //
 // X = (x, x', z): the state at the start of the period T = 2 pi/omega; Phi: that after it, by event-driven
 // integration, exact; rows of sliders that rest throughout as in periodicity.hpp. p: the model's parameters,
-// "frequency" first. The derivative with it is exact: with y = dx/domega at a fixed t and the velocity and
-// acceleration at T,
+// "frequency" first. Derivatives by each are those of a variation of the motion, y = dx/dp at a fixed t
+// (equation_rates.hpp), and with the frequency of the period, T' = -T/omega:
 //
-//   dPhi/domega = (y, y', dz/domega) - T/omega (x', x'', z')
-//
-// Those with other parameters are differences within one piece.
+//   dPhi/dp = (y, y', dz/dp) + T' (x', x'', z')
 //
 // Pieces: the phases that each contact goes through. F is smooth as long as these remain, also where phases
 // of two contacts change their order, since forces are continuous. Where the onset of a slip passes the start
@@ -40,6 +38,7 @@ class ShootingEvaluator final : public continuation::Evaluator {
   std::uint64_t piece() const override { return orbit_.phases; }
 
   /// At the last place, with derivatives.
+  /// The derivatives by a parameter are those by the one that was last asked for.
   const Orbit& orbit();
   /// Largest |response| there, m.
   double amplitude() const { return orbit_.amplitude; }
@@ -52,8 +51,15 @@ class ShootingEvaluator final : public continuation::Evaluator {
  private:
   void set_parameters(continuation::In p);
   MotionState unstacked_start() const;
-  /// (F, A) differentiated by a parameter other than the frequency, A as |response| at a fixed instant.
-  const Vector& by_difference(int k) const;
+
+  /// Derivatives by a parameter, at the last place with J.
+  struct ByParameter {
+    int parameter = model::frequency;
+    Vector F;
+    double amplitude = 0;
+  };
+  const ByParameter& by(int k) const;
+  void set_by(int k, const Orbit& orbit) const;
 
   const ShootingProblem& problem_;
   Vector X_, p_;
@@ -61,13 +67,8 @@ class ShootingEvaluator final : public continuation::Evaluator {
   Orbit orbit_;
   Vector F_;
   continuation::Jacobian J_;
-  Vector by_frequency_;  // at the last place with J
-  double amplitude_by_frequency_ = 0;
   Vector X_of_J_, p_of_J_;
-  std::uint64_t piece_of_J_ = 0;
-  double instant_of_J_ = 0, extreme_of_J_ = 0;  // of the largest |response|: s, m
-  mutable int differentiated_by_ = -1;          // at that place; -1: by none
-  mutable Vector by_difference_;
+  mutable ByParameter by_;  // of the parameter last asked for, which the next orbit carries along
 };
 
 class ShootingProblem final : public continuation::Problem {

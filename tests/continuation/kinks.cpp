@@ -109,6 +109,27 @@ TEST_CASE("a maximum at a kink is found with the minimum just beyond it, however
     }
 }
 
+TEST_CASE("a slope of another sign at the kink alone is no extremum") {
+  // Where u = 0 to rounding, dq/ds of q = u is given with the other sign, as derivatives by what is of no
+  // length there may be.
+  for (double above : {0.8, 2.0})
+    for (double from : {-0.9137, -0.8513, 0.7331}) {
+      const auto slope = [](const Accepted& now) {
+        return std::abs(now.u[0]) < 1e-11 ? -now.tangent[0] : now.tangent[0];
+      };
+      const auto q = [](const Accepted& now) { return now.u[0]; };
+      const Branch branch =
+          trace(broken(1, above),
+                {Vector::Constant(1, from < 0 ? from : from / above), Vector::Constant(1, from), 0,
+                 from < 0 ? 1 : -1},
+                window(-0.95, 1),
+                {{"maximum", slope, Crossing::falling, q}, {"minimum", slope, Crossing::rising, q}});
+      CAPTURE(above, from);
+      CHECK(branch.stop.reason == StopReason::boundary);
+      CHECK(branch.events.empty());
+    }
+}
+
 TEST_CASE("a kink is an event at its place, with the tangents of both sides, whatever its angle") {
   for (double above : {0.9, 2.0, 20.0, -0.5, -3.0})
     for (double from : {-0.9, -0.531}) {

@@ -302,6 +302,61 @@ TEST_CASE("over the load, the paper's amplitudes and its optimum are exact on br
 }
 
 TEST_CASE(
+    "over seven decades of a damper's stiffness, the amplitude falls to a thousandth without an event") {
+  // At full stick c = 0 leaves 1/A = |k + k_d - m w^2|/F.
+  auto s = scenes::paper(15, 3);
+  const double hertz = 20, from = 10, to = 1e7;
+  const auto up = shot_over(s, "damper.stiffness", from, to, hertz);
+  const auto down = shot_over(s, "damper.stiffness", to, from, hertz);
+  for (const auto* branch : {&up, &down}) {
+    CAPTURE(branch->stop.message);
+    REQUIRE(branch->status == Status::complete);
+    CHECK(branch->points.size() < 500);
+    REQUIRE(branch->events.size() == 1);
+    CHECK(branch->events[0].kind == "maximum");
+  }
+  CHECK(error(up.events[0].point.over, down.events[0].point.over) < 1e-9);
+  // The mass on both springs, and its own dashpot.
+  const auto model = model::build(s);
+  const auto p = [&](const char* name) {
+    return model.parameters[static_cast<std::size_t>(model::parameter_index(model, name))].value;
+  };
+  const double w = hertz * scenes::hertz;
+  int stuck = 0;
+  for (const auto& point : up.points) {
+    if (point.elements.at(0).stick_percent < 100) continue;
+    ++stuck;
+    const double exact =
+        p("force.cosine") / std::hypot(p("k.value") + point.over - p("m.value") * w * w, p("c.value") * w);
+    CAPTURE(point.over);
+    CHECK(error(point.amplitude, exact) < 1e-9);
+  }
+  CHECK(stuck > 100);
+}
+
+TEST_CASE("over the load from nothing, and over eighteen decades, there are the same three extrema") {
+  const auto from_nothing = shot_over(scenes::paper(15, 1), "damper.normal_load", 0, 10, 20);
+  const auto up = shot_over(scenes::paper(15, 1), "damper.normal_load", 1e-9, 1e9, 20);
+  const auto down = shot_over(scenes::paper(15, 1), "damper.normal_load", 1e9, 1e-9, 20);
+  auto kinds = [](const observables::ResponseBranch& branch) {
+    std::vector<std::string> all;
+    for (const auto& event : branch.events) all.push_back(event.kind);
+    return all;
+  };
+  for (const auto* branch : {&from_nothing, &up, &down}) {
+    CAPTURE(branch->stop.message);
+    REQUIRE(branch->status == Status::complete);
+    REQUIRE(kinds(*branch) == std::vector<std::string>{"minimum", "maximum", "minimum"});
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& event = branch->events[branch == &down ? 2 - i : i];
+      CHECK(event.located);
+      CHECK(error(event.point.over, up.events[i].point.over) < 1e-8);
+      CHECK(error(event.point.amplitude, up.events[i].point.amplitude) < 1e-10);
+    }
+  }
+}
+
+TEST_CASE(
     "over the force, a mass at a stop has the folds by many harmonics, and the doublings over the "
     "frequency") {
   const double w = 0.7;

@@ -10,6 +10,7 @@
 #include <arcslip/observables/nonlinear_modes.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/time/shooting_problem.hpp>
 
 #include <Eigen/Dense>
 
@@ -142,6 +143,29 @@ TEST_CASE(
     Z.response(u, 0, x);
     Z.response_transposed(a, g);
     CHECK(g.dot(u) == Approx(a.dot(x)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE(
+    "equations of shooting of rotors have the derivatives of differences, with an engine order as well") {
+  const Everything rotor;
+  for (const std::string& rotation :
+       {turning, std::string(R"(, "rotation": {"name": "rotor", "engine_order": 2})")}) {
+    CAPTURE(rotation);
+    const scene::Scene s =
+        read(scene_of(rotor.keys, rotation + R"(, "damping": [{"name": "steel", "type": "rayleigh",
+                         "alpha": 0.1, "beta": 1e-3}])",
+                      forward, rubbing),
+             rotor.files());
+    const auto model = std::make_shared<const model::Model>(model::build(s));
+    const time::ShootingProblem problem(model, 1e-3, 9, 9);
+    Vector p = model::defaults(*model);
+    p[model::frequency] = 9;
+    std::srand(3);
+    for (int k = 0; k < 4; ++k) {
+      const Vector X = problem.scales().cwiseProduct(Vector::Random(problem.size()));
+      CHECK(continuation::check_jacobian(problem, X, p).message == "");
+    }
   }
 }
 

@@ -53,21 +53,29 @@ void check_derivatives(const scene::Scene& s, double omega) {
   time::ShootingEvaluator here(*at.problem), beside(*at.problem);
   REQUIRE(here.move_to(at.X, at.p, Needs::jacobian) == continuation::Evaluated::ok);
   const Eigen::RowVectorXd by = here.orbit().amplitude_by;
-  const Vector scales = at.problem->scales();
-  const double base = here.equation().omega / at.p[model::frequency];
-  for (Eigen::Index i = 0; i <= at.X.size(); ++i) {
-    const bool is_omega = i == at.X.size();
-    const double scale = is_omega ? omega : scales[i], h = 1e-5 * scale;
+  const auto difference = [&](double& varied, const Vector& X, const Vector& p, double h) {
     double A[2];
+    const double middle = varied;
     for (const int side : {0, 1}) {
-      Vector X = at.X, p = at.p;
-      (is_omega ? p[model::frequency] : X[i]) += side == 0 ? -h : h;
+      varied = middle + (side == 0 ? -h : h);
       REQUIRE(beside.move_to(X, p, Needs::residual) == continuation::Evaluated::ok);
       A[side] = beside.amplitude();
     }
-    const double given = is_omega ? base * by[i] : by[i];
+    varied = middle;
+    return (A[1] - A[0]) / (2 * h);
+  };
+  const Vector scales = at.problem->scales();
+  const double size = at.problem->displacement();
+  Vector X = at.X, p = at.p;
+  for (Eigen::Index i = 0; i < X.size(); ++i) {
     CAPTURE(i);
-    CHECK(std::abs(given - (A[1] - A[0]) / (2 * h)) < 1e-7 * at.problem->displacement() / scale);
+    CHECK(std::abs(by[i] - difference(X[i], X, p, 1e-5 * scales[i])) < 1e-7 * size / scales[i]);
+  }
+  for (int k = 0; k < static_cast<int>(p.size()); ++k) {
+    const double scale = p[k] != 0 ? std::abs(p[k]) : 1;
+    CAPTURE(at.problem->parameters()[static_cast<std::size_t>(k)].name);
+    CHECK(std::abs(here.amplitude_derivative(k) - difference(p[k], X, p, 1e-5 * scale)) <
+          1e-7 * size / scale);
   }
 }
 
@@ -96,6 +104,51 @@ TEST_CASE("derivatives of shooting are those of differences, by the state and by
       R"({"name": "f", "at": "b", "cosine": 1, "sine": 0.3}, {"name": "g", "at": "a", "harmonic": 2,
                       "cosine": 0.2, "sine": 0.1})"));
   for (const double omega : {0.5, 0.9, 1.6}) check_derivatives(s, omega);
+}
+
+TEST_CASE("derivatives of shooting with every law that has pieces") {
+  for (const char* element : {
+           R"({"name": "e", "type": "contact_2d", "tangential": {"at": "a"}, "normal": {"at": "b"},
+               "tangential_stiffness": 0.7, "normal_stiffness": 0.5, "friction_coefficient": 0.4,
+               "normal_load": 0.3})",
+           R"({"name": "e", "type": "contact_2d", "tangential": {"at": "a"}, "normal": {"at": "b"},
+               "tangential_stiffness": 0.7, "normal_stiffness": 0.5, "friction_coefficient": 0.2,
+               "normal_load": 9})",
+           R"({"name": "e", "type": "iwan", "at": "a", "stiffness": 0.8, "slip_force": 0.5, "sliders": 4})",
+           R"({"name": "e", "type": "jenkins", "at": "a", "stiffness": 0.6, "friction_coefficient": 0.4,
+               "normal_load": 8, "offset": "static"})",
+           R"({"name": "e", "type": "bilinear_spring", "at": "b", "stiffness": 0.2, "stiffness_beyond": 1.5,
+               "corner": 0.4})",
+           R"({"name": "e", "type": "piecewise_linear_spring", "at": "b", "factor": 1.2,
+               "table": [[-0.5, -0.3], [0, 0], [0.4, 0.5], [0.9, 2]]})"}) {
+    CAPTURE(element);
+    const auto s = scenes::parse(std::string(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"dofs": ["a", "b"],
+        "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 0.6}],
+        "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 0.8}],
+        "dampers": [{"name": "ca", "at": "a", "value": 0.05}, {"name": "cab", "between": ["a", "b"], "value": 0.02}]},
+      "elements": [)") + element +
+                                 R"(], "excitation": [{"name": "f", "at": "b", "cosine": 0.5, "sine": 0.2},
+        {"name": "g", "at": "a", "harmonic": 0, "cosine": 0.1}], "harmonics": {"order": 15},
+      "response": {"at": "b"}})");
+    for (const double omega : {0.6, 1.1}) check_derivatives(s, omega);
+  }
+}
+
+TEST_CASE("at a normal load of 0, where a damper has other modes, the derivatives are those beside it") {
+  const Place at = place(scenes::paper(15, 0), 20 * scenes::hertz);
+  const int load = model::parameter_index(at.problem->model(), "damper.normal_load");
+  time::ShootingEvaluator here(*at.problem), beside(*at.problem);
+  REQUIRE(here.move_to(at.X, at.p, Needs::jacobian) == continuation::Evaluated::ok);
+  Vector dF(at.X.size()), p = at.p;
+  here.parameter_derivative(load, dF);
+  const double h = 1e-5;
+  p[load] = h;
+  REQUIRE(beside.move_to(at.X, p, Needs::residual) == continuation::Evaluated::ok);
+  const Vector difference = (beside.residual() - here.residual()) / h;
+  CHECK((dF - difference).head(2).norm() < 1e-4 * difference.head(2).norm());
+  CHECK(std::abs(here.amplitude_derivative(load) - (beside.amplitude() - here.amplitude()) / h) <
+        1e-4 * std::abs(here.amplitude_derivative(load)));
 }
 
 TEST_CASE("derivatives of shooting with a period of two of the excitation") {
